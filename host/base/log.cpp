@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/base/log.h"
+
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <set>
+#include <string>
+
+namespace kilolux {
+namespace {
+
+std::atomic<Verbosity>& verbosity() {
+    static std::atomic<Verbosity> value{Verbosity::normal};
+    return value;
+}
+
+void print(const char* prefix, std::string_view message) {
+    std::fprintf(stderr, "%s%.*s\n", prefix, static_cast<int>(message.size()), message.data());
+}
+
+}  // namespace
+
+void set_verbosity(Verbosity value) { verbosity() = value; }
+
+void warn(std::string_view message) {
+    static std::mutex mutex;
+    static std::set<std::string, std::less<>> seen;
+    const std::scoped_lock lock(mutex);
+    if (seen.emplace(message).second) print("kilolux: warning: ", message);
+}
+
+void note(std::string_view message) {
+    if (verbosity() != Verbosity::quiet) print("", message);
+}
+
+void detail(std::string_view message) {
+    if (verbosity() == Verbosity::verbose) print("", message);
+}
+
+}  // namespace kilolux

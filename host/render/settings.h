@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/scene/light_generator.h"
+#include "kernels/shared/gbuffer.h"
+
+namespace kilolux {
+
+enum class RendererKind { deferred, forward_plus, forward, deferred_all };
+enum class Shading { automatic, lambert, blinn_phong, pbr };
+enum class ToneCurve { none, neutral, aces };
+
+/// The coarse grid asked for; tile edges are rounded up to multiples of 16 pixels.
+struct GridSettings {
+    int tiles_x = 16;
+    int tiles_y = 9;
+    int slices_per_octave = 4;  // 1, 2, 4, ... 64
+};
+
+/// How kernels are built and launched; 0: the tuning table's choice for the device.
+struct KernelSettings {
+    int lanes = 0;         // VW: 1, 2, 4, 8, 16
+    int group_height = 0;  // rows of a shading work-group
+    int chunks = 0;        // of lights in culling
+};
+
+/// Everything that decides a picture, beside scene, camera and time: the command line's shared options.
+struct RenderSettings {
+    RendererKind renderer = RendererKind::deferred;
+    int width = 1920;   // [pixel]
+    int height = 1080;  // [pixel]
+    LightOptions lights;
+    uint gbuffer = GBUFFER_PACKED;
+    Shading shading = Shading::automatic;
+    float ambient = 0.02f;  // radiance that falls in from everywhere
+    float bloom = 0.0f;     // share of the light that blooms, 0..1
+    float exposure = 0.0f;  // [EV]
+    ToneCurve tone_curve = ToneCurve::neutral;
+    int samples = 1;  // jittered samples a pixel
+    std::string show = "lit";
+    std::vector<std::string> aovs;
+    GridSettings grid;
+    KernelSettings kernels;
+    std::string device;  // name, part of it, or index; empty: the best
+};
+
+}  // namespace kilolux

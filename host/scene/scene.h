@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace kilolux {
+
+/// An 8-bit RGBA image, row 0 on top. Whether it is sRGB is the using slot's business.
+struct Image {
+    std::string name;
+    int width = 0;   // [pixel], > 0
+    int height = 0;  // [pixel], > 0
+    std::vector<std::uint8_t> rgba;  // 4 * width * height
+};
+
+enum class Wrap { repeat, clamp, mirror };
+enum class Filter { nearest, linear };
+
+struct Sampler {
+    Wrap wrap_s = Wrap::repeat;
+    Wrap wrap_t = Wrap::repeat;
+    Filter magnify = Filter::linear;
+    Filter minify = Filter::linear;
+    bool mipmaps = true;
+    Filter between_mipmaps = Filter::linear;
+};
+
+struct Texture {
+    int image = -1;  // index into Scene::images
+    Sampler sampler;
+};
+
+/// A material's use of a texture.
+struct TextureUse {
+    int texture = -1;  // index into Scene::textures, -1 for none
+    int uv_set = 0;    // 0 or 1
+    glm::mat3 uv_from_texcoord{1.0f};  // KHR_texture_transform
+    bool present() const { return texture >= 0; }
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+/// glTF 2.0 metallic-roughness material; factors multiply textures. Colours are linear Rec. 709.
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1.0f};
+    TextureUse base_color_texture;  // sRGB
+    float metallic = 1.0f;
+    float roughness = 1.0f;  // perceptual
+    TextureUse metallic_roughness_texture;  // linear; G roughness, B metallic
+    TextureUse normal_texture;              // linear
+    float normal_scale = 1.0f;
+    TextureUse occlusion_texture;  // linear; R
+    float occlusion_strength = 1.0f;
+    glm::vec3 emissive{0.0f};  // with KHR_materials_emissive_strength multiplied in; may exceed 1
+    TextureUse emissive_texture;  // sRGB
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+    bool unlit = false;           // KHR_materials_unlit
+    float ior = 1.5f;             // KHR_materials_ior
+    float specular = 1.0f;        // KHR_materials_specular
+    glm::vec3 specular_color{1.0f};
+};
+
+/// A triangle list. Optional arrays are empty or as long as `positions`.
+struct Mesh {
+    std::string name;
+    std::vector<glm::vec3> positions;  // [m], object space
+    std::vector<glm::vec3> normals;    // unit; the loader derives flat ones when the file has none
+    std::vector<glm::vec4> tangents;   // xyz unit, w handedness +-1; present where the material has a normal map
+    std::array<std::vector<glm::vec2>, 2> texcoords;
+    std::vector<glm::vec4> colors;       // linear, multiplies base_color
+    std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()
+    int material = -1;  // index into Scene::materials, -1 for the default material
+};
+
+/// A mesh put into the world. Transforms stay double until they meet the camera.
+struct Instance {
+    int mesh = -1;
+    glm::dmat4 world_from_object{1.0};
+};
+
+enum class LightType { point, spot, directional };
+
+struct SceneLight {
+    LightType type = LightType::point;
+    glm::dvec3 position{0.0};          // [m], world
+    glm::dvec3 direction{0, 0, -1};    // unit, the way the light travels (spot, directional)
+    glm::vec3 intensity{1.0f};         // linear Rec. 709; [cd], directional [lx]
+    float range = 0.0f;                // [m]; <= 0: not given, see light_ranges.h
+    float inner_cone = 0.0f;           // half angle [rad]
+    float outer_cone = 0.7853981634f;  // half angle [rad]
+};
+
+/// A camera of the scene: at world_from_camera's origin, looking down its -Z.
+struct SceneCamera {
+    std::string name;
+    glm::dmat4 world_from_camera{1.0};
+    bool orthographic = false;
+    double y_fov = 0.785398163397448;  // vertical [rad], perspective
+    double y_extent = 1.0;             // half the height [m], orthographic
+    double aspect = 0.0;               // width / height; 0: the image's
+    double z_near = 0.1;               // [m]
+    double z_far = std::numeric_limits<double>::infinity();  // [m]
+};
+
+/// Axis-aligned box in world space [m]; empty when min > max.
+struct Box {
+    glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+    bool empty() const { return !(min.x <= max.x); }
+    glm::dvec3 center() const { return 0.5 * (min + max); }
+    glm::dvec3 size() const { return max - min; }
+    void add(const glm::dvec3& p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+};
+
+/// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts them.
+struct Scene {
+    std::string name;
+    std::vector<Image> images;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<SceneLight> lights;
+    std::vector<SceneCamera> cameras;
+    Box light_box;  // where generated lights go; empty: bounds(scene)
+};
+
+/// Box of all instances' vertices in world space.
+Box bounds(const Scene& scene);
+
+/// Triangles that one frame draws: those of every instance.
+std::size_t triangle_count(const Scene& scene);
+
+}  // namespace kilolux

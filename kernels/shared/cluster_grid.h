@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The coarse cluster grid: screen tiles x depth slices.
+#ifndef KILOLUX_SHARED_CLUSTER_GRID_H
+#define KILOLUX_SHARED_CLUSTER_GRID_H
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// A fine tile: what one active cluster covers on the screen, and one work-group shades [pixel].
+#define FINE_TILE 16
+
+// cluster = (slice * tiles_y + tile_y) * tiles_x + tile_x. Tile edges are multiples of FINE_TILE, so
+// every fine tile lies in one coarse tile.
+SHARED_STRUCT(ClusterGrid) {
+    uint tiles_x, tiles_y, slices;
+    uint slice_shift;   // 23 - log2(slices per octave): see slice_of_depth
+    uint tile_width;    // [pixel]
+    uint tile_height;   // [pixel]
+    uint z_first_bits;  // bits of z_first [m], the near end of slice 0
+    uint cluster_count;
+};
+SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 32);
+
+// Slice of a depth z [m]. The bits of a positive float are a piecewise linear log2 of it, exactly
+// monotone and the same on every device. Nearer than z_first (or negative) falls into slice 0,
+// farther than the last slice into the last: no pixel is lost.
+SHARED_FN uint slice_of_depth(ClusterGrid grid, float z) {
+    uint first = grid.z_first_bits;
+    uint slice = z < bits_float(first) ? 0u : (float_bits(z) - first) >> grid.slice_shift;
+    return slice < grid.slices ? slice : grid.slices - 1u;
+}
+
+// Depth [m] at which a slice begins, exactly representable. Slice 0 also takes what is nearer.
+SHARED_FN float depth_of_slice(ClusterGrid grid, uint slice) {
+    return bits_float(grid.z_first_bits + (slice << grid.slice_shift));
+}
+
+SHARED_FN uint cluster_index(ClusterGrid grid, uint tile_x, uint tile_y, uint slice) {
+    return (slice * grid.tiles_y + tile_y) * grid.tiles_x + tile_x;
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

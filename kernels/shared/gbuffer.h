@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// G-buffer layouts: which planes there are, what they hold, and how normals are packed.
+#ifndef KILOLUX_SHARED_GBUFFER_H
+#define KILOLUX_SHARED_GBUFFER_H
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// Layouts, by name on the command line.
+#define GBUFFER_PACKED 0     // depth f32 | normal 2x16 | albedo sRGB8 + roughness 8 (+ material, occlusion)
+#define GBUFFER_FULL 1       // float32 position, normal, linear albedo, ...: for error accounting
+#define GBUFFER_HALF 2       // float16 position and normal, 8-bit linear albedo (three WebGPU ancestors)
+#define GBUFFER_NORMAL_XY 3  // packed, but normal.xy only with z = +sqrt(1-x^2-y^2) (one WebGL ancestor)
+#define GBUFFER_OCT_2X4 4    // two float4: position + packed albedo, octahedral normal + ... (one WebGL ancestor)
+
+// Planes. Each is stride * height elements; a G-buffer is one buffer that holds its planes one after
+// the other. A layout has some of them; the scene plan leaves out what the scene does not need.
+#define PLANE_DEPTH 0          // all: float reversed-Z depth01, 0 = background
+#define PLANE_NORMAL 1         // packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half
+#define PLANE_ALBEDO 2         // packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th
+#define PLANE_MATERIAL 3       // packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
+#define PLANE_OCCLUSION 4      // packed, optional: uchar, ambient occlusion, linear
+#define PLANE_POSITION_X 5     // full: float [m] view space; half: half
+#define PLANE_POSITION_Y 6
+#define PLANE_POSITION_Z 7
+#define PLANE_NORMAL_X 8       // full: float, view space, unit; half: half
+#define PLANE_NORMAL_Y 9
+#define PLANE_NORMAL_Z 10
+#define PLANE_ALBEDO_R 11      // full: float, linear Rec. 709
+#define PLANE_ALBEDO_G 12
+#define PLANE_ALBEDO_B 13
+#define PLANE_ROUGHNESS 14     // full: float, perceptual
+#define PLANE_METALLIC 15      // full, optional: float
+#define PLANE_EMISSIVE_R 16    // full, optional: float, linear radiance
+#define PLANE_EMISSIVE_G 17
+#define PLANE_EMISSIVE_B 18
+#define PLANE_OCCLUSION_F 19   // full, optional: float
+#define PLANE_COUNT 20
+#define PLANE_ABSENT 0xffffffffu
+
+SHARED_STRUCT(GBufferLayout) {
+    uint offset_bytes[PLANE_COUNT];  // of each plane in the buffer, a multiple of 256; PLANE_ABSENT if not there
+    uint layout;                     // GBUFFER_*
+    float emissive_scale;            // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative to it
+    uint bytes_per_pixel;
+    uint unused0;
+};
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 96);
+
+// Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient
+// Representations for Independent Unit Vectors", listing 1. A zero vector maps to (0, 0), that is +z.
+SHARED_FN FV3 octahedral_encode(FV3 n) {
+    FV ax = max(n.x, -n.x);
+    FV ay = max(n.y, -n.y);
+    FV az = max(n.z, -n.z);
+    FV sum = ax + ay + az;
+    FV inv = select_fv(sum > fv(0.0f), fv(1.0f) / sum, fv(0.0f));
+    FV x = n.x * inv;
+    FV y = n.y * inv;
+    FV one = fv(1.0f);
+    FV sign_x = select_fv(x >= fv(0.0f), one, -one);
+    FV sign_y = select_fv(y >= fv(0.0f), one, -one);
+    MASK lower = n.z < fv(0.0f);
+    FV fx = (one - ay * inv) * sign_x;
+    FV fy = (one - ax * inv) * sign_y;
+    return fv3(select_fv(lower, fx, x), select_fv(lower, fy, y), fv(0.0f));
+}
+
+// Unit vector of octahedral coordinates in [-1, 1]^2 (ibid.).
+SHARED_FN FV3 octahedral_decode(FV x, FV y) {
+    FV ax = max(x, -x);
+    FV ay = max(y, -y);
+    FV zero = fv(0.0f);
+    FV z = fv(1.0f) - ax - ay;
+    FV fold = max(-z, zero);
+    FV nx = x + select_fv(x >= zero, -fold, fold);
+    FV ny = y + select_fv(y >= zero, -fold, fold);
+    FV inv = fv(1.0f) / sqrt(fma(nx, nx, fma(ny, ny, z * z)));
+    return fv3(nx * inv, ny * inv, z * inv);
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A light as the host hands it over, and as the kernels shade with it.
+#ifndef KILOLUX_SHARED_LIGHT_H
+#define KILOLUX_SHARED_LIGHT_H
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// A point or spot light, camera-relative: world axes, camera at the origin.
+SHARED_STRUCT(Light) {
+    float4 position_range;  // xyz: position - camera [m]; w: range [m], > 0
+    float4 color_scale;     // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
+    float4 axis_cos;        // xyz: unit spot axis (0 for a point light); w: cos_out (-1 for a point light)
+};
+SHARED_ASSERT(light_size, sizeof(Light) == 48);
+
+// A light in view space, as shading reads it.
+SHARED_STRUCT(ShadeLight) {
+    float4 position_inv_range2;  // xyz: p_view [m]; w: 1/range^2 [1/m^2]
+    float4 color_scale;          // as Light
+    float4 axis_cos;             // as Light, axis in view space
+};
+SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
+
+// A directional light: parallel, never culled.
+SHARED_STRUCT(DirectionalLight) {
+    float4 to_light;  // xyz: unit direction towards the light; camera-relative world axes from the host, view space on the device
+    float4 color;     // xyz: illuminance, linear Rec. 709 [lx]
+};
+SHARED_ASSERT(directional_light_size, sizeof(DirectionalLight) == 32);
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dialect in which C++, OpenCL C and GLSL 4.50 share declarations and formulas.
+//
+// A shared struct is a sequence of 16-byte rows: one float4 or uint4, or four 32-bit scalars. Then
+// C++ alignment, OpenCL C and std430 agree by construction; tests/layout_test.cpp asks the devices.
+//
+// A shared function is written on the lane type FV: one float in C++ and GLSL, VW floats in OpenCL C
+// (VW is the device's lane width, set at build time). MASK is what comparing two FV gives. Such a
+// function uses only + - * /, fma, min, max, sqrt, select_fv and the functions of this file, so that
+// its text means the same in the three languages.
+#ifndef KILOLUX_SHARED_TYPES_H
+#define KILOLUX_SHARED_TYPES_H
+
+#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+#define SHARED_STRUCT(Name)    \
+    typedef struct Name Name;  \
+    struct __attribute__((aligned(16))) Name
+#define SHARED_PLAIN_STRUCT(Name) \
+    typedef struct Name Name;     \
+    struct Name
+#define SHARED_ASSERT(tag, cond) typedef char shared_assert_##tag[(cond) ? 1 : -1]
+#define SHARED_FN static inline
+#define SHARED_CONSTANT(type, name, value) __constant type name = value
+#ifndef VW
+#define VW 1
+#endif
+#define KX_CONCAT_(a, b) a##b
+#define KX_CONCAT(a, b) KX_CONCAT_(a, b)
+#if VW == 1
+#define FV float
+#define IV int
+#define UV uint
+#else
+#define FV KX_CONCAT(float, VW)
+#define IV KX_CONCAT(int, VW)
+#define UV KX_CONCAT(uint, VW)
+#endif
+#define MASK IV
+#define fv(s) ((FV)(s))
+// `a` where the mask is set, else `b`.
+#define select_fv(mask, a, b) select((FV)(b), (FV)(a), (MASK)(mask))
+#define float_bits(x) as_uint(x)
+#define bits_float(x) as_float(x)
+
+#elif defined(__cplusplus)
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+namespace kilolux {
+using uint = std::uint32_t;
+struct alignas(16) float4 {
+    float x, y, z, w;
+};
+struct alignas(16) uint4 {
+    uint x, y, z, w;
+};
+using FV = float;
+using MASK = bool;
+using std::fma;
+using std::max;
+using std::min;
+using std::sqrt;
+inline float fv(float s) { return s; }
+inline float select_fv(bool mask, float a, float b) { return mask ? a : b; }
+inline uint float_bits(float x) { return std::bit_cast<uint>(x); }
+inline float bits_float(uint x) { return std::bit_cast<float>(x); }
+inline float rsqrt(float x) { return 1.0f / std::sqrt(x); }
+}  // namespace kilolux
+#define SHARED_STRUCT(Name) struct alignas(16) Name
+#define SHARED_PLAIN_STRUCT(Name) struct Name
+#define SHARED_ASSERT(tag, cond) static_assert(cond, #tag)
+#define SHARED_FN inline
+#define SHARED_CONSTANT(type, name, value) inline constexpr type name = value
+
+#else  // GLSL 4.50
+#define float4 vec4
+#define uint4 uvec4
+#define SHARED_STRUCT(Name) struct Name
+#define SHARED_PLAIN_STRUCT(Name) struct Name
+#define SHARED_ASSERT(tag, cond)
+#define SHARED_FN
+#define SHARED_CONSTANT(type, name, value) const type name = value
+#define FV float
+#define MASK bool
+#define fv(s) float(s)
+#define select_fv(mask, a, b) ((mask) ? (a) : (b))
+#define rsqrt inversesqrt
+#define float_bits floatBitsToUint
+#define bits_float uintBitsToFloat
+#endif
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// Three lanes-wide components: a point, direction or colour of VW pixels at once.
+SHARED_PLAIN_STRUCT(FV3) { FV x, y, z; };
+
+SHARED_FN FV3 fv3(FV x, FV y, FV z) {
+    FV3 v;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    return v;
+}
+
+SHARED_FN FV dot3(FV3 a, FV3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
+
+SHARED_FN FV3 add3(FV3 a, FV3 b) { return fv3(a.x + b.x, a.y + b.y, a.z + b.z); }
+
+SHARED_FN FV3 sub3(FV3 a, FV3 b) { return fv3(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+SHARED_FN FV3 scale3(FV3 a, FV s) { return fv3(a.x * s, a.y * s, a.z * s); }
+
+SHARED_FN FV3 cross3(FV3 a, FV3 b) {
+    return fv3(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)),
+               fma(a.x, b.y, -(a.y * b.x)));
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera as kernels see it: where a pixel with a depth lies in view space.
+#ifndef KILOLUX_SHARED_VIEW_H
+#define KILOLUX_SHARED_VIEW_H
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// View space: camera at the origin, -Z forward, +Y up; depth z = -p_view.z [m]. Pixel (0,0) is the
+// image's upper left; a pixel's centre is at +0.5. depth01 is the reversed-Z depth buffer value:
+// 0 where nothing was drawn, larger is nearer.
+//
+// Perspective:   x_view = (px * ray.x + ray.y) * z,  y_view = (py * ray.z + ray.w) * z,
+//                1/z    = depth01 * depth.x + px * depth.y + py * depth.z + depth.w
+// Orthographic:  x_view =  px * ray.x + ray.y,       y_view =  py * ray.z + ray.w,
+//                z      = depth01 * depth.x + px * depth.y + py * depth.z + depth.w
+// depth.y and depth.z are 0 unless the near plane is oblique: 1/z is linear in screen space.
+SHARED_STRUCT(View) {
+    float4 ray;
+    float4 depth;
+    uint width;         // [pixel]
+    uint height;        // [pixel]
+    uint stride;        // pixels from a row to the next in every plane: width rounded up to 16
+    uint orthographic;  // 0 or 1
+    float4 view_from_world_x;  // xyz: row x of the rotation, for camera-relative positions
+    float4 view_from_world_y;
+    float4 view_from_world_z;
+};
+SHARED_ASSERT(view_size, sizeof(View) == 96);
+
+// Depth z [m] of a pixel with depth01 at pixel coordinates (px, py), centres at +0.5.
+SHARED_FN FV view_depth(View view, FV px, FV py, FV depth01) {
+    FV q = fma(depth01, fv(view.depth.x),
+               fma(px, fv(view.depth.y), fma(py, fv(view.depth.z), fv(view.depth.w))));
+    return view.orthographic != 0u ? q : fv(1.0f) / q;
+}
+
+// Position in view space of pixel coordinates (px, py) at depth z [m].
+SHARED_FN FV3 view_position(View view, FV px, FV py, FV z) {
+    FV rx = fma(px, fv(view.ray.x), fv(view.ray.y));
+    FV ry = fma(py, fv(view.ray.z), fv(view.ray.w));
+    FV s = view.orthographic != 0u ? fv(1.0f) : z;
+    return fv3(rx * s, ry * s, -z);
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif
