@@ -41,6 +41,11 @@
 #define select_fv(mask, a, b) select((FV)(b), (FV)(a), (MASK)(mask))
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
+#define LANE_UINT UV
+#define lane_bits(x) KX_CONCAT(as_, UV)(x)
+#define lane_float(x) KX_CONCAT(as_, FV)(x)
+#define lane_uint_of(x) KX_CONCAT(as_, UV)(KX_CONCAT(convert_, IV)(x))
+#define lane_float_of(x) KX_CONCAT(convert_, FV)(KX_CONCAT(as_, IV)(x))
 
 #elif defined(__cplusplus)
 #include <algorithm>
@@ -57,6 +62,8 @@ struct alignas(16) uint4 {
 };
 using FV = float;
 using MASK = bool;
+using LANE_UINT = uint;
+using std::floor;
 using std::fma;
 using std::max;
 using std::min;
@@ -66,6 +73,10 @@ inline float select_fv(bool mask, float a, float b) { return mask ? a : b; }
 inline uint float_bits(float x) { return std::bit_cast<uint>(x); }
 inline float bits_float(uint x) { return std::bit_cast<float>(x); }
 inline float rsqrt(float x) { return 1.0f / std::sqrt(x); }
+inline uint lane_bits(float x) { return std::bit_cast<uint>(x); }
+inline float lane_float(uint x) { return std::bit_cast<float>(x); }
+inline uint lane_uint_of(float x) { return static_cast<uint>(static_cast<int>(x)); }
+inline float lane_float_of(uint x) { return static_cast<float>(static_cast<int>(x)); }
 }  // namespace kilolux
 #define SHARED_STRUCT(Name) struct alignas(16) Name
 #define SHARED_PLAIN_STRUCT(Name) struct Name
@@ -88,6 +99,11 @@ inline float rsqrt(float x) { return 1.0f / std::sqrt(x); }
 #define rsqrt inversesqrt
 #define float_bits floatBitsToUint
 #define bits_float uintBitsToFloat
+#define LANE_UINT uint
+#define lane_bits floatBitsToUint
+#define lane_float uintBitsToFloat
+#define lane_uint_of(x) uint(int(x))
+#define lane_float_of(x) float(int(x))
 #endif
 
 #if defined(__cplusplus)
@@ -104,6 +120,11 @@ SHARED_FN FV3 fv3(FV x, FV y, FV z) {
     v.z = z;
     return v;
 }
+
+// floor(log2(x)) of normal x > 0, and 2^x of integral x in [-126, 127].
+SHARED_FN FV floor_log2(FV x) { return lane_float_of(lane_bits(x) >> 23u) - fv(127.0f); }
+
+SHARED_FN FV exp2_int(FV x) { return lane_float((lane_uint_of(x) + 127u) << 23u); }
 
 SHARED_FN FV dot3(FV3 a, FV3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
 

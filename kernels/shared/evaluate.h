@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one light adds to one shading point: the only place where light meets surface, for the
+// OpenCL kernels (VW pixels at once) and for GLSL (one fragment).
+//
+//   pixel = emissive + ambient * occlusion * albedo + sum over lights of brdf * intensity * falloff * n.l
+//   falloff(d) = window(d / range) / max(d, LIGHT_D_MIN)^2,  window(x) = clamp(1 - x^4, 0, 1)
+//
+// The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
+// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC: what the scene does not need is not
+// in the code.
+#ifndef KILOLUX_SHARED_EVALUATE_H
+#define KILOLUX_SHARED_EVALUATE_H
+#include "kernels/shared/light.h"
+#include "kernels/shared/types.h"
+
+#define SHADING_LAMBERT 0
+#define SHADING_BLINN_PHONG 1
+#define SHADING_PBR 2
+
+#ifndef SHADING
+#define SHADING SHADING_LAMBERT
+#endif
+#ifndef HAS_SPOT_LIGHTS
+#define HAS_SPOT_LIGHTS 0
+#endif
+#ifndef HAS_METALLIC
+#define HAS_METALLIC 0
+#endif
+
+// Nearer than this the inverse square stops growing: light sources have a size [m].
+#define LIGHT_D_MIN 0.01f
+// Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's limit).
+#define ROUGHNESS_MIN 0.045f
+// Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
+#define DIELECTRIC_F0 0.04f
+// Cosine to the eye below which the surface is seen edge on (Filament, MIN_N_DOT_V).
+#define N_DOT_V_MIN 1e-4f
+#define INV_PI 0.318309886f
+// Lights whose contributions are summed before they join the pixel's sum; by light index, so that a
+// light that contributes 0 changes no bit wherever it is listed. Error of k terms: 64u + k/64 u.
+#define SUM_BLOCK_LOG2 6
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// A point on a surface, in view space.
+SHARED_PLAIN_STRUCT(Surface) {
+    FV3 position;  // [m]
+    FV3 normal;    // unit
+    FV3 albedo;    // base colour, linear Rec. 709
+    FV3 emissive;  // radiance
+    FV roughness;  // perceptual
+    FV metallic;
+    FV occlusion;
+};
+
+// What of a surface is the same for all lights.
+SHARED_PLAIN_STRUCT(ShadingPoint) {
+    FV3 position;
+    FV3 normal;
+    FV3 to_eye;      // unit
+    FV n_dot_v;
+    FV alpha2;       // pbr: roughness^4
+    FV smith_v;      // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
+    FV exponent;     // blinn-phong
+};
+
+// Sums over lights of intensity * falloff * n.l, weighted as each term of the BRDF needs.
+SHARED_PLAIN_STRUCT(LightSum) {
+    FV3 diffuse;
+    FV3 specular;
+    FV3 fresnel;  // pbr with metals only: the part of the specular sum that F0 does not tint
+};
+
+SHARED_FN FV3 zero3() { return fv3(fv(0.0f), fv(0.0f), fv(0.0f)); }
+
+SHARED_FN LightSum zero_sum() {
+    LightSum sum;
+    sum.diffuse = zero3();
+    sum.specular = zero3();
+    sum.fresnel = zero3();
+    return sum;
+}
+
+SHARED_FN LightSum add_sums(LightSum a, LightSum b) {
+    a.diffuse = add3(a.diffuse, b.diffuse);
+#if SHADING != SHADING_LAMBERT
+    a.specular = add3(a.specular, b.specular);
+#endif
+#if SHADING == SHADING_PBR && HAS_METALLIC
+    a.fresnel = add3(a.fresnel, b.fresnel);
+#endif
+    return a;
+}
+
+SHARED_FN FV3 add_scaled(FV3 sum, FV weight, float4 color) {
+    return fv3(fma(weight, fv(color.x), sum.x), fma(weight, fv(color.y), sum.y), fma(weight, fv(color.z), sum.z));
+}
+
+SHARED_FN FV clamped_alpha(FV roughness) {
+    FV r = max(roughness, fv(ROUGHNESS_MIN));
+    return r * r;
+}
+
+SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
+    ShadingPoint p;
+    p.position = s.position;
+    p.normal = s.normal;
+    p.to_eye = zero3();
+    p.n_dot_v = fv(0.0f);
+    p.alpha2 = fv(0.0f);
+    p.smith_v = fv(0.0f);
+    p.exponent = fv(0.0f);
+#if SHADING != SHADING_LAMBERT
+    FV alpha = clamped_alpha(s.roughness);
+    p.alpha2 = alpha * alpha;
+    p.to_eye = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
+    if (!orthographic) {
+        FV inv_distance = rsqrt(max(dot3(s.position, s.position), fv(1e-30f)));
+        p.to_eye = scale3(s.position, -inv_distance);
+    }
+    p.n_dot_v = max(dot3(s.normal, p.to_eye), fv(N_DOT_V_MIN));
+    p.smith_v = sqrt(fma(p.n_dot_v * p.n_dot_v, fv(1.0f) - p.alpha2, p.alpha2));
+    p.exponent = fv(2.0f) / p.alpha2 - fv(2.0f);
+#endif
+    return p;
+}
+
+// (1 - h)^n for h in [0, 1], n >= 0, absolute error below 2e-7 at any n. Written out rather than
+// pow(): 1 - h rounds away what a large n magnifies, pow is 10 times slower in vectors, and devices
+// differ in it. Polynomials: Cephes logf and exp2f (Moshier 1989).
+SHARED_FN FV pow_one_minus(FV h, FV n) {
+    FV c = max(fv(1.0f) - h, fv(1e-30f));
+    // c = m 2^e, m in [sqrt(1/2), sqrt(2)); e as a float by comparing, since c <= 1: floor of log2.
+    FV e = floor_log2(c);
+    FV m = c * exp2_int(-e);
+    MASK high = m > fv(1.41421356f);
+    e = select_fv(high, e + fv(1.0f), e);
+    m = select_fv(high, m * fv(0.5f), m);
+    FV f = select_fv(e == fv(0.0f), -h, m - fv(1.0f));
+    FV p = fv(7.0376836292e-2f);
+    p = fma(p, f, fv(-1.1514610310e-1f));
+    p = fma(p, f, fv(1.1676998740e-1f));
+    p = fma(p, f, fv(-1.2420140846e-1f));
+    p = fma(p, f, fv(1.4249322787e-1f));
+    p = fma(p, f, fv(-1.6668057665e-1f));
+    p = fma(p, f, fv(2.0000714765e-1f));
+    p = fma(p, f, fv(-2.4999993993e-1f));
+    p = fma(p, f, fv(3.3333331174e-1f));
+    FV f2 = f * f;
+    FV log_c = fma(f2 * f, p, fma(fv(-0.5f), f2, f));
+    FV x = n * fma(log_c, fv(1.44269504f), e);
+    x = max(x, fv(-125.0f));
+    FV i = floor(x + fv(0.5f));
+    FV g = x - i;
+    FV q = fv(1.535336188e-4f);
+    q = fma(q, g, fv(1.339887440e-3f));
+    q = fma(q, g, fv(9.618437358e-3f));
+    q = fma(q, g, fv(5.550332471e-2f));
+    q = fma(q, g, fv(2.402264791e-1f));
+    q = fma(q, g, fv(6.931472029e-1f));
+    q = fma(q, g, fv(1.0f));
+    return q * exp2_int(i);
+}
+
+// Adds light that arrives along unit `to_light` with `color` * `strength` where strength already holds
+// the falloff.
+SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 to_light, FV strength, float4 color) {
+    FV n_dot_l = max(dot3(p.normal, to_light), fv(0.0f));
+    FV lit = strength * n_dot_l;
+#if SHADING == SHADING_LAMBERT
+    sum.diffuse = add_scaled(sum.diffuse, lit, color);
+#else
+    FV3 h = add3(to_light, p.to_eye);
+    FV inv_h = rsqrt(max(dot3(h, h), fv(1e-12f)));
+#endif
+#if SHADING == SHADING_BLINN_PHONG
+    // cos = 1 - |n - h|^2 / 2 keeps the lobe that n.h rounds away at large exponents.
+    FV3 d = fv3(fma(-h.x, inv_h, p.normal.x), fma(-h.y, inv_h, p.normal.y), fma(-h.z, inv_h, p.normal.z));
+    FV half_q = min(fv(0.5f) * dot3(d, d), fv(1.0f));
+    sum.diffuse = add_scaled(sum.diffuse, lit, color);
+    sum.specular = add_scaled(sum.specular, lit * pow_one_minus(half_q, p.exponent), color);
+#endif
+#if SHADING == SHADING_PBR
+    // Lagrange's identity |n x h|^2 = 1 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1).
+    FV3 nxh = cross3(p.normal, h);
+    FV sin2 = min(dot3(nxh, nxh) * (inv_h * inv_h), fv(1.0f));
+    FV ggx = fma(sin2, fv(1.0f) - p.alpha2, p.alpha2);
+    FV smith_l = sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - p.alpha2, p.alpha2));
+    FV smith = fma(n_dot_l, p.smith_v, p.n_dot_v * smith_l);
+    // D * V without its constants alpha2 / (2 pi), which finish_shading multiplies in.
+    FV lobe = lit / (ggx * ggx * smith);
+    FV schlick = max(fma(-dot3(p.to_eye, h), inv_h, fv(1.0f)), fv(0.0f));
+    FV schlick2 = schlick * schlick;
+    FV f = schlick2 * schlick2 * schlick;
+    FV g = fv(1.0f) - f;
+    sum.diffuse = add_scaled(sum.diffuse, lit * g, color);
+#if HAS_METALLIC
+    sum.specular = add_scaled(sum.specular, lobe * g, color);
+    sum.fresnel = add_scaled(sum.fresnel, lobe * f, color);
+#else
+    sum.specular = add_scaled(sum.specular, lobe * fma(g, fv(DIELECTRIC_F0), f), color);
+#endif
+#endif
+    return sum;
+}
+
+// Adds a point or spot light.
+SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
+    FV3 v = fv3(fv(light.position_inv_range2.x) - p.position.x, fv(light.position_inv_range2.y) - p.position.y,
+                fv(light.position_inv_range2.z) - p.position.z);
+    FV d2 = dot3(v, v);
+    FV x = d2 * fv(light.position_inv_range2.w);
+    FV window = max(fma(-x, x, fv(1.0f)), fv(0.0f));
+    FV inv_d = rsqrt(max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN)));
+    FV strength = window * (inv_d * inv_d);
+    FV3 to_light = scale3(v, inv_d);
+#if HAS_SPOT_LIGHTS
+    FV cos_axis = -fma(to_light.x, fv(light.axis_cos.x), fma(to_light.y, fv(light.axis_cos.y), to_light.z * fv(light.axis_cos.z)));
+    FV cone = min(max((cos_axis - fv(light.axis_cos.w)) * fv(light.color_scale.w), fv(0.0f)), fv(1.0f));
+    strength = strength * (cone * cone);
+#endif
+    return add_incident(sum, p, to_light, strength, light.color_scale);
+}
+
+SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, DirectionalLight light) {
+    FV3 to_light = fv3(fv(light.to_light.x), fv(light.to_light.y), fv(light.to_light.z));
+    return add_incident(sum, p, to_light, fv(1.0f), light.color);
+}
+
+// Radiance of the surface from the sums over its lights.
+SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
+    FV3 albedo = s.albedo;
+    FV k = fv(INV_PI);
+    FV3 out_radiance;
+#if SHADING == SHADING_LAMBERT
+    out_radiance = fv3(albedo.x * k * sum.diffuse.x, albedo.y * k * sum.diffuse.y, albedo.z * k * sum.diffuse.z);
+#else
+    FV3 base = albedo;
+    FV3 f0 = fv3(fv(DIELECTRIC_F0), fv(DIELECTRIC_F0), fv(DIELECTRIC_F0));
+#if HAS_METALLIC
+    FV dielectric = fv(1.0f) - s.metallic;
+    base = scale3(albedo, dielectric);
+    f0 = fv3(fma(albedo.x, s.metallic, dielectric * f0.x), fma(albedo.y, s.metallic, dielectric * f0.y),
+             fma(albedo.z, s.metallic, dielectric * f0.z));
+#endif
+    FV alpha = clamped_alpha(s.roughness);
+    FV alpha2 = alpha * alpha;
+#endif
+#if SHADING == SHADING_BLINN_PHONG
+    // (n + 2) / (8 pi) with n = 2 / alpha2 - 2: Walter et al. 2007's match of exponent and roughness.
+    FV lobe = fv(0.25f * INV_PI) / alpha2;
+    out_radiance = fv3(fma(base.x * k, sum.diffuse.x, f0.x * lobe * sum.specular.x),
+                       fma(base.y * k, sum.diffuse.y, f0.y * lobe * sum.specular.y),
+                       fma(base.z * k, sum.diffuse.z, f0.z * lobe * sum.specular.z));
+#endif
+#if SHADING == SHADING_PBR
+    FV lobe = alpha2 * fv(0.5f * INV_PI);
+    FV3 specular = sum.specular;
+#if HAS_METALLIC
+    specular = fv3(fma(f0.x, sum.specular.x, sum.fresnel.x), fma(f0.y, sum.specular.y, sum.fresnel.y),
+                   fma(f0.z, sum.specular.z, sum.fresnel.z));
+#endif
+    out_radiance = fv3(fma(base.x * k * (fv(1.0f) - f0.x), sum.diffuse.x, lobe * specular.x),
+                       fma(base.y * k * (fv(1.0f) - f0.y), sum.diffuse.y, lobe * specular.y),
+                       fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * specular.z));
+#endif
+    FV a = s.occlusion * fv(ambient);
+    return fv3(fma(a, albedo.x, out_radiance.x) + s.emissive.x, fma(a, albedo.y, out_radiance.y) + s.emissive.y,
+               fma(a, albedo.z, out_radiance.z) + s.emissive.z);
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif
