@@ -103,6 +103,8 @@ View view_of(const Camera& camera, int width, int height) {
     view.view_from_world_x = {rotation[0][0], rotation[1][0], rotation[2][0], 0.0f};
     view.view_from_world_y = {rotation[0][1], rotation[1][1], rotation[2][1], 0.0f};
     view.view_from_world_z = {rotation[0][2], rotation[1][2], rotation[2][2], 0.0f};
+    const glm::vec3 position(camera.position);
+    view.camera_position = {position.x, position.y, position.z, 0.0f};
     return view;
 }
 

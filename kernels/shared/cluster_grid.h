@@ -19,16 +19,18 @@ SHARED_STRUCT(ClusterGrid) {
     uint tile_height;   // [pixel]
     uint z_first_bits;  // bits of z_first [m], the near end of slice 0
     uint cluster_count;
+    float position_pad;  // [m] how far a stored position may lie from its pixel's ray and depth
+    uint unused0, unused1, unused2;
 };
-SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 32);
+SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 
 // Slice of a depth z [m]. The bits of a positive float are a piecewise linear log2 of it, exactly
-// monotone and the same on every device. Nearer than z_first (or negative) falls into slice 0,
+// monotone and the same on every device. Nearer than z_first (or negative, or NaN) falls into slice 0,
 // farther than the last slice into the last: no pixel is lost.
-SHARED_FN uint slice_of_depth(ClusterGrid grid, float z) {
-    uint first = grid.z_first_bits;
-    uint slice = z < bits_float(first) ? 0u : (float_bits(z) - first) >> grid.slice_shift;
-    return slice < grid.slices ? slice : grid.slices - 1u;
+SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
+    FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
+    LANE_UINT slice = (lane_bits(clamped) - grid.z_first_bits) >> grid.slice_shift;
+    return min(slice, grid.slices - 1u);
 }
 
 // Depth [m] at which a slice begins, exactly representable. Slice 0 also takes what is nearer.
@@ -39,6 +41,13 @@ SHARED_FN float depth_of_slice(ClusterGrid grid, uint slice) {
 SHARED_FN uint cluster_index(ClusterGrid grid, uint tile_x, uint tile_y, uint slice) {
     return (slice * grid.tiles_y + tile_y) * grid.tiles_x + tile_x;
 }
+
+// What a list test grants beyond the range, relative to range^2: more than float32's rounding of
+// distance^2 / range^2 (8 u = 5e-7), so that no light within its range by exact arithmetic is missing.
+#define CULL_LIMIT 1.000002f
+
+// Farther than any scene [m]: the far end of the last slice.
+#define Z_UNBOUNDED 1e30f
 
 #if defined(__cplusplus)
 }  // namespace kilolux

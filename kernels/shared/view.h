@@ -26,8 +26,9 @@ SHARED_STRUCT(View) {
     float4 view_from_world_x;  // xyz: row x of the rotation, for camera-relative positions
     float4 view_from_world_y;
     float4 view_from_world_z;
+    float4 camera_position;  // xyz: world [m]; only layouts that store world positions need it
 };
-SHARED_ASSERT(view_size, sizeof(View) == 96);
+SHARED_ASSERT(view_size, sizeof(View) == 112);
 
 // Depth z [m] of a pixel with depth01 at pixel coordinates (px, py), centres at +0.5.
 SHARED_FN FV view_depth(View view, FV px, FV py, FV depth01) {

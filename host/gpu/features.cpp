@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/features.h"
+
+namespace kilolux {
+
+BuildOptions feature_options(const KernelFeatures& features) {
+    BuildOptions options;
+    options.define("SHADING", features.shading)
+        .define("GBUFFER", static_cast<int>(features.gbuffer))
+        .define("HAS_MATERIAL", features.material)
+        .define("HAS_METALLIC", features.metallic)
+        .define("HAS_OCCLUSION", features.occlusion)
+        .define("HAS_SPOT_LIGHTS", features.spot_lights)
+        .define("HAS_DIRECTIONAL_LIGHTS", features.directional_lights)
+        .define("LIGHT_INDEX", features.light_index_bits == 16 ? "ushort" : "uint");
+    return options;
+}
+
+Tuning default_tuning(const DeviceInfo& device) {
+    Tuning tuning;
+    if (device.is_cpu) {
+        tuning.cull_chunks = 4 * device.compute_units;
+        tuning.light_group = 16;
+        return tuning;
+    }
+    tuning.shade_rows = 16;
+    tuning.cull_group = 64;
+    tuning.cull_chunks = 16 * device.compute_units;
+    tuning.refine_group = 64;
+    tuning.prefix_group = 256;
+    tuning.prefix_per_item = 8;
+    tuning.tile_group = 64;
+    tuning.light_group = 64;
+    return tuning;
+}
+
+}  // namespace kilolux

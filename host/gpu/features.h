@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/program.h"
+#include "kernels/shared/gbuffer.h"
+
+namespace kilolux {
+
+/// What is compiled into the kernels: the scene plan's device half. What a scene lacks is not there.
+struct KernelFeatures {
+    int shading = 0;             // SHADING_*
+    uint gbuffer = GBUFFER_PACKED;
+    bool material = false;       // the G-buffer has metallic and emissive
+    bool metallic = false;       // any metal: tinted specular reflection
+    bool occlusion = false;
+    bool spot_lights = false;
+    bool directional_lights = false;
+    int light_index_bits = 16;   // 16 while every light's index fits
+    bool operator==(const KernelFeatures&) const = default;
+};
+
+BuildOptions feature_options(const KernelFeatures& features);
+
+/// Work sizes by device class. Data, found by measuring (`kilolux bench --tune`); results never depend on them.
+struct Tuning {
+    int shade_rows = 1;      // rows of a shading work-group: 1..16
+    int cull_group = 1;      // work-items that share a light's clusters
+    int cull_chunks = 8;     // contiguous chunks of lights, a work-group each
+    int refine_group = 1;    // work-items that share a tile's lists
+    int prefix_group = 1;    // work-items of a block of the prefix sum
+    int prefix_per_item = 4096;
+    int tile_group = 1;      // tiles a work-group of bin_pixels takes
+    int light_group = 1;     // work-items of prepare_lights, build_clusters and other maps
+};
+
+Tuning default_tuning(const DeviceInfo& device);
+
+}  // namespace kilolux

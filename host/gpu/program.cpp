@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/program.h"
+
+#include <map>
+#include <mutex>
+
+#include "host/base/log.h"
+#include "host/base/source.h"
+
+namespace kilolux {
+namespace {
+
+// Kernels say fma where they mean it: the same bits for every lane width and on every call site.
+constexpr std::string_view kPrologue = "#pragma OPENCL FP_CONTRACT OFF\n";
+
+std::string build_log(const cl::Program& program, const cl::Device& device) {
+    try {
+        return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
+    } catch (const cl::Error&) {
+        return "(no log)";
+    }
+}
+
+cl::Program build(const Gpu& gpu, const std::string& file, const std::string& text, const std::string& options) {
+    cl::Program program;
+    try {
+        program = cl::Program(gpu.context, text);
+        program.build(gpu.device, options.c_str());
+    } catch (const cl::Error& error) {
+        throw Error(file + ": build failed with " + cl_error_name(error.err()) + " on " + gpu.info.name + ", options '" +
+                    options + "': " + build_log(program, gpu.device));
+    }
+    return program;
+}
+
+}  // namespace
+
+BuildOptions& BuildOptions::define(std::string_view name, int value) { return define(name, std::to_string(value)); }
+
+BuildOptions& BuildOptions::define(std::string_view name, std::string_view value) {
+    return flag("-D" + std::string(name) + "=" + std::string(value));
+}
+
+BuildOptions& BuildOptions::flag(std::string_view text) {
+    if (!text_.empty()) text_ += ' ';
+    text_ += text;
+    return *this;
+}
+
+cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options) {
+    using Key = std::pair<cl_context, std::string>;
+    static std::mutex mutex;
+    static std::map<Key, cl::Program> programs;  // holds its context: the key stays unique
+    const std::string file = "kernels/" + std::string(stem) + ".cl";
+    const std::string all_options =
+        "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) + (options.text().empty() ? "" : " ") + options.text();
+    const std::string text = std::string(kPrologue) + splice_source(file, false).text;
+    const std::scoped_lock lock(mutex);
+    const Key key(gpu.context(), all_options + "\n" + text);
+    auto found = programs.find(key);
+    if (found == programs.end()) {
+        detail("building " + file + " " + all_options);
+        found = programs.emplace(key, build(gpu, file, text, all_options)).first;
+    }
+    return found->second;
+}
+
+std::string cl_error_name(int code) {
+    static const std::map<int, const char*> names = {
+        {CL_DEVICE_NOT_FOUND, "CL_DEVICE_NOT_FOUND"},
+        {CL_DEVICE_NOT_AVAILABLE, "CL_DEVICE_NOT_AVAILABLE"},
+        {CL_COMPILER_NOT_AVAILABLE, "CL_COMPILER_NOT_AVAILABLE"},
+        {CL_MEM_OBJECT_ALLOCATION_FAILURE, "CL_MEM_OBJECT_ALLOCATION_FAILURE"},
+        {CL_OUT_OF_RESOURCES, "CL_OUT_OF_RESOURCES"},
+        {CL_OUT_OF_HOST_MEMORY, "CL_OUT_OF_HOST_MEMORY"},
+        {CL_BUILD_PROGRAM_FAILURE, "CL_BUILD_PROGRAM_FAILURE"},
+        {CL_INVALID_VALUE, "CL_INVALID_VALUE"},
+        {CL_INVALID_CONTEXT, "CL_INVALID_CONTEXT"},
+        {CL_INVALID_COMMAND_QUEUE, "CL_INVALID_COMMAND_QUEUE"},
+        {CL_INVALID_MEM_OBJECT, "CL_INVALID_MEM_OBJECT"},
+        {CL_INVALID_BUILD_OPTIONS, "CL_INVALID_BUILD_OPTIONS"},
+        {CL_INVALID_KERNEL_NAME, "CL_INVALID_KERNEL_NAME"},
+        {CL_INVALID_KERNEL_ARGS, "CL_INVALID_KERNEL_ARGS"},
+        {CL_INVALID_ARG_SIZE, "CL_INVALID_ARG_SIZE"},
+        {CL_INVALID_WORK_GROUP_SIZE, "CL_INVALID_WORK_GROUP_SIZE"},
+        {CL_INVALID_WORK_ITEM_SIZE, "CL_INVALID_WORK_ITEM_SIZE"},
+        {CL_INVALID_BUFFER_SIZE, "CL_INVALID_BUFFER_SIZE"},
+        {CL_INVALID_GLOBAL_WORK_SIZE, "CL_INVALID_GLOBAL_WORK_SIZE"},
+    };
+    const auto found = names.find(code);
+    return found != names.end() ? found->second : "OpenCL error " + std::to_string(code);
+}
+
+}  // namespace kilolux

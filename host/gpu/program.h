@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/gpu/device.h"
+
+namespace kilolux {
+
+/// -D options of a kernel build: tunables and scene features, never formats that both sides share.
+class BuildOptions {
+   public:
+    BuildOptions& define(std::string_view name, int value);
+    BuildOptions& define(std::string_view name, std::string_view value);
+    BuildOptions& flag(std::string_view text);  // a compiler option, e.g. "-cl-fast-relaxed-math"
+    const std::string& text() const { return text_; }
+
+   private:
+    std::string text_;
+};
+
+/// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
+/// The same text, options and device in one process are built once.
+/// Throws Error with file, device, options and the compiler's log.
+cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options = {});
+
+/// Rounds a global size up to whole work-groups.
+constexpr std::size_t round_up(std::size_t value, std::size_t multiple) { return (value + multiple - 1) / multiple * multiple; }
+
+/// Name of an OpenCL error code, e.g. "CL_OUT_OF_RESOURCES".
+std::string cl_error_name(int code);
+
+/// Runs `body`, turning cl::Error into Error("<stage>: <call> failed with <name>").
+template <typename Body>
+auto in_stage(std::string_view stage, Body&& body);
+
+}  // namespace kilolux
+
+#include "host/base/error.h"
+
+namespace kilolux {
+
+template <typename Body>
+auto in_stage(std::string_view stage, Body&& body) {
+    try {
+        return body();
+    } catch (const cl::Error& error) {
+        throw Error(std::string(stage) + ": " + error.what() + " failed with " + cl_error_name(error.err()));
+    }
+}
+
+}  // namespace kilolux

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kilolux {
+
+/// Collects the profiling events of a frame under their stages' names.
+class StageTimer {
+   public:
+    /// Adds an event to a stage; a stage may have several.
+    void record(std::string_view stage, const cl::Event& event);
+
+    struct Time {
+        std::string stage;
+        double ms = 0.0;  // sum of the events' execution times on the device
+    };
+
+    /// Times by stage in the order of first use, and forgets the events. Blocks until they are done.
+    std::vector<Time> take();
+
+   private:
+    struct Entry {
+        std::string stage;
+        std::vector<cl::Event> events;
+    };
+    std::vector<Entry> entries_;
+};
+
+}  // namespace kilolux

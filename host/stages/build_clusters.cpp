@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/build_clusters.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kStage = "build_clusters";
+
+// Edge in pixels, a multiple of FINE_TILE, of about size / tiles.
+uint tile_edge(uint size, uint tiles) {
+    const uint wanted = (size + std::max(tiles, 1u) - 1) / std::max(tiles, 1u);
+    return std::max((wanted + FINE_TILE - 1) / FINE_TILE * FINE_TILE, uint{FINE_TILE});
+}
+
+}  // namespace
+
+ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint height) {
+    ClusterGrid grid{};
+    grid.tile_width = tile_edge(width, request.tiles_x);
+    grid.tile_height = tile_edge(height, request.tiles_y);
+    grid.tiles_x = (width + grid.tile_width - 1) / grid.tile_width;
+    grid.tiles_y = (height + grid.tile_height - 1) / grid.tile_height;
+    const uint per_octave = std::bit_floor(std::clamp(request.slices_per_octave, 1u, 64u));
+    grid.slice_shift = 23u - static_cast<uint>(std::countr_zero(per_octave));
+    // 2^-100: far from denormals, which devices may flush.
+    const float first = std::clamp(request.z_first, 0x1p-100f, 0x1p100f);
+    const float last = std::clamp(request.z_last, first, 0x1p100f);
+    grid.z_first_bits = std::bit_cast<uint>(first);
+    grid.slices = ((std::bit_cast<uint>(last) - grid.z_first_bits) >> grid.slice_shift) + 1u;
+    grid.cluster_count = grid.tiles_x * grid.tiles_y * grid.slices;
+    grid.position_pad = request.position_pad;
+    return grid;
+}
+
+BuildClusters::BuildClusters(const Gpu& gpu)
+    : gpu_(gpu), program_(build_program(gpu, kStage)), columns_(gpu, kStage), rows_(gpu, kStage), depths_(gpu, kStage) {}
+
+ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, StageTimer& timer) {
+    return in_stage(kStage, [&] {
+        constexpr std::size_t kInterval = 2 * sizeof(float);
+        ClusterBoxes out;
+        out.grid = grid;
+        out.columns = columns_.reserve(kInterval * grid.slices * grid.tiles_x);
+        out.rows = rows_.reserve(kInterval * grid.slices * grid.tiles_y);
+        out.depths = depths_.reserve(kInterval * grid.slices);
+        cl::KernelFunctor<View, ClusterGrid, cl::Buffer, cl::Buffer, cl::Buffer> kernel(program_, "build_clusters");
+        const cl::NDRange items(std::max(grid.tiles_x, grid.tiles_y), grid.slices);
+        timer.record(kStage, kernel(cl::EnqueueArgs(gpu_.queue, items, cl::NDRange(1, 1)),
+                                    view, grid, out.columns, out.rows, out.depths));
+        return out;
+    });
+}
+
+}  // namespace kilolux

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/buffer.h"
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/stage_timer.h"
+
+namespace kilolux {
+
+/// Linear radiance to 8-bit sRGB.
+class Tonemap {
+   public:
+    /// `tone_curve`: TONE_CURVE_*.
+    Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve);
+
+    /// Returns uint[height][stride]: R | G << 8 | B << 16 | 255 << 24. Enqueues only.
+    cl::Buffer enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer);
+
+   private:
+    Gpu gpu_;
+    Tuning tuning_;
+    cl::Program program_;
+    GrowingBuffer boundary_, code_, display_;
+};
+
+}  // namespace kilolux

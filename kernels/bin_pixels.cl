@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Active clusters: for every fine tile, one for each depth slice that occurs among its pixels, with the
+// box of just those pixels (Olsson, Billeter, Assarsson 2012: explicit bounds). Background pixels
+// belong to none, and tiles of background only cost nothing afterwards.
+//   bin_pixels_count  active clusters of each tile
+//   (prefix_sum over tiles)
+//   bin_pixels_fill   the clusters
+// One work-item takes one tile, VW pixels of a row at a time.
+#include "kernels/device/gbuffer.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/clusters.h"
+
+#define STRIPS (FINE_TILE / VW)
+#define NO_SLICE 0xffffffffu
+
+// Slices of a tile's pixels; NO_SLICE for background and beyond the image.
+typedef struct TileSlices {
+    UV slice[FINE_TILE * STRIPS];
+    uint first, last;  // smallest and largest; first = NO_SLICE if there is none
+} TileSlices;
+
+static inline UV slices_of_strip(GBuffer g, ClusterGrid grid, uint x, uint y) {
+    FV depth01 = load_depth01(g, x, y);
+    FV z = view_depth(g.view, pixel_centers_x(x), fv((float)y + 0.5f), depth01);
+    UV slice = slice_of_depth(grid, z);
+    MASK drawn = (depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(g.view.width));
+    return select((UV)(NO_SLICE), slice, full_mask(drawn));
+}
+
+static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint tile_y, TileSlices* out) {
+    UV first = (UV)(NO_SLICE);
+    UV last = (UV)(0u);
+    uint rows = min((uint)FINE_TILE, g.view.height - tile_y * FINE_TILE);
+    for (uint row = 0; row < FINE_TILE; ++row) {
+        for (uint strip = 0; strip < STRIPS; ++strip) {
+            UV slice = (UV)(NO_SLICE);
+            if (row < rows) slice = slices_of_strip(g, grid, tile_x * FINE_TILE + strip * VW, tile_y * FINE_TILE + row);
+            out->slice[row * STRIPS + strip] = slice;
+            first = min(first, slice);
+            // NO_SLICE + 1 wraps to 0.
+            last = max(last, slice + 1u);
+        }
+    }
+    out->first = min_lane_uint(first);
+    out->last = ~min_lane_uint(~last) - 1u;
+}
+
+// The smallest slice of the tile above `slice`, or NO_SLICE.
+static inline uint next_slice(const TileSlices* tile, uint slice) {
+    if (slice >= tile->last) return NO_SLICE;
+    UV next = (UV)(NO_SLICE);
+    for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
+        MASK above = tile->slice[i] > (UV)(slice);
+        next = min(next, select((UV)(NO_SLICE), tile->slice[i], full_mask(above)));
+    }
+    return min_lane_uint(next);
+}
+
+kernel void bin_pixels_count(global const uchar* restrict gbuffer,
+                             GBufferLayout layout,
+                             View view,
+                             ClusterGrid grid,
+                             global uint* restrict counts) {  // out [tiles]: active clusters
+    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    uint tile = get_global_id(0);
+    uint tile_y = tile / tiles_x;
+    if (tile_y * FINE_TILE >= view.height) return;
+    GBuffer g = {gbuffer, layout, view, 0};
+    TileSlices slices;
+    load_slices(g, grid, tile % tiles_x, tile_y, &slices);
+    uint count = 0;
+    for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) ++count;
+    counts[tile] = count;
+}
+
+// Box and count of the tile's pixels in one slice.
+static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y, const TileSlices* tile, uint slice) {
+    FV3 lo = fv3(fv(Z_UNBOUNDED), fv(Z_UNBOUNDED), fv(Z_UNBOUNDED));
+    FV3 hi = fv3(fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED));
+    UV pixels = (UV)(0u);
+    for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
+        MASK mask = full_mask(tile->slice[i] == (UV)(slice));
+        if (!any_lane(mask)) continue;
+        uint x = tile_x * FINE_TILE + i % STRIPS * VW;
+        uint y = tile_y * FINE_TILE + i / STRIPS;
+        FV z = view_depth(g.view, pixel_centers_x(x), fv((float)y + 0.5f), load_depth01(g, x, y));
+        FV3 p = load_position(g, x, y, z);
+        lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)), min(lo.z, select_fv(mask, p.z, lo.z)));
+        hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)), max(hi.z, select_fv(mask, p.z, hi.z)));
+        pixels -= KX_CONCAT(as_, UV)(mask);
+    }
+    ActiveCluster c;
+    c.min_x = min_lane(lo.x);
+    c.min_y = min_lane(lo.y);
+    c.min_z = min_lane(lo.z);
+    c.max_x = max_lane(hi.x);
+    c.max_y = max_lane(hi.y);
+    c.max_z = max_lane(hi.z);
+    c.slice = slice;
+    c.pixel_count = sum_lanes(pixels);
+    c.list_begin = 0;
+    c.list_count = 0;
+    c.unused0 = 0;
+    c.unused1 = 0;
+    return c;
+}
+
+kernel void bin_pixels_fill(global const uchar* restrict gbuffer,
+                            GBufferLayout layout,
+                            View view,
+                            ClusterGrid grid,
+                            global const uint* restrict offsets,       // [tiles + 1]
+                            global ActiveCluster* restrict clusters,   // out [capacity]
+                            uint capacity) {
+    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    uint tile = get_global_id(0);
+    uint tile_y = tile / tiles_x;
+    if (tile_y * FINE_TILE >= view.height) return;
+    uint place = offsets[tile];
+    if (place == offsets[tile + 1]) return;
+    GBuffer g = {gbuffer, layout, view, 0};
+    TileSlices slices;
+    load_slices(g, grid, tile % tiles_x, tile_y, &slices);
+    for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
+        if (place < capacity) clusters[place] = cluster_of_slice(g, tile % tiles_x, tile_y, &slices, slice);
+        ++place;
+    }
+}

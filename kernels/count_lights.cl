@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What shading evaluates and what it needs: per pixel, the lights of its list (k), and those whose
+// range covers it (k*). For statistics and views; no part of a frame otherwise.
+// One work-item counts for VW neighbouring pixels of a row.
+#include "kernels/device/gbuffer.h"
+#include "kernels/device/light_index.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/clusters.h"
+
+static inline UV count_covering(FV3 p, global const float4* bounds, global const LIGHT_INDEX* list, uint count) {
+    UV covering = (UV)(0u);
+    for (uint i = 0; i < count; ++i) {
+        float4 light = bounds[list[i]];
+        FV3 v = fv3(fv(light.x) - p.x, fv(light.y) - p.y, fv(light.z) - p.z);
+        MASK inside = full_mask(dot3(v, v) * light.w < fv(1.0f));
+        covering -= KX_CONCAT(as_, UV)(inside);
+    }
+    return covering;
+}
+
+kernel void count_lights(global const uchar* restrict gbuffer,
+                         GBufferLayout layout,
+                         View view,
+                         global const float4* restrict bounds,  // [light_count]
+                         ClusterGrid grid,
+                         global const uint* restrict cluster_offsets,    // [tiles + 1]
+                         global const ActiveCluster* restrict clusters,  // [cluster_capacity]
+                         uint cluster_capacity,
+                         global const LIGHT_INDEX* restrict lists,
+                         global uint* restrict evaluated,  // out [height][stride]; ~0 for background
+                         global uint* restrict covering) { // out [height][stride]; ~0 for background
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    GBuffer g = {gbuffer, layout, view, 0};
+    FV depth01 = load_depth01(g, x, y);
+    MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
+    UV k = (UV)(~0u);
+    UV k_star = (UV)(~0u);
+    if (any_lane(drawn)) {
+        FV z = view_depth(view, pixel_centers_x(x), fv((float)y + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
+        FV3 p = load_position(g, x, y, z);
+        UV slice = slice_of_depth(grid, z);
+        uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
+        uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+        for (uint i = cluster_offsets[tile]; i < end; ++i) {
+            MASK mine = full_mask(slice == (UV)(clusters[i].slice)) & drawn;
+            if (!any_lane(mine)) continue;
+            uint count = clusters[i].list_count;
+            k = select(k, (UV)(count), KX_CONCAT(as_, UV)(mine));
+            k_star = select(k_star, count_covering(p, bounds, lists + clusters[i].list_begin, count), KX_CONCAT(as_, UV)(mine));
+        }
+    }
+    uint pixel = y * view.stride + x;
+    store_lanes(k, evaluated + pixel);
+    store_lanes(k_star, covering + pixel);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Does a light reach a box? The one test of culling, refinement and the brute-force oracle.
+#ifndef KILOLUX_DEVICE_LIGHT_REACH_H
+#define KILOLUX_DEVICE_LIGHT_REACH_H
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/light.h"
+
+#ifndef HAS_SPOT_LIGHTS
+#define HAS_SPOT_LIGHTS 0
+#endif
+
+// Distance from c to the interval [lo, hi]; 0 inside. Rounding is monotone: never more than that of
+// any point of the interval computed the same way.
+static inline float interval_distance(float c, float lo, float hi) { return max(max(lo - c, c - hi), 0.0f); }
+
+// The sphere of (x, y, z, 1/range^2) against a box, from the distances by axis (Arvo, Graphics Gems I,
+// p. 335). The sum is associated as in evaluate(), so that a box is never farther than its pixels.
+static inline bool sphere_reaches(float dx, float dy, float dz, float inv_range2) {
+    return fma(dz, dz, fma(dy, dy, dx * dx)) * inv_range2 <= CULL_LIMIT;
+}
+
+// A spot's cone against the bounding sphere of a box: false only if no point of the sphere is inside.
+// Distance from the centre to the cone's surface; valid for half angles up to 90 degrees.
+static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
+    float3 q = 0.5f * (lo + hi) - light.position_inv_range2.xyz;
+    float radius = 0.5f * length(hi - lo);
+    float q2 = dot(q, q);
+    // The box test alone decides where squares lose their meaning, and for point lights.
+    if (!(q2 + radius * radius < 1e30f) || light.axis_cos.w <= -1.0f) return true;
+    float along = dot(q, light.axis_cos.xyz);
+    float across = sqrt(max(q2 - along * along, 0.0f));
+    float cos_out = light.axis_cos.w;
+    float sin_out = sqrt(max(1.0f - cos_out * cos_out, 0.0f));
+    float slack = 1e-3f * (radius + sqrt(q2));  // more than float32 loses here
+    return cos_out * across - sin_out * along <= radius + slack && along >= -(radius + slack);
+}
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exclusive prefix sum of uint counts, in three launches:
+//   prefix_sum_blocks   each work-item sums its PER_ITEM neighbours, each work-group its block
+//   prefix_sum_totals   one work-item scans the blocks' sums, in 64 bits
+//   prefix_sum_apply    each work-item writes its neighbours' offsets
+// GROUP is the work-group size, PER_ITEM the elements a work-item takes; GROUP * PER_ITEM is a block.
+#ifndef GROUP
+#define GROUP 1
+#endif
+#ifndef PER_ITEM
+#define PER_ITEM 1024
+#endif
+
+static inline uint sum_of_item(global const uint* counts, uint n, uint first) {
+    uint sum = 0;
+    for (uint i = first; i < min(first + PER_ITEM, n); ++i) sum += counts[i];
+    return sum;
+}
+
+// Exclusive scan of one value a work-item over the work-group.
+static inline uint scan_group(uint value, local uint* shared_sums) {
+#if GROUP == 1
+    return 0u;
+#else
+    uint item = get_local_id(0);
+    shared_sums[item] = value;
+    barrier(CLK_LOCAL_MEM_FENCE);  // every value is there before any is read
+    for (uint step = 1; step < GROUP; step <<= 1) {
+        uint other = item >= step ? shared_sums[item - step] : 0u;
+        barrier(CLK_LOCAL_MEM_FENCE);  // all have read before any writes
+        shared_sums[item] += other;
+        barrier(CLK_LOCAL_MEM_FENCE);  // all have written before the next round reads
+    }
+    return shared_sums[item] - value;
+#endif
+}
+
+kernel void prefix_sum_blocks(global const uint* restrict counts,  // [n]
+                              uint n,
+                              global uint* restrict block_sums) {  // out [groups]
+    local uint shared_sums[GROUP];
+    uint sum = sum_of_item(counts, n, (uint)get_global_id(0) * PER_ITEM);
+    uint before = scan_group(sum, shared_sums);
+    if (get_local_id(0) == GROUP - 1) block_sums[get_group_id(0)] = before + sum;
+}
+
+kernel void prefix_sum_totals(global uint* restrict block_sums,  // in: sums, out: offsets [block_count]
+                              uint block_count,
+                              uint n,
+                              global uint* restrict offsets,     // out: offsets[n] = total, modulo 2^32
+                              global ulong* restrict total) {    // out [1]: the exact total
+    ulong sum = 0;
+    for (uint block = 0; block < block_count; ++block) {
+        uint value = block_sums[block];
+        block_sums[block] = (uint)sum;
+        sum += value;
+    }
+    offsets[n] = (uint)sum;
+    *total = sum;
+}
+
+kernel void prefix_sum_apply(global const uint* restrict counts,      // [n]
+                             uint n,
+                             global const uint* restrict block_sums,  // [groups], offsets
+                             global uint* restrict offsets) {         // out [n + 1]; the last by prefix_sum_totals
+    local uint shared_sums[GROUP];
+    uint first = (uint)get_global_id(0) * PER_ITEM;
+    uint sum = block_sums[get_group_id(0)] + scan_group(sum_of_item(counts, n, first), shared_sums);
+    for (uint i = first; i < min(first + PER_ITEM, n); ++i) {
+        uint value = counts[i];
+        offsets[i] = sum;
+        sum += value;
+    }
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera-relative lights -> view space, and the part of the coarse grid that each can touch.
+// One work-item prepares VW lights; the last one may have fewer.
+#include "kernels/device/lanes.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/clusters.h"
+#include "kernels/shared/light.h"
+#include "kernels/shared/view.h"
+
+static inline float rotate_row(float4 row, float4 v) { return fma(row.z, v.z, fma(row.y, v.y, row.x * v.x)); }
+
+static inline float4 rotated(View view, float4 v, float w) {
+    return (float4)(rotate_row(view.view_from_world_x, v), rotate_row(view.view_from_world_y, v),
+                    rotate_row(view.view_from_world_z, v), w);
+}
+
+static inline ShadeLight shade_light(View view, Light light) {
+    float range = light.position_range.w;
+    // 1e38: a range below 1e-19 m must not become infinity times 0.
+    float inv_range2 = min(1.0f / (range * range), 1e38f);
+    ShadeLight out;
+    out.position_inv_range2 = rotated(view, light.position_range, inv_range2);
+    out.color_scale = light.color_scale;
+    out.axis_cos = rotated(view, light.axis_cos, light.axis_cos.w);
+    return out;
+}
+
+// Tiles [first, last] that the interval [lo, hi] in pixels touches, with a hundredth of a tile to spare
+// for rounding; an interval beside the screen gives first > last.
+static inline UV tile_interval(FV lo, FV hi, uint tile_size, uint tiles) {
+    float inv = 1.0f / (float)tile_size;
+    float end = (float)tiles;
+    FV first = floor(clamp(fma(lo, fv(inv), fv(-0.01f)), -1.0f, end));
+    FV last = floor(clamp(fma(hi, fv(inv), fv(0.01f)), -1.0f, end));
+    UV first_tile = to_uint_lanes(max(first, fv(0.0f)));
+    // A screen is at least a tile wide: last = -1 becomes an empty interval, first 1 and last 0.
+    MASK outside = (last < fv(0.0f)) | (first >= fv(end));
+    UV last_tile = to_uint_lanes(clamp(last, 0.0f, end - 1.0f));
+    UV interval = first_tile | (last_tile << 16);
+    return select(interval, (UV)(1u), full_mask(outside));
+}
+
+// Pixels that x_view / scale can take for x in [lo, hi] and scale in [near, far] > 0, along one axis
+// with pixel = (ratio - offset) / step.
+typedef struct Interval {
+    FV lo, hi;
+} Interval;
+
+static inline Interval pixel_interval(FV lo, FV hi, FV near, FV far, float step, float offset) {
+    FV ratio_lo = lo / select_fv(lo >= fv(0.0f), far, near);
+    FV ratio_hi = hi / select_fv(hi >= fv(0.0f), near, far);
+    FV a = (ratio_lo - offset) / step;
+    FV b = (ratio_hi - offset) / step;
+    Interval pixels;
+    pixels.lo = min(a, b);
+    pixels.hi = max(a, b);
+    return pixels;
+}
+
+typedef struct Sphere {
+    FV x, y, z;  // depth z, positive forward
+    FV radius;
+} Sphere;
+
+static inline void store_extents(global LightExtent* extents, uint first, uint count, UV slices, UV columns, UV rows) {
+    uint s[VW], c[VW], r[VW];
+    store_lanes(slices, s);
+    store_lanes(columns, c);
+    store_lanes(rows, r);
+    for (uint i = 0; i < VW && first + i < count; ++i) {
+        LightExtent extent;
+        extent.slices = s[i];
+        extent.columns = c[i];
+        extent.rows = r[i];
+        extent.unused0 = 0;
+        extents[first + i] = extent;
+    }
+}
+
+static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint first, uint count, global LightExtent* extents) {
+    FV zero = fv(0.0f);
+    FV z_lo = sphere.z - sphere.radius;
+    FV z_hi = sphere.z + sphere.radius;
+    bool perspective = view.orthographic == 0u;
+    // Pixels of a perspective view lie in front of the camera; 1e-30 keeps the ratios finite.
+    FV near = perspective ? max(z_lo, fv(1e-30f)) : fv(1.0f);
+    FV far = perspective ? max(z_hi, fv(1e-30f)) : fv(1.0f);
+    Interval px = pixel_interval(sphere.x - sphere.radius, sphere.x + sphere.radius, near, far, view.ray.x, view.ray.y);
+    Interval py = pixel_interval(sphere.y - sphere.radius, sphere.y + sphere.radius, near, far, view.ray.z, view.ray.w);
+    UV columns = tile_interval(px.lo, px.hi, grid.tile_width, grid.tiles_x);
+    UV rows = tile_interval(py.lo, py.hi, grid.tile_height, grid.tiles_y);
+    UV slices = slice_of_depth(grid, z_lo) | (slice_of_depth(grid, z_hi) << 16);
+    MASK behind = perspective ? full_mask(z_hi <= zero) : full_mask(zero > zero);
+    store_extents(extents, first, count, select(slices, (UV)(1u), behind), columns, rows);
+}
+
+kernel void prepare_lights(global const Light* restrict lights,  // [count], camera-relative, world axes
+                           uint count,
+                           View view,
+                           ClusterGrid grid,
+                           global ShadeLight* restrict shade_lights,  // out [count], view space
+                           global float4* restrict bounds,            // out [count]: p_view, 1/range^2
+                           global LightExtent* restrict extents) {    // out [count]
+    uint first = (uint)get_global_id(0) * VW;
+    if (first >= count) return;
+    float x[VW], y[VW], z[VW], r[VW];
+    for (uint i = 0; i < VW; ++i) {
+        uint light = min(first + i, count - 1u);
+        ShadeLight out = shade_light(view, lights[light]);
+        float4 p = out.position_inv_range2;
+        shade_lights[light] = out;
+        bounds[light] = p;
+        x[i] = p.x;
+        y[i] = p.y;
+        z[i] = -p.z;
+        // More than the list test grants (CULL_LIMIT) and float32 loses on the way to tiles.
+        r[i] = fma(lights[light].position_range.w, 1.00001f, 1e-6f * (fabs(p.x) + fabs(p.y) + fabs(p.z)) + grid.position_pad + 1e-18f);
+    }
+    Sphere sphere;
+    sphere.x = load_lanes(x);
+    sphere.y = load_lanes(y);
+    sphere.z = load_lanes(z);
+    sphere.radius = load_lanes(r);
+    find_extents(view, grid, sphere, first, count, extents);
+}
+
+// Directional lights: their direction in view space.
+kernel void prepare_directional_lights(global const DirectionalLight* restrict lights,  // [count], world axes
+                                       View view,
+                                       global DirectionalLight* restrict out) {  // out [count], view space
+    uint light = get_global_id(0);
+    out[light].to_light = rotated(view, lights[light].to_light, 0.0f);
+    out[light].color = lights[light].color;
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The coarse list of each active cluster, refined against the box of its pixels.
+//   refine_lights_reserve  entries that each tile's coarse lists could need
+//   (prefix_sum over tiles)
+//   refine_lights          the lists, ascending, one after the other within the tile's reserve
+// One work-group takes one tile; its GROUP work-items test VW lights each at a time.
+#include "kernels/device/lanes.h"
+#include "kernels/device/light_index.h"
+#include "kernels/device/light_reach.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/clusters.h"
+#include "kernels/shared/view.h"
+
+#ifndef GROUP
+#define GROUP 1
+#endif
+#define BATCH (GROUP * VW)
+
+// The coarse cluster that holds a fine tile's slice.
+static inline uint coarse_cluster(ClusterGrid grid, uint fine_tiles_x, uint tile, uint slice) {
+    uint column = tile % fine_tiles_x * FINE_TILE / grid.tile_width;
+    uint row = tile / fine_tiles_x * FINE_TILE / grid.tile_height;
+    return cluster_index(grid, column, row, slice);
+}
+
+static inline uint fine_tiles_in_row(View view) { return (view.width + FINE_TILE - 1) / FINE_TILE; }
+
+kernel void refine_lights_reserve(View view,
+                                  ClusterGrid grid,
+                                  uint tile_count,
+                                  global const uint* restrict cluster_offsets,     // [tile_count + 1], of active clusters
+                                  global const ActiveCluster* restrict clusters,   // [cluster_capacity]
+                                  uint cluster_capacity,
+                                  global const uint* restrict coarse_offsets,      // [coarse clusters + 1]
+                                  global uint* restrict reserves) {                // out [tile_count]
+    uint tile = get_global_id(0);
+    if (tile >= tile_count) return;
+    uint sum = 0;
+    // More clusters than there is room for: the host grows the buffer and runs the stage again.
+    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+        uint coarse = coarse_cluster(grid, fine_tiles_in_row(view), tile, clusters[i].slice);
+        sum += coarse_offsets[coarse + 1] - coarse_offsets[coarse];
+    }
+    reserves[tile] = sum;
+}
+
+// Which of VW lights of a list from entry `first` on reach the box; lanes beyond `end` do not.
+static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights, global const float4* bounds,
+                                global const LIGHT_INDEX* list, uint first, uint end) {
+    float x[VW], y[VW], z[VW], w[VW];
+    for (uint i = 0; i < VW; ++i) {
+        float4 b = bounds[list[min(first + i, end - 1u)]];
+        x[i] = b.x;
+        y[i] = b.y;
+        z[i] = b.z;
+        w[i] = b.w;
+    }
+    FV lx = load_lanes(x), ly = load_lanes(y), lz = load_lanes(z);
+    FV dx = max(max(c.min_x - lx, lx - c.max_x), fv(0.0f));
+    FV dy = max(max(c.min_y - ly, ly - c.max_y), fv(0.0f));
+    FV dz = max(max(c.min_z - lz, lz - c.max_z), fv(0.0f));
+    MASK reach = fma(dz, dz, fma(dy, dy, dx * dx)) * load_lanes(w) <= fv(CULL_LIMIT);
+    reach = full_mask(reach) & full_mask((lane_numbers + first) < (UV)(end));
+    UV flags = KX_CONCAT(as_, UV)(reach) & 1u;
+#if HAS_SPOT_LIGHTS
+    uint flag[VW];
+    store_lanes(flags, flag);
+    for (uint i = 0; i < VW; ++i) {
+        if (flag[i] && !cone_reaches(lights[list[first + i]], (float3)(c.min_x, c.min_y, c.min_z), (float3)(c.max_x, c.max_y, c.max_z))) {
+            flag[i] = 0;
+        }
+    }
+    flags = load_lanes(flag);
+#endif
+    return flags;
+}
+
+// Appends the flagged lights in order and returns how many there were in the whole work-group.
+static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first, global LIGHT_INDEX* out, uint room,
+                          local uint* ballots) {
+#if GROUP == 1
+    uint flag[VW];
+    store_lanes(flags, flag);
+    uint count = 0;
+    for (uint i = 0; i < VW; ++i) {
+        if (flag[i] && count < room) out[count] = list[first + i];
+        count += flag[i];
+    }
+    return count;
+#else
+    // Rank of a light: set flags of the batch before it, from ballots of 32 in local memory.
+    uint item = get_local_id(0);
+    if (item < (BATCH + 31) / 32) ballots[item] = 0;
+    barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any bit is set
+    uint flag[VW];
+    store_lanes(flags, flag);
+    for (uint i = 0; i < VW; ++i) {
+        uint bit = item * VW + i;
+        if (flag[i]) atomic_or(&ballots[bit / 32], 1u << (bit % 32));
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // all bits are set before any is counted
+    uint total = 0;
+    uint before = 0;
+    for (uint word = 0; word < (BATCH + 31) / 32; ++word) {
+        uint bits = ballots[word];
+        uint bit = item * VW;
+        before += word < bit / 32 ? popcount(bits) : word == bit / 32 ? popcount(bits & ((1u << (bit % 32)) - 1u)) : 0u;
+        total += popcount(bits);
+    }
+    for (uint i = 0; i < VW; ++i) {
+        if (flag[i] && before < room) out[before] = list[first + i];
+        before += flag[i];
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // ballots are counted before the next batch clears them
+    return total;
+#endif
+}
+
+kernel void refine_lights(global const ShadeLight* restrict lights,  // [count], view space
+                          global const float4* restrict bounds,      // [count]
+                          View view,
+                          ClusterGrid grid,
+                          global const uint* restrict coarse_offsets,       // [coarse clusters + 1]
+                          global const LIGHT_INDEX* restrict coarse_lists,  // [coarse_capacity]
+                          uint coarse_capacity,
+                          global const uint* restrict cluster_offsets,      // [tiles + 1]
+                          global ActiveCluster* restrict clusters,          // in/out [cluster_capacity]: lists set
+                          uint cluster_capacity,
+                          global const uint* restrict list_offsets,         // [tiles + 1], reserves
+                          global LIGHT_INDEX* restrict lists,               // out [list_capacity]
+                          uint list_capacity) {
+    local uint ballots[(BATCH + 31) / 32];
+    uint tile = get_group_id(0);
+    uint place = list_offsets[tile];
+    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+        ActiveCluster c = clusters[i];
+        uint coarse = coarse_cluster(grid, fine_tiles_in_row(view), tile, c.slice);
+        uint coarse_begin = coarse_offsets[coarse];
+        uint coarse_end = min(coarse_offsets[coarse + 1], coarse_capacity);
+        uint begin = place;
+        for (uint batch = coarse_begin; batch < coarse_end; batch += BATCH) {
+            uint first = batch + (uint)get_local_id(0) * VW;
+            UV flags = (UV)(0u);
+            if (first < coarse_end) flags = reaching_lanes(c, lights, bounds, coarse_lists, first, coarse_end);
+            uint room = place < list_capacity ? list_capacity - place : 0u;
+            place += append(flags, coarse_lists, first, lists + place, room, ballots);
+        }
+        if (get_local_id(0) == 0) {
+            clusters[i].list_begin = min(begin, list_capacity);
+            clusters[i].list_count = min(place, list_capacity) - min(begin, list_capacity);
+        }
+    }
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What culling passes on: extents of lights on the coarse grid, active clusters and their lists.
+#ifndef KILOLUX_SHARED_CLUSTERS_H
+#define KILOLUX_SHARED_CLUSTERS_H
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// The part of the coarse grid that a light's sphere can touch; slice_first > slice_last: none.
+SHARED_STRUCT(LightExtent) {
+    uint slices;   // first | last << 16
+    uint columns;  // first | last << 16, tiles in x
+    uint rows;     // first | last << 16, tiles in y
+    uint unused0;
+};
+SHARED_ASSERT(light_extent_size, sizeof(LightExtent) == 16);
+
+// The pixels of one fine tile that lie in one slice, and the lights that reach their box.
+SHARED_STRUCT(ActiveCluster) {
+    float min_x, min_y, min_z;  // box of the pixels' positions in view space [m]
+    uint slice;
+    float max_x, max_y, max_z;
+    uint pixel_count;
+    uint list_begin;  // in the refined list
+    uint list_count;
+    uint unused0, unused1;
+};
+SHARED_ASSERT(active_cluster_size, sizeof(ActiveCluster) == 48);
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

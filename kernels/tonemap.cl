@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Linear HDR radiance -> 8-bit sRGB: exposure, tone curve, transfer function, exact rounding.
+// One work-item makes VW neighbouring pixels of a row.
+#include "kernels/device/lanes.h"
+#include "kernels/shared/tone_curve.h"
+
+#ifndef TONE_CURVE
+#define TONE_CURVE TONE_CURVE_NEUTRAL
+#endif
+
+// The sRGB code of linear v, correctly rounded: IEC 61966-2-1 by table.
+static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
+    // NaN becomes 0; below 2^-13 is code 0.
+    FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
+    UV bucket = (lane_bits(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;
+#if VW == 1
+    return bucket_code[bucket] + (c >= bucket_boundary[bucket] ? 1u : 0u);
+#else
+    uint index[VW];
+    store_lanes(bucket, index);
+#define CODE_AT(i) bucket_code[index[i]]
+#define BOUNDARY_AT(i) bucket_boundary[index[i]]
+    UV code = LANES(UV, CODE_AT);
+    MASK above = c >= LANES(FV, BOUNDARY_AT);
+    return code + (KX_CONCAT(as_, UV)(above) & 1u);
+#endif
+}
+
+kernel void tonemap(global const float* restrict radiance,         // [3][height][stride]
+                    uint pixel_count,                              // height * stride
+                    float gain,                                    // 2^exposure
+                    global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
+                    global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
+                    global uint* restrict display) {               // out [height][stride]: R | G << 8 | B << 16 | 255 << 24
+    uint pixel = (uint)get_global_id(0) * VW;
+    if (pixel >= pixel_count) return;
+    FV3 c = fv3(load_lanes(radiance + pixel) * gain, load_lanes(radiance + pixel_count + pixel) * gain,
+                load_lanes(radiance + 2 * pixel_count + pixel) * gain);
+    // Infinite light is white, not the NaN that a tone curve would make of it.
+    c = fv3(min(c.x, fv(1e9f)), min(c.y, fv(1e9f)), min(c.z, fv(1e9f)));
+#if TONE_CURVE == TONE_CURVE_NEUTRAL
+    c = neutral_tone_curve(c);
+#elif TONE_CURVE == TONE_CURVE_ACES
+    c = aces_tone_curve(c);
+#endif
+    UV r = srgb_code(bucket_boundary, bucket_code, c.x);
+    UV g = srgb_code(bucket_boundary, bucket_code, c.y);
+    UV b = srgb_code(bucket_boundary, bucket_code, c.z);
+    store_lanes(r | (g << 8) | (b << 16) | 0xff000000u, display + pixel);
+}
