@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kilolux {
+namespace {
+
+float4 to_row(const glm::dvec4& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+            static_cast<float>(v.w)};
+}
+
+// The cofactor matrix is the inverse transpose times the determinant, and is there for singular
+// matrices too; scaled to 1, since a vertex normal's length says nothing.
+glm::dmat3 normal_matrix(const glm::dmat3& m, double determinant) {
+    glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    double largest = 0.0;
+    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(cofactor[i / 3][i % 3]));
+    if (!(largest > 0.0)) return glm::dmat3(0.0);
+    return cofactor * ((determinant < 0.0 ? -1.0 : 1.0) / largest);
+}
+
+ObjectRows rows_of(const glm::dmat4& m, double determinant) {
+    const glm::dmat4 rows = glm::transpose(m);
+    const glm::dmat3 normals = glm::transpose(normal_matrix(glm::dmat3(m), determinant));
+    ObjectRows out{};
+    for (int i = 0; i < 3; ++i) {
+        const auto row = static_cast<std::size_t>(i);
+        out.view_from_object[row] = to_row(rows[i]);
+        out.normal_from_object[row] =
+            to_row(glm::dvec4(normals[i], i == 0 && determinant < 0.0 ? -1.0 : 1.0));
+    }
+    return out;
+}
+
+std::array<glm::dvec4, 8> corners_of(const Box& box, const glm::dmat4& view_from_box) {
+    std::array<glm::dvec4, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3 corner((i & 1) != 0 ? box.max.x : box.min.x,
+                                (i & 2) != 0 ? box.max.y : box.min.y,
+                                (i & 4) != 0 ? box.max.z : box.min.z);
+        corners[i] = view_from_box * glm::dvec4(corner, 1.0);
+    }
+    return corners;
+}
+
+// Whether all corners lie outside one plane of the frustum, by more than what float32 vertices and
+// the rasteriser's snapping can move them.
+bool outside(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip) {
+    constexpr double kSlack = 1e-4;
+    std::array<int, 6> count{};
+    for (const glm::dvec4& corner : corners) {
+        const glm::dvec4 c = clip * corner;
+        const double slack =
+            kSlack * (std::abs(c.x) + std::abs(c.y) + std::abs(c.z) + std::abs(c.w));
+        const std::array<double, 6> inside = {c.w - c.x, c.w + c.x, c.w - c.y,
+                                              c.w + c.y, c.w - c.z, c.z};
+        for (std::size_t plane = 0; plane < 6; ++plane) {
+            if (inside[plane] < -slack) ++count[plane];
+        }
+    }
+    return std::find(count.begin(), count.end(), 8) != count.end();
+}
+
+void sort_draws(std::vector<Draw>& draws, DrawOrder order) {
+    if (order == DrawOrder::scene) return;
+    std::stable_sort(draws.begin(), draws.end(), [&](const Draw& a, const Draw& b) {
+        return order == DrawOrder::front_to_back ? a.depth < b.depth : a.depth > b.depth;
+    });
+}
+
+}  // namespace
+
+DrawList::DrawList(const Scene& scene) : scene_(scene) {
+    for (const Mesh& mesh : scene.meshes) {
+        MeshBox& out = boxes_.emplace_back();
+        for (const glm::vec3& position : mesh.positions) out.box.add(position);
+        if (mesh.material >= 0) {
+            const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+            out.blended = material.alpha_mode == AlphaMode::blend;
+        }
+    }
+}
+
+std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height, bool blended,
+                                    DrawOrder order) const {
+    const glm::dmat4 clip = clip_from_view(camera, width, height);
+    std::vector<Draw> draws;
+    for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
+        const Instance& instance = scene_.instances[i];
+        const MeshBox& mesh = boxes_[static_cast<std::size_t>(instance.mesh)];
+        if (mesh.blended != blended || mesh.box.empty()) continue;
+        const glm::dmat4 transform = view_from_object(camera, instance.world_from_object);
+        const std::array<glm::dvec4, 8> corners = corners_of(mesh.box, transform);
+        if (outside(corners, clip)) continue;
+        double nearest = std::numeric_limits<double>::infinity();
+        double sum = 0.0;
+        for (const glm::dvec4& corner : corners) {
+            nearest = std::min(nearest, -corner.z);
+            sum -= corner.z;
+        }
+        if (order == DrawOrder::back_to_front) nearest = sum / 8.0;
+        const double determinant = glm::determinant(glm::dmat3(transform));
+        draws.push_back({static_cast<int>(i), instance.mesh, nearest, determinant < 0.0,
+                         rows_of(transform, determinant)});
+    }
+    sort_draws(draws, order);
+    return draws;
+}
+
+glm::dmat4 view_from_object(const Camera& camera, const glm::dmat4& world_from_object) {
+    glm::dmat4 relative = world_from_object;
+    relative[3] -= glm::dvec4(camera.position, 0.0);
+    return glm::dmat4(glm::transpose(camera.world_from_view)) * relative;
+}
+
+}  // namespace kilolux

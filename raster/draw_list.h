@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host/scene/camera.h"
+#include "host/scene/scene.h"
+#include "kernels/shared/types.h"
+
+namespace kilolux {
+
+/// An object's transforms as the vertex shader takes them, composed in double.
+struct ObjectRows {
+    std::array<float4, 3> view_from_object;  // rows of the 3x4 matrix
+    std::array<float4, 3>
+        normal_from_object;  // rows, up to a positive scale; [0].w: -1 if mirrored, else 1
+};
+
+/// One instance to draw.
+struct Draw {
+    int instance = 0;
+    int mesh = 0;
+    double depth = 0.0;     // sort key: least depth of its box [m], or its centre's (back to front)
+    bool mirrored = false;  // negative determinant: front faces wind the other way
+    ObjectRows rows;
+};
+
+enum class DrawOrder { front_to_back, back_to_front, scene };
+
+/// Finds a scene's visible instances.
+class DrawList {
+ public:
+    /// The scene must outlive this; its instances may move, its meshes may not change.
+    explicit DrawList(const Scene& scene);
+
+    /// Instances whose box touches the camera's frustum (conservative), of materials that blend or
+    /// of those that do not. Back to front goes by the boxes' centres.
+    std::vector<Draw> visible(const Camera& camera, int width, int height, bool blended,
+                              DrawOrder order) const;
+
+ private:
+    struct MeshBox {
+        Box box;  // object space
+        bool blended = false;
+    };
+    const Scene& scene_;
+    std::vector<MeshBox> boxes_;  // by mesh
+};
+
+/// view_from_object in double: world positions meet the camera before they become float.
+glm::dmat4 view_from_object(const Camera& camera, const glm::dmat4& world_from_object);
+
+}  // namespace kilolux

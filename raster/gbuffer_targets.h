@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "host/base/gbuffer_layout.h"
+#include "raster/gl_object.h"
+#include "raster/gl_program.h"
+
+namespace kilolux {
+
+/// How a plane leaves the framebuffer: glReadPixels of `source` as `format` and `type` yields the
+/// plane of kernels/shared/gbuffer.h.
+struct PlaneRead {
+    uint plane = 0;     // PLANE_*
+    GLenum source = 0;  // GL_COLOR_ATTACHMENTi or GL_DEPTH_ATTACHMENT
+    GLenum format = 0;
+    GLenum type = 0;
+};
+
+/// A layout's attachments, and its planes in the order of their ids.
+struct TargetPlan {
+    std::vector<GLenum> color_formats;  // of GL_COLOR_ATTACHMENT0, 1, ...
+    std::vector<PlaneRead> reads;
+    Defines defines;  // for geometry.frag
+};
+
+/// What the geometry pass draws into for these needs. Depth is always DEPTH_COMPONENT32F.
+TargetPlan plan_targets(const GBufferNeeds& needs);
+
+/// The G-buffer's textures in one framebuffer.
+class GBufferTargets {
+ public:
+    /// Throws Error when the driver refuses the framebuffer.
+    GBufferTargets(const TargetPlan& plan, int width, int height);
+
+    GLuint framebuffer() const { return framebuffer_.name(); }
+    GLuint depth_texture() const { return depth_.name(); }
+    GLuint color_texture(std::size_t i) const { return colors_.at(i).name(); }
+    std::span<const PlaneRead> reads() const { return reads_; }
+    int width() const { return width_; }    // [pixel]
+    int height() const { return height_; }  // [pixel]
+
+    /// All planes to 0: no surface anywhere.
+    void clear() const;
+
+ private:
+    std::vector<PlaneRead> reads_;
+    std::vector<GlTexture> colors_;
+    GlTexture depth_;
+    GlFramebuffer framebuffer_;
+    int width_, height_;
+};
+
+/// Reads one plane, rows `stride` elements apart, image rows from the top. `destination` is a host
+/// pointer, or an offset where a pixel pack buffer is bound. Elements past the width are left
+/// alone.
+void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
+                void* destination);
+
+/// All planes in host memory, laid out as make_gbuffer_layout() says; 0 past the width.
+std::vector<std::byte> read_gbuffer(const GBufferTargets& targets, const GBufferLayout& layout,
+                                    uint stride);
+
+}  // namespace kilolux

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/gl_context.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <array>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+// One way to a display: the surfaceless platform, or the device platform with one device.
+struct Candidate {
+    std::string name;
+    EGLenum platform = 0;
+    void* native = nullptr;
+    bool software = false;
+};
+
+std::string egl_error() {
+    const EGLint error = eglGetError();
+    switch (error) {
+        case EGL_SUCCESS:
+            return "no error given";
+        case EGL_NOT_INITIALIZED:
+            return "EGL_NOT_INITIALIZED";
+        case EGL_BAD_ACCESS:
+            return "EGL_BAD_ACCESS";
+        case EGL_BAD_ALLOC:
+            return "EGL_BAD_ALLOC";
+        case EGL_BAD_MATCH:
+            return "EGL_BAD_MATCH";
+        case EGL_BAD_PARAMETER:
+            return "EGL_BAD_PARAMETER";
+        case EGL_BAD_CONFIG:
+            return "EGL_BAD_CONFIG";
+        default:
+            return "EGL error " + std::to_string(error);
+    }
+}
+
+bool has_word(const char* words, std::string_view word) {
+    if (words == nullptr) return false;
+    std::string_view rest = words;
+    while (!rest.empty()) {
+        const std::string_view first = rest.substr(0, rest.find(' '));
+        if (first == word) return true;
+        rest.remove_prefix(std::min(rest.size(), first.size() + 1));
+    }
+    return false;
+}
+
+std::vector<Candidate> device_candidates(const char* client_extensions) {
+    std::vector<Candidate> out;
+    const bool enumerates = has_word(client_extensions, "EGL_EXT_device_enumeration") ||
+                            has_word(client_extensions, "EGL_EXT_device_base");
+    if (!enumerates || !has_word(client_extensions, "EGL_EXT_platform_device")) return out;
+    EGLint count = 0;
+    if (!eglQueryDevicesEXT(0, nullptr, &count) || count <= 0) return out;
+    std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
+    if (!eglQueryDevicesEXT(count, devices.data(), &count)) return out;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
+        out.push_back({"device:" + std::to_string(i), EGL_PLATFORM_DEVICE_EXT, devices[i],
+                       has_word(extensions, "EGL_MESA_device_software")});
+    }
+    return out;
+}
+
+// Every way to a display that `wanted` allows, best first.
+std::vector<Candidate> candidates(std::string_view wanted) {
+    const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const std::vector<Candidate> devices = device_candidates(extensions);
+    std::vector<Candidate> out;
+    for (const Candidate& device : devices) {
+        if (!device.software) out.push_back(device);
+    }
+    if (has_word(extensions, "EGL_MESA_platform_surfaceless")) {
+        out.push_back({"surfaceless", EGL_PLATFORM_SURFACELESS_MESA, nullptr, false});
+    }
+    for (const Candidate& device : devices) {
+        if (device.software) out.push_back(device);
+    }
+    std::erase_if(out, [&](const Candidate& c) {
+        if (wanted.empty()) return false;
+        return c.name != wanted && !(wanted == "device" && c.name.starts_with("device:"));
+    });
+    return out;
+}
+
+// A config only where the display cannot do without.
+EGLConfig choose_config(EGLDisplay display) {
+    if (has_word(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context")) {
+        return EGL_NO_CONFIG_KHR;
+    }
+    constexpr std::array<EGLint, 5> kWanted = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
+                                               EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (!eglChooseConfig(display, kWanted.data(), &config, 1, &count) || count < 1) {
+        throw Error("no EGL config for OpenGL");
+    }
+    return config;
+}
+
+EGLDisplay open_display(const Candidate& candidate) {
+    EGLDisplay display = eglGetPlatformDisplayEXT(candidate.platform, candidate.native, nullptr);
+    if (display == EGL_NO_DISPLAY) throw Error("no display: " + egl_error());
+    if (!eglInitialize(display, nullptr, nullptr)) {
+        throw Error("eglInitialize: " + egl_error());
+    }
+    if (!has_word(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
+        throw Error("EGL_KHR_surfaceless_context is missing");
+    }
+    return display;
+}
+
+EGLContext create_context(EGLDisplay display) {
+    if (!eglBindAPI(EGL_OPENGL_API)) throw Error("eglBindAPI(OpenGL): " + egl_error());
+    constexpr std::array<EGLint, 7> kAttributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                                   4,
+                                                   EGL_CONTEXT_MINOR_VERSION,
+                                                   5,
+                                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                   EGL_NONE};
+    EGLContext context =
+        eglCreateContext(display, choose_config(display), EGL_NO_CONTEXT, kAttributes.data());
+    if (context == EGL_NO_CONTEXT) throw Error("no OpenGL 4.5 core context: " + egl_error());
+    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+        const std::string error = egl_error();
+        eglDestroyContext(display, context);
+        throw Error("eglMakeCurrent: " + error);
+    }
+    return context;
+}
+
+std::string gl_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+}  // namespace
+
+GlContext GlContext::headless(std::string_view platform) {
+    const char* variable = std::getenv("KILOLUX_EGL");
+    const std::string wanted(platform.empty() && variable != nullptr ? variable : platform);
+    std::string tried;
+    for (const Candidate& candidate : candidates(wanted)) {
+        try {
+            EGLDisplay display = open_display(candidate);
+            return {display, create_context(display), candidate.name};
+        } catch (const Error& error) {
+            tried += (tried.empty() ? "" : "; ") + candidate.name + ": " + error.what();
+        }
+    }
+    if (tried.empty()) {
+        tried = wanted.empty() ? "EGL offers neither surfaceless nor device platform"
+                               : "EGL offers no platform '" + wanted + "'";
+    }
+    throw Error("EGL: no headless OpenGL 4.5 context (" + tried +
+                "); Debian's libegl1 and libgl1-mesa-dri provide one");
+}
+
+GlContext::GlContext(void* display, void* context, std::string platform)
+    : display_(display),
+      context_(context),
+      platform_(std::move(platform)),
+      vendor_(gl_string(GL_VENDOR)),
+      renderer_(gl_string(GL_RENDERER)),
+      version_(gl_string(GL_VERSION)),
+      messages_(record_gl_errors()) {}
+
+GlContext::GlContext(GlContext&& other) noexcept
+    : display_(std::exchange(other.display_, nullptr)),
+      context_(std::exchange(other.context_, nullptr)),
+      platform_(std::move(other.platform_)),
+      vendor_(std::move(other.vendor_)),
+      renderer_(std::move(other.renderer_)),
+      version_(std::move(other.version_)),
+      messages_(std::move(other.messages_)) {}
+
+GlContext& GlContext::operator=(GlContext&& other) noexcept {
+    std::swap(display_, other.display_);
+    std::swap(context_, other.context_);
+    std::swap(platform_, other.platform_);
+    std::swap(vendor_, other.vendor_);
+    std::swap(renderer_, other.renderer_);
+    std::swap(version_, other.version_);
+    std::swap(messages_, other.messages_);
+    return *this;
+}
+
+GlContext::~GlContext() {
+    if (context_ == nullptr) return;
+    if (eglGetCurrentContext() == context_) {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    eglDestroyContext(display_, context_);
+}
+
+void GlContext::make_current() const {
+    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+        throw Error("EGL: " + platform_ + ": eglMakeCurrent: " + egl_error());
+    }
+}
+
+bool is_software_renderer() {
+    const std::string renderer = gl_string(GL_RENDERER);
+    for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer"}) {
+        if (renderer.find(name) != std::string::npos) return true;
+    }
+    return false;
+}
+
+}  // namespace kilolux

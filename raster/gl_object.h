@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <epoxy/gl.h>
+
+#include <utility>
+
+namespace kilolux {
+
+/// Owner of one OpenGL object name; 0 owns nothing. The context that made it must be current when
+/// it is destroyed.
+template <void (*Delete)(GLuint)>
+class GlObject {
+ public:
+    GlObject() = default;
+    explicit GlObject(GLuint name) : name_(name) {}
+    GlObject(GlObject&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    GlObject& operator=(GlObject&& other) noexcept {
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    GlObject(const GlObject&) = delete;
+    GlObject& operator=(const GlObject&) = delete;
+    ~GlObject() {
+        if (name_ != 0) Delete(name_);
+    }
+
+    GLuint name() const { return name_; }
+    explicit operator bool() const { return name_ != 0; }
+
+ private:
+    GLuint name_ = 0;
+};
+
+namespace gl_delete {
+inline void texture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
+inline void sampler(GLuint name) {
+    glDeleteSamplers(1, &name);
+}
+inline void buffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
+inline void framebuffer(GLuint name) {
+    glDeleteFramebuffers(1, &name);
+}
+inline void vertex_array(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
+inline void query(GLuint name) {
+    glDeleteQueries(1, &name);
+}
+inline void shader(GLuint name) {
+    glDeleteShader(name);
+}
+inline void program(GLuint name) {
+    glDeleteProgram(name);
+}
+}  // namespace gl_delete
+
+using GlTexture = GlObject<gl_delete::texture>;
+using GlSampler = GlObject<gl_delete::sampler>;
+using GlBuffer = GlObject<gl_delete::buffer>;
+using GlFramebuffer = GlObject<gl_delete::framebuffer>;
+using GlVertexArray = GlObject<gl_delete::vertex_array>;
+using GlQuery = GlObject<gl_delete::query>;
+using GlShader = GlObject<gl_delete::shader>;
+using GlProgram = GlObject<gl_delete::program>;
+
+/// Each makes one object in the current context.
+inline GlTexture make_texture(GLenum target) {
+    GLuint name = 0;
+    glCreateTextures(target, 1, &name);
+    return GlTexture(name);
+}
+inline GlSampler make_sampler() {
+    GLuint name = 0;
+    glCreateSamplers(1, &name);
+    return GlSampler(name);
+}
+inline GlBuffer make_buffer() {
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    return GlBuffer(name);
+}
+inline GlFramebuffer make_framebuffer() {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    return GlFramebuffer(name);
+}
+inline GlVertexArray make_vertex_array() {
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    return GlVertexArray(name);
+}
+inline GlQuery make_query(GLenum target) {
+    GLuint name = 0;
+    glCreateQueries(target, 1, &name);
+    return GlQuery(name);
+}
+
+}  // namespace kilolux

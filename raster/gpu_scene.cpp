@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/gpu_scene.h"
+
+#include <cstring>
+
+#include "raster/gl_context.h"
+#include "raster/gpu_mesh.h"
+
+namespace kilolux {
+namespace {
+
+// Trilinear filtering alone on the CPU, where every further sample is paid for in full.
+constexpr float kHardwareAnisotropy = 8.0f;
+
+float chosen_anisotropy(float anisotropy) {
+    if (anisotropy > 0.0f) return anisotropy;
+    return is_software_renderer() ? 1.0f : kHardwareAnisotropy;
+}
+
+MaterialRow row_of(const Material& material) {
+    MaterialRow row{};
+    const glm::vec4& color = material.base_color;
+    row.base_color = {color.x, color.y, color.z, color.w};
+    const glm::vec3& emissive = material.emissive;
+    row.emissive_cutoff = {emissive.x, emissive.y, emissive.z, material.alpha_cutoff};
+    row.factors = {material.metallic, material.roughness, material.normal_scale,
+                   material.occlusion_strength};
+    for (int use = 0; use < USE_COUNT; ++use) {
+        const glm::mat3& m = texture_use(material, use).uv_from_texcoord;
+        row.uv_x[use] = {m[0].x, m[1].x, m[2].x, 0.0f};
+        row.uv_y[use] = {m[0].y, m[1].y, m[2].y, 0.0f};
+    }
+    return row;
+}
+
+std::size_t uniform_stride_bytes() {
+    GLint alignment = 1;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
+    const auto unit = static_cast<std::size_t>(std::max(alignment, 16));
+    return (sizeof(MaterialRow) + unit - 1) / unit * unit;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene, float anisotropy)
+    : scene_(scene), textures_(scene, chosen_anisotropy(anisotropy)) {
+    const std::size_t row_count = scene.materials.size() + 1;
+    const std::size_t stride = uniform_stride_bytes();
+    std::vector<std::byte> rows(row_count * stride);
+    for (std::size_t i = 0; i < row_count; ++i) {
+        const MaterialRow row = row_of(material(static_cast<int>(i)));
+        std::memcpy(rows.data() + i * stride, &row, sizeof(row));
+    }
+    material_stride_bytes_ = static_cast<GLintptr>(stride);
+    material_rows_ = make_buffer();
+    glNamedBufferStorage(material_rows_.name(), static_cast<GLsizeiptr>(rows.size()), rows.data(),
+                         0);
+    for (const Mesh& mesh : scene.meshes) {
+        const int row = mesh.material < 0 ? static_cast<int>(row_count) - 1 : mesh.material;
+        const uint features = features_of(mesh, material(row));
+        GpuMesh& uploaded = meshes_.emplace_back(upload_mesh(mesh, features));
+        uploaded.material = row;
+        uploaded.features = features;
+    }
+    check_gl_errors("upload of scene '" + scene.name + "'");
+}
+
+const Material& GpuScene::material(int row) const {
+    const auto index = static_cast<std::size_t>(row);
+    return index < scene_.materials.size() ? scene_.materials[index] : default_material_;
+}
+
+void GpuScene::bind_material(int row, uint features) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, 0, material_rows_.name(), row * material_stride_bytes_,
+                      sizeof(MaterialRow));
+    for (int use = 0; use < USE_COUNT; ++use) {
+        if ((features & (kFeatureTexture << use)) == 0) continue;
+        textures_.bind(scene_, texture_use(material(row), use), use);
+    }
+}
+
+}  // namespace kilolux

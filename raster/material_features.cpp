@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/material_features.h"
+
+#include <array>
+#include <cassert>
+
+namespace kilolux {
+namespace {
+
+constexpr std::array<const char*, USE_COUNT> kUvNames = {
+    "BASE_COLOR_UV", "METALLIC_ROUGHNESS_UV", "NORMAL_UV", "OCCLUSION_UV", "EMISSIVE_UV"};
+
+bool same_lookup(const TextureUse& a, const TextureUse& b) {
+    return a.texture == b.texture && a.uv_set == b.uv_set &&
+           a.uv_from_texcoord == b.uv_from_texcoord;
+}
+
+// GLSL that gives the coordinates with which a use's texture is read.
+std::string uv_expression(uint features, int use) {
+    const std::string texcoord =
+        (features & (kFeatureTexcoord1 << use)) != 0 ? "v_texcoord1" : "v_texcoord0";
+    if ((features & (kFeatureTransform << use)) == 0) return texcoord;
+    return "transformed(" + std::to_string(use) + ", " + texcoord + ")";
+}
+
+}  // namespace
+
+const TextureUse& texture_use(const Material& material, int use) {
+    switch (use) {
+        case USE_BASE_COLOR:
+            return material.base_color_texture;
+        case USE_METALLIC_ROUGHNESS:
+            return material.metallic_roughness_texture;
+        case USE_NORMAL:
+            return material.normal_texture;
+        case USE_OCCLUSION:
+            return material.occlusion_texture;
+        default:
+            assert(use == USE_EMISSIVE);
+            return material.emissive_texture;
+    }
+}
+
+bool is_srgb_use(int use) {
+    return use == USE_BASE_COLOR || use == USE_EMISSIVE;
+}
+
+uint features_of(const Mesh& mesh, const Material& material) {
+    uint features = 0;
+    for (int use = 0; use < USE_COUNT; ++use) {
+        const TextureUse& texture = texture_use(material, use);
+        if (!texture.present()) continue;
+        features |= kFeatureTexture << use;
+        if (texture.uv_set == 1) features |= kFeatureTexcoord1 << use;
+        if (texture.uv_from_texcoord != glm::mat3(1.0f)) features |= kFeatureTransform << use;
+    }
+    if (mesh.tangents.empty()) features = without_texture(features, USE_NORMAL);
+    if (!mesh.colors.empty()) features |= kFeatureVertexColor;
+    if (material.alpha_mode == AlphaMode::mask) features |= kFeatureAlphaMask;
+    if (material.double_sided) features |= kFeatureDoubleSided;
+    if (material.unlit) features |= kFeatureUnlit;
+    if (material.occlusion_texture.present() &&
+        same_lookup(material.occlusion_texture, material.metallic_roughness_texture)) {
+        features |= kFeatureSharedOcclusion;
+    }
+    return features;
+}
+
+uint without_texture(uint features, int use) {
+    uint off = (kFeatureTexture | kFeatureTexcoord1 | kFeatureTransform) << use;
+    if (use == USE_OCCLUSION || use == USE_METALLIC_ROUGHNESS) off |= kFeatureSharedOcclusion;
+    return features & ~off;
+}
+
+Defines feature_defines(uint features) {
+    Defines defines;
+    bool texcoord[2] = {false, false};
+    for (int use = 0; use < USE_COUNT; ++use) {
+        if ((features & (kFeatureTexture << use)) == 0) continue;
+        defines.emplace_back(kUvNames[static_cast<std::size_t>(use)], uv_expression(features, use));
+        texcoord[(features & (kFeatureTexcoord1 << use)) != 0 ? 1 : 0] = true;
+    }
+    const auto define = [&](bool wanted, const char* name) {
+        if (wanted) defines.emplace_back(name, "1");
+    };
+    define(texcoord[0], "TEXCOORD0");
+    define(texcoord[1], "TEXCOORD1");
+    define((features & (kFeatureTexture << USE_NORMAL)) != 0, "TANGENT");
+    define((features & kFeatureVertexColor) != 0, "VERTEX_COLOR");
+    define((features & kFeatureAlphaMask) != 0, "ALPHA_MASK");
+    define((features & kFeatureDoubleSided) != 0, "DOUBLE_SIDED");
+    define((features & kFeatureUnlit) != 0, "UNLIT");
+    define((features & kFeatureSharedOcclusion) != 0, "OCCLUSION_SHARES_METALLIC_ROUGHNESS");
+    return defines;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/scene/scene.h"
+#include "kernels/shared/types.h"
+#include "raster/gl_program.h"
+#include "raster/shaders/draw_rows.h"
+
+namespace kilolux {
+
+/// What drawing a mesh with its material takes, as bits: a shader variant's key. Texture uses
+/// (USE_*) have three bits each: present, second uv set, transformed.
+enum Feature : uint {
+    kFeatureTexture = 1u << 0,     // << use
+    kFeatureTexcoord1 = 1u << 5,   // << use
+    kFeatureTransform = 1u << 10,  // << use
+    kFeatureVertexColor = 1u << 15,
+    kFeatureAlphaMask = 1u << 16,
+    kFeatureDoubleSided = 1u << 17,
+    kFeatureUnlit = 1u << 18,
+    kFeatureSharedOcclusion = 1u << 19,  // occlusion is the red of the metallic-roughness texture
+};
+
+/// The use of a material's texture slot USE_*.
+const TextureUse& texture_use(const Material& material, int use);
+
+/// Whether a slot's texture holds sRGB-encoded colours.
+bool is_srgb_use(int use);
+
+/// Feature bits of a mesh drawn with a material. A normal map needs the mesh's tangents.
+uint features_of(const Mesh& mesh, const Material& material);
+
+/// The bits without those of some texture use.
+uint without_texture(uint features, int use);
+
+/// The names that the shaders geometry.vert and material.glsl test, for these features.
+Defines feature_defines(uint features);
+
+}  // namespace kilolux

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/scene_programs.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+namespace kilolux {
+namespace {
+
+// Uniform locations of geometry.vert.
+constexpr GLint kViewFromObject = 0;
+constexpr GLint kNormalFromObject = 3;
+constexpr GLint kClipFromView = 6;
+
+void set_object(const ObjectRows& rows) {
+    glUniform4fv(kViewFromObject, 3, &rows.view_from_object[0].x);
+    glUniform4fv(kNormalFromObject, 3, &rows.normal_from_object[0].x);
+}
+
+}  // namespace
+
+ScenePrograms::ScenePrograms(const GpuScene& scene, std::string fragment, Defines common, uint mask,
+                             bool blended)
+    : mask_(mask) {
+    for (const GpuMesh& mesh : scene.meshes()) {
+        if ((scene.material(mesh.material).alpha_mode == AlphaMode::blend) != blended) continue;
+        GlProgram& program = programs_[mesh.features & mask_];
+        if (program) continue;
+        Defines defines = common;
+        for (auto& define : feature_defines(mesh.features & mask_)) {
+            defines.push_back(std::move(define));
+        }
+        program = load_program("raster/shaders/geometry.vert", fragment, defines);
+    }
+}
+
+void ScenePrograms::draw(const GpuScene& scene, std::span<const Draw> draws,
+                         const glm::mat4& clip) const {
+    for_each([&](GLuint program) {
+        glProgramUniformMatrix4fv(program, kClipFromView, 1, GL_FALSE, glm::value_ptr(clip));
+    });
+    GLuint current = 0;
+    int material = -1;
+    for (const Draw& draw : draws) {
+        const GpuMesh& mesh = scene.mesh(draw.mesh);
+        if (mesh.index_count == 0) continue;
+        const GLuint program = programs_.at(mesh.features & mask_).name();
+        if (program != current) glUseProgram(program);
+        if (program != current || mesh.material != material) {
+            scene.bind_material(mesh.material, mesh.features & mask_);
+        }
+        current = program;
+        material = mesh.material;
+        const bool double_sided = scene.material(mesh.material).double_sided;
+        (double_sided ? glDisable : glEnable)(GL_CULL_FACE);
+        glFrontFace(draw.mirrored ? GL_CW : GL_CCW);
+        set_object(draw.rows);
+        glBindVertexArray(mesh.vertex_array.name());
+        glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+    }
+}
+
+}  // namespace kilolux

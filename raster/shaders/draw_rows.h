@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the raster shaders read of a material, declared once for C++ and GLSL.
+#ifndef KILOLUX_RASTER_DRAW_ROWS_H
+#define KILOLUX_RASTER_DRAW_ROWS_H
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// A material's texture uses: texture units and rows of uv transforms.
+#define USE_BASE_COLOR 0
+#define USE_METALLIC_ROUGHNESS 1
+#define USE_NORMAL 2
+#define USE_OCCLUSION 3
+#define USE_EMISSIVE 4
+#define USE_COUNT 5
+
+SHARED_STRUCT(MaterialRow) {
+    float4 base_color;       // linear Rec. 709, alpha
+    float4 emissive_cutoff;  // xyz: linear radiance; w: alpha cutoff
+    float4 factors;          // metallic, roughness, normal scale, occlusion strength
+    float4 uv_x[USE_COUNT];  // xyz: u = dot(xyz, (texcoord, 1))
+    float4 uv_y[USE_COUNT];  // xyz: v likewise
+};
+SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 208);
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

@@ -1,0 +1,52 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+// A fragment's material to the G-buffer. GBUFFER_LAYOUT names the layout; MATERIAL_LOCATION and
+// OCCLUSION_LOCATION are defined where the optional attachments exist (host: gbuffer_targets.cpp).
+#include "kernels/shared/gbuffer.h"
+#include "raster/shaders/material.glsl"
+
+layout(location = 7) uniform float emissive_scale_inv;
+
+#if GBUFFER_LAYOUT == GBUFFER_PACKED || GBUFFER_LAYOUT == GBUFFER_NORMAL_XY
+layout(location = 0) out vec2 out_normal;  // UNORM of [-1, 1]
+layout(location = 1) out vec4 out_albedo;  // sRGB by the framebuffer; roughness
+#elif GBUFFER_LAYOUT == GBUFFER_FULL
+layout(location = 0) out vec3 out_position;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) out vec3 out_albedo;
+layout(location = 3) out vec3 out_parameters;  // roughness, metallic, occlusion
+#endif
+#ifdef MATERIAL_LOCATION
+layout(location = MATERIAL_LOCATION) out vec4 out_material;  // emissive, metallic
+#endif
+#ifdef OCCLUSION_LOCATION
+layout(location = OCCLUSION_LOCATION) out float out_occlusion;
+#endif
+
+void main() {
+    MaterialSample s = sample_material();
+    vec3 albedo = s.base_color.rgb;
+#if GBUFFER_LAYOUT == GBUFFER_PACKED
+    FV3 octahedral = octahedral_encode(fv3(s.normal.x, s.normal.y, s.normal.z));
+    out_normal = vec2(octahedral.x, octahedral.y) * 0.5 + 0.5;
+    out_albedo = vec4(albedo, s.roughness);
+#elif GBUFFER_LAYOUT == GBUFFER_NORMAL_XY
+    out_normal = s.normal.xy * 0.5 + 0.5;
+    out_albedo = vec4(albedo, s.roughness);
+#elif GBUFFER_LAYOUT == GBUFFER_FULL
+    out_position = v_position;
+    out_normal = s.normal;
+    out_albedo = albedo;
+    out_parameters = vec3(s.roughness, s.metallic, s.occlusion);
+#endif
+#ifdef MATERIAL_LOCATION
+#if GBUFFER_LAYOUT == GBUFFER_FULL
+    out_material = vec4(s.emissive, 0.0);
+#else
+    out_material = vec4(s.emissive * emissive_scale_inv, s.metallic);
+#endif
+#endif
+#ifdef OCCLUSION_LOCATION
+    out_occlusion = s.occlusion;
+#endif
+}

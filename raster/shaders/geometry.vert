@@ -1,0 +1,69 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+// A scene vertex to view and clip space. What a variant needs is defined by name:
+// TEXCOORD0, TEXCOORD1, VERTEX_COLOR, TANGENT, POSITION, NO_SURFACE (depth alone).
+
+layout(location = 0) uniform vec4 view_from_object[3];    // rows
+layout(location = 3) uniform vec4 normal_from_object[3];  // rows; [0].w: -1 where the object is mirrored, else 1
+layout(location = 6) uniform mat4 clip_from_view;
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 texcoord0;
+layout(location = 4) in vec2 texcoord1;
+layout(location = 5) in vec4 color;
+
+#ifdef POSITION
+layout(location = 0) out vec3 v_position;  // view space [m]
+#endif
+#ifndef NO_SURFACE
+layout(location = 1) out vec3 v_normal;  // view space, unit at the vertices
+#endif
+#ifdef TANGENT
+layout(location = 2) out vec4 v_tangent;  // view space, unit at the vertices; w: handedness
+#endif
+#ifdef TEXCOORD0
+layout(location = 3) out vec2 v_texcoord0;
+#endif
+#ifdef TEXCOORD1
+layout(location = 4) out vec2 v_texcoord1;
+#endif
+#ifdef VERTEX_COLOR
+layout(location = 5) out vec4 v_color;
+#endif
+
+invariant gl_Position;
+
+#include "raster/shaders/normalize.glsl"
+
+void main() {
+    vec4 p = vec4(position, 1.0);
+    vec3 p_view = vec3(dot(view_from_object[0], p), dot(view_from_object[1], p),
+                       dot(view_from_object[2], p));
+    gl_Position = clip_from_view * vec4(p_view, 1.0);
+#ifdef POSITION
+    v_position = p_view;
+#endif
+#ifndef NO_SURFACE
+    v_normal = unit_or_zero(vec3(dot(normal_from_object[0].xyz, normal),
+                                 dot(normal_from_object[1].xyz, normal),
+                                 dot(normal_from_object[2].xyz, normal)));
+#endif
+#ifdef TANGENT
+    v_tangent.xyz = unit_or_zero(vec3(dot(view_from_object[0].xyz, tangent.xyz),
+                                      dot(view_from_object[1].xyz, tangent.xyz),
+                                      dot(view_from_object[2].xyz, tangent.xyz)));
+    // A mirror turns a right-handed basis into a left-handed one.
+    v_tangent.w = tangent.w * normal_from_object[0].w;
+#endif
+#ifdef TEXCOORD0
+    v_texcoord0 = texcoord0;
+#endif
+#ifdef TEXCOORD1
+    v_texcoord1 = texcoord1;
+#endif
+#ifdef VERTEX_COLOR
+    v_color = color;
+#endif
+}
