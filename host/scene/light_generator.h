@@ -8,18 +8,21 @@
 
 namespace kilolux {
 
-/// How generated point lights are made: `--lights`, `--light-seed`, `--light-radius`, `--light-intensity`, `--light-box`.
+/// How generated point lights are made: `--lights`, `--light-seed`, `--light-radius`,
+/// `--light-intensity`, `--light-box`.
 struct LightOptions {
     std::uint64_t count = 5000;
     std::uint64_t seed = 1;
-    double radius = 0.0;     // range [m]; 0: automatic, from the box and the count
-    double intensity = 0.0;  // brightest colour channel [cd]; 0: automatic, well exposed at any count
-    Box box;                 // empty: the scene's light_box, else its bounds
+    double radius = 0.0;  // range [m]; 0: automatic, from the box and the count
+    double intensity =
+        0.0;  // brightest colour channel [cd]; 0: automatic, well exposed at any count
+    Box box;  // empty: the scene's light_box, else its bounds
 };
 
 /// The lights of `options` at `time` [s]. A closed form of (seed, light, time): the same on every
 /// machine, order and thread count; every light stays inside the box. Runs on all cores.
-std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene, double time);
+std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
+                                        double time);
 
 /// Range [m] and intensity [cd] that `options` stands for when they are automatic.
 struct LightScale {

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/light_ranges.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+// Radiance of a white Lambert surface that faces the light.
+double unwindowed(double intensity, double d) {
+    return intensity / (M_PI * d * d);
+}
+
+double windowed(double intensity, double d, double range) {
+    return unwindowed(intensity, d) * std::clamp(1.0 - std::pow(d / range, 4.0), 0.0, 1.0);
+}
+
+TEST(LightRanges, ErrorIsNowhereAboveTheBudget) {
+    for (const double intensity : {1e-3, 1.0, 54.35, 1e6}) {
+        for (const double budget : {kDefaultRangeBudget, 0.1, 1e-5}) {
+            const double range = range_of_light(intensity, budget);
+            EXPECT_NEAR(unwindowed(intensity, range), budget, 1e-12 * budget);
+            double worst = 0.0;
+            for (double x = 0.001; x < 3.0; x += 0.001) {
+                const double d = x * range;
+                worst = std::max(worst, unwindowed(intensity, d) - windowed(intensity, d, range));
+            }
+            EXPECT_LE(worst, budget * (1 + 1e-9)) << intensity << " cd, budget " << budget;
+            EXPECT_GE(worst, budget * 0.99) << intensity << " cd, budget " << budget;
+        }
+    }
+}
+
+TEST(LightRanges, DarkLightReachesNothing) {
+    EXPECT_EQ(range_of_light(0.0), 0.0);
+}
+
+TEST(LightRanges, FillsOnlyWhatIsMissing) {
+    std::vector<SceneLight> lights(4);
+    lights[0].intensity = {1.0f, 20.0f, 3.0f};
+    lights[1].range = 5.0f;
+    lights[2].type = LightType::directional;
+    lights[3].type = LightType::spot;
+    lights[3].range = -1.0f;
+    EXPECT_EQ(fill_missing_ranges(lights), 2u);
+    EXPECT_FLOAT_EQ(lights[0].range, static_cast<float>(range_of_light(20.0)));
+    EXPECT_EQ(lights[1].range, 5.0f);
+    EXPECT_EQ(lights[2].range, 0.0f);
+    EXPECT_FLOAT_EQ(lights[3].range, static_cast<float>(range_of_light(1.0)));
+}
+
+TEST(LightRanges, RefusesNonsense) {
+    EXPECT_THROW(range_of_light(-1.0), Error);
+    EXPECT_THROW(range_of_light(std::nan("")), Error);
+    EXPECT_THROW(range_of_light(1.0, 0.0), Error);
+    EXPECT_THROW(range_of_light(1.0, HUGE_VAL), Error);
+}
+
+}  // namespace
+}  // namespace kilolux
