@@ -46,6 +46,7 @@ struct RenderSettings {
     std::vector<std::string> aovs;
     GridSettings grid;
     KernelSettings kernels;
+    bool count_useful = false;  // also count k*, at the price of one more pass
     std::string device;  // name, part of it, or index; empty: the best
 };
 

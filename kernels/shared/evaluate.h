@@ -10,12 +10,9 @@
 // in the code.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
+#include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/types.h"
-
-#define SHADING_LAMBERT 0
-#define SHADING_BLINN_PHONG 1
-#define SHADING_PBR 2
 
 #ifndef SHADING
 #define SHADING SHADING_LAMBERT

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/interop/gbuffer_bridge.h"
+
+#include <chrono>
+
+#include "host/gpu/program.h"
+#include "raster/gl_debug.h"
+#include "raster/gl_object.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kStage = "gbuffer_bridge";
+
+void wait_for_gl() {
+    constexpr GLuint64 kSecond = 1'000'000'000;
+    GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond) == GL_TIMEOUT_EXPIRED) {
+    }
+    glDeleteSync(fence);
+}
+
+}  // namespace
+
+// The pixel buffer, its mapping, and the device's buffer over or beside it.
+struct GBufferBridge::Staging {
+    GlBuffer pixels;
+    void* mapping = nullptr;
+    std::size_t bytes = 0;
+    cl::Buffer device;
+};
+
+GBufferBridge::GBufferBridge(const Gpu& gpu) : gpu_(gpu) {}
+GBufferBridge::~GBufferBridge() = default;
+GBufferBridge::GBufferBridge(GBufferBridge&&) noexcept = default;
+GBufferBridge& GBufferBridge::operator=(GBufferBridge&&) noexcept = default;
+
+void GBufferBridge::make_staging(std::size_t bytes) {
+    staging_ = nullptr;  // before the new one is there: both might not fit
+    auto staging = std::make_unique<Staging>();
+    constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    staging->pixels = make_buffer();
+    glNamedBufferStorage(staging->pixels.name(), static_cast<GLsizeiptr>(bytes), nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
+    staging->mapping = glMapNamedBufferRange(staging->pixels.name(), 0, static_cast<GLsizeiptr>(bytes), kAccess);
+    check_gl_errors(kStage);
+    if (!staging->mapping) throw Error("gbuffer_bridge: OpenGL cannot map a pixel buffer of " + std::to_string(bytes >> 20) + " MiB");
+    staging->bytes = bytes;
+    const cl_mem_flags flags = gpu_.info.is_cpu ? CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR : CL_MEM_READ_ONLY;
+    staging->device = cl::Buffer(gpu_.context, flags, bytes, gpu_.info.is_cpu ? staging->mapping : nullptr);
+    staging_ = std::move(staging);
+}
+
+GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs, const View& view) {
+    return in_stage(kStage, [&] {
+        const auto start = std::chrono::steady_clock::now();
+        GBuffer out;
+        out.layout = make_gbuffer_layout(needs, view.stride, view.height);
+        out.view = view;
+        const std::size_t bytes = gbuffer_bytes(out.layout, view.stride, view.height);
+        if (!staging_ || staging_->bytes != bytes) make_staging(bytes);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
+        for (const PlaneRead& read : targets.reads()) {
+            const std::size_t offset = out.layout.offset_bytes[read.plane];
+            read_plane(targets, read, view.stride, reinterpret_cast<void*>(offset));
+        }
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+        wait_for_gl();
+        check_gl_errors(kStage);
+        if (gpu_.info.is_cpu) {
+            // Tells the device that the memory behind its buffer has changed.
+            void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
+            gpu_.queue.enqueueUnmapMemObject(staging_->device, mapped);
+        } else {
+            gpu_.queue.enqueueWriteBuffer(staging_->device, CL_FALSE, 0, bytes, staging_->mapping);
+        }
+        out.bytes = staging_->device;
+        last_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        return out;
+    });
+}
+
+}  // namespace kilolux

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "host/render/frame.h"
+#include "host/scene/camera.h"
+#include "kernels/shared/surface_planes.h"
+#include "kernels/shared/view.h"
+
+namespace kilolux {
+
+/// Three planes of stride * height to interleaved RGB of width * height.
+std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view);
+
+/// Packed pixels of stride * height to RGBA bytes of width * height.
+std::vector<std::uint8_t> tight_display(const std::vector<uint>& pixels, const View& view);
+
+/// Mean of the counts that are not background's ~0; 0 if there are none.
+double mean_of_drawn(const std::vector<uint>& counts);
+
+/// A decoded G-buffer on the host.
+struct DecodedSurfaces {
+    View view{};
+    std::vector<float> planes;    // [SURFACE_PLANES][height][stride]
+    std::vector<uint> evaluated;  // [height][stride] lights of the pixel's list; empty if not counted
+};
+
+/// The AOV layers' names, as `--aov` takes them.
+const std::vector<std::string>& aov_names();
+
+/// One AOV layer. Positions and normals are in world space. Throws UsageError for an unknown name.
+Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera);
+
+}  // namespace kilolux

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "host/scene/scene.h"
+#include "kernels/shared/light.h"
+
+namespace kilolux {
+
+/// Lights relative to a camera, in the rows that kernels take.
+struct LightRows {
+    std::vector<Light> local;                   // point and spot lights
+    std::vector<DirectionalLight> directional;
+    std::uint64_t rejected = 0;  // not finite, no range, or no light: counted, never silently lost
+    bool has_spot = false;
+};
+
+/// Positions meet the camera in double, so that a scene far from the origin keeps float32's accuracy
+/// about the camera. A light that cannot be used is left out and counted; the others are unaffected.
+/// Lights without a range must have got one (fill_missing_ranges).
+LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& camera_position);
+
+}  // namespace kilolux

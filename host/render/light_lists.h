@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/stages/bin_pixels.h"
+#include "host/stages/build_clusters.h"
+#include "host/stages/cull_lights.h"
+#include "host/stages/prepare_lights.h"
+#include "host/stages/refine_lights.h"
+
+namespace kilolux {
+
+/// What the list stages hand to shading.
+struct LightLists {
+    PreparedLights lights;
+    ClusterBoxes boxes;
+    CoarseLists coarse;
+    ActiveClusters clusters;
+    RefinedLists refined;
+};
+
+/// The stages that find out which lights each pixel needs, in their order.
+class ListStages {
+   public:
+    ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Enqueues all of them with the room that earlier frames needed.
+    LightLists enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
+
+    /// True if the lists of the last enqueue are complete; else room has grown: enqueue again. Blocks.
+    bool fit();
+
+    std::uint64_t coarse_pairs() const { return cull_.pairs(); }
+    std::uint64_t active_clusters() const { return bin_.active(); }
+
+   private:
+    PrepareLights prepare_;
+    BuildClusters build_;
+    CullLights cull_;
+    BinPixels bin_;
+    RefineLights refine_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "host/base/log.h"
+#include "host/interop/gbuffer_bridge.h"
+#include "host/render/frame_parts.h"
+#include "host/render/light_input.h"
+#include "host/render/light_lists.h"
+#include "host/scene/light_ranges.h"
+#include "host/stages/count_lights.h"
+#include "host/stages/decode_gbuffer.h"
+#include "host/stages/shade.h"
+#include "host/stages/tonemap.h"
+#include "raster/geometry_pass.h"
+#include "raster/gl_context.h"
+#include "raster/gpu_scene.h"
+
+namespace kilolux {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+std::vector<SceneLight> lights_with_ranges(const Scene& scene) {
+    std::vector<SceneLight> lights = scene.lights;
+    if (const std::size_t filled = fill_missing_ranges(lights); filled > 0) {
+        note(scene.name + ": " + std::to_string(filled) + " lights without a range got one from their intensity, error at most " +
+             std::to_string(kDefaultRangeBudget) + " each");
+    }
+    return lights;
+}
+
+// A camera that looks at nothing behind its far plane, and a grid that ends with the scene.
+GridRequest grid_request(const GridSettings& settings, const Camera& camera, const Box& box, float position_pad) {
+    GridRequest request;
+    request.tiles_x = static_cast<uint>(settings.tiles_x);
+    request.tiles_y = static_cast<uint>(settings.tiles_y);
+    request.slices_per_octave = static_cast<uint>(settings.slices_per_octave);
+    request.position_pad = position_pad;
+    double farthest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
+        if (!box.empty()) farthest = std::max(farthest, -glm::dot(camera.world_from_view[2], p - camera.position));
+    }
+    farthest = std::min(std::max(farthest, 1e-6), camera.z_far);
+    // A parallel view has no smallest distance: slices as fine as a 256th of the depth.
+    const double nearest = camera.orthographic ? farthest / 256.0 : camera.z_near;
+    request.z_first = static_cast<float>(std::min(nearest, farthest));
+    request.z_last = static_cast<float>(farthest);
+    return request;
+}
+
+// How far a layout's stored positions may lie from the pixel's ray and depth [m].
+float position_pad(uint layout, const Box& box, const Camera& camera) {
+    if (box.empty()) return 0.0f;
+    const glm::dvec3 world = glm::max(glm::abs(box.min), glm::abs(box.max));
+    const double largest = std::max({world.x, world.y, world.z});
+    const double reach = glm::length(box.size()) + glm::length(camera.position - box.center());
+    if (layout == GBUFFER_HALF) return static_cast<float>(1.8 * largest * 0x1p-11 + 4e-6 * reach);
+    const bool stored = layout == GBUFFER_FULL || layout == GBUFFER_OCT_2X4;
+    return stored ? static_cast<float>(4e-6 * reach) : 0.0f;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices() {
+    std::vector<DeviceInfo> infos;
+    for (const cl::Device& device : all_devices()) infos.push_back(describe(device));
+    return infos;
+}
+
+struct Renderer::Parts {
+    Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
+    Frame render_sample(const Camera& camera, double time, bool last);
+    LightInput upload_lights(const LightRows& rows);
+    Radiance light(const GBuffer& gbuffer, const Camera& camera, const LightInput& input, FrameStats& stats);
+    void count(const GBuffer& gbuffer, const LightLists& lists, FrameStats& stats);
+    void add_aovs(const GBuffer& gbuffer, const Camera& camera, Frame& frame);
+
+    const Scene& scene;
+    RenderSettings settings;
+    Box box;
+    std::vector<SceneLight> scene_lights;
+    ScenePlan plan;
+    Gpu gpu;
+    Tuning tuning;
+    std::optional<GlContext> context;
+    GpuScene gpu_scene;
+    GeometryPass geometry;
+    GBufferBridge bridge;
+    GrowingBuffer light_buffer, directional_buffer;
+    ListStages list_stages;
+    Shade shade;
+    Tonemap tonemap;
+    CountLights count_lights;
+    DecodeGBuffer decode;
+    std::optional<LightCounts> light_counts;
+    StageTimer timer;
+};
+
+namespace {
+
+std::optional<GlContext> context_from(GlSource gl) {
+    if (gl == GlSource::current) return std::nullopt;
+    return GlContext::headless();
+}
+
+std::uint64_t most_lights(const RenderSettings& settings, const Scene& scene) { return settings.lights.count + scene.lights.size(); }
+
+Tuning tuning_for(const Gpu& gpu, const RenderSettings& settings) {
+    Tuning tuning = default_tuning(gpu.info);
+    if (settings.kernels.group_height > 0) tuning.shade_rows = settings.kernels.group_height;
+    if (settings.kernels.chunks > 0) tuning.cull_chunks = settings.kernels.chunks;
+    return tuning;
+}
+
+}  // namespace
+
+Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl)
+    : scene(the_scene), settings(the_settings), box(bounds(the_scene)), scene_lights(lights_with_ranges(the_scene)),
+      plan(make_scene_plan(the_scene, the_settings, most_lights(the_settings, the_scene))),
+      gpu(choose_device(the_settings.device), the_settings.kernels.lanes), tuning(tuning_for(gpu, the_settings)),
+      context(context_from(gl)), gpu_scene(the_scene), geometry(gpu_scene, plan.gbuffer), bridge(gpu),
+      light_buffer(gpu, "lights"), directional_buffer(gpu, "lights"), list_stages(gpu, tuning, plan.kernels),
+      shade(gpu, tuning, plan.kernels), tonemap(gpu, tuning, static_cast<int>(the_settings.tone_curve)),
+      count_lights(gpu, tuning, plan.kernels), decode(gpu, tuning, plan.kernels) {
+    shade.set_ambient(settings.ambient);
+}
+
+LightInput Renderer::Parts::upload_lights(const LightRows& rows) {
+    LightInput input;
+    input.count = static_cast<uint>(rows.local.size());
+    input.directional_count = static_cast<uint>(rows.directional.size());
+    input.lights = light_buffer.reserve(rows.local.size() * sizeof(Light));
+    input.directional = directional_buffer.reserve(rows.directional.size() * sizeof(DirectionalLight));
+    upload<Light>(gpu, input.lights, rows.local);
+    upload<DirectionalLight>(gpu, input.directional, rows.directional);
+    return input;
+}
+
+// From the G-buffer and the lights to radiance.
+Radiance Renderer::Parts::light(const GBuffer& gbuffer, const Camera& camera, const LightInput& input, FrameStats& stats) {
+    const GridRequest request = grid_request(settings.grid, camera, box, position_pad(settings.gbuffer, box, camera));
+    const ClusterGrid grid = make_cluster_grid(request, gbuffer.view.width, gbuffer.view.height);
+    stats.grid[0] = grid.tiles_x;
+    stats.grid[1] = grid.tiles_y;
+    stats.grid[2] = grid.slices;
+    LightLists lists = list_stages.enqueue(input, gbuffer, grid, timer);
+    if (settings.renderer == RendererKind::deferred_all) return shade.enqueue_all_lights(gbuffer, lists.lights, timer);
+    Radiance radiance = shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    // Room for the lists is last frame's: where that was too little, grow it and do this frame again.
+    while (!list_stages.fit()) {
+        timer.take();
+        lists = list_stages.enqueue(input, gbuffer, grid, timer);
+        radiance = shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    }
+    count(gbuffer, lists, stats);
+    return radiance;
+}
+
+void Renderer::Parts::count(const GBuffer& gbuffer, const LightLists& lists, FrameStats& stats) {
+    stats.coarse_pairs = list_stages.coarse_pairs();
+    stats.active_clusters = list_stages.active_clusters();
+    const auto clusters = download<ActiveCluster>(gpu, lists.clusters.clusters, stats.active_clusters);
+    std::uint64_t pixels = 0;
+    double evaluations = 0.0;
+    for (const ActiveCluster& cluster : clusters) {
+        stats.refined_pairs += cluster.list_count;
+        pixels += cluster.pixel_count;
+        evaluations += static_cast<double>(cluster.list_count) * cluster.pixel_count;
+    }
+    stats.evaluations_per_pixel = pixels > 0 ? evaluations / static_cast<double>(pixels) : 0.0;
+    stats.useful_evaluations_per_pixel = -1.0;
+    if (!settings.count_useful) return;
+    StageTimer untimed;
+    light_counts = count_lights.enqueue(gbuffer, lists.lights, lists.boxes.grid, lists.clusters, lists.refined, untimed);
+    const auto covering = download<uint>(gpu, light_counts->covering, std::size_t{gbuffer.view.stride} * gbuffer.view.height);
+    stats.useful_evaluations_per_pixel = mean_of_drawn(covering);
+}
+
+void Renderer::Parts::add_aovs(const GBuffer& gbuffer, const Camera& camera, Frame& frame) {
+    if (settings.aovs.empty()) return;
+    StageTimer untimed;
+    const View& view = gbuffer.view;
+    DecodedSurfaces surfaces;
+    surfaces.view = view;
+    surfaces.planes = download<float>(gpu, decode.enqueue(gbuffer, untimed), std::size_t{SURFACE_PLANES} * view.stride * view.height);
+    if (light_counts) {
+        surfaces.evaluated = download<uint>(gpu, light_counts->evaluated, std::size_t{view.stride} * view.height);
+    }
+    for (const std::string& name : settings.aovs) frame.aovs.push_back(make_aov(name, surfaces, camera));
+}
+
+Frame Renderer::Parts::render_sample(const Camera& camera, double time, bool last) {
+    if (context) context->make_current();
+    const Clock::time_point start = Clock::now();
+    Frame frame;
+    frame.width = settings.width;
+    frame.height = settings.height;
+    std::vector<SceneLight> lights = scene_lights;
+    const std::vector<SceneLight> generated = generate_lights(settings.lights, scene, time);
+    lights.insert(lights.end(), generated.begin(), generated.end());
+    const LightRows rows = make_light_rows(lights, camera.position);
+    frame.stats.lights_given = lights.size();
+    frame.stats.lights_rejected = rows.rejected;
+    frame.stats.lights_used = rows.local.size() + rows.directional.size();
+    frame.stats.lights_dropped = lights.size() - rows.rejected - frame.stats.lights_used;
+    const double lights_ms = ms_since(start);
+
+    const LightInput input = upload_lights(rows);
+    geometry.draw(camera, settings.width, settings.height);
+    const GBuffer gbuffer = bridge.transfer(geometry.targets(), plan.gbuffer, view_of(camera, settings.width, settings.height));
+    const Radiance radiance = light(gbuffer, camera, input, frame.stats);
+    const cl::Buffer display = tonemap.enqueue(radiance, settings.exposure, timer);
+    frame.radiance = tight_radiance(download<float>(gpu, radiance.planes, std::size_t{3} * gbuffer.view.stride * gbuffer.view.height), gbuffer.view);
+    frame.display = tight_display(download<uint>(gpu, display, std::size_t{gbuffer.view.stride} * gbuffer.view.height), gbuffer.view);
+    frame.stats.frame_ms = ms_since(start);
+
+    frame.stats.stages = {{"light_input", lights_ms, 0.0}, {"geometry", geometry.last_ms(), 0.0}, {"gbuffer_bridge", bridge.last_ms(), 0.0}};
+    for (const StageTimer::Time& stage : timer.take()) frame.stats.stages.push_back({stage.stage, stage.ms, 0.0});
+    if (last) add_aovs(gbuffer, camera, frame);
+    return frame;
+}
+
+Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
+    : parts_(std::make_unique<Parts>(scene, settings, gl)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+Frame Renderer::render(const Camera& camera, double time) {
+    return in_stage("render", [&] { return parts_->render_sample(camera, time, true); });
+}
+
+const DeviceInfo& Renderer::device() const { return parts_->gpu.info; }
+const ScenePlan& Renderer::plan() const { return parts_->plan; }
+
+}  // namespace kilolux

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/base/gbuffer_layout.h"
+#include "host/gpu/features.h"
+#include "host/render/settings.h"
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// What a scene needs, and so what is compiled in and stored: "model only what a scene needs".
+struct ScenePlan {
+    std::vector<std::string> features;  // in use, by name
+    std::vector<std::string> left_out;  // not needed, so neither compiled nor stored
+    KernelFeatures kernels;
+    GBufferNeeds gbuffer;
+    int gbuffer_bytes_per_pixel = 0;
+};
+
+/// The plan for a scene under these settings. `light_count`: point and spot lights at most.
+ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, std::uint64_t light_count);
+
+}  // namespace kilolux

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The G-buffer as shading sees it, in float planes: for AOVs, views and the float64 references.
+// One work-item decodes VW neighbouring pixels of a row.
+#include "kernels/device/gbuffer.h"
+#include "kernels/shared/surface_planes.h"
+
+kernel void decode_gbuffer(global const uchar* restrict gbuffer,
+                           GBufferLayout layout,
+                           View view,
+                           global const float* restrict srgb,  // [256]
+                           global float* restrict planes) {    // out [SURFACE_PLANES][height][stride]; 0 for background
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    GBuffer g = {gbuffer, layout, view, srgb};
+    FV depth01 = load_depth01(g, x, y);
+    MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
+    FV z = view_depth(view, pixel_centers_x(x), fv((float)y + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
+    Surface s = load_surface(g, x, y, z);
+    FV values[SURFACE_PLANES] = {z, s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
+                                 s.albedo.x, s.albedo.y, s.albedo.z, s.roughness, s.metallic,
+                                 s.emissive.x, s.emissive.y, s.emissive.z, s.occlusion};
+    uint pixel = y * view.stride + x;
+    uint plane = view.stride * view.height;
+    for (uint i = 0; i < SURFACE_PLANES; ++i) {
+        store_lanes(select_fv(drawn, values[i], fv(0.0f)), planes + i * plane + pixel);
+    }
+}
