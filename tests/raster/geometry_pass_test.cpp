@@ -17,12 +17,6 @@ constexpr GBufferNeeds kFull{GBUFFER_FULL, true, true, 1.0f};
 constexpr double kPackedNormal = 7e-5;
 constexpr double kFullNormal = 1e-6;
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance, const char* what) {
-    EXPECT_LT(glm::length(a - b), tolerance)
-        << what << ": (" << a.x << ", " << a.y << ", " << a.z << ") against (" << b.x << ", " << b.y
-        << ", " << b.z << ")";
-}
-
 TEST_F(GeometryPassTest, BackgroundIsExactlyZero) {
     Scene empty;
     const HostGBuffer g = draw_gbuffer(empty, front_camera(2), 17, 31);

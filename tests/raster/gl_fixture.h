@@ -79,6 +79,13 @@ inline HostGBuffer draw_gbuffer(const Scene& scene, const Camera& camera, int wi
     return out;
 }
 
+inline void expect_near(const glm::dvec3& a, const glm::dvec3& b, double tolerance,
+                        const std::string& what) {
+    EXPECT_LT(glm::length(a - b), tolerance)
+        << what << ": (" << a.x << ", " << a.y << ", " << a.z << ") against (" << b.x << ", " << b.y
+        << ", " << b.z << ")";
+}
+
 /// A rectangle in the plane z = 0, [-half, half]^2, normal +z, texture coordinates (0, 0) at the
 /// upper left and (1, 1) at the lower right, tangent +x.
 inline Mesh quad_mesh(float half = 1.0f) {
