@@ -8,9 +8,10 @@
 namespace kilolux {
 namespace {
 
-void record(GLenum, GLenum type, GLuint, GLenum, GLsizei length, const GLchar* text,
+// A shader's errors are its info log's business: link_program() throws them.
+void record(GLenum source, GLenum type, GLuint, GLenum, GLsizei length, const GLchar* text,
             const void* messages) {
-    if (type != GL_DEBUG_TYPE_ERROR) return;
+    if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
     // The driver hands back, as const, the pointer that record_gl_errors() gave it.
     auto* recorded = static_cast<GlMessages*>(const_cast<void*>(messages));
     recorded->errors.emplace_back(text, static_cast<std::size_t>(length));

@@ -39,6 +39,7 @@ namespace kilolux {
 #define PLANE_COUNT 20
 #define PLANE_ABSENT 0xffffffffu
 
+#if !defined(GL_core_profile)  // GLSL writes attachments, and `layout` is a word of its own
 SHARED_STRUCT(GBufferLayout) {
     uint offset_bytes[PLANE_COUNT];  // of each plane in the buffer, a multiple of 256; PLANE_ABSENT if not there
     uint layout;                     // GBUFFER_*
@@ -47,6 +48,7 @@ SHARED_STRUCT(GBufferLayout) {
     uint unused0;
 };
 SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 96);
+#endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient
 // Representations for Independent Unit Vectors", listing 1. A zero vector maps to (0, 0), that is +z.
