@@ -129,12 +129,10 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
 // differ in it. Polynomials: Cephes logf and exp2f (Moshier 1989).
 SHARED_FN FV pow_one_minus(FV h, FV n) {
     FV c = max(fv(1.0f) - h, fv(1e-30f));
-    // c = m 2^e, m in [sqrt(1/2), sqrt(2)); e as a float by comparing, since c <= 1: floor of log2.
-    FV e = floor_log2(c);
-    FV m = c * exp2_int(-e);
-    MASK high = m > fv(1.41421356f);
-    e = select_fv(high, e + fv(1.0f), e);
-    m = select_fv(high, m * fv(0.5f), m);
+    // c = m 2^e with m in [sqrt(1/2), sqrt(2)): the constant is the bits of 1 less those of sqrt(1/2).
+    LANE_UINT biased = (lane_bits(c) + 0x4afb0du) >> 23u;
+    FV e = lane_float_of(biased) - fv(127.0f);
+    FV m = lane_float(lane_bits(c) - ((biased - 127u) << 23u));
     FV f = select_fv(e == fv(0.0f), -h, m - fv(1.0f));
     FV p = fv(7.0376836292e-2f);
     p = fma(p, f, fv(-1.1514610310e-1f));
@@ -148,9 +146,10 @@ SHARED_FN FV pow_one_minus(FV h, FV n) {
     FV f2 = f * f;
     FV log_c = fma(f2 * f, p, fma(fv(-0.5f), f2, f));
     FV x = n * fma(log_c, fv(1.44269504f), e);
-    x = max(x, fv(-125.0f));
-    FV i = floor(x + fv(0.5f));
-    FV g = x - i;
+    // 2^-60 is nothing beside the lobe's peak, and keeps denormals, which are slow, out of what follows.
+    x = max(x, fv(-60.0f));
+    LANE_UINT i = lane_uint_of(x - fv(0.5f));  // to nearest, as x <= 0 and conversion truncates
+    FV g = x - lane_float_of(i);
     FV q = fv(1.535336188e-4f);
     q = fma(q, g, fv(1.339887440e-3f));
     q = fma(q, g, fv(9.618437358e-3f));
@@ -158,18 +157,18 @@ SHARED_FN FV pow_one_minus(FV h, FV n) {
     q = fma(q, g, fv(2.402264791e-1f));
     q = fma(q, g, fv(6.931472029e-1f));
     q = fma(q, g, fv(1.0f));
-    return q * exp2_int(i);
+    return q * lane_float((i + 127u) << 23u);
 }
 
-// Adds light that arrives along unit `to_light` with `color` * `strength` where strength already holds
-// the falloff.
-SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 to_light, FV strength, float4 color) {
-    FV n_dot_l = max(dot3(p.normal, to_light), fv(0.0f));
+// Adds light that arrives along `v` * `inv_length`, a unit vector, with `color` * `strength` where
+// strength already holds the falloff.
+SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV strength, float4 color) {
+    FV n_dot_l = max(dot3(p.normal, v) * inv_length, fv(0.0f));
     FV lit = strength * n_dot_l;
 #if SHADING == SHADING_LAMBERT
     sum.diffuse = add_scaled(sum.diffuse, lit, color);
 #else
-    FV3 h = add3(to_light, p.to_eye);
+    FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y), fma(v.z, inv_length, p.to_eye.z));
     FV inv_h = rsqrt(max(dot3(h, h), fv(1e-12f)));
 #endif
 #if SHADING == SHADING_BLINN_PHONG
@@ -212,18 +211,18 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     FV window = max(fma(-x, x, fv(1.0f)), fv(0.0f));
     FV inv_d = rsqrt(max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN)));
     FV strength = window * (inv_d * inv_d);
-    FV3 to_light = scale3(v, inv_d);
 #if HAS_SPOT_LIGHTS
-    FV cos_axis = -fma(to_light.x, fv(light.axis_cos.x), fma(to_light.y, fv(light.axis_cos.y), to_light.z * fv(light.axis_cos.z)));
+    FV along = fma(v.x, fv(light.axis_cos.x), fma(v.y, fv(light.axis_cos.y), v.z * fv(light.axis_cos.z)));
+    FV cos_axis = -along * inv_d;
     FV cone = min(max((cos_axis - fv(light.axis_cos.w)) * fv(light.color_scale.w), fv(0.0f)), fv(1.0f));
     strength = strength * (cone * cone);
 #endif
-    return add_incident(sum, p, to_light, strength, light.color_scale);
+    return add_incident(sum, p, v, inv_d, strength, light.color_scale);
 }
 
 SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, DirectionalLight light) {
     FV3 to_light = fv3(fv(light.to_light.x), fv(light.to_light.y), fv(light.to_light.z));
-    return add_incident(sum, p, to_light, fv(1.0f), light.color);
+    return add_incident(sum, p, to_light, fv(1.0f), fv(1.0f), light.color);
 }
 
 // Radiance of the surface from the sums over its lights.

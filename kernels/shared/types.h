@@ -44,6 +44,7 @@
 #define LANE_UINT UV
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
 #define lane_float(x) KX_CONCAT(as_, FV)(x)
+// Truncated to an integer (two's complement), and back.
 #define lane_uint_of(x) KX_CONCAT(as_, UV)(KX_CONCAT(convert_, IV)(x))
 #define lane_float_of(x) KX_CONCAT(convert_, FV)(KX_CONCAT(as_, IV)(x))
 
@@ -120,11 +121,6 @@ SHARED_FN FV3 fv3(FV x, FV y, FV z) {
     v.z = z;
     return v;
 }
-
-// floor(log2(x)) of normal x > 0, and 2^x of integral x in [-126, 127].
-SHARED_FN FV floor_log2(FV x) { return lane_float_of(lane_bits(x) >> 23u) - fv(127.0f); }
-
-SHARED_FN FV exp2_int(FV x) { return lane_float((lane_uint_of(x) + 127u) << 23u); }
 
 SHARED_FN FV dot3(FV3 a, FV3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
 

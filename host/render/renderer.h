@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "host/gpu/device.h"
+#include "host/render/frame.h"
+#include "host/render/scene_plan.h"
+#include "host/render/settings.h"
+#include "host/scene/camera.h"
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// What list_devices() says of every OpenCL device, in the order that `--device INDEX` counts.
+std::vector<DeviceInfo> list_devices();
+
+/// Where the renderer's OpenGL context comes from.
+enum class GlSource {
+    headless,  // the renderer makes its own
+    current,   // the caller's, current now and at every render()
+};
+
+/// Renders one scene: the whole data flow, from meshes and lights to pixels.
+class Renderer {
+   public:
+    /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error when a
+    /// device, GL or a build fails.
+    Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl = GlSource::headless);
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    /// The picture at `time` [s]. Blocks until it is on the host. The same arguments give the same
+    /// bits on every call.
+    Frame render(const Camera& camera, double time);
+
+    const DeviceInfo& device() const;
+    const ScenePlan& plan() const;
+
+   private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace kilolux

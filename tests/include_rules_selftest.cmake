@@ -1,0 +1,20 @@
+# The include rules must catch what they forbid: each line below breaks one, in a tree of its own.
+#   cmake -DRULES=<include_rules.cmake> -DWORK=<empty folder> -P tests/include_rules_selftest.cmake
+function(expect_red name file line)
+  file(REMOVE_RECURSE ${WORK})
+  file(WRITE ${WORK}/${file} "${line}\n")
+  execute_process(COMMAND ${CMAKE_COMMAND} -DROOT=${WORK} -P ${RULES} RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+  if(result EQUAL 0)
+    message(SEND_ERROR "${name}: '${line}' in ${file} was not caught")
+  endif()
+endfunction()
+
+expect_red("leaf" kernels/shared/a.h "#include \"kernels/device/b.h\"")
+expect_red("raster sees no OpenCL" raster/a.cpp "#include <CL/opencl.hpp>")
+expect_red("raster includes no stage" raster/a.cpp "#include \"host/stages/shade.h\"")
+expect_red("stages see no OpenGL" host/stages/a.cpp "#include <epoxy/gl.h>")
+expect_red("a stage knows no other" host/stages/a.cpp "#include \"host/stages/shade.h\"")
+expect_red("nothing includes present" host/render/a.cpp "#include \"present/options.h\"")
+expect_red("render does not measure" host/render/a.cpp "#include \"host/measure/metrics.h\"")
+expect_red("paths from the root" host/base/a.cpp "#include \"a.h\"")
+file(REMOVE_RECURSE ${WORK})
