@@ -6,22 +6,9 @@
 #include "raster/raster_state.h"
 
 namespace kilolux {
-namespace {
-
-// Only what decides whether a fragment is kept.
-uint coverage_features() {
-    uint mask = kFeatureAlphaMask | kFeatureVertexColor;
-    for (const Feature bit : {kFeatureTexture, kFeatureTexcoord1, kFeatureTransform}) {
-        mask |= bit << USE_BASE_COLOR;
-    }
-    return mask;
-}
-
-}  // namespace
-
 OverdrawPass::OverdrawPass(const GpuScene& scene)
     : scene_(scene),
-      programs_(scene, "raster/shaders/overdraw.frag", {}, coverage_features()),
+      programs_(scene, "raster/shaders/overdraw.frag", {{"NO_SURFACE", "1"}}, coverage_features()),
       draw_list_(scene.scene()) {}
 
 std::vector<float> OverdrawPass::count(const Camera& camera, int width, int height) const {
