@@ -82,6 +82,22 @@ void plan_packed(Planner& planner, const GBufferNeeds& needs) {
     attach_optional(planner, needs);
 }
 
+// World-space position and normal; albedo without the sRGB curve.
+void plan_half(Planner& planner, const GBufferNeeds& needs) {
+    planner.define("POSITION");
+    planner.attach_vector(PLANE_POSITION_X, GL_RGBA16F, GL_HALF_FLOAT);
+    planner.attach_vector(PLANE_NORMAL_X, GL_RGBA16F, GL_HALF_FLOAT);
+    planner.attach_plane(PLANE_ALBEDO, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    attach_optional(planner, needs);
+}
+
+void plan_oct_2x4(Planner& planner, const GBufferNeeds& needs) {
+    planner.define("POSITION");
+    planner.attach_plane(PLANE_ROW_0, GL_RGBA32F, GL_RGBA, GL_FLOAT);
+    planner.attach_plane(PLANE_ROW_1, GL_RGBA32F, GL_RGBA, GL_FLOAT);
+    attach_optional(planner, needs);
+}
+
 // Only red, green and blue are used: reading alpha alone is not in OpenGL's core profile.
 void plan_full(Planner& planner, const GBufferNeeds& needs) {
     planner.define("POSITION");
@@ -114,7 +130,13 @@ TargetPlan plan_targets(const GBufferNeeds& needs) {
         case GBUFFER_FULL:
             plan_full(planner, needs);
             break;
-        default:
+        case GBUFFER_HALF:
+            plan_half(planner, needs);
+            break;
+        case GBUFFER_OCT_2X4:
+            plan_oct_2x4(planner, needs);
+            break;
+        default:  // normal-xy differs in what the shader writes
             plan_packed(planner, needs);
     }
     return planner.take();
@@ -153,6 +175,17 @@ void GBufferTargets::clear() const {
                                   kZero.data());
     }
     glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, kZero.data());
+}
+
+void check_target_size(int width, int height) {
+    std::array<GLint, 2> viewport{};
+    GLint texture = 0;
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+    const int largest = std::min({viewport[0], viewport[1], texture});
+    if (width >= 1 && height >= 1 && width <= largest && height <= largest) return;
+    throw Error("resolution " + std::to_string(width) + "x" + std::to_string(height) +
+                " pixels: this OpenGL draws 1 to " + std::to_string(largest) + " a side");
 }
 
 void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,

@@ -54,6 +54,9 @@ class GBufferTargets {
     int width_, height_;
 };
 
+/// Throws Error unless the driver can draw into targets of this size [pixel].
+void check_target_size(int width, int height);
+
 /// Reads one plane, rows `stride` elements apart, image rows from the top. `destination` is a host
 /// pointer, or an offset where a pixel pack buffer is bound. Elements past the width are left
 /// alone.

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/geometry_pass.h"
 
-#include <algorithm>
-#include <array>
-#include <string>
-
-#include "host/base/error.h"
 #include "raster/gl_debug.h"
 #include "raster/raster_state.h"
 
 namespace kilolux {
 namespace {
 
-// Uniform location of geometry.frag.
+// Uniform locations of geometry.frag.
 constexpr GLint kEmissiveScaleInv = 7;
+constexpr GLint kWorldFromView = 8;
 
 // Features that reach a plane of the layout.
 uint feature_mask(const GBufferNeeds& needs) {
@@ -21,6 +17,16 @@ uint feature_mask(const GBufferNeeds& needs) {
     if (!needs.material) mask = without_texture(mask, USE_EMISSIVE);
     if (!needs.occlusion) mask = without_texture(mask, USE_OCCLUSION);
     return mask;
+}
+
+// For the layout that stores world positions.
+void set_world_from_view(const ScenePrograms& programs, const Camera& camera) {
+    const glm::mat4x3 world_from_view(
+        glm::vec3(camera.world_from_view[0]), glm::vec3(camera.world_from_view[1]),
+        glm::vec3(camera.world_from_view[2]), glm::vec3(camera.position));
+    programs.for_each([&](GLuint program) {
+        glProgramUniformMatrix4x3fv(program, kWorldFromView, 1, GL_FALSE, &world_from_view[0].x);
+    });
 }
 
 }  // namespace
@@ -46,6 +52,7 @@ void GeometryPass::draw(const Camera& camera, int width, int height) {
     const std::vector<Draw> draws =
         draw_list_.visible(camera, width, height, false, DrawOrder::front_to_back);
     drawn_instances_ = draws.size();
+    if (needs_.layout == GBUFFER_HALF) set_world_from_view(programs_, camera);
     timer_.begin();
     {
         const RasterState state(targets_->framebuffer(), width, height);
@@ -54,17 +61,6 @@ void GeometryPass::draw(const Camera& camera, int width, int height) {
     }
     timer_.end();
     check_gl_errors("geometry pass");
-}
-
-void check_target_size(int width, int height) {
-    std::array<GLint, 2> viewport{};
-    GLint texture = 0;
-    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
-    const int largest = std::min({viewport[0], viewport[1], texture});
-    if (width >= 1 && height >= 1 && width <= largest && height <= largest) return;
-    throw Error("resolution " + std::to_string(width) + "x" + std::to_string(height) +
-                " pixels: this OpenGL draws 1 to " + std::to_string(largest) + " a side");
 }
 
 }  // namespace kilolux

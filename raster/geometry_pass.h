@@ -44,7 +44,4 @@ class GeometryPass {
     std::size_t drawn_instances_ = 0;
 };
 
-/// Throws Error unless the driver can make framebuffers of this size.
-void check_target_size(int width, int height);
-
 }  // namespace kilolux

@@ -72,6 +72,12 @@ uint without_texture(uint features, int use) {
     return features & ~off;
 }
 
+uint coverage_features() {
+    constexpr uint kBaseColor = (kFeatureTexture | kFeatureTexcoord1 | kFeatureTransform)
+                                << USE_BASE_COLOR;
+    return kFeatureAlphaMask | kFeatureVertexColor | kBaseColor;
+}
+
 Defines feature_defines(uint features) {
     Defines defines;
     bool texcoord[2] = {false, false};

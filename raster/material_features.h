@@ -33,6 +33,9 @@ uint features_of(const Mesh& mesh, const Material& material);
 /// The bits without those of some texture use.
 uint without_texture(uint features, int use);
 
+/// The bits that decide whether a fragment is kept at all: what a pass without colour looks at.
+uint coverage_features();
+
 /// The names that the shaders geometry.vert and material.glsl test, for these features.
 Defines feature_defines(uint features);
 

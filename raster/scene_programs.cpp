@@ -16,6 +16,28 @@ void set_object(const ObjectRows& rows) {
     glUniform4fv(kNormalFromObject, 3, &rows.normal_from_object[0].x);
 }
 
+void draw_triangles(const GpuMesh& mesh) {
+    glBindVertexArray(mesh.vertex_array.name());
+    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+}
+
+// Of a surface that blends, the far side comes first.
+void draw_faces(const GpuMesh& mesh, const Material& material) {
+    if (!material.double_sided) {
+        glEnable(GL_CULL_FACE);
+        draw_triangles(mesh);
+    } else if (material.alpha_mode != AlphaMode::blend) {
+        glDisable(GL_CULL_FACE);
+        draw_triangles(mesh);
+    } else {
+        glEnable(GL_CULL_FACE);
+        glCullFace(GL_FRONT);
+        draw_triangles(mesh);
+        glCullFace(GL_BACK);
+        draw_triangles(mesh);
+    }
+}
+
 }  // namespace
 
 ScenePrograms::ScenePrograms(const GpuScene& scene, std::string fragment, Defines common, uint mask,
@@ -50,12 +72,9 @@ void ScenePrograms::draw(const GpuScene& scene, std::span<const Draw> draws,
         }
         current = program;
         material = mesh.material;
-        const bool double_sided = scene.material(mesh.material).double_sided;
-        (double_sided ? glDisable : glEnable)(GL_CULL_FACE);
         glFrontFace(draw.mirrored ? GL_CW : GL_CCW);
         set_object(draw.rows);
-        glBindVertexArray(mesh.vertex_array.name());
-        glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
+        draw_faces(mesh, scene.material(mesh.material));
     }
 }
 

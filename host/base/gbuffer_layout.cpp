@@ -38,6 +38,12 @@ uint half_plane_bytes(uint plane) {
     return plane == PLANE_NORMAL ? 0 : packed_plane_bytes(plane);
 }
 
+// Two rows of four floats; the optional planes as in `packed`.
+uint oct_2x4_plane_bytes(uint plane) {
+    if (plane == PLANE_ROW_0 || plane == PLANE_ROW_1) return 16;
+    return plane == PLANE_MATERIAL || plane == PLANE_OCCLUSION ? packed_plane_bytes(plane) : 0;
+}
+
 }  // namespace
 
 uint plane_element_bytes(uint layout, uint plane) {
@@ -47,6 +53,8 @@ uint plane_element_bytes(uint layout, uint plane) {
             return float_plane_bytes(plane);
         case GBUFFER_HALF:
             return half_plane_bytes(plane);
+        case GBUFFER_OCT_2X4:
+            return oct_2x4_plane_bytes(plane);
         default:
             return packed_plane_bytes(plane);
     }

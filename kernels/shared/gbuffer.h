@@ -17,14 +17,14 @@ namespace kilolux {
 // Planes. Each is stride * height elements; a G-buffer is one buffer that holds its planes one after
 // the other. A layout has some of them; the scene plan leaves out what the scene does not need.
 #define PLANE_DEPTH 0          // all: float reversed-Z depth01, 0 = background
-#define PLANE_NORMAL 1         // packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half
-#define PLANE_ALBEDO 2         // packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th
+#define PLANE_NORMAL 1         // packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half; normal-xy: its x and y
+#define PLANE_ALBEDO 2         // packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th; half: colour linear too
 #define PLANE_MATERIAL 3       // packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
 #define PLANE_OCCLUSION 4      // packed, optional: uchar, ambient occlusion, linear
-#define PLANE_POSITION_X 5     // full: float [m] view space; half: half
+#define PLANE_POSITION_X 5     // full: float [m] view space; half: half [m] world space
 #define PLANE_POSITION_Y 6
 #define PLANE_POSITION_Z 7
-#define PLANE_NORMAL_X 8       // full: float, view space, unit; half: half
+#define PLANE_NORMAL_X 8       // full: float, view space, unit; half: half, world space
 #define PLANE_NORMAL_Y 9
 #define PLANE_NORMAL_Z 10
 #define PLANE_ALBEDO_R 11      // full: float, linear Rec. 709
@@ -36,7 +36,9 @@ namespace kilolux {
 #define PLANE_EMISSIVE_G 17
 #define PLANE_EMISSIVE_B 18
 #define PLANE_OCCLUSION_F 19   // full, optional: float
-#define PLANE_COUNT 20
+#define PLANE_ROW_0 20         // oct-2x4: float4, view-space position [m]; linear albedo: 8 bits a channel, red lowest, as the float's value
+#define PLANE_ROW_1 21         // oct-2x4: float4, octahedral view-space normal in [-1, 1]^2, roughness, metallic
+#define PLANE_COUNT 22
 #define PLANE_ABSENT 0xffffffffu
 
 #if !defined(GL_core_profile)  // GLSL writes attachments, and `layout` is a word of its own
@@ -45,9 +47,9 @@ SHARED_STRUCT(GBufferLayout) {
     uint layout;                     // GBUFFER_*
     float emissive_scale;            // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative to it
     uint bytes_per_pixel;
-    uint unused0;
+    uint unused0, unused1, unused2;
 };
-SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 96);
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 112);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient

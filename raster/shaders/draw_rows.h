@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the raster shaders read of a material, declared once for C++ and GLSL.
+// What the raster shaders read of a material and of a frame, declared once for C++ and GLSL.
 #ifndef KILOLUX_RASTER_DRAW_ROWS_H
 #define KILOLUX_RASTER_DRAW_ROWS_H
+#include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/types.h"
+#include "kernels/shared/view.h"
 #if defined(__cplusplus)
 namespace kilolux {
 #endif
@@ -23,6 +25,17 @@ SHARED_STRUCT(MaterialRow) {
     float4 uv_y[USE_COUNT];  // xyz: v likewise
 };
 SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 208);
+
+// What forward shading needs beside materials and lights.
+SHARED_STRUCT(ForwardRow) {
+    View view;
+    ClusterGrid grid;  // forward-plus only
+    uint light_count;
+    uint directional_count;
+    float ambient;  // radiance that falls in from everywhere
+    uint unused0;
+};
+SHARED_ASSERT(forward_row_size, sizeof(ForwardRow) == 176);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

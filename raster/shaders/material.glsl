@@ -15,7 +15,9 @@ layout(binding = USE_EMISSIVE) uniform sampler2D emissive_texture;
 #ifdef POSITION
 layout(location = 0) in vec3 v_position;
 #endif
+#ifndef NO_SURFACE
 layout(location = 1) in vec3 v_normal;
+#endif
 #ifdef TANGENT
 layout(location = 2) in vec4 v_tangent;
 #endif
@@ -54,6 +56,7 @@ vec4 sample_base_color() {
     return color;
 }
 
+#ifndef NO_SURFACE
 vec3 sample_normal() {
     vec3 n = v_normal;
 #ifdef NORMAL_UV
@@ -106,3 +109,4 @@ MaterialSample sample_material() {
 #endif
     return s;
 }
+#endif

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raster/forward_pass.h"
+
+#include <algorithm>
+#include <string>
+
+#include "raster/gl_debug.h"
+#include "raster/raster_state.h"
+
+namespace kilolux {
+namespace {
+
+constexpr const char* kForward = "raster/shaders/forward.frag";
+constexpr const char* kDepth = "raster/shaders/depth.frag";
+
+Defines defines_of(const ForwardFeatures& features) {
+    Defines defines = {{"SHADING", std::to_string(features.shading)},
+                       {"HAS_SPOT_LIGHTS", features.spot_lights ? "1" : "0"},
+                       {"HAS_METALLIC", features.metallic ? "1" : "0"}};
+    if (features.directional_lights) defines.emplace_back("HAS_DIRECTIONAL_LIGHTS", "1");
+    if (features.clustered) defines.emplace_back("CLUSTERED", "1");
+    return defines;
+}
+
+TargetPlan radiance_plan() {
+    TargetPlan plan;
+    plan.color_formats = {GL_RGBA32F};
+    for (const GLenum component : {GL_RED, GL_GREEN, GL_BLUE}) {
+        plan.reads.push_back({component - GL_RED, GL_COLOR_ATTACHMENT0, component, GL_FLOAT});
+    }
+    return plan;
+}
+
+// Planes to the target's texture, one pixel's components side by side.
+void load_radiance(const GBufferTargets& targets, std::span<const float> planes) {
+    const auto height = static_cast<std::size_t>(targets.height());
+    const std::size_t plane = planes.size() / 3;
+    std::vector<float> pixels(planes.size());
+    for (std::size_t i = 0; i < plane; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) pixels[3 * i + c] = planes[c * plane + i];
+    }
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(plane / height));
+    glTextureSubImage2D(targets.color_texture(0), 0, 0, 0, targets.width(), targets.height(),
+                        GL_RGB, GL_FLOAT, pixels.data());
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+}  // namespace
+
+ForwardPass::ForwardPass(const GpuScene& scene, const ForwardFeatures& features)
+    : scene_(scene),
+      features_(features),
+      draw_list_(scene.scene()),
+      blended_(scene, kForward, defines_of(features), ~0u, true) {
+    if (features.opaque) opaque_.emplace(scene, kForward, defines_of(features), ~0u);
+    if (features.opaque && features.clustered) {
+        depth_.emplace(scene, kDepth, Defines{{"NO_SURFACE", "1"}}, coverage_features());
+    }
+    check_gl_errors("forward pass");
+}
+
+void ForwardPass::prepare(int width, int height) {
+    if (targets_ && targets_->width() == width && targets_->height() == height) return;
+    check_target_size(width, height);
+    targets_.reset();
+    targets_ = std::make_unique<GBufferTargets>(radiance_plan(), width, height);
+}
+
+void ForwardPass::draw(const Camera& camera, int width, int height, const ForwardLights& lights) {
+    prepare(width, height);
+    light_buffers_.upload(lights, view_of(camera, width, height));
+    timer_.begin();
+    {
+        const RasterState state(targets_->framebuffer(), width, height);
+        light_buffers_.bind();
+        targets_->clear();
+        draw_opaque(camera);
+        draw_transparent(camera);
+    }
+    timer_.end();
+    check_gl_errors("forward pass");
+}
+
+void ForwardPass::draw_opaque(const Camera& camera) const {
+    const int width = targets_->width();
+    const int height = targets_->height();
+    const glm::mat4 clip(clip_from_view(camera, width, height));
+    const DrawOrder order = depth_ ? DrawOrder::front_to_back : DrawOrder::scene;
+    const std::vector<Draw> draws = draw_list_.visible(camera, width, height, false, order);
+    if (depth_) {
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        depth_->draw(scene_, draws, clip);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        glDepthMask(GL_FALSE);
+        glDepthFunc(GL_EQUAL);
+    }
+    opaque_->draw(scene_, draws, clip);
+}
+
+void ForwardPass::draw_transparent(const Camera& camera) const {
+    const int width = targets_->width();
+    const int height = targets_->height();
+    const std::vector<Draw> draws =
+        draw_list_.visible(camera, width, height, true, DrawOrder::back_to_front);
+    if (draws.empty()) return;
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    blended_.draw(scene_, draws, glm::mat4(clip_from_view(camera, width, height)));
+}
+
+void ForwardPass::draw_blended(const Camera& camera, const GBufferTargets& gbuffer,
+                               std::span<const float> radiance, const ForwardLights& lights) {
+    const int width = gbuffer.width();
+    const int height = gbuffer.height();
+    prepare(width, height);
+    light_buffers_.upload(lights, view_of(camera, width, height));
+    timer_.begin();
+    load_radiance(*targets_, radiance);
+    glBlitNamedFramebuffer(gbuffer.framebuffer(), targets_->framebuffer(), 0, 0, width, height, 0,
+                           0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    {
+        const RasterState state(targets_->framebuffer(), width, height);
+        light_buffers_.bind();
+        draw_transparent(camera);
+    }
+    timer_.end();
+    check_gl_errors("blended surfaces");
+}
+
+std::vector<float> ForwardPass::read_radiance(uint stride) const {
+    const std::size_t plane = std::size_t{stride} * static_cast<std::size_t>(targets_->height());
+    std::vector<float> radiance(3 * plane);
+    for (const PlaneRead& read : targets_->reads()) {
+        read_plane(*targets_, read, stride, radiance.data() + read.plane * plane);
+    }
+    check_gl_errors("reading the forward pass");
+    return radiance;
+}
+
+bool has_blended_surfaces(const Scene& scene) {
+    return std::any_of(
+        scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
+            const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+            return material >= 0 &&
+                   scene.materials[static_cast<std::size_t>(material)].alpha_mode ==
+                       AlphaMode::blend;
+        });
+}
+
+}  // namespace kilolux

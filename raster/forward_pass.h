@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "host/scene/camera.h"
+#include "raster/forward_lights.h"
+#include "raster/gbuffer_targets.h"
+#include "raster/gl_timer.h"
+#include "raster/scene_programs.h"
+
+namespace kilolux {
+
+/// What forward shading compiles in; the rest is not there.
+struct ForwardFeatures {
+    int shading = 0;  // SHADING_*, kernels/shared/evaluate_modes.h
+    bool spot_lights = false;
+    bool directional_lights = false;
+    bool metallic = false;
+    bool clustered = false;  // forward-plus: lights of the coarse cluster; else all of them
+    bool opaque = true;      // false: only what blends, over a picture that another renderer made
+};
+
+/// Shades a scene where it is drawn, in linear HDR. `forward`: objects in the scene's order, every
+/// light for every fragment. `forward-plus` (clustered): depth first, then once a pixel with the
+/// lights of its coarse cluster. Materials that blend come last, back to front.
+class ForwardPass {
+ public:
+    /// Compiles the variants that the scene needs. The GpuScene must outlive this.
+    ForwardPass(const GpuScene& scene, const ForwardFeatures& features);
+
+    /// Draws the whole scene; the background is 0. Enqueues only.
+    void draw(const Camera& camera, int width, int height, const ForwardLights& lights);
+
+    /// Draws what blends over `radiance` (float[3][height][stride], red, green, blue) with the
+    /// depth of a G-buffer of the same size. Enqueues only.
+    void draw_blended(const Camera& camera, const GBufferTargets& gbuffer,
+                      std::span<const float> radiance, const ForwardLights& lights);
+
+    /// The picture as float[3][height][stride]; waits for it. 0 past the width.
+    std::vector<float> read_radiance(uint stride) const;
+
+    const GBufferTargets& targets() const { return *targets_; }
+
+    /// GL time of the latest draw [ms]; waits for it.
+    double last_ms() const { return timer_.last_ms(); }
+
+ private:
+    void prepare(int width, int height);
+    void draw_opaque(const Camera& camera) const;
+    void draw_transparent(const Camera& camera) const;
+
+    const GpuScene& scene_;
+    ForwardFeatures features_;
+    DrawList draw_list_;
+    std::optional<ScenePrograms> depth_, opaque_;
+    ScenePrograms blended_;
+    ForwardLightBuffers light_buffers_;
+    std::unique_ptr<GBufferTargets> targets_;
+    GlTimer timer_;
+};
+
+/// Whether any instance's material blends, so that draw_blended() would draw something.
+bool has_blended_surfaces(const Scene& scene);
+
+}  // namespace kilolux

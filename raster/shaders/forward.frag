@@ -1,0 +1,80 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+// A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
+// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC as in evaluate.h; HAS_DIRECTIONAL_LIGHTS.
+#include "kernels/shared/evaluate.h"
+#include "raster/shaders/material.glsl"
+
+layout(std140, binding = 1) uniform ForwardBlock { ForwardRow frame; };
+layout(std430, binding = 0) readonly buffer Lights { ShadeLight lights[]; };  // view space
+layout(std430, binding = 1) readonly buffer DirectionalLights { DirectionalLight directional_lights[]; };
+#ifdef CLUSTERED
+layout(std430, binding = 2) readonly buffer ClusterOffsets { uint cluster_offsets[]; };
+layout(std430, binding = 3) readonly buffer LightLists { uint light_lists[]; };
+#endif
+
+layout(location = 0) out vec4 out_radiance;  // linear; alpha for materials that blend
+
+// Where the deferred renderer finds the fragment too: from pixel and depth, not from a varying.
+float depth_of_fragment() {
+    return view_depth(frame.view, gl_FragCoord.x, gl_FragCoord.y, gl_FragCoord.z);
+}
+
+Surface surface_of(MaterialSample m, float z) {
+    Surface s;
+    s.position = view_position(frame.view, gl_FragCoord.x, gl_FragCoord.y, z);
+    s.normal = fv3(m.normal.x, m.normal.y, m.normal.z);
+    s.albedo = fv3(m.base_color.r, m.base_color.g, m.base_color.b);
+    s.emissive = fv3(m.emissive.r, m.emissive.g, m.emissive.b);
+    s.roughness = m.roughness;
+    s.metallic = m.metallic;
+    s.occlusion = m.occlusion;
+    return s;
+}
+
+// First and end of the fragment's lights in light_lists, or in lights.
+uvec2 light_range(float z) {
+#ifdef CLUSTERED
+    uvec2 tile = uvec2(gl_FragCoord.xy) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
+    uint cluster = cluster_index(frame.grid, tile.x, tile.y, slice_of_depth(frame.grid, z));
+    return uvec2(cluster_offsets[cluster], cluster_offsets[cluster + 1u]);
+#else
+    return uvec2(0u, frame.light_count);
+#endif
+}
+
+// Blocked by light index as in kernels/shade.cl, so that a light that adds nothing changes nothing.
+LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
+    LightSum block = zero_sum();
+    uint current = 0u;
+    for (uint i = range.x; i < range.y; ++i) {
+#ifdef CLUSTERED
+        uint light = light_lists[i];
+#else
+        uint light = i;
+#endif
+        if (light >> SUM_BLOCK_LOG2 != current) {
+            current = light >> SUM_BLOCK_LOG2;
+            total = add_sums(total, block);
+            block = zero_sum();
+        }
+        block = evaluate(block, p, lights[light]);
+    }
+    return add_sums(total, block);
+}
+
+void main() {
+    MaterialSample m = sample_material();
+    float z = depth_of_fragment();
+    Surface s = surface_of(m, z);
+    ShadingPoint p = make_shading_point(s, frame.view.orthographic != 0u);
+    LightSum sum = zero_sum();
+#ifdef HAS_DIRECTIONAL_LIGHTS
+    for (uint i = 0u; i < frame.directional_count; ++i) {
+        sum = evaluate_directional(sum, p, directional_lights[i]);
+    }
+#endif
+    sum = sum_lights(sum, p, light_range(z));
+    FV3 radiance = finish_shading(s, sum, frame.ambient);
+    out_radiance = vec4(radiance.x, radiance.y, radiance.z, m.base_color.a);
+}
