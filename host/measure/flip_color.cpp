@@ -85,7 +85,9 @@ Color3 hunt_lab_from_linear(const Color3& rgb) {
 }
 
 double hyab_distance(const Color3& a, const Color3& b) {
-    return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
+    const double da = a[1] - b[1];
+    const double db = a[2] - b[2];
+    return std::abs(a[0] - b[0]) + std::sqrt(da * da + db * db);
 }
 
 }  // namespace kilolux

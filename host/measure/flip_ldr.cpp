@@ -13,10 +13,9 @@ namespace kilolux {
 namespace {
 
 // Andersson et al. 2020, section 4.3 and table 2.
-constexpr double kColorExponent = 0.7;    // q_c
-constexpr double kRemapBreak = 0.4;       // p_c
-constexpr double kRemapValue = 0.95;      // p_t
-constexpr double kFeatureExponent = 0.5;  // q_f
+constexpr double kColorExponent = 0.7;  // q_c
+constexpr double kRemapBreak = 0.4;     // p_c
+constexpr double kRemapValue = 0.95;    // p_t
 
 // A picture as the eye sees it: blurred colours, and edges and points of the picture before the
 // blur.
@@ -92,7 +91,7 @@ double pixel_error(const Perceived& a, const Perceived& b, std::size_t i, double
     const double edge = std::abs(a.features.edges.values[i] - b.features.edges.values[i]);
     const double point = std::abs(a.features.points.values[i] - b.features.points.values[i]);
     const double feature =
-        std::pow(std::max(edge, point) * std::numbers::sqrt2 / 2.0, kFeatureExponent);
+        std::sqrt(std::max(edge, point) * std::numbers::sqrt2 / 2.0);  // q_f = 0.5
     return std::pow(color, 1.0 - feature);
 }
 
