@@ -114,7 +114,8 @@ TEST(ReferenceBrdf, SpecularModelsAreReciprocal) {
     }
 }
 
-// The diffuse part is left out: glTF's mix of it gains energy at grazing angles, as its authors say.
+// The diffuse part is left out: glTF's mix of it gains energy at grazing angles, as its authors
+// say.
 TEST(ReferenceBrdf, PbrLobeReflectsNoMoreThanArrives) {
     for (const double roughness : {0.2, 0.5, 1.0}) {
         for (const double theta : {0.0, 0.8, 1.3}) {
