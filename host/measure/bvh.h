@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// A triangle in world space, in double, and where it comes from.
+struct BvhTriangle {
+    std::array<glm::dvec3, 3> corners;  // [m]
+    std::uint32_t instance = 0;
+    std::uint32_t triangle = 0;  // of the instance's mesh: indices[3 * triangle ..]
+};
+
+struct Ray {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 direction{0.0, 0.0, -1.0};  // any length: t counts in it
+    double t_min = 0.0;
+    double t_max = 0.0;
+};
+
+struct RayHit {
+    double t = 0.0;
+    std::array<double, 3> weights{};  // barycentric, of the triangle's corners; sum 1
+    std::uint32_t index = 0;          // into Bvh::triangles()
+};
+
+/// A bounding volume hierarchy over triangles: finds what a ray meets first.
+class Bvh {
+ public:
+    /// Of any triangles; those without extent or with a coordinate that is not finite are left out.
+    /// Built top-down by the binned surface area heuristic (Wald 2007).
+    explicit Bvh(std::vector<BvhTriangle> triangles);
+
+    /// The nearest hit with t_min <= t <= t_max that `accept` agrees to, from either side. Of hits
+    /// at the same t the first in drawing order wins. Watertight: no ray slips between triangles
+    /// that share corners (Woop, Benthin and Wald 2013).
+    std::optional<RayHit> nearest(const Ray& ray,
+                                  const std::function<bool(const RayHit&)>& accept) const;
+
+    const std::vector<BvhTriangle>& triangles() const { return triangles_; }
+
+ private:
+    struct Node {
+        Box box;
+        std::uint32_t first =
+            0;  // leaf: first triangle; else: left child, the right one follows it
+        std::uint32_t count = 0;  // of triangles; 0: not a leaf
+    };
+    struct Builder;
+
+    std::vector<BvhTriangle> triangles_;
+    std::vector<Node> nodes_;
+};
+
+/// Every triangle of every instance, in drawing order.
+std::vector<BvhTriangle> world_triangles(const Scene& scene);
+
+}  // namespace kilolux

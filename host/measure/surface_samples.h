@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace kilolux {
+
+enum class SurfaceKind : std::uint8_t {
+    background,  // nothing was hit: the pixel is 0
+    lit,
+    unlit,  // the pixel is its emissive radiance
+};
+
+/// What a pixel shows of the scene, in double: a decoded G-buffer pixel or the hit of a cast ray.
+struct SurfaceSample {
+    glm::dvec3 position{0.0};          // [m], view space
+    glm::dvec3 normal{0.0, 0.0, 1.0};  // unit, view space
+    glm::dvec3 albedo{0.0};            // base colour, linear Rec. 709
+    glm::dvec3 emissive{0.0};          // radiance
+    double roughness = 1.0;            // perceptual
+    double metallic = 0.0;
+    double occlusion = 1.0;
+    SurfaceKind kind = SurfaceKind::background;
+};
+
+/// A picture of them, row 0 on top.
+struct SurfaceSamples {
+    int width = 0;                      // [pixel]
+    int height = 0;                     // [pixel]
+    std::vector<SurfaceSample> pixels;  // width * height
+    SurfaceSample& at(int x, int y) { return pixels[index(x, y)]; }
+    const SurfaceSample& at(int x, int y) const { return pixels[index(x, y)]; }
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+};
+
+/// All background.
+inline SurfaceSamples make_surface_samples(int width, int height) {
+    SurfaceSamples out{.width = width, .height = height, .pixels = {}};
+    out.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+enum class TextureEncoding { linear, srgb };
+
+/// Texture coordinates and their change from a pixel to its right and lower neighbour.
+struct TextureFootprint {
+    glm::dvec2 uv{0.0};
+    glm::dvec2 uv_dx{0.0};  // per pixel to the right
+    glm::dvec2 uv_dy{0.0};  // per pixel down
+};
+
+/// Reads a scene's textures as OpenGL 4.5 does (8.14), in double, without its approximations.
+///
+/// The mip level is log2 of the longer side of the pixel's footprint in texels, without anisotropy;
+/// at level 0 or nearer the magnifying filter reads. Mip levels are linear averages of the level
+/// before: of 2x2 texels, or for an odd size of what a linear filter reads at the new texel's
+/// centre. sRGB is decoded before any filter. Level 0 is exact, coarser ones are kept in float32
+/// (relative 6e-8).
+class TextureSampler {
+ public:
+    /// Prepares the mip levels of every texture that a material of the scene uses. Keeps a
+    /// reference to the scene.
+    explicit TextureSampler(const Scene& scene);
+
+    /// RGBA at the footprint; (1, 1, 1, 1) for a use without a texture.
+    glm::dvec4 sample(const TextureUse& use, TextureEncoding encoding,
+                      const std::array<TextureFootprint, 2>& uv_sets) const;
+
+ private:
+    struct Level {
+        int width = 0;
+        int height = 0;
+        std::vector<glm::vec4> texels;  // empty for level 0, which is the image itself
+    };
+    using Levels = std::vector<Level>;
+
+    void prepare(const TextureUse& use, TextureEncoding encoding);
+    glm::dvec4 texel(int image, TextureEncoding encoding, const Level& level, int x, int y) const;
+    glm::dvec4 bilinear(const Texture& texture, TextureEncoding encoding, const Level& level,
+                        const glm::dvec2& uv) const;
+    glm::dvec4 nearest(const Texture& texture, TextureEncoding encoding, const Level& level,
+                       const glm::dvec2& uv) const;
+    glm::dvec4 filtered(Filter filter, const Texture& texture, TextureEncoding encoding,
+                        const Level& level, const glm::dvec2& uv) const;
+    const Levels& levels(int image, TextureEncoding encoding) const;
+
+    const Scene& scene_;
+    std::array<std::vector<Levels>, 2> levels_;  // by encoding, by image
+    std::array<double, 256> linear_from_code_{};
+};
+
+}  // namespace kilolux

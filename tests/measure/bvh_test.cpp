@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace kilolux {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+bool any(const RayHit&) {
+    return true;
+}
+
+glm::dvec3 random_point(std::mt19937& random, double size) {
+    std::uniform_real_distribution<double> unit(-size, size);
+    return {unit(random), unit(random), unit(random)};
+}
+
+std::vector<BvhTriangle> soup(int count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<BvhTriangle> out;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 center = random_point(random, 10.0);
+        BvhTriangle triangle;
+        for (auto& corner : triangle.corners) corner = center + random_point(random, 1.5);
+        triangle.triangle = static_cast<std::uint32_t>(i);
+        out.push_back(triangle);
+    }
+    return out;
+}
+
+// Distance along the ray by the plane equation and three half-space tests; infinity for a miss.
+double direct_distance(const Ray& ray, const BvhTriangle& triangle) {
+    const auto& [a, b, c] = triangle.corners;
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    const double t = glm::dot(n, a - ray.origin) / glm::dot(n, ray.direction);
+    const glm::dvec3 p = ray.origin + t * ray.direction;
+    const bool inside = glm::dot(glm::cross(b - a, p - a), n) >= 0 &&
+                        glm::dot(glm::cross(c - b, p - b), n) >= 0 &&
+                        glm::dot(glm::cross(a - c, p - c), n) >= 0;
+    return inside && t >= ray.t_min && t <= ray.t_max ? t : kInf;
+}
+
+TEST(Bvh, FindsTheNearestOfEveryTriangle) {
+    for (const int count : {1, 2, 5, 17, 1000}) {
+        const auto triangles = soup(count, static_cast<unsigned>(count));
+        const Bvh bvh(triangles);
+        ASSERT_EQ(bvh.triangles().size(), triangles.size());
+        std::mt19937 random(99);
+        int hits = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const auto& aim = triangles[random() % triangles.size()].corners;
+            const glm::dvec3 eye = random_point(random, 12.0);
+            const glm::dvec3 at = (aim[0] + aim[1] + aim[2]) / 3.0 + random_point(random, 0.5);
+            const Ray ray{eye, at - eye, 0.1, 5.0};
+            double nearest = kInf;
+            for (const auto& t : triangles) nearest = std::min(nearest, direct_distance(ray, t));
+            const auto hit = bvh.nearest(ray, any);
+            ASSERT_EQ(hit.has_value(), nearest < kInf) << "ray " << i << " of " << count;
+            if (!hit) continue;
+            ++hits;
+            ASSERT_NEAR(hit->t, nearest, 1e-9 * nearest) << "ray " << i << " of " << count;
+            const auto& corners = bvh.triangles()[hit->index].corners;
+            const glm::dvec3 point = hit->weights[0] * corners[0] + hit->weights[1] * corners[1] +
+                                     hit->weights[2] * corners[2];
+            ASSERT_LT(glm::distance(point, ray.origin + hit->t * ray.direction), 1e-9);
+        }
+        EXPECT_GT(hits, 200);
+        EXPECT_LT(hits, 2000);
+    }
+}
+
+// A bumpy height field seen along -Z: rays through its corners and edges, exactly.
+TEST(Bvh, NothingSlipsThroughSharedEdgesAndCorners) {
+    constexpr int kSize = 12;
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> unit;
+    std::vector<glm::dvec3> grid;
+    for (int i = 0; i < (kSize + 1) * (kSize + 1); ++i) {
+        grid.emplace_back(i % (kSize + 1) + 0.3 * unit(random),
+                          i / (kSize + 1) + 0.3 * unit(random), unit(random));
+    }
+    const auto corner = [&](int x, int y) {
+        return grid[static_cast<std::size_t>(y * (kSize + 1) + x)];
+    };
+    std::vector<BvhTriangle> triangles;
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            triangles.push_back({{corner(x, y), corner(x + 1, y), corner(x + 1, y + 1)}, 0, 0});
+            triangles.push_back({{corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)}, 0, 0});
+        }
+    }
+    const Bvh bvh(triangles);
+    for (int i = 0; i < 20000; ++i) {
+        const int x = 1 + i % (kSize - 1), y = 1 + (i / kSize) % (kSize - 1);
+        const double share = i % 3 == 0 ? 0.0 : unit(random);
+        const glm::dvec3 target = glm::mix(corner(x, y), corner(x - i % 2, y - 1), share);
+        for (const glm::dvec3& eye :
+             {glm::dvec3(target.x, target.y, 100.0), glm::dvec3(3.0, 4.0, 50.0)}) {
+            const Ray ray{eye, target - eye, 0.0, 2.0};
+            ASSERT_TRUE(bvh.nearest(ray, any))
+                << "ray " << i << " to " << target.x << ' ' << target.y << ' ' << target.z;
+        }
+    }
+}
+
+TEST(Bvh, AxisParallelRaysInTheFacesOfBoxes) {
+    const BvhTriangle floor{{glm::dvec3(0, 0, 0), glm::dvec3(4, 0, 0), glm::dvec3(0, 0, 4)}, 0, 0};
+    const BvhTriangle wall{{glm::dvec3(0, 0, 0), glm::dvec3(4, 0, 0), glm::dvec3(0, 4, 0)}, 0, 1};
+    const Bvh bvh({floor, wall});
+    EXPECT_TRUE(bvh.nearest({{0, 5, 1}, {0, -1, 0}, 0, 10}, any));
+    EXPECT_TRUE(bvh.nearest({{1, 5, 0}, {0, -1, 0}, 0, 10}, any));
+    EXPECT_TRUE(bvh.nearest({{1, 1, 7}, {0, 0, -1}, 0, 10}, any));
+    EXPECT_FALSE(bvh.nearest({{-1e-9, 1, 7}, {0, 0, -1}, 0, 10}, any));
+    EXPECT_TRUE(bvh.nearest({{1, 1, -5}, {0, 0, -1}, -10, 10}, any)) << "negative t is allowed";
+}
+
+TEST(Bvh, LimitsAndAcceptanceFilterHits) {
+    std::vector<BvhTriangle> layers;
+    for (std::uint32_t i = 0; i < 40; ++i) {
+        const double z = -1.0 - i;
+        layers.push_back(
+            {{glm::dvec3(-9, -9, z), glm::dvec3(9, -9, z), glm::dvec3(0, 9, z)}, 0, i});
+    }
+    const Bvh bvh(layers);
+    const Ray ray{{0, 0, 0}, {0, 0, -1}, 3.5, 20.0};
+    const auto source = [&](const RayHit& hit) { return bvh.triangles()[hit.index].triangle; };
+    EXPECT_EQ(source(*bvh.nearest(ray, any)), 3u);
+    const auto hit = bvh.nearest(ray, [&](const RayHit& h) { return source(h) >= 11; });
+    EXPECT_EQ(source(*hit), 11u);
+    EXPECT_FALSE(bvh.nearest(ray, [&](const RayHit& h) { return source(h) >= 20; }));
+    EXPECT_EQ(source(*bvh.nearest({ray.origin, ray.direction, 40.0, kInf}, any)), 39u);
+}
+
+TEST(Bvh, FirstDrawnWinsATie) {
+    const std::array<glm::dvec3, 3> corners = {glm::dvec3(-1, -1, -2), glm::dvec3(1, -1, -2),
+                                               glm::dvec3(0, 1, -2)};
+    std::vector<BvhTriangle> same;
+    for (std::uint32_t i = 0; i < 20; ++i) same.push_back({corners, 20 - i, 5});
+    const Bvh bvh(same);
+    const auto hit = bvh.nearest({{0, 0, 0}, {0, 0, -1}, 0, kInf}, any);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(bvh.triangles()[hit->index].instance, 1u);
+}
+
+TEST(Bvh, LeavesOutWhatHasNoExtent) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const glm::dvec3 a(0, 0, -1), b(1, 0, -1), c(0, 1, -1);
+    const Bvh bvh({{{a, a, b}, 0, 0},
+                   {{a, b, glm::dvec3(2, 0, -1)}, 0, 1},
+                   {{a, b, glm::dvec3(nan, 0, 0)}, 0, 2},
+                   {{a, b, glm::dvec3(kInf, 0, 0)}, 0, 3},
+                   {{a, b, c}, 0, 4}});
+    ASSERT_EQ(bvh.triangles().size(), 1u);
+    EXPECT_EQ(bvh.triangles()[0].triangle, 4u);
+    EXPECT_FALSE(Bvh({}).nearest({{0, 0, 0}, {0, 0, -1}, 0, kInf}, any));
+}
+
+}  // namespace
+}  // namespace kilolux

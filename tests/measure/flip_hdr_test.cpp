@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/flip_hdr.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "flip_direct.h"
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+RgbImage grays(int width, int height, const std::vector<double>& values) {
+    RgbImage out = make_rgb_image(width, height);
+    for (std::size_t i = 0; i < out.rgb.size(); ++i) out.rgb[i] = values[(i / 3) % values.size()];
+    return out;
+}
+
+RgbImage bright_noise(int width, int height, unsigned seed) {
+    std::mt19937 random(seed);
+    RgbImage out = make_rgb_image(width, height);
+    for (double& v : out.rgb) v = std::exp(6.0 * static_cast<double>(random()) * 0x1p-32 - 3.0);
+    return out;
+}
+
+double aces(double x) {
+    x *= 0.6;
+    return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// Hable's curve as he wrote it, with exposure bias 2 and white 11.2.
+double hable(double x) {
+    const auto curve = [](double v) {
+        return (v * (0.15 * v + 0.05) + 0.004) / (v * (0.15 * v + 0.5) + 0.06) - 0.02 / 0.3;
+    };
+    return std::clamp(curve(2.0 * x) / curve(11.2), 0.0, 1.0);
+}
+
+TEST(FlipHdr, ToneMappersMatchTheirFormulas) {
+    for (const double x : {0.0, 0.01, 0.18, 1.0, 3.0, 50.0}) {
+        for (const double ev : {-3.0, 0.0, 2.0}) {
+            const RgbImage in = grays(1, 1, {x});
+            const double exposed = x * std::exp2(ev);
+            EXPECT_NEAR(flip_tone_map(in, ev, FlipToneMapper::aces).rgb[0], aces(exposed), 1e-14);
+            EXPECT_NEAR(flip_tone_map(in, ev, FlipToneMapper::hable).rgb[1], hable(exposed), 1e-14);
+            EXPECT_NEAR(flip_tone_map(in, ev, FlipToneMapper::reinhard).rgb[2],
+                        std::min(1.0, exposed / (1 + exposed)), 1e-14);
+        }
+    }
+}
+
+TEST(FlipHdr, ExposuresPutBrightestAndMedianAtTheSameTone) {
+    const RgbImage reference = grays(5, 1, {0.5, 80.0, 2.0, 0.1, 3.0});
+    for (const auto mapper :
+         {FlipToneMapper::aces, FlipToneMapper::hable, FlipToneMapper::reinhard}) {
+        FlipHdrOptions options;
+        options.tone_mapper = mapper;
+        const FlipExposures e = flip_exposures(reference, options);
+        EXPECT_NEAR(flip_tone_map(reference, e.start, mapper).rgb[3], 0.85, 1e-9);
+        EXPECT_NEAR(flip_tone_map(reference, e.stop, mapper).rgb[6], 0.85, 1e-9);
+        EXPECT_NEAR(e.stop - e.start, std::log2(80.0 / 2.0), 1e-12);
+        EXPECT_EQ(e.count, 6) << "ceil(log2(40))";
+    }
+}
+
+TEST(FlipHdr, MedianOfAnEvenCountIsTheMiddle) {
+    const FlipExposures e = flip_exposures(grays(4, 1, {1.0, 2.0, 4.0, 64.0}));
+    EXPECT_NEAR(e.stop - e.start, std::log2(64.0 / 3.0), 1e-12);
+}
+
+TEST(FlipHdr, BlackPicturesHaveExposures) {
+    const FlipExposures mostly = flip_exposures(grays(5, 1, {0, 0, 0, 4.0, 16.0}));
+    EXPECT_NEAR(mostly.stop - mostly.start, std::log2(16.0 / 10.0), 1e-12);
+    EXPECT_EQ(mostly.count, 2);
+    const FlipExposures black = flip_exposures(grays(3, 1, {0.0}));
+    EXPECT_EQ(black.start, 0.0);
+    EXPECT_EQ(black.stop, 0.0);
+    const FlipExposures odd = flip_exposures(grays(4, 1, {1.0, kInf, 4.0, 2.0}));
+    EXPECT_NEAR(odd.stop - odd.start, 1.0, 1e-12) << "infinite pixels are left out";
+}
+
+TEST(FlipHdr, OptionsOverrideExposures) {
+    FlipHdrOptions options;
+    options.start_exposure = -2.0;
+    options.stop_exposure = 3.5;
+    options.exposure_count = 4;
+    const FlipExposures e = flip_exposures(bright_noise(4, 4, 1), options);
+    EXPECT_EQ(e.start, -2.0);
+    EXPECT_EQ(e.stop, 3.5);
+    EXPECT_EQ(e.count, 4);
+    options.stop_exposure = -3.0;
+    EXPECT_THROW(flip_exposures(bright_noise(4, 4, 1), options), Error);
+}
+
+TEST(FlipHdr, EqualPicturesHaveNoError) {
+    const RgbImage a = bright_noise(20, 20, 2);
+    EXPECT_EQ(flip_hdr(a, a).flip.error.max, 0.0);
+}
+
+TEST(FlipHdr, IsTheLargestOfTheLdrErrorsWrittenOut) {
+    const RgbImage a = bright_noise(16, 12, 3), b = bright_noise(16, 12, 4);
+    const FlipHdrResult result = flip_hdr(a, b, {.pixels_per_degree = 40.0});
+    std::vector<double> expected(16 * 12, 0.0);
+    const FlipExposures e = result.exposures;
+    for (int i = 0; i < e.count; ++i) {
+        const double ev = e.start + (e.stop - e.start) * i / (e.count - 1);
+        std::vector<double> ma, mb;
+        for (const double v : a.rgb) ma.push_back(aces(v * std::exp2(ev)));
+        for (const double v : b.rgb) mb.push_back(aces(v * std::exp2(ev)));
+        const auto one = direct::flip(ma, mb, 16, 12, 40.0);
+        for (std::size_t p = 0; p < one.size(); ++p) expected[p] = std::max(expected[p], one[p]);
+    }
+    for (std::size_t p = 0; p < expected.size(); ++p) {
+        ASSERT_NEAR(result.flip.errors[p], expected[p], 1e-9) << p;
+    }
+    EXPECT_GT(e.count, 2);
+}
+
+TEST(FlipHdr, ScalingBothPicturesChangesNothing) {
+    RgbImage a = bright_noise(16, 16, 5), b = bright_noise(16, 16, 6);
+    const double before = flip_hdr(a, b).flip.error.mean;
+    for (double& v : a.rgb) v *= 1024.0;
+    for (double& v : b.rgb) v *= 1024.0;
+    EXPECT_NEAR(flip_hdr(a, b).flip.error.mean, before, 1e-12);
+}
+
+TEST(FlipHdr, SeesWhatOneExposureHides) {
+    RgbImage reference = grays(40, 20, {0.02});
+    for (std::size_t i = 0; i < reference.rgb.size() / 4; ++i) reference.rgb[i] = 500.0;
+    RgbImage test = reference;
+    for (std::size_t i = 0; i < test.rgb.size() / 4; ++i) test.rgb[i] = 250.0;
+    const double at_zero = flip_ldr(flip_tone_map(test, 0.0, FlipToneMapper::aces),
+                                    flip_tone_map(reference, 0.0, FlipToneMapper::aces))
+                               .error.max;
+    EXPECT_LT(at_zero, 1e-9) << "both burnt out";
+    EXPECT_GT(flip_hdr(test, reference).flip.error.max, 0.2);
+}
+
+TEST(FlipHdr, ExtremeAndBadValues) {
+    RgbImage a = bright_noise(20, 20, 7);
+    const RgbImage b = a;
+    a.rgb[0] = kInf;
+    a.rgb[30] = 1e300;
+    a.rgb[60] = -5.0;
+    a.rgb[90] = std::numeric_limits<double>::quiet_NaN();
+    for (const auto mapper :
+         {FlipToneMapper::aces, FlipToneMapper::hable, FlipToneMapper::reinhard}) {
+        FlipHdrOptions options;
+        options.tone_mapper = mapper;
+        const FlipResult flip = flip_hdr(a, b, options).flip;
+        for (const double e : flip.errors) EXPECT_TRUE(e >= 0.0 && e <= 1.0) << e;
+        EXPECT_EQ(flip.errors[30], 1.0) << "the pixel with the NaN";
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
