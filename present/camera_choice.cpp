@@ -15,8 +15,10 @@ Camera start_camera(const CameraChoice& choice, const Scene& scene, const Box& b
     if (!choice.index) return count == 0 ? frame_box(box) : camera_of(scene.cameras[0]);
     const auto index = static_cast<std::size_t>(*choice.index);
     if (index < count) return camera_of(scene.cameras[index]);
+    const std::string known =
+        count == 0 ? "it has none" : "they are 0 to " + std::to_string(count - 1);
     throw UsageError("--camera-index: " + std::to_string(index) + " is no camera of " + scene.name +
-                     ", which has " + (count == 0 ? "none" : "0 to " + std::to_string(count - 1)));
+                     "; " + known);
 }
 
 // Nearest and farthest distance of the box's corners along the camera's direction [m].

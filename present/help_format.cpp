@@ -37,6 +37,40 @@ std::string option_head(const CLI::Option& option) {
     return names + " " + option.get_type_name();
 }
 
+std::string option_entry(const CLI::Option& option) {
+    std::string text = option.get_description();
+    if (!option.get_default_str().empty()) text += " [default: " + option.get_default_str() + "]";
+    return help_entry(option.get_positional() ? option.get_name(true) : option_head(option), text);
+}
+
+std::string usage(const CLI::App& app, const std::string& name) {
+    std::string out = "Usage: " + name;
+    if (!app.get_subcommands({}).empty()) out += " COMMAND";
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->get_positional()) out += " [" + option->get_name(true) + "]";
+    }
+    return out + " [OPTIONS]\n";
+}
+
+std::string commands(const CLI::App& app) {
+    std::string out;
+    for (const CLI::App* command : app.get_subcommands({})) {
+        out += help_entry(command->get_name(), command->get_description());
+    }
+    return out.empty() ? out : "\nCommands:\n" + out;
+}
+
+std::string options(const CLI::App& app) {
+    std::string out;
+    for (const std::string& group : app.get_groups()) {
+        out += "\n" + group + ":\n";
+        for (const CLI::Option* option : app.get_options()) {
+            if (option->get_group() == group) out += option_entry(*option);
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string help_entry(const std::string& head, const std::string& text) {
@@ -55,46 +89,9 @@ std::string help_entry(const std::string& head, const std::string& text) {
     return out;
 }
 
-std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {
-    std::string text = option->get_description();
-    if (!option->get_default_str().empty()) text += " [default: " + option->get_default_str() + "]";
-    return help_entry(is_positional ? option->get_name(true) : option_head(*option), text);
-}
-
-std::string HelpFormat::make_subcommand(const CLI::App* command) const {
-    return help_entry(command->get_name(), command->get_description());
-}
-
-std::string HelpFormat::make_positionals(const CLI::App* app) const {
-    std::string out;
-    for (const CLI::Option* option : app->get_options()) {
-        if (option->get_positional()) out += make_option(option, true);
-    }
-    return out.empty() ? out : "\n" + out;
-}
-
-std::string HelpFormat::make_groups(const CLI::App* app, CLI::AppFormatMode) const {
-    std::string out;
-    for (const std::string& group : app->get_groups()) {
-        std::string entries;
-        for (const CLI::Option* option : app->get_options()) {
-            if (option->get_group() == group && option->nonpositional()) {
-                entries += make_option(option, false);
-            }
-        }
-        if (!entries.empty()) out += "\n" + group + ":\n" + entries;
-    }
-    return out;
-}
-
-std::string HelpFormat::make_usage(const CLI::App* app, std::string name) const {
-    std::string out = "\nUsage: " + name;
-    const bool has_commands = !app->get_subcommands({}).empty();
-    if (has_commands) out += " COMMAND";
-    for (const CLI::Option* option : app->get_options()) {
-        if (option->get_positional()) out += " [" + option->get_name(true) + "]";
-    }
-    return out + " [OPTIONS]\n";
+std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
+    return app->get_description() + "\n\n" + usage(*app, name) + commands(*app) + options(*app) +
+           "\n" + app->get_footer() + "\n";
 }
 
 }  // namespace kilolux

@@ -10,11 +10,8 @@ namespace kilolux {
 /// or beside, the default at its end.
 class HelpFormat : public CLI::Formatter {
  public:
-    std::string make_option(const CLI::Option* option, bool is_positional) const override;
-    std::string make_subcommand(const CLI::App* command) const override;
-    std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override;
-    std::string make_positionals(const CLI::App* app) const override;
-    std::string make_usage(const CLI::App* app, std::string name) const override;
+    std::string make_help(const CLI::App* app, std::string name,
+                          CLI::AppFormatMode mode) const override;
 };
 
 /// Two columns: `head` at the left margin, `text` wrapped at the page's width beside it, or below

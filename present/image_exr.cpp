@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenImageIO/half.h>
+
 #include <cstring>
+#include <span>
 
 #include "host/base/error.h"
 #include "present/image_encode.h"
@@ -19,8 +22,8 @@ void set_matrix(OIIO::ImageSpec& spec, const char* name, const glm::dmat4& matri
 void describe_camera(OIIO::ImageSpec& spec, const Camera& camera, const Frame& frame) {
     glm::dmat4 view_from_world(glm::transpose(camera.world_from_view));
     view_from_world[3] = glm::dvec4(glm::dmat3(view_from_world) * -camera.position, 1.0);
-    set_matrix(spec, "worldtocamera", view_from_world);
-    set_matrix(spec, "worldtoscreen",
+    set_matrix(spec, "worldToCamera", view_from_world);
+    set_matrix(spec, "worldToNDC",
                clip_from_view(camera, frame.width, frame.height) * view_from_world);
 }
 
@@ -68,6 +71,8 @@ OIIO::ImageSpec exr_spec(const Frame& frame, const ImageNotes& notes, const Imag
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
+    // OpenImageIO writes the hour as capDate unless this is there; a number is no date, and is left out.
+    spec.attribute("DateTime", 0);
     if (notes.camera) describe_camera(spec, *notes.camera, frame);
     return spec;
 }

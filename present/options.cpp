@@ -116,10 +116,9 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
         const std::size_t place = parse_name(name, text, {"auto", "1", "2", "4", "8", "16"});
         s.kernels.lanes = place == 0 ? 0 : 1 << (place - 1);
     };
-    command.add_flag("--list-devices", "Print the OpenCL devices and leave")
-        ->group("Device and tuning");
     Registrar(command, "Device and tuning")
         .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, s.device)
+        .question("--list-devices", "Print the OpenCL devices and leave")
         .value({"--grid", "X,Y,SLICES_PER_OCTAVE", "16,9,4",
                 "Coarse clusters: tiles across and down, slices for each doubling of depth"},
                grid)
@@ -137,7 +136,7 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
     add_light_options(command, options.settings.lights);
     add_camera_options(command, options.camera);
     add_device_options(command, options);
-    Registrar(command, "Messages")
+    Registrar(command, "General")
         .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr")
         .flag("--verbose,-v", options.verbose, "More on stderr");
 }

@@ -11,6 +11,7 @@
 #include "present/config_file.h"
 #include "present/device_list.h"
 #include "present/help_format.h"
+#include "present/registrar.h"
 #include "present/suggest.h"
 #include "present/version.h"
 
@@ -45,11 +46,12 @@ Program::Program() : app_(kMeaning, "kilolux") {
     app_.allow_extras();
     app_.require_subcommand(0, 1);
     app_.footer(kExitCodes);
-    app_.add_flag("--help,-h", "Print this help and leave; 'kilolux COMMAND --help' for a command");
-    app_.add_flag("--version", "Print the version and leave");
-    app_.add_flag("--list-devices", "Print the OpenCL devices and leave");
-    app_.add_option("--completion", "Print a script that completes kilolux's options in a shell")
-        ->type_name(joined(completion_shells(), "|"));
+    Registrar(app_, "Options")
+        .question("--help,-h", "Print this help and leave; kilolux COMMAND --help for a command's")
+        .question("--version", "Print the version and leave")
+        .question("--list-devices", "Print the OpenCL devices and leave")
+        .choice({"--completion", "", "", "Print a script that completes options in a shell"},
+                completion_shell_, completion_shells());
     add_render_command(*this);
     add_info_command(*this);
 }
@@ -60,11 +62,10 @@ CLI::App& Program::add_command(const std::string& name, const std::string& meani
     command.set_help_flag();
     command.allow_extras();
     command.footer("Examples:\n" + examples);
-    command.add_flag("--help,-h", "Print this help and leave")->group("Messages");
-    command
-        .add_option("--config", "Options from a file, TOML or JSON; the command line goes first")
-        ->type_name("FILE")
-        ->group("Messages");
+    Registrar(command, "General")
+        .question("--help,-h", "Print this help and leave")
+        .text({"--config", "FILE", "", "Options from a file, TOML or JSON; the command line wins"},
+              config_file_);
     commands_.push_back({&command, std::move(run)});
     return command;
 }
@@ -80,11 +81,11 @@ const Program::Command* Program::chosen_command() const {
 bool Program::answer_question(const Command* command) const {
     const CLI::App& app = command != nullptr ? *command->app : app_;
     if (given(app, "--help") || given(app_, "--help")) {
-        print(app.help(command != nullptr ? "kilolux " + app.get_name() : "kilolux"));
+        print(app.help(command != nullptr ? app_.get_name() : ""));
     } else if (given(app_, "--version")) {
         print("kilolux " + version() + "\n");
     } else if (given(app_, "--completion")) {
-        print(completion_script(app_, app_["--completion"]->as<std::string>()));
+        print(completion_script(app_, completion_shell_));
     } else if (given(app, "--list-devices") || given(app_, "--list-devices")) {
         print(device_list(list_devices()));
     } else {
@@ -112,9 +113,7 @@ void Program::run(std::vector<std::string> arguments) {
     const Command* command = chosen_command();
     if (answer_question(command)) return;
     refuse_unknown(command);
-    if (given(*command->app, "--config")) {
-        apply_config_file(*command->app, (*command->app)["--config"]->as<std::string>());
-    }
+    if (!config_file_.empty()) apply_config_file(*command->app, config_file_);
     command->run();
 }
 

@@ -38,6 +38,8 @@ class Program {
     void refuse_unknown(const Command* command) const;
 
     CLI::App app_;
+    std::string completion_shell_;
+    std::string config_file_;
     std::vector<Command> commands_;
 };
 

@@ -39,6 +39,11 @@ Registrar& Registrar::flag(const std::string& name, bool& out, const std::string
     return *this;
 }
 
+Registrar& Registrar::question(const std::string& name, const std::string& meaning) {
+    command_.add_flag(name, meaning)->group(heading_);
+    return *this;
+}
+
 Registrar& Registrar::number(const OptionText& text, double& out, const NumberRange& range) {
     return value(text, [&out, range](const std::string& name, const std::string& seen) {
         out = parse_number(name, seen, range);

@@ -31,6 +31,8 @@ class Registrar {
 
     Registrar& text(const OptionText& text, std::string& out);
     Registrar& flag(const std::string& name, bool& out, const std::string& meaning);
+    /// A flag that Program itself obeys.
+    Registrar& question(const std::string& name, const std::string& meaning);
     Registrar& number(const OptionText& text, double& out, const NumberRange& range = {});
     Registrar& number(const OptionText& text, float& out, const NumberRange& range = {});
     Registrar& number_or_auto(const OptionText& text, double& out, const NumberRange& range);

@@ -32,7 +32,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
     // One slip in three letters still reads as the same word; more would be guessing.
-    std::size_t best = std::max<std::size_t>(word.size() / 3, 1) + 1;
+    std::size_t best = word.size() < 2 ? 0 : std::max<std::size_t>(word.size() / 3, 1) + 1;
     std::string nearest;
     for (const std::string& candidate : known) {
         const std::size_t distance = edit_distance(word, candidate);

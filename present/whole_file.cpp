@@ -135,7 +135,7 @@ void check_can_write(const fs::path& file) {
     if (fs::is_directory(file)) fail(file, "cannot write", EISDIR);
     const fs::path folder = folder_of(target_of(file));
     if (!fs::is_directory(folder)) {
-        fail(file, "cannot write: no folder " + folder.string(), ENOENT);
+        throw Error(file.string() + ": cannot write: there is no folder " + folder.string());
     }
     if (access(folder.c_str(), W_OK | X_OK) != 0) fail(file, "cannot write", errno);
 }
