@@ -5,6 +5,12 @@
 
 namespace kilolux {
 
+std::vector<DeviceInfo> device_infos() {
+    std::vector<DeviceInfo> infos;
+    for (const cl::Device& device : all_devices()) infos.push_back(describe(device));
+    return infos;
+}
+
 std::string device_list(const std::vector<DeviceInfo>& devices) {
     if (devices.empty()) return "no OpenCL devices\n";
     std::string out;
@@ -26,7 +32,8 @@ nlohmann::ordered_json device_json(const DeviceInfo& device) {
             {"cpu", device.is_cpu},
             {"lane_width", device.lane_width},
             {"compute_units", device.compute_units},
-            {"memory_bytes", device.memory_bytes}};
+            {"memory_bytes", device.memory_bytes},
+            {"max_allocation_bytes", device.max_allocation_bytes}};
 }
 
 }  // namespace kilolux
