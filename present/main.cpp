@@ -1,2 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-int main() { return 0; }
+#include <CLI/Error.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "host/base/error.h"
+#include "present/interrupt.h"
+#include "present/program.h"
+
+namespace {
+
+// 128 + SIGINT, as shells count; SIGTERM ends with the same.
+constexpr int kInterrupted = 130;
+
+int fail(int code, const std::string& message) {
+    std::fprintf(stderr, "kilolux: %s\n", message.c_str());
+    return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    kilolux::catch_signals();
+    try {
+        kilolux::Program program;
+        program.run(std::vector<std::string>(argv + 1, argv + argc));
+        if (std::fflush(stdout) != 0) return fail(1, "standard output: cannot write");
+        return 0;
+    } catch (const kilolux::UsageError& error) {
+        return fail(2, error.what());
+    } catch (const CLI::ParseError& error) {
+        return fail(2, error.what());
+    } catch (const kilolux::ComparisonFailed& error) {
+        return fail(3, error.what());
+    } catch (const kilolux::Interrupted& error) {
+        return fail(kInterrupted, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(1, "out of memory");
+    } catch (const std::exception& error) {
+        return fail(1, error.what());
+    }
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "host/scene/camera.h"
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// What the command line says about the camera; what it leaves open comes from the scene.
+struct CameraChoice {
+    std::optional<int> index;
+    std::optional<glm::dvec3> position;     // [m]
+    std::optional<glm::dvec3> focal_point;  // [m]
+    std::optional<glm::dvec3> view_up;
+    std::optional<double> view_angle;  // vertical [degree]
+    bool orthographic = false;
+};
+
+/// The camera that `choice` means in `scene`.
+///
+/// It starts from the camera of the index, else the scene's first, else one that frames the scene.
+/// A position without a focal point looks at the scene's middle; a focal point without a position
+/// is seen from where the camera was. A parallel projection shows what the perspective one shows at
+/// the focal point, and all of the scene in depth. Throws UsageError for an index the scene does
+/// not have, Error when the directions are degenerate.
+Camera choose_camera(const CameraChoice& choice, const Scene& scene);
+
+}  // namespace kilolux

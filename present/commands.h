@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function a subcommand: command_<name>.cpp defines it, Program's constructor calls it.
+#pragma once
+
+#include "present/program.h"
+
+namespace kilolux {
+
+void add_render_command(Program& program);
+void add_info_command(Program& program);
+
+}  // namespace kilolux

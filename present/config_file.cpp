@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/config_file.h"
+
+#include <CLI/Config.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/base/error.h"
+#include "present/program.h"
+#include "present/suggest.h"
+
+namespace kilolux {
+namespace {
+
+using Json = nlohmann::json;
+using Entries = std::vector<std::pair<std::string, std::string>>;  // option's name and text
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    std::ostringstream text;
+    if (in) text << in.rdbuf();
+    if (!in || !text) throw Error(file.string() + ": cannot read: " + std::strerror(errno));
+    return text.str();
+}
+
+std::string text_of(const std::filesystem::path& file, const std::string& name, const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number() || value.is_boolean()) return value.dump();
+    if (!value.is_array()) {
+        throw UsageError(file.string() + ": " + name + ": '" + value.dump() +
+                         "' is no text, number, true, false or array of them");
+    }
+    std::vector<std::string> parts;
+    for (const Json& part : value) parts.push_back(text_of(file, name, part));
+    return joined(parts, ",");
+}
+
+Entries json_entries(const std::filesystem::path& file, const std::string& text) {
+    const Json root = Json::parse(text, nullptr, false, true);
+    if (root.is_discarded()) throw UsageError(file.string() + ": is not valid JSON");
+    Entries entries;
+    for (const auto& [name, value] : root.items()) {
+        entries.emplace_back(name, text_of(file, name, value));
+    }
+    return entries;
+}
+
+Entries toml_entries(const std::filesystem::path& file, const std::string& text) {
+    std::istringstream in(text);
+    Entries entries;
+    for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(in)) {
+        if (item.name == "++" || item.name == "--") continue;  // CLI11's marks around a [section]
+        if (!item.parents.empty()) {
+            throw UsageError(file.string() + ": [" + joined(item.parents, ".") +
+                             "]: there are no sections");
+        }
+        entries.emplace_back(item.name, joined(item.inputs, ","));
+    }
+    return entries;
+}
+
+CLI::Option& option_of(CLI::App& command, const std::filesystem::path& file,
+                       const std::string& name) {
+    CLI::Option* option = name == "scene"
+                              ? command.get_option_no_throw("SCENE")
+                              : command.get_option_no_throw(name.size() > 1 ? "--" + name : name);
+    if (option != nullptr && name != "config" && name != "help") return *option;
+    throw UsageError(file.string() + ": unknown option '" + name + "'" +
+                     did_you_mean("--" + name, option_names(command)));
+}
+
+void apply(CLI::Option& option, const std::filesystem::path& file, const std::string& name,
+           const std::string& text) {
+    if (option.count() > 0) return;
+    const bool is_flag = option.get_items_expected_max() == 0;
+    if (is_flag && text != "true" && text != "false") {
+        throw UsageError(file.string() + ": " + name + ": '" + text + "' is not true or false");
+    }
+    option.add_result(text);
+    option.run_callback();
+}
+
+}  // namespace
+
+void apply_config_file(CLI::App& command, const std::filesystem::path& file) {
+    const std::string text = read_text(file);
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    const bool is_json = first != std::string::npos && text[first] == '{';
+    const Entries entries = is_json ? json_entries(file, text) : toml_entries(file, text);
+    for (const auto& [name, value] : entries) {
+        apply(option_of(command, file, name), file, name, value);
+    }
+}
+
+}  // namespace kilolux

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+namespace kilolux {
+
+/// Lets SIGINT, SIGTERM and SIGHUP ask for an orderly end: the first one is noted for
+/// check_interrupt(), the second removes the unfinished file and kills. Writing past a file-size
+/// limit or into a closed pipe becomes an error of write() instead of a signal.
+void catch_signals();
+
+/// Throws Interrupted once a signal has asked for the end.
+void check_interrupt();
+
+/// Names the file that a killing signal must remove; an empty path: none. One at a time.
+void set_unfinished_file(const std::filesystem::path& file);
+
+}  // namespace kilolux

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/base/error.h"
+#include "present/comparison.h"
+#include "present/image_file.h"
+#include "present/options.h"
+#include "present/registrar.h"
+
+namespace kilolux {
+namespace {
+
+void add_sequence_options(CLI::App& command, OutputOptions& o) {
+    const auto frames = [&o](const std::string& name, const std::string& text) {
+        o.frames = parse_frames(name, text);
+    };
+    const auto shard = [&o](const std::string& name, const std::string& text) {
+        o.shard = parse_shard(name, text);
+    };
+    Registrar(command, "Sequences")
+        .value({"--frames", "A:B", "", "Frames A to B; frame f is at --time + f / --fps"}, frames)
+        .number({"--fps", "F", "24", "Frames a second"}, o.frames_per_second, {0.0, 1e6, true})
+        .value({"--shard", "I/N", "0/1", "Only every N-th frame, from the I-th on, counted from 0"},
+               shard)
+        .flag("--skip-existing", o.skip_existing, "Leave frames alone whose file is there");
+}
+
+void add_comparison_options(CLI::App& command, OutputOptions& o) {
+    Registrar(command, "Comparison")
+        .text({"--reference", "FILE", "", "Compare the picture with this one"}, o.reference)
+        .number({"--threshold", "T", "0", "Exit with 3 if the metric is above"}, o.threshold, {0.0})
+        .choice({"--metric", "", "rmse", "What is compared"}, o.metric, metric_names());
+}
+
+}  // namespace
+
+void add_output_options(CLI::App& command, OutputOptions& options) {
+    const auto output = [&options](const std::string&, const std::string& text) {
+        image_meaning(text);
+        options.output = text;
+    };
+    Registrar(command, "Output")
+        .value({"--output,-o", "FILE", "",
+                "Picture: .exr and .hdr linear, .png .jpg .jpeg .tif .tiff for the eye; a sequence "
+                "has #### for the frame number"},
+               output)
+        .flag("--exr-half", options.half_colour, "EXR colour in half precision")
+        .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"},
+              options.stats);
+    add_sequence_options(command, options);
+    add_comparison_options(command, options);
+}
+
+void check_output_options(const SharedOptions& shared, const OutputOptions& options) {
+    if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o picture.png");
+    const bool pattern = has_frame_pattern(options.output);
+    if (options.frames && !pattern) {
+        throw UsageError("--output: '" + options.output.string() +
+                         "' has no #### for the frame numbers of --frames");
+    }
+    if (!options.frames && pattern) {
+        throw UsageError("--output: '" + options.output.string() +
+                         "' has # for a frame number, but there is no --frames A:B");
+    }
+    if (!shared.settings.aovs.empty() && !holds_layers(options.output)) {
+        throw UsageError("--aov: '" + options.output.string() + "' cannot hold layers; use .exr");
+    }
+    if (options.half_colour && !holds_layers(options.output)) {
+        throw UsageError("--exr-half: '" + options.output.string() + "' is not an EXR file");
+    }
+    if (shared.quiet && shared.verbose)
+        throw UsageError("--quiet and --verbose exclude each other");
+}
+
+}  // namespace kilolux

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace kilolux {
+
+/// One line of at most `width` columns: label, count, bar, per cent and the time left by the pace
+/// so far.
+std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
+                          double elapsed_s, int width);
+
+/// A progress bar on stderr while stderr is a terminal; otherwise nothing at all. Erased when it
+/// ends.
+class Progress {
+ public:
+    /// `shown` is false with --quiet.
+    Progress(std::string label, std::size_t total, bool shown);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// One more of `total` is done.
+    void advance();
+
+    /// Takes the bar off the screen, for a message; the next advance() draws it again.
+    void erase();
+
+ private:
+    void draw();
+
+    std::string label_;
+    std::size_t done_ = 0;
+    std::size_t total_;
+    bool shown_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace kilolux

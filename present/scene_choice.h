@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// The scene of a command line: a generated one by name, else the file of that path at `time` [s].
+/// Throws UsageError for what is neither a name nor looks like a file, Error if the file fails.
+Scene open_scene(const std::string& name_or_file, double time);
+
+}  // namespace kilolux

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/stats_json.h"
+
+#include <cstdio>
+
+#include "host/base/error.h"
+#include "present/device_list.h"
+#include "present/whole_file.h"
+
+namespace kilolux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json comparison_json(const Comparison& comparison) {
+    Json out{{"metric", comparison.metric},
+             {"value", comparison.value},
+             {"threshold", comparison.threshold},
+             {"passed", comparison.passed()}};
+    for (const auto& [name, value] : comparison.errors) out["errors"][name] = value;
+    return out;
+}
+
+// Adds what one frame measured to `out`.
+void add_frame(Json& out, const FrameRecord& record) {
+    const FrameStats& s = record.stats;
+    out["lights"] = {{"given", s.lights_given},
+                     {"used", s.lights_used},
+                     {"rejected", s.lights_rejected},
+                     {"dropped", s.lights_dropped}};
+    out["clusters"] = {{"grid", {s.grid[0], s.grid[1], s.grid[2]}},
+                       {"coarse_pairs", s.coarse_pairs},
+                       {"active", s.active_clusters},
+                       {"refined_pairs", s.refined_pairs}};
+    const double useful = s.useful_evaluations_per_pixel;
+    out["evaluations"] = {{"per_pixel", s.evaluations_per_pixel},
+                          {"useful_per_pixel", useful < 0.0 ? Json(nullptr) : Json(useful)}};
+    out["stages"] = Json::array();
+    for (const StageTime& stage : s.stages) {
+        const Json limit = stage.limit_ms > 0.0 ? Json(stage.limit_ms) : Json(nullptr);
+        out["stages"].push_back({{"name", stage.name}, {"ms", stage.ms}, {"limit_ms", limit}});
+    }
+    out["frame_ms"] = s.frame_ms;
+    if (record.comparison) out["error"] = comparison_json(*record.comparison);
+}
+
+}  // namespace
+
+Json stats_json(const DeviceInfo& device, const ScenePlan& plan,
+                const std::vector<FrameRecord>& frames, bool sequence) {
+    Json out;
+    out["device"] = device_json(device);
+    out["plan"] = plan.features;
+    if (!frames.empty()) add_frame(out, frames.back());
+    if (!sequence) return out;
+    out["frames"] = Json::array();
+    for (const FrameRecord& record : frames) {
+        Json entry{{"frame", record.frame}, {"time", record.time}, {"file", record.file}};
+        add_frame(entry, record);
+        out["frames"].push_back(std::move(entry));
+    }
+    return out;
+}
+
+void write_json(const std::string& file, const Json& document) {
+    const std::string text =
+        document.dump(2, ' ', false, nlohmann::detail::error_handler_t::replace) + "\n";
+    if (file != "-") return write_whole_file(file, text);
+    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
+        throw Error("standard output: cannot write");
+    }
+}
+
+}  // namespace kilolux

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/option_values.h"
+
+#include <gtest/gtest.h>
+
+#include "messages.h"
+
+namespace kilolux {
+namespace {
+
+const std::vector<std::string> kNames = {"deferred", "forward-plus", "forward"};
+
+TEST(OptionValues, NumbersKeepTheirRange) {
+    EXPECT_EQ(parse_number("--time", "-1.5e1"), -15.0);
+    EXPECT_EQ(parse_number("--time", "+2"), 2.0);
+    EXPECT_EQ(parse_number("--bloom", "1", {0.0, 1.0}), 1.0);
+    EXPECT_EQ(parse_number("--bloom", "0", {0.0, 1.0}), 0.0);
+    EXPECT_EQ(parse_number_or_auto("--light-radius", "auto", {0.0, 10.0, true}), 0.0);
+    EXPECT_EQ(parse_number_or_auto("--light-radius", "2.5", {0.0, 10.0, true}), 2.5);
+}
+
+TEST(OptionValues, BadNumbersNameOptionValueAndRange) {
+    for (const char* text :
+         {"", " ", "abc", "1x", "nan", "inf", "-inf", "1e999", "0x10", "1,2", "--5", "+-5", "1 "}) {
+        const auto message = message_of<UsageError>([&] { parse_number("--time", text); });
+        EXPECT_EQ(message, "--time: '" + std::string(text) + "' is not a finite number");
+    }
+    EXPECT_EQ(message_of<UsageError>([] {
+                  parse_number("--bloom", "1.01", {0.0, 1.0});
+              }),
+              "--bloom: '1.01' is not a number from 0 to 1");
+    EXPECT_EQ(message_of<UsageError>([] {
+                  parse_number("--angle", "180", {0.0, 180.0, true});
+              }),
+              "--angle: '180' is not a number between 0 and 180");
+    EXPECT_EQ(message_of<UsageError>([] { parse_number("--x", "-1", {0.0}); }),
+              "--x: '-1' is not a finite number of at least 0");
+    const NumberRange above_zero{0.0, NumberRange{}.max, true};
+    EXPECT_EQ(message_of<UsageError>([&] { parse_number_or_auto("--r", "0", above_zero); }),
+              "--r: '0' is not 'auto' or a finite number above 0");
+}
+
+TEST(OptionValues, CountsAreWholeAndInRange) {
+    EXPECT_EQ(parse_count("--lights", "2147483648", {0, 2147483648u}), 2147483648u);
+    EXPECT_EQ(parse_count("--light-seed", "18446744073709551615", {0, UINT64_MAX}), UINT64_MAX);
+    for (const char* text : {"2147483649", "-1", "1.0", "1e3", "", "0x1", "18446744073709551616"}) {
+        const auto message = message_of<UsageError>([&] {
+            parse_count("--lights", text, {0, 2147483648u});
+        });
+        EXPECT_EQ(message, "--lights: '" + std::string(text) +
+                               "' is not a whole number from 0 to 2147483648");
+    }
+}
+
+TEST(OptionValues, CountLists) {
+    EXPECT_EQ(parse_counts("--resolution", "17,31", "W,H", {1, 65536}), (std::vector{17, 31}));
+    for (const char* text : {"17", "17,31,1", "17,", ",31", "0,31", "17x31", "17,65537", "17,-1"}) {
+        const auto message = message_of<UsageError>([&] {
+            parse_counts("--resolution", text, "W,H", {1, 65536});
+        });
+        EXPECT_EQ(message, "--resolution: '" + std::string(text) +
+                               "' is not W,H, each a whole number from 1 to 65536");
+    }
+}
+
+TEST(OptionValues, VectorsAndBoxes) {
+    EXPECT_EQ(parse_vector("--p", "1,-2,3.5"), glm::dvec3(1, -2, 3.5));
+    const Box box = parse_box("--light-box", "-1,-2,-3,4,5,-3");
+    EXPECT_EQ(box.min, glm::dvec3(-1, -2, -3));
+    EXPECT_EQ(box.max, glm::dvec3(4, 5, -3));
+    EXPECT_EQ(message_of<UsageError>([] { parse_vector("--p", "1,2"); }),
+              "--p: '1,2' is not 3 finite numbers X,Y,Z");
+    for (const char* text : {"1,2,nan", "1,2,3,4", "a,b,c", ""}) {
+        EXPECT_THROW(parse_vector("--p", text), UsageError) << text;
+    }
+    EXPECT_TRUE(contains(message_of<UsageError>([] { parse_box("--light-box", "0,0,0,1,-1,1"); }),
+                         "y0 <= y1"));
+    EXPECT_THROW(parse_box("--light-box", "0,0,0,1,1"), UsageError);
+}
+
+TEST(OptionValues, FramesAndShards) {
+    const FrameRange frames = parse_frames("--frames", "3:12");
+    EXPECT_EQ(frames.first, 3);
+    EXPECT_EQ(frames.last, 12);
+    for (const char* text : {"12:3", "3", "3:", ":3", "-1:3", "a:b", "1:2:3", "3-12"}) {
+        EXPECT_THROW(parse_frames("--frames", text), UsageError) << text;
+    }
+    const Shard shard = parse_shard("--shard", "3/4");
+    EXPECT_EQ(shard.index, 3);
+    EXPECT_EQ(shard.count, 4);
+    for (const char* text : {"4/4", "0/0", "-1/4", "1", "1/", "a/b", "1/2/3"}) {
+        const auto message = message_of<UsageError>([&] { parse_shard("--shard", text); });
+        EXPECT_TRUE(contains(message, "--shard: '" + std::string(text) + "' is not I/N"))
+            << message;
+    }
+}
+
+TEST(OptionValues, NamesListWhatThereIsAndTheNearest) {
+    EXPECT_EQ(parse_name("--renderer", "forward", kNames), 2u);
+    EXPECT_EQ(message_of<UsageError>([] { parse_name("--renderer", "defered", kNames); }),
+              "--renderer: 'defered' is none of deferred, forward-plus, forward; did you mean "
+              "'deferred'?");
+    EXPECT_EQ(message_of<UsageError>([] { parse_name("--renderer", "raytraced", kNames); }),
+              "--renderer: 'raytraced' is none of deferred, forward-plus, forward");
+    EXPECT_EQ(parse_name_list("--aov", "forward,deferred,forward", kNames),
+              (std::vector<std::string>{"forward", "deferred"}));
+    EXPECT_TRUE(parse_name_list("--aov", "none", kNames).empty());
+    EXPECT_THROW(parse_name_list("--aov", "forward,", kNames), UsageError);
+    EXPECT_THROW(parse_name_list("--aov", "forward deferred", kNames), UsageError);
+}
+
+}  // namespace
+}  // namespace kilolux

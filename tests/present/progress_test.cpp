@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/progress.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "messages.h"
+#include "temporary_folder.h"
+
+namespace kilolux {
+namespace {
+
+// Puts another descriptor in stderr's place for a while.
+class StderrTo {
+ public:
+    explicit StderrTo(int descriptor) : saved_(dup(STDERR_FILENO)) {
+        fflush(stderr);
+        dup2(descriptor, STDERR_FILENO);
+    }
+    ~StderrTo() {
+        fflush(stderr);
+        dup2(saved_, STDERR_FILENO);
+        close(saved_);
+    }
+    StderrTo(const StderrTo&) = delete;
+    StderrTo& operator=(const StderrTo&) = delete;
+
+ private:
+    int saved_;
+};
+
+void run_progress(int descriptor, bool shown) {
+    const StderrTo redirected(descriptor);
+    Progress progress("rendering", 2, shown);
+    progress.advance();
+    progress.erase();
+    progress.advance();
+}
+
+std::string seen_on_terminal(bool shown) {
+    int ours = -1;
+    int theirs = -1;
+    if (openpty(&ours, &theirs, nullptr, nullptr, nullptr) != 0) return "no terminal";
+    run_progress(theirs, shown);
+    fcntl(ours, F_SETFL, O_NONBLOCK);
+    std::array<char, 4096> text{};
+    const ssize_t size = read(ours, text.data(), text.size());
+    close(theirs);
+    close(ours);
+    return {text.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
+}
+
+TEST(Progress, Lines) {
+    EXPECT_EQ(progress_line("rendering", 0, 4, 0.0, 40),
+              "rendering 0/4 [                  ]   0 %");
+    EXPECT_EQ(progress_line("rendering", 1, 4, 10.0, 40),
+              "rendering 1/4 [=     ]  25 %, 30 s left");
+    EXPECT_EQ(progress_line("f", 4, 4, 10.0, 30), "f 4/4 [================] 100 %");
+    EXPECT_TRUE(contains(progress_line("f", 1, 2, 600.0, 79), "10:00 min left"));
+    EXPECT_TRUE(contains(progress_line("f", 1, 101, 180.0, 79), "5:00 h left"));
+    EXPECT_TRUE(contains(progress_line("f", 0, 0, 0.0, 79), "100 %"));
+}
+
+TEST(Progress, NeverWiderThanTheTerminal) {
+    for (int width = 0; width < 120; ++width) {
+        for (const std::size_t done : {0u, 1u, 500u, 1000u}) {
+            const std::string line = progress_line("rendering frames", done, 1000, 12345.0, width);
+            EXPECT_LE(line.size(), static_cast<std::size_t>(width)) << line;
+        }
+    }
+}
+
+TEST(Progress, NothingWhereThereIsNoTerminal) {
+    const TemporaryFolder folder;
+    const int file = open((folder / "err").c_str(), O_WRONLY | O_CREAT, 0600);
+    run_progress(file, true);
+    close(file);
+    EXPECT_EQ(text_of_file(folder / "err"), "");
+}
+
+TEST(Progress, ATerminalSeesItUnlessQuiet) {
+    const std::string seen = seen_on_terminal(true);
+    EXPECT_TRUE(contains(seen, "rendering 0/2")) << seen;
+    EXPECT_TRUE(contains(seen, "rendering 2/2")) << seen;
+    EXPECT_TRUE(seen.ends_with("\r\x1b[K")) << "the bar is not erased: " << seen;
+    EXPECT_EQ(seen_on_terminal(false), "");
+}
+
+}  // namespace
+}  // namespace kilolux
