@@ -13,26 +13,91 @@
 #ifndef HAS_DIRECTIONAL_LIGHTS
 #define HAS_DIRECTIONAL_LIGHTS 0
 #endif
-
-// Sum over the lights list[0..count), or lights 0..count with ALL_LIGHTS. Blocked by light index.
-static inline LightSum sum_lights(LightSum total, ShadingPoint p, global const ShadeLight* lights,
-                                  global const LIGHT_INDEX* list, uint count) {
-    LightSum block = zero_sum();
-    uint current = 0;
-    for (uint i = 0; i < count; ++i) {
-#if ALL_LIGHTS
-        uint light = i;
-#else
-        uint light = list[i];
+// Lights that a work-group stages in local memory at a time; 0: none. Then work-groups are whole tiles.
+#ifndef STAGE
+#define STAGE 0
 #endif
-        if (light >> SUM_BLOCK_LOG2 != current) {
-            current = light >> SUM_BLOCK_LOG2;
-            total = add_sums(total, block);
-            block = zero_sum();
-        }
-        block = evaluate(block, p, lights[light]);
+#if STAGE > 0
+#define STAGED_PARAMETER , Staged staged
+#define STAGED_ARGUMENT , staged
+#else
+#define STAGED_PARAMETER
+#define STAGED_ARGUMENT
+#endif
+
+// A sum over lights in progress: blocks by light index (SUM_BLOCK_LOG2) join the total one by one.
+typedef struct RunningSum {
+    LightSum total, block;
+    uint block_number;
+} RunningSum;
+
+static inline RunningSum start_sum(LightSum total) {
+    RunningSum sum;
+    sum.total = total;
+    sum.block = zero_sum();
+    sum.block_number = 0u;
+    return sum;
+}
+
+static inline RunningSum add_light(RunningSum sum, ShadingPoint p, ShadeLight light, uint index) {
+    uint block_number = index >> SUM_BLOCK_LOG2;
+    if (block_number != sum.block_number) {
+        sum.block_number = block_number;
+        sum.total = add_sums(sum.total, sum.block);
+        sum.block = zero_sum();
     }
-    return add_sums(total, block);
+    sum.block = evaluate(sum.block, p, light);
+    return sum;
+}
+
+static inline uint light_of_entry(global const LIGHT_INDEX* list, uint entry) {
+#if ALL_LIGHTS
+    return entry;
+#else
+    return list[entry];
+#endif
+}
+
+#if STAGE > 0
+// Lights of a batch in local memory, which GPUs read faster than global memory through its cache.
+typedef struct Staged {
+    local ShadeLight* lights;
+    local uint* indices;
+} Staged;
+
+static inline void stage_batch(Staged staged, global const ShadeLight* lights, global const LIGHT_INDEX* list, uint first, uint end) {
+    uint item = get_local_id(1) * get_local_size(0) + get_local_id(0);
+    uint items = get_local_size(0) * get_local_size(1);
+    for (uint i = item; first + i < end; i += items) {
+        uint light = light_of_entry(list, first + i);
+        staged.indices[i] = light;
+        staged.lights[i] = lights[light];
+    }
+}
+#endif
+
+// Adds the lights of list[0..count), or lights 0..count with ALL_LIGHTS, where `wanted`. The whole
+// work-group calls this with the same list: it may stage the lights together.
+static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, global const ShadeLight* lights,
+                                  global const LIGHT_INDEX* list, uint count STAGED_PARAMETER) {
+    RunningSum sum = start_sum(total);
+#if STAGE > 0
+    for (uint first = 0; first < count; first += STAGE) {
+        uint end = min(first + STAGE, count);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the batch before is used up
+        stage_batch(staged, lights, list, first, end);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the batch is complete
+        if (!wanted) continue;
+        for (uint i = 0; i < end - first; ++i) sum = add_light(sum, p, staged.lights[i], staged.indices[i]);
+    }
+#else
+    if (!wanted) return total;
+    for (uint i = 0; i < count; ++i) {
+        uint light = light_of_entry(list, i);
+        sum = add_light(sum, p, lights[light], light);
+    }
+#endif
+    return add_sums(sum.total, sum.block);
 }
 
 static inline FV3 select3(MASK mask, FV3 a, FV3 b) {
@@ -44,6 +109,14 @@ static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
     a.specular = select3(mask, a.specular, b.specular);
     a.fresnel = select3(mask, a.fresnel, b.fresnel);
     return a;
+}
+
+static inline void store_radiance(global float* radiance, View view, uint x, uint y, FV3 color) {
+    uint pixel = y * view.stride + x;
+    uint plane = view.stride * view.height;
+    store_lanes(color.x, radiance + pixel);
+    store_lanes(color.y, radiance + plane + pixel);
+    store_lanes(color.z, radiance + 2 * plane + pixel);
 }
 
 kernel void shade(global const uchar* restrict gbuffer,
@@ -63,38 +136,46 @@ kernel void shade(global const uchar* restrict gbuffer,
                   global float* restrict radiance) {  // out [3][height][stride]
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
-    if (y >= view.height) return;
+    bool inside = y < view.height;
+#if STAGE > 0
+    local ShadeLight staged_lights[STAGE];
+    local uint staged_indices[STAGE];
+    Staged staged = {staged_lights, staged_indices};
+#else
+    if (!inside) return;
+#endif
     GBuffer g = {gbuffer, layout, view, srgb};
-    FV depth01 = load_depth01(g, x, y);
+    uint row = inside ? y : view.height - 1u;  // rows below the image only help to stage
+    FV depth01 = load_depth01(g, x, row);
     MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
-    FV3 color = zero3();
-    if (any_lane(drawn)) {
-        FV z = view_depth(view, pixel_centers_x(x), fv((float)y + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
-        Surface s = load_surface(g, x, y, z);
-        ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-        LightSum sum = zero_sum();
+    bool any_drawn = inside && any_lane(drawn);
+#if STAGE == 0
+    if (!any_drawn) {
+        store_radiance(radiance, view, x, y, zero3());
+        return;
+    }
+#endif
+    FV z = view_depth(view, pixel_centers_x(x), fv((float)row + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
+    Surface s = load_surface(g, x, row, z);
+    ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+    LightSum sum = zero_sum();
 #if HAS_DIRECTIONAL_LIGHTS
-        for (uint i = 0; i < directional_count; ++i) sum = evaluate_directional(sum, p, directional_lights[i]);
+    for (uint i = 0; i < directional_count; ++i) sum = evaluate_directional(sum, p, directional_lights[i]);
 #endif
 #if ALL_LIGHTS
-        sum = sum_lights(sum, p, lights, lists, light_count);
+    sum = sum_lights(sum, any_drawn, p, lights, lists, light_count STAGED_ARGUMENT);
 #else
-        UV slice = slice_of_depth(grid, z);
-        uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
-        uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-        LightSum unlit = sum;
-        for (uint i = cluster_offsets[tile]; i < end; ++i) {
-            MASK mine = full_mask(slice == (UV)(clusters[i].slice)) & drawn;
-            if (!any_lane(mine)) continue;
-            LightSum lit = sum_lights(unlit, p, lights, lists + clusters[i].list_begin, clusters[i].list_count);
-            sum = select_sum(mine, lit, sum);
-        }
-#endif
-        color = select3(drawn, finish_shading(s, sum, ambient), color);
+    UV slice = slice_of_depth(grid, z);
+    uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
+    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+    LightSum unlit = sum;
+    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+        MASK mine = full_mask(slice == (UV)(clusters[i].slice)) & drawn;
+        bool wanted = any_drawn && any_lane(mine);
+        LightSum lit = sum_lights(unlit, wanted, p, lights, lists + clusters[i].list_begin, clusters[i].list_count STAGED_ARGUMENT);
+        if (wanted) sum = select_sum(mine, lit, sum);
     }
-    uint pixel = y * view.stride + x;
-    uint plane = view.stride * view.height;
-    store_lanes(color.x, radiance + pixel);
-    store_lanes(color.y, radiance + plane + pixel);
-    store_lanes(color.z, radiance + 2 * plane + pixel);
+#endif
+    FV3 color = finish_shading(s, sum, ambient);
+    if (inside) store_radiance(radiance, view, x, y, select3(drawn, color, zero3()));
 }

@@ -24,6 +24,7 @@ Tuning default_tuning(const DeviceInfo& device) {
         return tuning;
     }
     tuning.shade_rows = 16;
+    tuning.shade_stage = 128;
     tuning.cull_group = 64;
     tuning.cull_chunks = 16 * device.compute_units;
     tuning.refine_group = 64;

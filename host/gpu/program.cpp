@@ -15,7 +15,9 @@ namespace {
 constexpr std::string_view kPrologue =
     "#pragma OPENCL FP_CONTRACT OFF\n"
     "#ifdef __clang__\n"
+    "#if __has_warning(\"-Wpsabi\")\n"
     "#pragma clang diagnostic ignored \"-Wpsabi\"\n"
+    "#endif\n"
     "#endif\n";
 
 std::string build_log(const cl::Program& program, const cl::Device& device) {

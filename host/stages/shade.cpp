@@ -8,10 +8,14 @@ namespace {
 
 constexpr std::string_view kStage = "shade";
 
+BuildOptions options_of(const Tuning& tuning, const KernelFeatures& features) {
+    return feature_options(features).define("STAGE", tuning.shade_stage);
+}
+
 }  // namespace
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : gpu_(gpu), tuning_(tuning), features_(features), program_(build_program(gpu, kStage, feature_options(features))),
+    : gpu_(gpu), tuning_(tuning), features_(features), program_(build_program(gpu, kStage, options_of(tuning, features))),
       srgb_(gpu, kStage), radiance_(gpu, kStage), empty_(gpu, kStage) {
     const auto table = srgb_to_linear_table();
     upload<float>(gpu_, srgb_.reserve(table.size() * sizeof(float)), table);
@@ -24,7 +28,7 @@ Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, co
 }
 
 Radiance Shade::enqueue_all_lights(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer) {
-    const cl::Program program = build_program(gpu_, kStage, feature_options(features_).define("ALL_LIGHTS", 1));
+    const cl::Program program = build_program(gpu_, kStage, options_of(tuning_, features_).define("ALL_LIGHTS", 1));
     const ActiveClusters no_clusters{empty_.get(), empty_.get(), 0, 0};
     return launch(program, gbuffer, lights, ClusterGrid{}, no_clusters, RefinedLists{empty_.get(), 0}, timer);
 }
@@ -35,7 +39,8 @@ Radiance Shade::launch(const cl::Program& program, const GBuffer& gbuffer, const
         const View& view = gbuffer.view;
         Radiance out{radiance_.reserve(std::size_t{3} * sizeof(float) * view.stride * view.height), view};
         const auto items_per_tile = static_cast<std::size_t>(FINE_TILE / gpu_.info.lane_width);
-        const auto rows = static_cast<std::size_t>(tuning_.shade_rows);
+        // Staging is a whole tile's common work.
+        const auto rows = static_cast<std::size_t>(tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
         const cl::NDRange items(view.stride / FINE_TILE * items_per_tile, round_up(view.height, rows));
         cl::KernelFunctor<cl::Buffer, GBufferLayout, View, cl::Buffer, cl::Buffer, uint, cl::Buffer, uint, ClusterGrid, cl::Buffer,
                           cl::Buffer, uint, cl::Buffer, float, cl::Buffer>
