@@ -59,6 +59,18 @@ Layer count_layer(const DecodedSurfaces& s) {
     return layer;
 }
 
+// Coarse cluster + 1, so that background is 0.
+Layer cluster_layer(const DecodedSurfaces& s) {
+    Layer layer{"cluster", {"cluster"}, {}, true};
+    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+        const float z = value_at(s, SURFACE_DEPTH, pixel);
+        const uint x = static_cast<uint>(pixel % s.view.stride) / s.grid.tile_width;
+        const uint y = static_cast<uint>(pixel / s.view.stride) / s.grid.tile_height;
+        *out = z == 0.0f ? 0.0f : static_cast<float>(cluster_index(s.grid, x, y, slice_of_depth(s.grid, z)) + 1);
+    });
+    return layer;
+}
+
 }  // namespace
 
 std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view) {
@@ -95,11 +107,6 @@ double mean_of_drawn(const std::vector<uint>& counts) {
     return drawn > 0 ? sum / static_cast<double>(drawn) : 0.0;
 }
 
-const std::vector<std::string>& aov_names() {
-    static const std::vector<std::string> names = {"depth", "position", "normal", "albedo", "roughness", "metallic", "emissive", "light-count"};
-    return names;
-}
-
 Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& camera) {
     if (name == "depth") return plane_layer(name, {"Z"}, s, SURFACE_DEPTH);
     if (name == "position") return world_layer(name, {"P.X", "P.Y", "P.Z"}, s, camera);
@@ -109,6 +116,7 @@ Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& ca
     if (name == "metallic") return plane_layer(name, {"metallic"}, s, SURFACE_METALLIC);
     if (name == "emissive") return plane_layer(name, {"emissive.R", "emissive.G", "emissive.B"}, s, SURFACE_EMISSIVE);
     if (name == "light-count") return count_layer(s);
+    if (name == "cluster") return cluster_layer(s);
     throw UsageError("--aov: '" + std::string(name) + "' is not a layer");
 }
 

@@ -7,6 +7,7 @@
 
 #include "host/render/frame.h"
 #include "host/scene/camera.h"
+#include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/surface_planes.h"
 #include "kernels/shared/view.h"
 
@@ -26,10 +27,8 @@ struct DecodedSurfaces {
     View view{};
     std::vector<float> planes;    // [SURFACE_PLANES][height][stride]
     std::vector<uint> evaluated;  // [height][stride] lights of the pixel's list; empty if not counted
+    ClusterGrid grid{};
 };
-
-/// The AOV layers' names, as `--aov` takes them.
-const std::vector<std::string>& aov_names();
 
 /// One AOV layer. Positions and normals are in world space. Throws UsageError for an unknown name.
 Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera);

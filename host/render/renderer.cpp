@@ -101,6 +101,7 @@ struct Renderer::Parts {
     CountLights count_lights;
     DecodeGBuffer decode;
     std::optional<LightCounts> light_counts;
+    ClusterGrid grid{};  // of the last frame
     StageTimer timer;
 };
 
@@ -147,7 +148,7 @@ LightInput Renderer::Parts::upload_lights(const LightRows& rows) {
 // From the G-buffer and the lights to radiance.
 Radiance Renderer::Parts::light(const GBuffer& gbuffer, const Camera& camera, const LightInput& input, FrameStats& stats) {
     const GridRequest request = grid_request(settings.grid, camera, box, position_pad(settings.gbuffer, box, camera));
-    const ClusterGrid grid = make_cluster_grid(request, gbuffer.view.width, gbuffer.view.height);
+    grid = make_cluster_grid(request, gbuffer.view.width, gbuffer.view.height);
     stats.grid[0] = grid.tiles_x;
     stats.grid[1] = grid.tiles_y;
     stats.grid[2] = grid.slices;
@@ -190,6 +191,7 @@ void Renderer::Parts::add_aovs(const GBuffer& gbuffer, const Camera& camera, Fra
     const View& view = gbuffer.view;
     DecodedSurfaces surfaces;
     surfaces.view = view;
+    surfaces.grid = grid;
     surfaces.planes = download<float>(gpu, decode.enqueue(gbuffer, untimed), std::size_t{SURFACE_PLANES} * view.stride * view.height);
     if (light_counts) {
         surfaces.evaluated = download<uint>(gpu, light_counts->evaluated, std::size_t{view.stride} * view.height);
