@@ -162,23 +162,38 @@ void Checker::visit(const GltfRule& rule, json& value, std::string_view path,
     if (rule.required && rest.empty()) throw Error(name + ": " + prefix + key + " is missing");
 }
 
+// Levels of arrays and objects; counted on the text because JSON readers may recurse, and the
+// parser's own callback costs time quadratic in an array's length.
+int nesting_depth(const std::string& text) {
+    int depth = 0;
+    int deepest = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string) {
+            if (c == '\\') ++i;
+            in_string = c != '"';
+        } else if (c == '"') {
+            in_string = true;
+        } else if (c == '[' || c == '{') {
+            deepest = std::max(deepest, ++depth);
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
 json parse(const std::string& text, const std::string& name) {
-    bool too_deep = false;
-    const auto watch_depth = [&too_deep](int depth, json::parse_event_t, json&) {
-        too_deep = too_deep || depth > kMaxDepth;
-        return !too_deep;
-    };
-    json root;
+    if (nesting_depth(text) > kMaxDepth) {
+        throw Error(name + ": JSON is nested deeper than " + std::to_string(kMaxDepth) + " levels");
+    }
     try {
-        root = json::parse(text, watch_depth);
+        return json::parse(text);
     } catch (const json::exception& error) {
         const std::string what = error.what();
         throw Error(name + ": is not JSON: " + what.substr(what.find(']') + 2));
     }
-    if (too_deep) {
-        throw Error(name + ": JSON is nested deeper than " + std::to_string(kMaxDepth) + " levels");
-    }
-    return root;
 }
 
 }  // namespace

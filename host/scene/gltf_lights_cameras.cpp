@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <sstream>
 
 #include "host/scene/gltf_extensions.h"
 
@@ -36,7 +37,10 @@ SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_
 
 void require(const GltfDocument& document, bool holds, const std::string& where, double value,
              const std::string& expected) {
-    if (!holds) document.fail(where, "is " + std::to_string(value) + ", must be " + expected);
+    if (holds) return;
+    std::ostringstream text;
+    text << "is " << value << ", must be " << expected;
+    document.fail(where, text.str());
 }
 
 void read_perspective(const GltfDocument& document, const tinygltf::PerspectiveCamera& source,
@@ -80,7 +84,8 @@ SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
     } else {
         read_perspective(document, source.perspective, where + ".perspective", out);
     }
-    require(document, out.z_far > out.z_near, where + ".zfar", out.z_far, "greater than znear");
+    require(document, out.z_far > out.z_near, where + "." + source.type + ".zfar", out.z_far,
+            "greater than znear");
     return out;
 }
 

@@ -111,10 +111,14 @@ void add_meshes(const GltfDocument& document, const GltfMaterials& materials,
         meshes_of_shape[jobs[j].shape].push_back(static_cast<int>(scene.meshes.size()));
         scene.meshes.push_back(std::move(meshes[j]));
     }
+    std::size_t instance_count = 0;
     for (const Placement& placement : plan.placements) {
-        const std::vector<int>& of_shape = meshes_of_shape[placement.shape];
-        document.budget->charge(of_shape.size(), sizeof(Instance), document.base.file + ": nodes");
-        for (const int mesh : of_shape) {
+        instance_count += meshes_of_shape[placement.shape].size();
+    }
+    document.budget->charge(instance_count, sizeof(Instance), document.base.file + ": nodes");
+    scene.instances.reserve(instance_count);
+    for (const Placement& placement : plan.placements) {
+        for (const int mesh : meshes_of_shape[placement.shape]) {
             scene.instances.push_back({mesh, placement.world_from_object});
         }
     }

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "host/scene/load_scene.h"
+#include "tests/scene/gltf_builder.h"
+
+namespace kilolux {
+namespace {
+
+using nlohmann::json;
+
+// 4x4 pixels (200, 100, 50, alpha 64), lossless WebP made by libwebp.
+const Blob kWebp = {0x52, 0x49, 0x46, 0x46, 0x1e, 0,    0,    0,    0x57, 0x45, 0x42, 0x50, 0x56,
+                    0x50, 0x38, 0x4c, 0x11, 0,    0,    0,    0x2f, 0x03, 0xc0, 0,    0x10, 0x07,
+                    0x50, 0xb2, 0x22, 0x57, 0xa6, 0x40, 0x81, 0x88, 0xe8, 0x7f, 0,    0};
+
+// A file whose material shows images[0], which is not there yet.
+GltfBuilder file_with_image(const json& image) {
+    GltfBuilder file = triangle_file();
+    file.add("images", image);
+    file.add("textures", {{"source", 0}});
+    file.add("materials", {{"emissiveTexture", {{"index", 0}}}});
+    return file;
+}
+
+Image image_from_view(const Blob& encoded) {
+    GltfBuilder file = file_with_image(json::object());
+    file.root["images"][0] = {{"bufferView", file.add_view(encoded)}, {"mimeType", "image/png"}};
+    return load(file).images.at(0);
+}
+
+std::string error_of_view(const Blob& encoded) {
+    GltfBuilder file = file_with_image(json::object());
+    file.root["images"][0] = {{"bufferView", file.add_view(encoded)}, {"mimeType", "image/png"}};
+    return load_error(file);
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(LoadSceneImage, KeepsTheColourBehindAlpha) {
+    const Blob pixels = {200, 100, 50, 64, 9, 8, 7, 0, 1, 2, 3, 255, 255, 255, 255, 1};
+    const Image image = image_from_view(encode_image("png", 2, 4, pixels));
+    EXPECT_EQ(image.width, 2);
+    EXPECT_EQ(image.height, 2);
+    EXPECT_EQ(image.rgba, pixels);
+}
+
+TEST(LoadSceneImage, ExpandsGreyAndRgb) {
+    EXPECT_EQ(image_from_view(encode_image("png", 2, 1, {7, 9})).rgba,
+              (Blob{7, 7, 7, 255, 9, 9, 9, 255}));
+    EXPECT_EQ(image_from_view(encode_image("png", 1, 2, {7, 9})).rgba, (Blob{7, 7, 7, 9}));
+    EXPECT_EQ(image_from_view(encode_image("png", 1, 3, {7, 8, 9})).rgba, (Blob{7, 8, 9, 255}));
+}
+
+TEST(LoadSceneImage, ReadsJpegByItsBytesWhateverItsNameSays) {
+    const Blob grey(3 * 64, 128);
+    const Image image = image_from_view(encode_image("jpeg", 8, 3, grey));
+    ASSERT_EQ(image.rgba.size(), 4u * 64u);
+    EXPECT_NEAR(image.rgba[0], 128, 2);
+    EXPECT_EQ(image.rgba[3], 255);
+}
+
+TEST(LoadSceneImage, ReadsWebpThroughItsExtension) {
+    GltfBuilder file = file_with_image({{"uri", "fallback, not there.png"}});
+    const int webp =
+        file.add("images", {{"bufferView", file.add_view(kWebp)}, {"mimeType", "image/webp"}});
+    file.root["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", webp}}}};
+    file.root["extensionsUsed"] = {"EXT_texture_webp"};
+    file.root["extensionsRequired"] = {"EXT_texture_webp"};
+    const Image image = load(file).images.at(0);
+    ASSERT_EQ(image.rgba.size(), 4u * 16u);
+    // Through premultiplied 8-bit values: a quarter of alpha costs two bits.
+    EXPECT_NEAR(image.rgba[0], 200, 2);
+    EXPECT_NEAR(image.rgba[1], 100, 2);
+    EXPECT_NEAR(image.rgba[2], 50, 2);
+    EXPECT_EQ(image.rgba[3], 64);
+}
+
+TEST(LoadSceneImage, ReadsFilesWithSpacesAndEscapes) {
+    const TempFolder folder;
+    const Blob png = encode_image("png", 1, 3, {1, 2, 3});
+    std::filesystem::create_directory(folder.path() / "my maps");
+    write_file(folder.path() / "my maps" / "a b.png", png);
+    write_file(folder.path() / "100%25.png", png);
+    for (const char* uri : {"my maps/a b.png", "my%20maps/a%20b.png",
+                            "./my%20maps/../my maps/a b.png", "100%25.png"}) {
+        write_file(folder.path() / "scene.gltf", file_with_image({{"uri", uri}}).gltf());
+        EXPECT_EQ(load_error(folder.path() / "scene.gltf"), "") << uri;
+    }
+}
+
+TEST(LoadSceneImage, ReadsDataUris) {
+    // A 1x1 PNG of (255, 0, 0).
+    const std::string png =
+        "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/"
+        "pLvAAAAAElFTkSuQmCC";
+    const Scene scene = load(file_with_image({{"uri", "data:image/png;base64," + png}}));
+    EXPECT_EQ(scene.images.at(0).rgba, (Blob{255, 0, 0, 255}));
+    const std::string error =
+        load_error(file_with_image({{"uri", "data:image/png;base64,iVB!w0KG"}}));
+    EXPECT_TRUE(contains(error, "images[0]: data URI holds broken base64")) << error;
+}
+
+TEST(LoadSceneImage, NamesAMissingFile) {
+    const std::string error = load_error(file_with_image({{"uri", "wood%20floor.png"}}));
+    EXPECT_TRUE(contains(error, "images[0]: file 'wood%20floor.png': no such file")) << error;
+}
+
+TEST(LoadSceneImage, StaysInTheSceneFilesFolder) {
+    const TempFolder folder;
+    write_file(folder.path() / "outside.png", encode_image("png", 1, 3, {1, 2, 3}));
+    std::filesystem::create_directory(folder.path() / "scene");
+    const std::filesystem::path file = folder.path() / "scene" / "scene.gltf";
+    const std::string absolute = (folder.path() / "outside.png").string();
+    for (const std::string& uri :
+         {std::string("../outside.png"), std::string("..%2Foutside.png"), absolute,
+          std::string("x/../../outside.png"), std::string("%2E%2E/outside.png")}) {
+        write_file(file, file_with_image({{"uri", uri}}).gltf());
+        const std::string error = load_error(file);
+        EXPECT_TRUE(contains(error, "leaves the scene file's folder")) << uri << ": " << error;
+    }
+    LoadOptions options;
+    options.allow_outside_paths = true;
+    for (const std::string& uri : {std::string("../outside.png"), absolute}) {
+        write_file(file, file_with_image({{"uri", uri}}).gltf());
+        EXPECT_EQ(load_error(file, options), "") << uri;
+    }
+}
+
+TEST(LoadSceneImage, RefusesUrisThatAreNoFiles) {
+    for (const char* uri :
+         {"https://example.com/a.png", "file:///etc/passwd", ".", "", "a%00.png"}) {
+        EXPECT_NE(load_error(file_with_image({{"uri", uri}})), "") << uri;
+    }
+}
+
+TEST(LoadSceneImage, RefusesBrokenImages) {
+    const Blob png = encode_image("png", 16, 3, Blob(3 * 256, 77));
+    const Blob half(png.begin(), png.begin() + static_cast<std::ptrdiff_t>(png.size() / 2));
+    EXPECT_TRUE(contains(error_of_view(half), "images[0]")) << error_of_view(half);
+    const Blob noise = {1, 2, 3, 4, 5, 6, 7, 8};
+    EXPECT_TRUE(contains(error_of_view(noise), "images[0]: is of no image format"));
+}
+
+TEST(LoadSceneImage, RefusesAbsurdSizesBeforeDecoding) {
+    // A PNG header alone: signature, IHDR with its checksum, 8-bit RGB.
+    const auto header = [](unsigned char w1, unsigned char w2, const Blob& crc) {
+        Blob png = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D',
+                    'R',  0,   w1,  w2,  0,  0,  w1, w2, 0, 8, 2, 0,  0,   0};
+        png.insert(png.end(), crc.begin(), crc.end());
+        const Blob no_pixels = {0, 0, 0, 0, 'I', 'D', 'A', 'T', 0x35, 0xaf, 0x06, 0x1e,
+                                0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+        png.insert(png.end(), no_pixels.begin(), no_pixels.end());
+        return png;
+    };
+    const std::string large = error_of_view(header(0, 0x41, {0x41, 0x53, 0x53, 0xa7}));
+    EXPECT_TRUE(contains(large, "16640x16640")) << large;
+    const std::string packed = error_of_view(header(0, 0x40, {0x26, 0xaa, 0x87, 0xd3}));
+    EXPECT_TRUE(contains(packed, "claims 16384x16384 pixels in")) << packed;
+}
+
+}  // namespace
+}  // namespace kilolux

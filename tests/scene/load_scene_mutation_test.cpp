@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "host/base/error.h"
+#include "host/scene/load_scene.h"
+#include "tests/scene/gltf_compressed.h"
+
+namespace kilolux {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMutationsPerSeed = 250;  // of each kind
+constexpr std::size_t kMaxMemoryKiB = std::size_t{1} << 20;
+
+using Random = std::mt19937;
+
+std::size_t pick(Random& random, std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+}
+
+// A quad with everything that a file may say about nodes: lights, cameras, skin, morph, animation.
+GltfBuilder busy_file() {
+    GltfBuilder file = quad_with_normal_map();
+    json& attributes = file.primitive()["attributes"];
+    attributes["JOINTS_0"] = file.add_accessor(Blob(16), {kUnsignedByte, "VEC4", 4, false, 0});
+    attributes["WEIGHTS_0"] =
+        file.add_floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+    attributes["COLOR_0"] = file.add_accessor(Blob(16, 200), {kUnsignedByte, "VEC4", 4, true, 0});
+    const int delta = file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+    file.primitive()["targets"] = {{{"POSITION", delta}}};
+    file.root["accessors"][static_cast<std::size_t>(delta)]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", file.add_view(Blob{2})}, {"componentType", kUnsignedByte}}},
+        {"values", {{"bufferView", file.add_view(Blob(12))}}}};
+    file.root["meshes"][0]["weights"] = {0.5};
+    file.add("skins", {{"joints", {1}}});
+    file.root["nodes"][0]["skin"] = 0;
+    file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"color", {1, 1, 1}}, {"range", 3}, {"spot", {{"outerConeAngle", 1}}}}};
+    file.add_node({{"camera", 0},
+                   {"children", {2}},
+                   {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.add("nodes", {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1}}});
+    const int input = file.add_floats("SCALAR", {0, 1, 2});
+    const int output = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 2, 0, 0});
+    file.add(
+        "animations",
+        {{"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
+    file.root["materials"][0]["extensions"] = {{"KHR_materials_ior", {{"ior", 1.4}}}};
+    file.root["materials"][0]["normalTexture"]["extensions"] = {
+        {"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1}, {"scale", {2, 2}}}}};
+    file.root["textures"][0]["sampler"] = file.add("samplers", {{"wrapS", 33071}});
+    return file;
+}
+
+std::vector<GltfBuilder> seeds() {
+    return {busy_file(),
+            triangle_file(),
+            meshopt_quad("TRIANGLES"),
+            meshopt_quad("INDICES"),
+            draco_file(draco_quad(kDracoEdgebreaker)),
+            draco_file(draco_quad(kDracoSequential))};
+}
+
+Blob flip_bits(Random& random, const GltfBuilder& seed) {
+    Blob glb = seed.glb();
+    for (std::size_t flips = 1 + pick(random, 8); flips > 0; --flips) {
+        glb[pick(random, glb.size())] ^= static_cast<unsigned char>(1u << pick(random, 8));
+    }
+    return glb;
+}
+
+// Cut short, and in half the cases with a header that says so.
+Blob truncate(Random& random, const GltfBuilder& seed) {
+    Blob glb = seed.glb();
+    glb.resize(pick(random, glb.size()));
+    if (glb.size() < 20 || pick(random, 2) == 0) return glb;
+    glb[8] = static_cast<unsigned char>(glb.size() & 255u);
+    glb[9] = static_cast<unsigned char>(glb.size() >> 8 & 255u);
+    return glb;
+}
+
+Blob scribble_on_buffer(Random& random, const GltfBuilder& seed) {
+    GltfBuilder file = seed;
+    const std::size_t begin = pick(random, file.bin.size());
+    for (std::size_t i = begin; i < std::min(begin + 16, file.bin.size()); ++i) {
+        file.bin[i] = static_cast<unsigned char>(pick(random, 256));
+    }
+    return file.glb();
+}
+
+json odd_value(Random& random) {
+    static const std::vector<json> values = {nullptr,
+                                             true,
+                                             -1,
+                                             0,
+                                             1,
+                                             3,
+                                             255,
+                                             65536,
+                                             2147483647,
+                                             2147483648,
+                                             4294967295,
+                                             -2147483649,
+                                             9007199254740992,
+                                             18446744073709551615u,
+                                             0.5,
+                                             -0.0,
+                                             1e-320,
+                                             1e38,
+                                             1e300,
+                                             "",
+                                             "x",
+                                             "VEC3",
+                                             "MAT4",
+                                             "SCALAR",
+                                             "data:,",
+                                             "data:image/png;base64,AAAA",
+                                             json::array(),
+                                             json::object(),
+                                             json::array({0}),
+                                             json::array({0, 0, 0}),
+                                             json::array({1e300, 1e300, 1e300}),
+                                             json::array({0, 0, 0, 0}),
+                                             {{"index", 0}},
+                                             {{"a", {{"b", 1}}}}};
+    return values[pick(random, values.size())];
+}
+
+// Replaces, removes or doubles values anywhere in the JSON; inner objects and arrays too.
+Blob change_json(Random& random, const GltfBuilder& seed) {
+    GltfBuilder file = seed;
+    if (!file.root.contains("buffers")) file.root["buffers"] = {{{"byteLength", file.bin.size()}}};
+    for (std::size_t changes = 1 + pick(random, 3); changes > 0; --changes) {
+        const json flat = file.root.flatten();
+        auto entry = flat.begin();
+        std::advance(entry, pick(random, flat.size()));
+        json::json_pointer pointer(entry.key());
+        while (!pointer.empty() && pick(random, 4) == 0) pointer.pop_back();
+        if (pointer.empty()) continue;
+        json& parent = file.root[pointer.parent_pointer()];
+        const std::size_t kind = pick(random, 8);
+        if (kind == 0 && parent.is_object()) {
+            parent.erase(pointer.back());
+        } else if (kind == 1 && parent.is_array()) {
+            parent.push_back(parent.front());
+        } else if (kind == 2) {
+            auto other = flat.begin();
+            std::advance(other, pick(random, flat.size()));
+            file.root[pointer] = other.value();
+        } else {
+            file.root[pointer] = odd_value(random);
+        }
+    }
+    return file.glb();
+}
+
+// Peak of the process's memory since the last reset [KiB].
+std::size_t peak_memory_kib() {
+    std::ifstream status("/proc/self/status");
+    std::string line;
+    while (std::getline(status, line)) {
+        if (line.starts_with("VmHWM:")) return std::stoul(line.substr(6));
+    }
+    return 0;
+}
+
+void reset_peak_memory() {
+    std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+using Mutation = Blob (*)(Random&, const GltfBuilder&);
+
+// A crash leaves the file that caused it in the folder that is printed.
+void expect_loads_or_errors(Mutation mutate, unsigned random_seed) {
+    reset_peak_memory();
+    const TempFolder folder;
+    const std::filesystem::path file = folder.path() / "mutated.glb";
+    std::cout << "mutated files go to " << file << std::endl;
+    Random random(random_seed);
+    int loaded = 0;
+    int refused = 0;
+    const std::vector<GltfBuilder> all = seeds();
+    for (std::size_t s = 0; s < all.size(); ++s) {
+        for (int m = 0; m < kMutationsPerSeed; ++m) {
+            SCOPED_TRACE("seed file " + std::to_string(s) + ", mutation " + std::to_string(m));
+            write_file(file, mutate(random, all[s]));
+            try {
+                ASSERT_EQ(scene_defect(load_scene(file)), "");
+                ++loaded;
+            } catch (const Error& error) {
+                const std::string message = error.what();
+                EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+                EXPECT_NE(message.find(file.string() + ": "), std::string::npos) << message;
+                ++refused;
+            }
+        }
+    }
+    // Both must occur, or the mutations are not what they are meant to be.
+    EXPECT_GT(refused, 0);
+    EXPECT_GT(loaded + refused, 5 * kMutationsPerSeed);
+    EXPECT_LT(peak_memory_kib(), kMaxMemoryKiB);
+}
+
+TEST(LoadSceneMutation, FlippedBits) {
+    expect_loads_or_errors(flip_bits, 1);
+}
+
+TEST(LoadSceneMutation, TruncatedFiles) {
+    expect_loads_or_errors(truncate, 2);
+}
+
+TEST(LoadSceneMutation, ScribbledBuffers) {
+    expect_loads_or_errors(scribble_on_buffer, 3);
+}
+
+TEST(LoadSceneMutation, ChangedJson) {
+    expect_loads_or_errors(change_json, 4);
+}
+
+}  // namespace
+}  // namespace kilolux
