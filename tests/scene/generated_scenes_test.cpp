@@ -52,7 +52,8 @@ TEST_P(GeneratedScenes, IndicesAreInRange) {
         ASSERT_LT(texture.image, static_cast<int>(scene.images.size()));
     }
     for (const Image& image : scene.images) {
-        EXPECT_EQ(image.rgba.size(), std::size_t{4} * image.width * image.height) << image.name;
+        const int bytes = 4 * image.width * image.height;
+        EXPECT_EQ(image.rgba.size(), static_cast<std::size_t>(bytes)) << image.name;
     }
     for (const Material& material : scene.materials) {
         for (const TextureUse* use :
