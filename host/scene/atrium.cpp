@@ -141,7 +141,7 @@ Scene make_atrium(std::uint64_t seed) {
     scene.cameras = {
         camera_from_to("court", {-9.4, 1.35, 0.9}, {3.0, 2.5, -0.7}, 60.0),
         camera_from_to("aisle", {-10.9, 1.7, 6.5}, {2.0, 2.4, 6.7}, 55.0),
-        camera_from_to("gallery", {-11.7, 7.45, 0.8}, {0.0, 3.4, -0.9}, 62.0),
+        camera_from_to("gallery", {-11.1, 7.5, 0.8}, {0.0, 3.4, -0.9}, 62.0),
         camera_from_to("above", {8.9, 9.3, 3.1}, {-3.5, 0.8, -1.6}, 60.0),
     };
     scene.light_box = {{-15.2, -0.25, -8.8}, {15.2, 9.6, 8.8}};

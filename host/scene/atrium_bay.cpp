@@ -72,8 +72,6 @@ MeshBuilder arcade_wall() {
     MeshBuilder builder;
     add_arch_face(builder, arcade_panel(), -kWallHalf, false);
     add_arch_face(builder, arcade_panel(), kWallHalf, true);
-    // Between capital and springers, where the abacus is narrower than the wall is thick: nothing
-    // shows.
     return builder;
 }
 
@@ -113,6 +111,10 @@ MeshBuilder aisle_mouldings() {
     MeshBuilder builder;
     const ArchPanel niche = niche_panel();
     add_label(builder, niche, kAisle, 0.10, false);
+    for (const double side : {-1.08, 1.08}) {
+        builder.box({side - 0.11, niche.spring - 0.10, kAisle - 0.11},
+                    {side + 0.11, niche.spring, kAisle});
+    }
     // The parapet below the niche, and its sill.
     builder.box({-0.97, 0.0, kAisle - 0.02}, {0.97, 0.40, kAisle + kNicheDepth});
     builder.box({-1.08, 0.40, kAisle - 0.07}, {1.08, 0.46, kAisle + kNicheDepth});
@@ -173,10 +175,10 @@ MeshBuilder gallery_wood() {
     MeshBuilder builder;
     const double z = kAisle + kNicheDepth - 0.05;
     builder.quad({-0.6, 6.7, z}, {0.6, 6.7, z}, {0.6, 8.7, z}, {-0.6, 8.7, z}, {0, 0, -1});
-    for (int i = 0; i < 12; ++i) {
-        const double y = 6.80 + 0.145 * i;
-        builder.box({-0.52, y, z - 0.03}, {-0.03, y + 0.09, z});
-        builder.box({0.03, y, z - 0.03}, {0.52, y + 0.09, z});
+    for (int i = 0; i < 8; ++i) {
+        const double y = 6.80 + 0.215 * i;
+        builder.box({-0.52, y, z - 0.03}, {-0.03, y + 0.14, z});
+        builder.box({0.03, y, z - 0.03}, {0.52, y + 0.14, z});
     }
     add_coffers(builder, {-kHalfBay, kUpperWallHalf}, {kHalfBay, kAisle}, {3, 4}, kCeiling);
     return builder;

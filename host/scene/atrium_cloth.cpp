@@ -30,7 +30,7 @@ MeshBuilder banner() {
     constexpr double kLength = 2.3;
     // Seen from -z, u runs to -x.
     builder.smooth_patch(
-        20, 16,
+        14, 10,
         [](double u, double v) {
             const double across = 1.0 - 2.0 * u;
             const double down = 1.0 - v;
@@ -52,7 +52,7 @@ MeshBuilder curtain() {
     constexpr double kHem = 0.03;
     for (const double side : {-1.0, 1.0}) {
         builder.smooth_patch(
-            36, 22,
+            30, 14,
             [side](double u, double v) {
                 const double down = 1.0 - v;
                 const double across = side > 0.0 ? u : 1.0 - u;  // 0 at the middle, 1 at the column

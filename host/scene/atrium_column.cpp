@@ -53,7 +53,7 @@ void add_base(MeshBuilder& builder) {
     add_bulge(base, 0.325, 0.28, 0.06, 5);
     base.points.emplace_back(0.315, 0.345);
     base.points.emplace_back(kRadius, kShaftBottom);
-    builder.lathe(base, 28);
+    builder.lathe(base, 22);
 }
 
 // Radius of the capital's bell at a height above the shaft.
@@ -92,7 +92,7 @@ void add_volute(MeshBuilder& builder, double angle) {
         path.push_back((0.28 + 0.15 * t * t) * radial +
                        glm::dvec3(0.0, kShaftTop + 0.26 + 0.27 * t, 0.0));
     }
-    constexpr int kTurnSteps = 14;
+    constexpr int kTurnSteps = 11;
     const glm::dvec3 eye = 0.455 * radial + glm::dvec3(0.0, kShaftTop + 0.46, 0.0);
     for (int i = 0; i <= kTurnSteps; ++i) {
         const double t = static_cast<double>(i) / kTurnSteps;
@@ -100,7 +100,7 @@ void add_volute(MeshBuilder& builder, double angle) {
         const double r = 0.085 * (1.0 - 0.75 * t);
         path.push_back(eye + r * (std::cos(turn) * radial + glm::dvec3(0.0, std::sin(turn), 0.0)));
     }
-    builder.tube(path, 0.026, 5);
+    builder.tube(path, 0.026, 4);
 }
 
 void add_abacus(MeshBuilder& builder) {
@@ -129,7 +129,7 @@ void add_capital(MeshBuilder& builder) {
         const double y = 0.55 * i / 6;
         bell.points.emplace_back(bell_radius(y), kShaftTop + 0.02 + y);
     }
-    builder.lathe(bell, 24);
+    builder.lathe(bell, 16);
     for (int i = 0; i < 8; ++i) {
         const double angle = 2.0 * kPi * i / 8;
         add_leaf(builder, angle, 0.27, 0.085);
@@ -144,8 +144,8 @@ MeshBuilder column_shaft() {
     MeshBuilder builder;
     const double height = kShaftTop - kShaftBottom;
     // Rows are dense where the flutes run out.
-    constexpr double kRows[] = {0.0, 0.012, 0.035, 0.06, 0.35, 0.65, 0.94, 0.965, 0.988, 1.0};
-    constexpr int kRowCount = 9;
+    constexpr double kRows[] = {0.0, 0.015, 0.06, 0.4, 0.7, 0.94, 0.985, 1.0};
+    constexpr int kRowCount = 7;
     const auto surface = [=](double u, double share) {
         const double angle = 2.0 * kPi * u;
         const double r = shaft_radius(share) - flute_depth(angle, share);
@@ -184,7 +184,7 @@ MeshBuilder gallery_column() {
           glm::dvec2(0.20, top - 0.12)}) {
         profile.points.emplace_back(radius, y);
     }
-    builder.lathe(profile, 16);
+    builder.lathe(profile, 12);
     builder.box({-0.22, top - 0.12, -0.22}, {0.22, top, 0.22});
     MeshBuilder moved;
     moved.append(builder, placed({0.0, kGalleryFloor, 0.0}));

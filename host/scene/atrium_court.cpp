@@ -105,13 +105,13 @@ MeshBuilder fountain_water() {
     MeshBuilder builder;
     builder.quad({-kBasin.x, kWater, -kBasin.y}, {kBasin.x, kWater, -kBasin.y},
                  {kBasin.x, kWater, kBasin.y}, {-kBasin.x, kWater, kBasin.y}, {0, 1, 0});
-    for (const auto& [radius, height] : {glm::dvec2(0.88, 1.44), glm::dvec2(0.47, 2.18)}) {
-        const glm::dvec3 center(0.0, kCourtFloor + height, 0.0);
+    for (const glm::dvec2& bowl : {glm::dvec2(0.88, 1.44), glm::dvec2(0.47, 2.18)}) {
+        const glm::dvec3 center(0.0, kCourtFloor + bowl.y, 0.0);
         const std::vector<SweepFrame> frames =
             round_frames(center, 32, 0.0, 6.283185307179586, 1.0);
         builder.patch(32, 1, [&](double u, double v) {
             const SweepFrame& f = frames[static_cast<std::size_t>(u * 32 + 0.5)];
-            const glm::dvec3 p = center + (v * radius) * f.axis_x;
+            const glm::dvec3 p = center + (v * bowl.x) * f.axis_x;
             return SurfacePoint{p, {0, 1, 0}, {p.x, p.z}};
         });
     }

@@ -51,6 +51,7 @@ void add_cloth(Scene& scene, std::uint64_t seed) {
     for (std::size_t i = 0; i < kCloths.size(); ++i) {
         banners[i] = add_mesh(scene, atrium_mesh("banner", banner(), kCloths[i]));
     }
+    std::uint64_t colour = item_bits(seed, 3);
     const int drapes = add_mesh(scene, atrium_mesh("curtain", curtain(), kCloths[seed % 2]));
     const int rod =
         add_mesh(scene, atrium_mesh("curtain-rod", curtain_rod(), AtriumMaterial::iron));
@@ -59,9 +60,7 @@ void add_cloth(Scene& scene, std::uint64_t seed) {
             place(scene, drapes, bay.world_from_piece);
             place(scene, rod, bay.world_from_piece);
         } else if (bay.index % 2 == 1) {
-            const auto item = static_cast<std::uint64_t>(bay.index + 10 * bay.side);
-            const std::uint64_t colour = item_bits(item_key(seed, item), 7) % 3;
-            place(scene, banners[colour],
+            place(scene, banners[colour++ % 3],
                   bay.world_from_piece * placed({0.0, kGalleryFloor - 0.01, -kWallHalf - 0.44}));
         }
     }
@@ -73,17 +72,17 @@ void add_plants(Scene& scene, std::uint64_t seed) {
         add_mesh(scene, atrium_mesh("trunk", tree_trunk(kPotHeight - 0.02), AtriumMaterial::wood));
     const int crown = add_mesh(
         scene,
-        atrium_mesh("crown", foliage(2.15, 0.72, 520, item_bits(seed, 1)), AtriumMaterial::leaf));
+        atrium_mesh("crown", foliage(2.15, 0.72, 460, item_bits(seed, 1)), AtriumMaterial::leaf));
     const int shrub = add_mesh(
         scene,
-        atrium_mesh("shrub", foliage(0.85, 0.42, 220, item_bits(seed, 2)), AtriumMaterial::leaf));
+        atrium_mesh("shrub", foliage(0.85, 0.42, 200, item_bits(seed, 2)), AtriumMaterial::leaf));
     for (int i = 0; i < 4; ++i) {
         const double x = i % 2 == 0 ? -1.0 : 1.0;
         const double z = i < 2 ? -1.0 : 1.0;
         // A quarter turn each, so that four trees are not one.
-        const glm::dmat4 tree = placed({x * 6.4, kCourtFloor, z * 2.2}, i);
+        const glm::dmat4 tree = placed({x * 4.4, kCourtFloor, z * 2.6}, i);
         for (const int mesh : {pots, trunk, crown}) place(scene, mesh, tree);
-        const glm::dmat4 low = placed({x * 3.9, kCourtFloor, z * 2.35}, i + 1);
+        const glm::dmat4 low = placed({x * 7.4, kCourtFloor, z * 2.75}, i + 1);
         for (const int mesh : {pots, shrub}) place(scene, mesh, low);
     }
 }

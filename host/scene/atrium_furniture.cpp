@@ -34,7 +34,7 @@ MeshBuilder urn() {
                     {0.15, 0.84},
                     {0.0, 0.80}},
                    0.75},
-                  24);
+                  18);
     for (const double side : {-1.0, 1.0}) {
         std::vector<glm::dvec3> handle;
         for (int i = 0; i <= 8; ++i) {
@@ -109,7 +109,7 @@ MeshBuilder foliage(double height, double radius, int leaves, std::uint64_t seed
         const glm::dvec3 along =
             glm::normalize(glm::cross(n, glm::dvec3(random(5) - 0.5, random(6) - 0.5, 0.3)));
         const glm::dvec3 side = glm::cross(n, along);
-        const double length = 0.13 + 0.06 * random(7);
+        const double length = 0.11 + 0.05 * random(7);
         const glm::dvec3 base = glm::dvec3(0, height, 0) + r * out;
         builder.patch(2, 2, [&](double u, double v) {
             const double across = 2.0 * u - 1.0;

@@ -89,7 +89,7 @@ MeshBuilder side_roof(double half) {
     const int waves = static_cast<int>(2.0 * end / 0.27);
     const auto surface = [=](double u, double v) {
         const double x = end * (1.0 - 2.0 * u);
-        const double from = std::max(kEaveDepth, std::abs(x) - half);
+        const double from = std::clamp(std::abs(x) - half, kEaveDepth, kOuterFace - 0.01);
         const double z = from + v * (kOuterFace - from);
         const double wave = std::cos(2.0 * std::numbers::pi * waves * u);
         return glm::dvec3(x, roof_height(z) + 0.05 * wave, z);

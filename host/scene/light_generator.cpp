@@ -85,15 +85,15 @@ double exposing_intensity(glm::dvec3 size, double count, double radius) {
     return mean / kMeanLuminance;
 }
 
-// A saturated colour whose brightest channel is 1; dark hues are mixed with white up to a luminance
-// of 0.4, so that blue lights light as well.
+// A saturated colour whose brightest channel is 1, a fifth of it white; dark hues get white up to a
+// luminance of 0.45, so that blue lights light as well.
 glm::dvec3 colour(double hue) {
     const double h = hue * 6.0;
     const auto ramp = [](double x) { return std::clamp(x, 0.0, 1.0); };
     const glm::dvec3 pure(ramp(std::abs(h - 3.0) - 1.0), ramp(2.0 - std::abs(h - 2.0)),
                           ramp(2.0 - std::abs(h - 4.0)));
     const double luminance = 0.2126 * pure.x + 0.7152 * pure.y + 0.0722 * pure.z;
-    const double white = std::max(0.08, (0.4 - luminance) / (1.0 - luminance));
+    const double white = std::max(0.2, (0.45 - luminance) / (1.0 - luminance));
     return glm::dvec3(white) + (1.0 - white) * pure;
 }
 

@@ -7,12 +7,25 @@
 namespace kilolux {
 namespace {
 
-std::uint32_t lattice_bits(int x, int y, glm::ivec2 period, std::uint32_t seed) {
-    const auto wrap = [](int i, int n) { return static_cast<std::uint32_t>(((i % n) + n) % n); };
-    std::uint32_t h = seed + wrap(x, period.x) * 0x9e3779b9u + wrap(y, period.y) * 0x85ebca6bu;
-    h = (h ^ (h >> 16)) * 0x7feb352du;  // "lowbias32", a 32-bit finaliser by C. Wellons
+constexpr std::uint32_t kAcross = 0x9e3779b9u;  // odd factors that tell x and y apart
+constexpr std::uint32_t kDown = 0x85ebca6bu;
+
+std::uint32_t wrapped(int i, int period) {
+    const bool inside = i >= 0 && i < period;
+    return static_cast<std::uint32_t>(inside ? i : ((i % period) + period) % period);
+}
+
+// "lowbias32", a 32-bit finaliser by C. Wellons.
+std::uint32_t mixed(std::uint32_t h) {
+    h = (h ^ (h >> 16)) * 0x7feb352du;
     h = (h ^ (h >> 15)) * 0x846ca68bu;
     return h ^ (h >> 16);
+}
+
+// std::floor is a call where the compiler may not assume SSE 4.1.
+int floor_int(double x) {
+    const int i = static_cast<int>(x);
+    return i - (x < i ? 1 : 0);
 }
 
 // Dot product of one of eight directions with d.
@@ -41,20 +54,22 @@ double mix(double a, double b, double t) {
 }  // namespace
 
 double lattice_value(int x, int y, int period, std::uint32_t seed) {
-    return lattice_bits(x, y, glm::ivec2(period), seed) * 0x1p-32;
+    return mixed(seed + wrapped(x, period) * kAcross + wrapped(y, period) * kDown) * 0x1p-32;
 }
 
 double gradient_noise(glm::dvec2 p, glm::ivec2 period, std::uint32_t seed) {
-    const double fx = std::floor(p.x);
-    const double fy = std::floor(p.y);
-    const int x = static_cast<int>(fx);
-    const int y = static_cast<int>(fy);
-    const double dx = p.x - fx;
-    const double dy = p.y - fy;
-    const double a = gradient(lattice_bits(x, y, period, seed), dx, dy);
-    const double b = gradient(lattice_bits(x + 1, y, period, seed), dx - 1.0, dy);
-    const double c = gradient(lattice_bits(x, y + 1, period, seed), dx, dy - 1.0);
-    const double d = gradient(lattice_bits(x + 1, y + 1, period, seed), dx - 1.0, dy - 1.0);
+    const int x = floor_int(p.x);
+    const int y = floor_int(p.y);
+    const double dx = p.x - x;
+    const double dy = p.y - y;
+    const std::uint32_t left = seed + wrapped(x, period.x) * kAcross;
+    const std::uint32_t right = seed + wrapped(x + 1, period.x) * kAcross;
+    const std::uint32_t top = wrapped(y, period.y) * kDown;
+    const std::uint32_t bottom = wrapped(y + 1, period.y) * kDown;
+    const double a = gradient(mixed(left + top), dx, dy);
+    const double b = gradient(mixed(right + top), dx - 1.0, dy);
+    const double c = gradient(mixed(left + bottom), dx, dy - 1.0);
+    const double d = gradient(mixed(right + bottom), dx - 1.0, dy - 1.0);
     const double t = fade(dx);
     return 1.4 * mix(mix(a, b, t), mix(c, d, t), fade(dy));
 }

@@ -89,7 +89,7 @@ double exposure(const std::vector<SceneLight>& lights, const Box& box, int point
 TEST(LightGenerator, MakesTheStoredBits) {
     // Any machine, compiler, thread count and optimisation must give this number.
     EXPECT_EQ(fingerprint(generate_lights(options_for(20000), hall(), 12.5)),
-              10140708932481201171u);
+              3264734365174761229u);
 }
 
 TEST(LightGenerator, ThreadsAndCountChangeNoPosition) {
@@ -209,11 +209,11 @@ TEST(LightGenerator, ColoursAreSaturatedAndOfLikeLuminance) {
     double sum = 0.0;
     for (const SceneLight& light : generate_lights(options, hall(), 0.0)) {
         const glm::vec3 c = light.intensity;
-        EXPECT_LE(std::min({c.x, c.y, c.z}), 0.4f);
-        EXPECT_GE(luminance(glm::dvec3(c)), 0.399);
+        EXPECT_LE(std::min({c.x, c.y, c.z}), 0.41f);
+        EXPECT_GE(luminance(glm::dvec3(c)), 0.449);
         sum += luminance(glm::dvec3(c));
     }
-    EXPECT_NEAR(sum / 20000, 0.591, 0.005);
+    EXPECT_NEAR(sum / 20000, 0.633, 0.005);
 }
 
 TEST(LightGenerator, FlatAndEmptyBoxesWork) {
