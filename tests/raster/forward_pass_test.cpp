@@ -25,6 +25,7 @@ constexpr uint kStride = 80;
 // divisions that a GPU may round otherwise.
 constexpr double kTolerance = 1e-5;
 
+// A wall, metallic panels in front of it, and a fence with holes.
 Scene boxes_scene() {
     Scene scene = one_object(quad_mesh(6.0f));
     scene.materials[0].roughness = 0.7f;
@@ -45,6 +46,16 @@ Scene boxes_scene() {
         world[3] = glm::dvec4(1.5 * (i - 2), 0.4 * i - 1, 0.7 * i, 1);
         scene.instances.push_back({1, world});
     }
+    // A fence in front of all, half of it cut away.
+    Material fence;
+    fence.alpha_mode = AlphaMode::mask;
+    fence.base_color_texture = add_texture(scene, 2, 1, {255, 255, 255, 0, 200, 200, 200, 255});
+    fence.base_color_texture.uv_from_texcoord[0].x = 4.0f;
+    fence.double_sided = true;
+    scene.materials.push_back(fence);
+    scene.meshes.push_back(quad_mesh(1.5f));
+    scene.meshes[2].material = 2;
+    scene.instances.push_back({2, translation({0.5, 0.5, 3.5})});
     return scene;
 }
 
