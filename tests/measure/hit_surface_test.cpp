@@ -124,23 +124,55 @@ TEST(HitSurface, AlphaMaskCutsHoles) {
     Instance back = scene.instances[0];
     back.world_from_object[3][2] = -1.0;
     scene.instances.push_back(back);
-    const auto depths = [&](double blend_cutoff) {
-        const SurfaceSamples s =
-            RayCaster(scene).cast(front_camera(), 2, 1, {.blend_cutoff = blend_cutoff});
+    const auto depths = [&] {
+        const SurfaceSamples s = RayCaster(scene).cast(front_camera(), 2, 1);
         const auto depth = [](const SurfaceSample& p) {
             return p.kind == SurfaceKind::background ? 0.0 : -p.position.z;
         };
         return glm::dvec2(depth(s.at(0, 0)), depth(s.at(1, 0)));
     };
-    EXPECT_NEAR(depths(0).x, 5.0, 1e-12) << "opaque: alpha is not looked at";
+    EXPECT_NEAR(depths().x, 5.0, 1e-12) << "opaque: alpha is not looked at";
     scene.materials[0].alpha_mode = AlphaMode::mask;
-    EXPECT_EQ(depths(0).x, 0.0) << "both quads have the hole";
-    EXPECT_NEAR(depths(0).y, 5.0, 1e-12);
+    EXPECT_EQ(depths().x, 0.0) << "both quads have the hole";
+    EXPECT_NEAR(depths().y, 5.0, 1e-12);
     scene.materials[0].alpha_cutoff = 0.0f;
-    EXPECT_NEAR(depths(0).x, 5.0, 1e-12);
+    EXPECT_NEAR(depths().x, 5.0, 1e-12);
     scene.materials[0].alpha_mode = AlphaMode::blend;
-    EXPECT_NEAR(depths(0).x, 5.0, 1e-12);
-    EXPECT_EQ(depths(0.5).x, 0.0);
+    EXPECT_EQ(depths().y, 0.0) << "not in a G-buffer";
+}
+
+// Unit at the corners, then interpolated: long normals weigh no more than short ones.
+TEST(HitSurface, CornersNormalsCountAlike) {
+    Scene scene = quad_scene(1.0f);
+    scene.meshes[0].normals = {{0, 0, 9}, {3, 0, 0}, {3, 0, 0}, {0, 0, 9}};
+    const glm::dvec3 normal = center_of(scene, front_camera()).normal;
+    EXPECT_NEAR(normal.x, std::sqrt(0.5), 1e-14);
+    EXPECT_NEAR(normal.z, std::sqrt(0.5), 1e-14);
+}
+
+TEST(HitSurface, NormalMapsUseTheBasisAsInterpolated) {
+    Scene scene = quad_scene(1.0f);
+    scene.images.push_back({"tilt", 1, 1, {204, 153, 204, 255}});  // (0.6, 0.2, 0.6)
+    scene.textures.push_back({0, {}});
+    scene.materials[0].normal_texture.texture = 0;
+    const float s = std::sqrt(0.5f);
+    scene.meshes[0].normals = {{-s, 0, s}, {s, 0, s}, {s, 0, s}, {-s, 0, s}};
+    scene.meshes[0].tangents.assign(4, {1, 0, 0, 1});
+    // In the middle the normal is (0, 0, s), the bitangent s long too.
+    const glm::dvec3 expected = glm::normalize(glm::dvec3(0.6, 0.2 * s, 0.6 * s));
+    EXPECT_LT(glm::distance(center_of(scene, front_camera()).normal, expected), 1e-7);
+}
+
+TEST(HitSurface, MirroredNormalMapsAreMirrored) {
+    Scene scene = quad_scene();
+    scene.images.push_back({"tilt", 1, 1, {204, 153, 204, 255}});
+    scene.textures.push_back({0, {}});
+    scene.materials[0].normal_texture.texture = 0;
+    scene.meshes[0].tangents.assign(4, {1, 0, 0, 1});
+    const glm::dvec3 plain = center_of(scene, front_camera()).normal;
+    scene.instances[0].world_from_object[0][0] = -1.0;
+    const glm::dvec3 mirrored = center_of(scene, front_camera()).normal;
+    EXPECT_LT(glm::distance(mirrored, plain * glm::dvec3(-1, 1, 1)), 1e-14);
 }
 
 TEST(HitSurface, NormalMapTiltsInTheTangentFrame) {

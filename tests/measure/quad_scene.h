@@ -32,9 +32,8 @@ inline Scene quad_scene(float size = 10.0f) {
     return scene;
 }
 
-inline SurfaceSample center_of(const Scene& scene, const Camera& camera,
-                               const RayCastOptions& options = {}) {
-    return RayCaster(scene).cast(camera, 3, 3, options).at(1, 1);
+inline SurfaceSample center_of(const Scene& scene, const Camera& camera) {
+    return RayCaster(scene).cast(camera, 3, 3).at(1, 1);
 }
 
 inline Camera front_camera(double distance = 5.0) {
