@@ -87,28 +87,42 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
-// Interpolated normal in world space, unit, or 0. Cofactors are the inverse transpose without the
-// division, so that a transform that flattens a mesh still has one.
+// Sum of the corners' `values`, each taken to world space and made unit, by weight. Not unit: a
+// basis for normal maps is used as interpolated (MikkTSpace), and what stays alone is made unit
+// later.
+template <class Attribute>
+glm::dvec3 interpolated_direction(const SurfaceHit& hit, const std::vector<Attribute>& values,
+                                  const glm::dmat3& world_from_object) {
+    const Mesh& mesh = mesh_of(hit);
+    const std::size_t first = 3 * static_cast<std::size_t>(hit.triangle.triangle);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 object(values[mesh.indices[first + i]]);
+        sum += hit.hit.weights[i] * unit_or_zero(world_from_object * object);
+    }
+    return sum;
+}
+
+// Cofactors are the inverse transpose without the division, so that a transform that flattens a
+// mesh still has one.
 glm::dvec3 smooth_normal(const SurfaceHit& hit) {
     const auto& normals = mesh_of(hit).normals;
     if (normals.empty()) return unit_or_zero(corner_normal(hit.triangle) * orientation(hit));
     const glm::dmat3 m(instance_of(hit).world_from_object);
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                                glm::cross(m[0], m[1]));
-    const auto object = interpolated<glm::dvec3>(hit, normals, hit.hit.weights);
-    return unit_or_zero(cofactors * unit_or_zero(object)) * orientation(hit);
+    return interpolated_direction(hit, normals, cofactors * orientation(hit));
 }
 
 glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv) {
     const glm::dvec3 normal = smooth_normal(hit);
     const Material& material = material_of(hit);
     const auto& tangents = mesh_of(hit).tangents;
-    if (!material.normal_texture.present() || tangents.empty()) return normal;
-    const auto object = interpolated<glm::dvec4>(hit, tangents, hit.hit.weights);
+    if (!material.normal_texture.present() || tangents.empty()) return unit_or_zero(normal);
     const glm::dmat3 world_from_object(instance_of(hit).world_from_object);
-    const glm::dvec3 tangent = unit_or_zero(world_from_object * glm::dvec3(object));
-    const double handedness = (object.w < 0.0 ? -1.0 : 1.0) * orientation(hit);
-    const glm::dvec3 bitangent = glm::cross(normal, tangent) * handedness;
+    const glm::dvec3 tangent = interpolated_direction(hit, tangents, world_from_object);
+    const double w = interpolated<glm::dvec4>(hit, tangents, hit.hit.weights).w;
+    const glm::dvec3 bitangent = glm::cross(normal, tangent) * (w * orientation(hit));
     const glm::dvec4 texel =
         hit.textures.sample(material.normal_texture, TextureEncoding::linear, uv);
     const glm::dvec3 map = 2.0 * glm::dvec3(texel) - 1.0;

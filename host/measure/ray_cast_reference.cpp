@@ -17,15 +17,15 @@ PixelRay to_world(const PixelRay& view, const Camera& camera) {
             .direction_dy = m * view.direction_dy};
 }
 
-// Whether the ray ends there: a side that is drawn, and not cut out by alpha.
-bool stops(const SurfaceHit& hit, double blend_cutoff) {
+// Whether the ray ends there: a side that is drawn, opaque, and not cut out by alpha.
+bool stops(const SurfaceHit& hit) {
     const Material& material = material_of(hit);
     if (!material.double_sided && !front_facing(hit)) return false;
     switch (material.alpha_mode) {
         case AlphaMode::mask:
             return base_color_at(hit).w >= material.alpha_cutoff;
         case AlphaMode::blend:
-            return blend_cutoff <= 0.0 || base_color_at(hit).w >= blend_cutoff;
+            return false;
         case AlphaMode::opaque:
             break;
     }
@@ -38,7 +38,7 @@ RayCaster::RayCaster(const Scene& scene)
     : scene_(scene), bvh_(world_triangles(scene)), textures_(scene) {}
 
 SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
-                               const RayCastOptions& options) const {
+                               const Progress& progress) const {
     SurfaceSamples out = make_surface_samples(width, height);
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     const auto cast_pixel = [&](int x, int y) {
@@ -47,13 +47,12 @@ SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
         const auto hit_of = [&](const RayHit& hit) {
             return SurfaceHit{scene_, textures_, bvh_.triangles()[hit.index], hit, ray};
         };
-        const auto hit = bvh_.nearest({.origin = ray.origin,
-                                       .direction = ray.direction,
-                                       .t_min = camera.z_near,
-                                       .t_max = camera.z_far},
-                                      [&](const RayHit& candidate) {
-                                          return stops(hit_of(candidate), options.blend_cutoff);
-                                      });
+        const auto hit =
+            bvh_.nearest({.origin = ray.origin,
+                          .direction = ray.direction,
+                          .t_min = camera.z_near,
+                          .t_max = camera.z_far},
+                         [&](const RayHit& candidate) { return stops(hit_of(candidate)); });
         if (!hit) return;
         SurfaceSample& sample = out.at(x, y);
         sample = surface_at(hit_of(*hit));
@@ -64,7 +63,7 @@ SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
     const auto cast_row = [&](int y) {
         for (int x = 0; x < width; ++x) cast_pixel(x, y);
     };
-    parallel_rows(height, cast_row, options.progress);
+    parallel_rows(height, cast_row, progress);
     return out;
 }
 

@@ -10,11 +10,6 @@
 
 namespace kilolux {
 
-struct RayCastOptions {
-    double blend_cutoff = 0.0;  // AlphaMode::blend surfaces with less alpha than this are not there
-    Progress progress{};
-};
-
 /// What rays through the pixels of a camera hit of a scene, all in double: the unquantised
 /// G-buffer.
 ///
@@ -23,17 +18,15 @@ struct RayCastOptions {
 /// choose:
 /// * Of a back face only what is double sided is seen, with its normal turned round. Mirroring
 ///   transforms (negative determinant) swap front and back, as glTF says.
-/// * Normals: corners' normals interpolated, taken to view space by the inverse transpose, made
-/// unit.
-///   Without normals: the triangle's. A zero normal is +Z of the view.
-/// * Normal maps: tangent frame of the interpolated, unit tangent and normal, bitangent =
-/// cross(normal,
-///   tangent) * handedness. Without tangents the map is not applied.
+/// * Normals: the corners', taken to the world by the inverse transpose, made unit, interpolated,
+///   made unit. Without normals: the triangle's. A zero normal is +Z of the view.
+/// * Normal maps: MikkTSpace's basis, interpolated and not made unit, bitangent = cross(normal,
+///   tangent) * handedness, mirrored with the object. Without tangents the map is not applied.
 /// * Textures: see TextureSampler; derivatives are those at the pixel's centre (Igehy 1999).
-/// * Alpha masks take the same filtered sample. Nearer than z_near and farther than z_far is cut
-/// away.
-/// * KHR_materials_unlit: emissive is the base colour. Ior and specular extensions are not in the
-/// model.
+/// * Alpha masks take the same filtered sample. Surfaces of AlphaMode::blend are not seen: a
+///   G-buffer holds none. Nearer than z_near and farther than z_far is cut away.
+/// * KHR_materials_unlit: emissive is the base colour. The ior and specular extensions are not in
+///   the model.
 class RayCaster {
  public:
     /// Builds the hierarchy and the mip levels. Keeps a reference to the scene.
@@ -42,7 +35,7 @@ class RayCaster {
     /// Casts width * height rays, on all cores. Positions and normals are in the camera's view
     /// space.
     SurfaceSamples cast(const Camera& camera, int width, int height,
-                        const RayCastOptions& options = {}) const;
+                        const Progress& progress = {}) const;
 
  private:
     const Scene& scene_;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace kilolux {
+
+struct PlotPoint {
+    double x = 0.0;
+    double y = 0.0;
+    std::string label{};  // written beside the point; may be empty
+};
+
+enum class PlotStyle { lines_and_points, points };
+
+/// A curve or a cloud of points.
+struct PlotSeries {
+    std::string name;  // in the key
+    std::vector<PlotPoint> points;
+    PlotStyle style = PlotStyle::lines_and_points;
+};
+
+struct Plot {
+    std::string title;
+    std::string x_label;  // with its unit
+    std::string y_label;
+    bool log_x = false;
+    bool log_y = false;
+    std::vector<PlotSeries> series;
+    bool pareto_front = false;  // draws the Pareto set of all points, x as cost and y as error
+};
+
+/// Files of a written plot.
+struct PlotFiles {
+    std::filesystem::path script;  // STEM.gnuplot, draws the pictures again from the data
+    std::filesystem::path data;    // STEM.dat
+    std::filesystem::path png;     // STEM.png
+    std::filesystem::path svg;     // STEM.svg
+};
+
+/// Writes a plot's data and gnuplot script beside each other and runs gnuplot, without a shell.
+///
+/// `stem`: path without an extension, in a folder that exists. Points that are not finite, or not
+/// above 0 on a logarithmic axis, are left out. The four files appear together, finished, or not at
+/// all. Throws Error when no point is left, when a file cannot be written, when gnuplot is missing
+/// (package gnuplot-nox) or fails, with its message.
+PlotFiles write_plot(const Plot& plot, const std::filesystem::path& stem);
+
+}  // namespace kilolux

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace kilolux {
+
+/// What repeated measurements say.
+struct Statistics {
+    std::size_t count = 0;
+    double min = 0.0;
+    double p5 = 0.0;
+    double median = 0.0;
+    double p95 = 0.0;
+    double max = 0.0;
+    double mean = 0.0;
+};
+
+/// Of any number of values in any order; all 0 of none. Percentiles between two values are
+/// interpolated linearly (Hyndman and Fan 1996, definition 7). A NaN makes all but the count NaN.
+Statistics statistics(std::span<const double> values);
+
+/// The value below which `share` (0..1) of the ascending, not empty `sorted` lie; interpolated.
+double quantile(std::span<const double> sorted, double share);
+
+}  // namespace kilolux

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/plot.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "host/base/error.h"
+#include "host/measure/plot_script.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+Plot sample() {
+    return {.title = "Speed & error: 'quoted' \"twice\" $HOME `id` a_b^c",
+            .x_label = "frame [ms]",
+            .y_label = "mean FLIP",
+            .log_x = true,
+            .log_y = true,
+            .series = {{"packed", {{1, 0.1, "default"}, {2, 0.01}, {4, 0.05}, {3, 0.0}}},
+                       {"full; system('false')",
+                        {{5, 0.001}, {6, std::nan("")}, {INFINITY, 1}},
+                        PlotStyle::points},
+                       {"nothing", {{-1, 1}}}},
+            .pareto_front = true};
+}
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// An empty folder with a name that a shell or a script could trip over.
+class PlotFolder : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ =
+            fs::path(testing::TempDir()) / ("kilolux plot's $test " + std::to_string(::getpid()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    std::size_t file_count() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}));
+    }
+    fs::path folder_;
+};
+
+TEST(PlotScript, KeepsWhatAxesCanShow) {
+    const Plot ready = drawable(sample());
+    ASSERT_EQ(ready.series.size(), 3u) << "two series and the front";
+    EXPECT_EQ(ready.series[0].points.size(), 3u);
+    EXPECT_EQ(ready.series[1].points.size(), 1u);
+    EXPECT_EQ(ready.series[2].name, "Pareto front");
+    ASSERT_EQ(ready.series[2].points.size(), 3u);
+    EXPECT_EQ(ready.series[2].points[0].x, 1.0);
+    EXPECT_EQ(ready.series[2].points[1].x, 2.0);
+    EXPECT_EQ(ready.series[2].points[2].x, 5.0);
+}
+
+TEST(PlotScript, DataIsOneBlockASeries) {
+    const Plot plot{.title = "",
+                    .x_label = "",
+                    .y_label = "",
+                    .series = {{"a", {{1, 0.5, "x \"y\"\nz"}}}, {"b", {{2, 1e-9}}}}};
+    EXPECT_EQ(plot_data(plot), "# \"a\"\n1 0.5 \"x 'y' z\"\n\n\n# \"b\"\n2 1e-09 \"\"\n");
+}
+
+TEST_F(PlotFolder, WritesFourFilesAndNothingElse) {
+    const PlotFiles files = write_plot(sample(), folder_ / "it's a plot");
+    EXPECT_EQ(files.png, folder_ / "it's a plot.png");
+    EXPECT_EQ(bytes_of(files.png).substr(1, 3), "PNG");
+    EXPECT_GT(bytes_of(files.png).size(), 4000u);
+    const std::string svg = bytes_of(files.svg);
+    EXPECT_NE(svg.find("<svg"), std::string::npos);
+    EXPECT_NE(svg.find("</svg>"), std::string::npos);
+    EXPECT_NE(svg.find("Pareto front"), std::string::npos);
+    EXPECT_NE(svg.find("a_b^c"), std::string::npos) << "titles are text, not markup";
+    EXPECT_NE(svg.find("full; system("), std::string::npos);
+    EXPECT_FALSE(bytes_of(files.script).empty());
+    EXPECT_FALSE(bytes_of(files.data).empty());
+    EXPECT_EQ(file_count(), 4u);
+}
+
+TEST_F(PlotFolder, LinearAxesAndOnePointWork) {
+    const Plot plot{.title = "one", .x_label = "x", .y_label = "y", .series = {{"s", {{3, -2}}}}};
+    EXPECT_FALSE(bytes_of(write_plot(plot, folder_ / "one").svg).empty());
+}
+
+TEST_F(PlotFolder, NoPointIsAnError) {
+    Plot plot = sample();
+    plot.series = {{"empty", {}}, {"bad", {{0, 1}}}};
+    EXPECT_THROW(write_plot(plot, folder_ / "p"), Error);
+    EXPECT_EQ(file_count(), 0u);
+}
+
+TEST_F(PlotFolder, MissingFolderIsAnError) {
+    EXPECT_THROW(write_plot(sample(), folder_ / "no such" / "p"), Error);
+}
+
+TEST_F(PlotFolder, MissingGnuplotNamesThePackage) {
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", folder_.c_str(), 1);
+    std::string message;
+    try {
+        write_plot(sample(), folder_ / "p");
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_NE(message.find("gnuplot-nox"), std::string::npos) << message;
+    EXPECT_EQ(file_count(), 0u) << "nothing is left behind";
+}
+
+TEST_F(PlotFolder, FailingGnuplotIsAnErrorWithItsMessage) {
+    const fs::path fake = folder_ / "bin";
+    fs::create_directories(fake);
+    std::ofstream(fake / "gnuplot")
+        << "#!/bin/sh\necho 'line 3: Error: no such terminal' >&2\nexit 1\n";
+    fs::permissions(fake / "gnuplot", fs::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", fake.c_str(), 1);
+    std::string message;
+    try {
+        write_plot(sample(), folder_ / "p");
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_NE(message.find("no such terminal"), std::string::npos) << message;
+    EXPECT_EQ(file_count(), 1u);
+}
+
+}  // namespace
+}  // namespace kilolux
