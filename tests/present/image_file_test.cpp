@@ -14,9 +14,9 @@
 namespace kilolux {
 namespace {
 
-// Not a multiple of anything, and larger than EXR's blocks of 16 rows.
+// Not a multiple of anything, and more rows than EXR's blocks and TIFF's strips have.
 constexpr int kWidth = 37;
-constexpr int kHeight = 21;
+constexpr int kHeight = 51;
 constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
 
 Layer make_layer(const std::string& name, std::vector<std::string> channels, bool is_id) {
@@ -186,13 +186,18 @@ TEST(ImageFile, TheSameFrameGivesTheSameBytes) {
     const Frame frame = make_layered_frame();
     ImageNotes notes;
     notes.strings = {{"scene", "atrium"}};
-    for (const char* name : {"a.exr", "a.hdr", "a.png", "a.jpg", "a.tif"}) {
+    const std::vector<std::string> names = {"a.exr", "a.hdr", "a.png", "a.jpg", "a.tif"};
+    std::vector<std::vector<unsigned char>> firsts;
+    for (const std::string& name : names) {
         const auto first = encode_image(name, frame, notes, {});
-        // Whoever writes the hour into a file writes another one now.
-        timespec pause{1, 100'000'000};
-        if (std::string(name) == "a.exr") nanosleep(&pause, nullptr);
-        EXPECT_EQ(first, encode_image(name, frame, notes, {})) << name;
         EXPECT_GT(first.size(), 100u) << name;
+        firsts.push_back(first);
+    }
+    // Whoever writes the hour into a file writes another one now.
+    const timespec pause{1, 100'000'000};
+    nanosleep(&pause, nullptr);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        EXPECT_EQ(firsts[i], encode_image(names[i], frame, notes, {})) << names[i];
     }
 }
 
