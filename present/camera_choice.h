@@ -11,11 +11,11 @@ namespace kilolux {
 
 /// What the command line says about the camera; what it leaves open comes from the scene.
 struct CameraChoice {
-    std::optional<int> index;
-    std::optional<glm::dvec3> position;     // [m]
-    std::optional<glm::dvec3> focal_point;  // [m]
-    std::optional<glm::dvec3> view_up;
-    std::optional<double> view_angle;  // vertical [degree]
+    std::optional<int> index{};
+    std::optional<glm::dvec3> position{};     // [m]
+    std::optional<glm::dvec3> focal_point{};  // [m]
+    std::optional<glm::dvec3> view_up{};
+    std::optional<double> view_angle{};  // vertical [degree]
     bool orthographic = false;
 };
 

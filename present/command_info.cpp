@@ -66,7 +66,7 @@ Json info_json(const InfoOptions& options) {
     Json out;
     out["device"] = device_json(renderer.device());
     out["devices"] = Json::array();
-    for (const DeviceInfo& device : device_infos()) out["devices"].push_back(device_json(device));
+    for (const DeviceInfo& device : list_devices()) out["devices"].push_back(device_json(device));
     out["scene"] = scene_json(scene, options.shared.settings.lights);
     out["plan"] = plan.features;
     out["left_out"] = plan.left_out;

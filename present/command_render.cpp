@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -109,6 +109,15 @@ void require_passed(const std::vector<FrameRecord>& records) {
     }
 }
 
+// Counting useful evaluations costs a pass of its own: only for those who read the counts.
+RenderSettings settings_of(const RenderOptions& options) {
+    RenderSettings settings = options.shared.settings;
+    const auto& aovs = settings.aovs;
+    settings.count_useful = !options.output.stats.empty() ||
+                            std::find(aovs.begin(), aovs.end(), "light-count") != aovs.end();
+    return settings;
+}
+
 void run_render(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
@@ -119,7 +128,7 @@ void run_render(const RenderOptions& options) {
     const Scene scene = open_scene(options.shared.scene, tasks.front().time);
     const Camera camera = choose_camera(options.shared.camera, scene);
     check_interrupt();
-    Renderer renderer(scene, options.shared.settings);
+    Renderer renderer(scene, settings_of(options));
     check_interrupt();
     const auto records = render_tasks(options, renderer, camera, tasks);
     if (!out.stats.empty()) {

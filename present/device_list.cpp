@@ -5,12 +5,6 @@
 
 namespace kilolux {
 
-std::vector<DeviceInfo> device_infos() {
-    std::vector<DeviceInfo> infos;
-    for (const cl::Device& device : all_devices()) infos.push_back(describe(device));
-    return infos;
-}
-
 std::string device_list(const std::vector<DeviceInfo>& devices) {
     if (devices.empty()) return "no OpenCL devices\n";
     std::string out;

@@ -9,9 +9,6 @@
 
 namespace kilolux {
 
-/// Every OpenCL device, in the order of the indices that --device takes.
-std::vector<DeviceInfo> device_infos();
-
 /// A line a device, with the index that --device takes.
 std::string device_list(const std::vector<DeviceInfo>& devices);
 

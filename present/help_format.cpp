@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/help_format.h"
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace {
 
 constexpr std::size_t kPageWidth = 80;
 constexpr std::size_t kTextColumn = 30;
+constexpr char kFixedSpace = '\x1f';  // no line ends here
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
     std::istringstream words(text);
@@ -21,6 +23,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
         }
         line += (line.empty() ? "" : " ") + word;
     }
+    for (std::string& line : lines) std::replace(line.begin(), line.end(), kFixedSpace, ' ');
     return lines;
 }
 
@@ -39,7 +42,9 @@ std::string option_head(const CLI::Option& option) {
 
 std::string option_entry(const CLI::Option& option) {
     std::string text = option.get_description();
-    if (!option.get_default_str().empty()) text += " [default: " + option.get_default_str() + "]";
+    if (!option.get_default_str().empty()) {
+        text += " [default:" + std::string(1, kFixedSpace) + option.get_default_str() + "]";
+    }
     return help_entry(option.get_positional() ? option.get_name(true) : option_head(option), text);
 }
 

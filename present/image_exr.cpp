@@ -71,8 +71,8 @@ OIIO::ImageSpec exr_spec(const Frame& frame, const ImageNotes& notes, const Imag
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
-    // OpenImageIO writes the hour as capDate unless there is a date; one that is no text is left out,
-    // which it would remark on.
+    // OpenImageIO writes the hour as capDate unless there is a date; one that is no text is left
+    // out, which it would remark on.
     spec.attribute("DateTime", 0);
     OIIO::attribute("debug", 0);
     if (notes.camera) describe_camera(spec, *notes.camera, frame);

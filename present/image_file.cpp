@@ -64,10 +64,18 @@ std::vector<unsigned char> encode(const std::filesystem::path& file, const OIIO:
 }
 
 // Display codes as RGB: JPEG has no alpha, and ours is opaque.
-OIIO::ImageSpec display_spec(const Frame& frame, const ImageOptions& options) {
+OIIO::ImageSpec display_spec(const std::filesystem::path& file, const Frame& frame,
+                             const ImageOptions& options) {
     OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
+    if (std::string_view(format_of(file).plugin) == "tiff") {
+        spec.attribute("Compression", "zip");
+        // Exif's way to say unknown; OpenImageIO would write the hour. Saying sRGB, which a TIFF
+        // without a profile is taken for, makes OpenImageIO 2.4 write an Exif directory that breaks
+        // the file.
+        spec.attribute("DateTime", "    :  :     :  :  ");
+        return spec;
+    }
     spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("Compression", "zip");  // TIFF
     spec.attribute("jpeg:subsampling", "4:4:4");
     spec.attribute("CompressionQuality", options.jpeg_quality);
     return spec;
@@ -87,7 +95,7 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
                                         const ImageNotes& notes, const ImageOptions& options) {
     const bool display = image_meaning(file) == ImageMeaning::display;
     OIIO::ImageSpec spec =
-        display              ? display_spec(frame, options)
+        display              ? display_spec(file, frame, options)
         : holds_layers(file) ? exr_spec(frame, notes, options)
                              : OIIO::ImageSpec(frame.width, frame.height, 3, OIIO::TypeDesc::FLOAT);
     spec.attribute("Software", "kilolux " + version());

@@ -2,6 +2,8 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "host/base/error.h"
 #include "present/image_file.h"
@@ -31,6 +33,12 @@ void read_channels(OIIO::ImageInput& in, const std::filesystem::path& file, Floa
     }
 }
 
+// Codes of integer formats as the nearest float of code / largest, whatever the reader's
+// arithmetic.
+void snap_to_codes(std::vector<float>& values, float largest) {
+    for (float& value : values) value = std::round(value * largest) / largest;
+}
+
 }  // namespace
 
 FloatImage read_image(const std::filesystem::path& file) {
@@ -51,6 +59,8 @@ FloatImage read_image(const std::filesystem::path& file) {
         read_channels(*in, file, image, begin, end, is_id(begin));
         begin = end;
     }
+    if (spec.format == OIIO::TypeDesc::UINT8) snap_to_codes(image.values, 255.0f);
+    if (spec.format == OIIO::TypeDesc::UINT16) snap_to_codes(image.values, 65535.0f);
     return image;
 }
 

@@ -26,14 +26,8 @@ std::vector<std::string> gbuffer_names() {
     return names;
 }
 
-std::vector<std::string> aov_names() {
-    return {"depth",    "position", "normal",      "albedo", "roughness",
-            "metallic", "emissive", "light-count", "cluster"};
-}
-
 std::vector<std::string> show_names() {
-    return {"lit",      "albedo", "normal", "depth",    "lights",
-            "clusters", "slices", "active", "overdraw", "difference"};
+    return {"lit"};
 }
 
 std::string name_of(RendererKind renderer) {

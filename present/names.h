@@ -15,8 +15,7 @@ std::vector<std::string> shading_names();
 std::vector<std::string> tone_curve_names();
 std::vector<std::string> gbuffer_names();
 
-/// Layers of --aov, and pictures of --show.
-std::vector<std::string> aov_names();
+/// Pictures of --show: what the renderer draws.
 std::vector<std::string> show_names();
 
 std::string name_of(RendererKind renderer);

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "host/render/frame_parts.h"
 #include "host/scene/generated_scenes.h"
 #include "present/names.h"
 #include "present/registrar.h"

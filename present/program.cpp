@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "host/base/error.h"
+#include "host/render/renderer.h"
 #include "present/commands.h"
 #include "present/completion.h"
 #include "present/config_file.h"
@@ -86,7 +87,7 @@ bool Program::answer_question(const Command* command) const {
     } else if (given(app_, "--completion")) {
         print(completion_script(app_, completion_shell_));
     } else if (given(app, "--list-devices") || given(app_, "--list-devices")) {
-        print(device_list(device_infos()));
+        print(device_list(list_devices()));
     } else {
         return false;
     }

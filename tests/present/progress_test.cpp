@@ -46,19 +46,21 @@ std::string seen_on_terminal(bool shown) {
     int theirs = -1;
     if (openpty(&ours, &theirs, nullptr, nullptr, nullptr) != 0) return "no terminal";
     run_progress(theirs, shown);
-    fcntl(ours, F_SETFL, O_NONBLOCK);
+    close(theirs);  // so that reading ends
+    std::string seen;
     std::array<char, 4096> text{};
-    const ssize_t size = read(ours, text.data(), text.size());
-    close(theirs);
+    for (ssize_t size = 0; (size = read(ours, text.data(), text.size())) > 0;) {
+        seen.append(text.data(), static_cast<std::size_t>(size));
+    }
     close(ours);
-    return {text.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
+    return seen;
 }
 
 TEST(Progress, Lines) {
     EXPECT_EQ(progress_line("rendering", 0, 4, 0.0, 40),
               "rendering 0/4 [                  ]   0 %");
-    EXPECT_EQ(progress_line("rendering", 1, 4, 10.0, 40),
-              "rendering 1/4 [=     ]  25 %, 30 s left");
+    EXPECT_EQ(progress_line("rendering", 1, 4, 10.0, 43),
+              "rendering 1/4 [==      ]  25 %, 30 s left");
     EXPECT_EQ(progress_line("f", 4, 4, 10.0, 30), "f 4/4 [================] 100 %");
     EXPECT_TRUE(contains(progress_line("f", 1, 2, 600.0, 79), "10:00 min left"));
     EXPECT_TRUE(contains(progress_line("f", 1, 101, 180.0, 79), "5:00 h left"));

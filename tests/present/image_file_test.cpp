@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "messages.h"
+#include "temporary_folder.h"
+
+namespace kilolux {
+namespace {
+
+// Not a multiple of anything, and more rows than EXR's blocks and TIFF's strips have.
+constexpr int kWidth = 37;
+constexpr int kHeight = 51;
+constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+
+Layer make_layer(const std::string& name, std::vector<std::string> channels, bool is_id) {
+    Layer layer{name, std::move(channels), {}, is_id};
+    for (std::size_t i = 0; i < kPixels * layer.channels.size(); ++i) {
+        const auto x = static_cast<float>(i);
+        layer.values.push_back(is_id ? x * 16384.0f : std::sin(x) * 1e4f);
+    }
+    return layer;
+}
+
+Frame make_frame() {
+    Frame frame;
+    frame.width = kWidth;
+    frame.height = kHeight;
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            frame.radiance.push_back(std::exp(std::sin(static_cast<float>(3 * i + c)) * 8.0f));
+            frame.display.push_back(static_cast<std::uint8_t>((i * 7 + c * 31) % 256));
+        }
+        frame.display.push_back(255);
+    }
+    // What a renderer must be able to tell: unclamped, negative, infinite, smallest.
+    frame.radiance[0] = 1e30f;
+    frame.radiance[1] = -2.5f;
+    frame.radiance[2] = std::numeric_limits<float>::infinity();
+    frame.radiance[3] = std::numeric_limits<float>::denorm_min();
+    return frame;
+}
+
+Frame make_layered_frame() {
+    Frame frame = make_frame();
+    frame.aovs = {make_layer("depth", {"Z"}, false),
+                  make_layer("position", {"P.X", "P.Y", "P.Z"}, false),
+                  make_layer("normal", {"N.X", "N.Y", "N.Z"}, false),
+                  make_layer("albedo", {"albedo.R", "albedo.G", "albedo.B"}, false),
+                  make_layer("roughness", {"roughness"}, false),
+                  make_layer("metallic", {"metallic"}, false),
+                  make_layer("emissive", {"emissive.R", "emissive.G", "emissive.B"}, false),
+                  make_layer("light-count", {"light-count"}, true),
+                  make_layer("cluster", {"cluster"}, true)};
+    return frame;
+}
+
+std::vector<float> channel_of(const FloatImage& image, const std::string& name) {
+    std::vector<float> out;
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+        if (image.channels[c] != name) continue;
+        for (std::size_t i = c; i < image.values.size(); i += image.channels.size()) {
+            out.push_back(image.values[i]);
+        }
+    }
+    return out;
+}
+
+std::vector<float> channel_of(const Layer& layer, std::size_t channel) {
+    std::vector<float> out;
+    for (std::size_t i = channel; i < layer.values.size(); i += layer.channels.size()) {
+        out.push_back(layer.values[i]);
+    }
+    return out;
+}
+
+TEST(ImageFile, ExrKeepsEveryBitOfColourAndLayers) {
+    const TemporaryFolder folder;
+    const Frame frame = make_layered_frame();
+    write_image(folder / "a.exr", frame);
+    const FloatImage image = read_image(folder / "a.exr");
+    ASSERT_EQ(image.width, kWidth);
+    ASSERT_EQ(image.height, kHeight);
+    const std::vector<float> colour = colour_of(image);
+    ASSERT_EQ(colour.size(), frame.radiance.size());
+    EXPECT_EQ(std::memcmp(colour.data(), frame.radiance.data(), 4 * colour.size()), 0);
+    std::size_t channels = 3;
+    for (const Layer& layer : frame.aovs) {
+        for (std::size_t c = 0; c < layer.channels.size(); ++c, ++channels) {
+            EXPECT_EQ(channel_of(image, layer.channels[c]), channel_of(layer, c))
+                << layer.channels[c];
+        }
+    }
+    EXPECT_EQ(image.channels.size(), channels);
+}
+
+TEST(ImageFile, ExrFormatsOfChannels) {
+    const TemporaryFolder folder;
+    write_image(folder / "a.exr", make_layered_frame(), {}, {.half_colour = true});
+    const auto in = OIIO::ImageInput::open((folder / "a.exr").string());
+    ASSERT_TRUE(in);
+    const OIIO::ImageSpec& spec = in->spec();
+    for (int c = 0; c < spec.nchannels; ++c) {
+        const std::string name = spec.channel_name(c);
+        const bool is_colour = name == "R" || name == "G" || name == "B";
+        const bool is_id = name == "light-count" || name == "cluster";
+        const OIIO::TypeDesc wanted = is_colour ? OIIO::TypeDesc::HALF
+                                      : is_id   ? OIIO::TypeDesc::UINT32
+                                                : OIIO::TypeDesc::FLOAT;
+        EXPECT_EQ(spec.channelformat(c), wanted) << name;
+    }
+    EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
+}
+
+TEST(ImageFile, HalfColourIsRoundedAndNotClamped) {
+    const TemporaryFolder folder;
+    Frame frame = make_frame();
+    frame.radiance[0] = 1000.3f;
+    write_image(folder / "a.exr", frame, {}, {.half_colour = true});
+    const std::vector<float> colour = colour_of(read_image(folder / "a.exr"));
+    EXPECT_EQ(colour[0], 1000.5f);
+    EXPECT_EQ(colour[1], -2.5f);
+    EXPECT_EQ(colour[2], std::numeric_limits<float>::infinity());
+}
+
+TEST(ImageFile, ExrSaysWhatItShows) {
+    const TemporaryFolder folder;
+    ImageNotes notes;
+    notes.strings = {{"scene", "atrium"}, {"seed", "7"}, {"device", "a CPU, \"quoted\""}};
+    notes.camera = look_at({1, 2, 3}, {1, 2, -7}, {0, 1, 0}, glm::radians(90.0));
+    write_image(folder / "a.exr", make_frame(), notes);
+    const auto in = OIIO::ImageInput::open((folder / "a.exr").string());
+    ASSERT_TRUE(in);
+    const OIIO::ImageSpec& spec = in->spec();
+    EXPECT_EQ(spec.get_string_attribute("kilolux:scene"), "atrium");
+    EXPECT_EQ(spec.get_string_attribute("kilolux:seed"), "7");
+    EXPECT_EQ(spec.get_string_attribute("kilolux:device"), "a CPU, \"quoted\"");
+    EXPECT_TRUE(contains(spec.get_string_attribute("Software"), "kilolux "));
+    EXPECT_EQ(spec.find_attribute("DateTime"), nullptr);
+    float primaries[8] = {};
+    ASSERT_TRUE(
+        spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), primaries));
+    EXPECT_FLOAT_EQ(primaries[0], 0.64f);
+    EXPECT_FLOAT_EQ(primaries[7], 0.3290f);
+}
+
+// A row vector times the matrix, as OpenEXR means its matrices.
+glm::dvec4 row_times(const glm::dvec4& p, const float* m) {
+    glm::dvec4 out(0.0);
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) out[column] += p[row] * m[4 * row + column];
+    }
+    return out;
+}
+
+TEST(ImageFile, ExrMatricesTakeWorldPointsToCameraAndScreen) {
+    const TemporaryFolder folder;
+    ImageNotes notes;
+    notes.camera = look_at({1, 2, 3}, {1, 2, -7}, {0, 1, 0}, glm::radians(90.0));
+    write_image(folder / "a.exr", make_frame(), notes);
+    const auto in = OIIO::ImageInput::open((folder / "a.exr").string());
+    ASSERT_TRUE(in);
+    float to_camera[16] = {};
+    float to_ndc[16] = {};
+    ASSERT_TRUE(in->spec().getattribute("worldToCamera", OIIO::TypeMatrix, to_camera));
+    ASSERT_TRUE(in->spec().getattribute("worldToNDC", OIIO::TypeMatrix, to_ndc));
+    // Five metres ahead, at the picture's right and upper edges.
+    const double aspect = static_cast<double>(kWidth) / kHeight;
+    const glm::dvec4 p(1 + 5 * aspect, 2 + 5, 3 - 5, 1);
+    const glm::dvec4 in_view = row_times(p, to_camera);
+    EXPECT_NEAR(in_view.x, 5 * aspect, 1e-5);
+    EXPECT_NEAR(in_view.y, 5.0, 1e-5);
+    EXPECT_NEAR(in_view.z, -5.0, 1e-5);
+    const glm::dvec4 clip = row_times(p, to_ndc);
+    EXPECT_NEAR(clip.x / clip.w, 1.0, 1e-5);
+    EXPECT_NEAR(clip.y / clip.w, 1.0, 1e-5);
+}
+
+TEST(ImageFile, TheSameFrameGivesTheSameBytes) {
+    const Frame frame = make_layered_frame();
+    ImageNotes notes;
+    notes.strings = {{"scene", "atrium"}};
+    const std::vector<std::string> names = {"a.exr", "a.hdr", "a.png", "a.jpg", "a.tif"};
+    std::vector<std::vector<unsigned char>> firsts;
+    for (const std::string& name : names) {
+        const auto first = encode_image(name, frame, notes, {});
+        EXPECT_GT(first.size(), 100u) << name;
+        firsts.push_back(first);
+    }
+    // Whoever writes the hour into a file writes another one now.
+    const timespec pause{1, 100'000'000};
+    nanosleep(&pause, nullptr);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        EXPECT_EQ(firsts[i], encode_image(names[i], frame, notes, {})) << names[i];
+    }
+}
+
+TEST(ImageFile, LosslessDisplayFormatsKeepCodes) {
+    const TemporaryFolder folder;
+    const Frame frame = make_frame();
+    for (const char* name : {"a.png", "a.tif", "a.TIFF"}) {
+        write_image(folder / name, frame);
+        const FloatImage image = read_image(folder / name);
+        ASSERT_EQ(image.channels.size(), 3u) << name;
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                ASSERT_EQ(std::lround(image.values[3 * i + c] * 255.0f), frame.display[4 * i + c])
+                    << name << " pixel " << i << " channel " << c;
+            }
+        }
+    }
+}
+
+TEST(ImageFile, JpegIsCloseAndHdrKeepsItsEightBits) {
+    const TemporaryFolder folder;
+    Frame frame = make_frame();
+    frame.display.assign(frame.display.size(), 200);
+    frame.radiance.assign(frame.radiance.size(), 12.7f);
+    write_image(folder / "a.jpg", frame);
+    write_image(folder / "a.hdr", frame);
+    for (const float v : read_image(folder / "a.jpg").values) EXPECT_NEAR(v * 255.0f, 200.0f, 2.0f);
+    for (const float v : read_image(folder / "a.hdr").values) EXPECT_NEAR(v, 12.7f, 12.7f / 128.0f);
+}
+
+TEST(ImageFile, MeaningComesFromTheExtension) {
+    EXPECT_EQ(image_meaning("x/y.EXR"), ImageMeaning::linear);
+    EXPECT_EQ(image_meaning("y.hdr"), ImageMeaning::linear);
+    for (const char* name : {"a.png", "a.jpg", "a.jpeg", "a.tif", "a.tiff", "a.PNG"}) {
+        EXPECT_EQ(image_meaning(name), ImageMeaning::display) << name;
+    }
+    EXPECT_TRUE(holds_layers("a.exr"));
+    EXPECT_FALSE(holds_layers("a.hdr"));
+    EXPECT_EQ(message_of<UsageError>([] { image_meaning("a.pgn"); }),
+              "a.pgn: image type '.pgn' is none of .exr, .hdr, .png, .jpg, .jpeg, .tif, .tiff; did "
+              "you mean '.png'?");
+    EXPECT_THROW(image_meaning("png"), UsageError);
+}
+
+TEST(ImageFile, OneLineForWhatCannotBeReadOrWritten) {
+    const TemporaryFolder folder;
+    const Frame frame = make_frame();
+    const auto lost = message_of<Error>([&] { write_image(folder / "no/a.exr", frame); });
+    EXPECT_TRUE(contains(lost, "no/a.exr: cannot write")) << lost;
+    write_text(folder / "a.exr", "this is no image");
+    const auto broken = message_of<Error>([&] { read_image(folder / "a.exr"); });
+    EXPECT_TRUE(contains(broken, "a.exr: cannot read the image: ")) << broken;
+    EXPECT_FALSE(contains(broken, "\n")) << broken;
+    EXPECT_THROW(read_image(folder / "none.exr"), Error);
+    Frame twice = make_layered_frame();
+    twice.aovs.push_back(twice.aovs[0]);
+    EXPECT_TRUE(contains(message_of<Error>([&] { encode_image("a.exr", twice, {}, {}); }), "'Z'"));
+    Frame short_layer = make_layered_frame();
+    short_layer.aovs[0].values.pop_back();
+    EXPECT_THROW(encode_image("a.exr", short_layer, {}, {}), Error);
+}
+
+TEST(ImageFile, ATruncatedExrIsAnErrorAndNotAPicture) {
+    const TemporaryFolder folder;
+    auto bytes = encode_image("a.exr", make_layered_frame(), {}, {});
+    const std::string half(reinterpret_cast<const char*>(bytes.data()), bytes.size() / 2);
+    write_text(folder / "a.exr", half);
+    EXPECT_THROW(read_image(folder / "a.exr"), Error);
+}
+
+TEST(ImageFile, ColourOfGreyAndUnnamedChannels) {
+    const FloatImage grey{2, 1, {"Y"}, {1.0f, 2.0f}};
+    EXPECT_EQ(colour_of(grey), (std::vector<float>{1, 1, 1, 2, 2, 2}));
+    const FloatImage mixed{1, 1, {"Z", "B", "G", "R"}, {9, 3, 2, 1}};
+    EXPECT_EQ(colour_of(mixed), (std::vector<float>{1, 2, 3}));
+    EXPECT_THROW(colour_of(FloatImage{}), Error);
+}
+
+}  // namespace
+}  // namespace kilolux

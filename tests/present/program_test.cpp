@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line as its users meet it: exit codes, messages, help, completion.
+#include "present/program.h"
+
+#include <gtest/gtest.h>
+
+#include "child.h"
+#include "messages.h"
+#include "present/version.h"
+
+namespace kilolux {
+namespace {
+
+// One line, from us.
+void expect_one_line(const std::string& err) {
+    EXPECT_TRUE(err.starts_with("kilolux: ")) << err;
+    EXPECT_EQ(err.find('\n'), err.size() - 1) << err;
+}
+
+TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
+    const struct {
+        std::vector<std::string> arguments;
+        const char* message;
+    } cases[] = {
+        {{}, "no command given"},
+        {{"redner"}, "'redner' is no command; there are render, info; did you mean 'render'?"},
+        {{"--frobnicate"}, "unknown option --frobnicate"},
+        {{"render"}, "--output: needs a file"},
+        {{"render", "--ligths", "5", "-o", "a.png"},
+         "unknown option --ligths; did you mean '--lights'?"},
+        {{"render", "--ligths=5", "-o", "a.png"},
+         "unknown option --ligths; did you mean '--lights'?"},
+        {{"render", "-x"}, "unknown option -x"},
+        {{"render", "--lights"}, "--lights: 1 required N missing"},
+        {{"render", "--lights", "many", "-o", "a.png"}, "--lights: 'many' is not a whole number"},
+        {{"render", "atriumm", "-o", "a.png"}, "scene 'atriumm' is no file, and none of atrium"},
+        {{"render", "atrium", "grid", "-o", "a.png"}, "unexpected argument 'grid'"},
+        {{"render", "-o", "a.bmp"}, "image type '.bmp' is none of"},
+        {{"render", "--quiet=perhaps", "-o", "a.png"}, "quiet"},
+        {{"info", "--frames", "1:2"}, "unknown option --frames"},
+        {{"--completion", "csh"}, "--completion: 'csh' is none of bash, zsh, fish"},
+    };
+    for (const auto& c : cases) {
+        const ChildResult result = run_kilolux(c.arguments);
+        EXPECT_EQ(result.code, 2) << c.message << " / " << result.err;
+        EXPECT_TRUE(contains(result.err, c.message)) << c.message << " / " << result.err;
+        EXPECT_EQ(result.out, "");
+        expect_one_line(result.err);
+    }
+}
+
+TEST(Program, TheWorldsFaultExitsWithOne) {
+    const TemporaryFolder folder;
+    const std::string picture = (folder / "a.png").string();
+    write_text(folder / "broken.glb", "not a scene");
+    const struct {
+        std::vector<std::string> arguments;
+        std::string message;
+    } cases[] = {
+        {{"render", (folder / "none.glb").string(), "-o", picture}, "none.glb: no such scene file"},
+        {{"render", (folder / "broken.glb").string(), "-o", picture}, "broken.glb: "},
+        {{"render", folder.path().string(), "-o", picture}, "is a folder, not a scene file"},
+        {{"render", "-o", (folder / "no/a.png").string()}, "there is no folder"},
+        {{"render", "-o", picture, "--stats", (folder / "no/s").string()}, "there is no folder"},
+        {{"render", "-o", picture, "--reference", (folder / "r.exr").string()},
+         "r.exr: no such reference"},
+        {{"render", "-o", picture, "--config", (folder / "c.toml").string()},
+         "c.toml: cannot read: No such file or directory"},
+        {{"render", "-o", picture, "--device", "no such device"}, "no such device"},
+    };
+    for (const auto& c : cases) {
+        const ChildResult result = run_kilolux(c.arguments);
+        EXPECT_EQ(result.code, 1) << c.message << " / " << result.err;
+        EXPECT_TRUE(contains(result.err, c.message)) << c.message << " / " << result.err;
+        expect_one_line(result.err);
+    }
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"broken.glb"}));
+}
+
+TEST(Program, StandardOutputThatIsFullIsAnError) {
+    const ChildResult result =
+        run_child({"/bin/sh", "-c", std::string(KILOLUX_PROGRAM) + " --help > /dev/full"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_EQ(result.err, "kilolux: standard output: cannot write\n");
+}
+
+TEST(Program, VersionAndHelpGoToStandardOutput) {
+    const ChildResult said = run_kilolux({"--version"});
+    EXPECT_EQ(said.code, 0);
+    EXPECT_EQ(said.out, "kilolux " + version() + "\n");
+    const ChildResult help = run_kilolux({"--help"});
+    EXPECT_EQ(help.code, 0);
+    for (const char* word : {"render", "info", "Exit codes:", "130"}) {
+        EXPECT_TRUE(contains(help.out, word)) << word;
+    }
+    EXPECT_EQ(run_kilolux({"-h"}).out, help.out);
+}
+
+TEST(Program, HelpOfACommandHasOptionsDefaultsAndExamples) {
+    const ChildResult help = run_kilolux({"render", "--help"});
+    EXPECT_EQ(help.code, 0);
+    EXPECT_EQ(help.err, "");
+    for (const char* text : {"Usage: kilolux render [SCENE] [OPTIONS]",
+                             "--renderer",
+                             "--resolution W,H",
+                             "[default: 1920,1080]",
+                             "--lights N",
+                             "[default: 5000]",
+                             "--light-seed",
+                             "--light-radius",
+                             "--light-intensity",
+                             "--time T",
+                             "--camera-index",
+                             "--camera-position",
+                             "--camera-focal-point",
+                             "--camera-view-up",
+                             "--camera-view-angle",
+                             "--gbuffer",
+                             "--shading",
+                             "--ambient",
+                             "--bloom",
+                             "--exposure",
+                             "--tonemap",
+                             "--aov",
+                             "--show",
+                             "--samples",
+                             "--frames A:B",
+                             "--fps",
+                             "--shard I/N",
+                             "--device",
+                             "--list-devices",
+                             "--stats FILE",
+                             "--reference FILE",
+                             "--threshold",
+                             "--quiet",
+                             "--verbose",
+                             "--exr-half",
+                             "--output, -o FILE",
+                             "Examples:\n  kilolux render -o atrium.png"}) {
+        EXPECT_TRUE(contains(help.out, text)) << text;
+    }
+    std::istringstream lines(help.out.substr(0, help.out.find("Examples:")));
+    for (std::string line; std::getline(lines, line);) {
+        const bool is_form = contains(line, "|");  // a list of names is not broken
+        EXPECT_TRUE(line.size() <= 80 || is_form) << line;
+    }
+}
+
+struct Query {
+    std::string words;  // typed so far; the last one is being completed
+    std::string offers;
+};
+
+TEST(Completion, BashOffersWhatFits) {
+    const std::vector<Query> queries = {
+        {"kilolux re", "render"},
+        {"kilolux render --renderer forw", "forward-plus forward"},
+        {"kilolux render --tonemap ''", "none neutral aces"},
+        {"kilolux render --aov depth,no", "depth,normal"},
+        {"kilolux render --light-r", "--light-radius"},
+        {"kilolux render --light-radius a", "auto"},
+        {"kilolux render --lights 1", ""},
+        {"kilolux info --js", "--json"},
+        {"kilolux --comp", "--completion"},
+        {"kilolux render atri", "atrium"},
+        {"kilolux render -o /etc/host", "/etc/host"},
+    };
+    std::string script = std::string("cd /; source <(") + KILOLUX_PROGRAM + " --completion bash)\n";
+    for (const Query& query : queries) {
+        script += "COMP_WORDS=(" + query.words +
+                  "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _kilolux; echo \"${COMPREPLY[*]}\"\n";
+    }
+    std::istringstream answers(run_child({"/bin/bash", "-c", script}).out);
+    for (const Query& query : queries) {
+        std::string answer;
+        std::getline(answers, answer);
+        EXPECT_TRUE(answer.starts_with(query.offers)) << query.words << ": " << answer;
+        const bool files_too = query.words.ends_with("host");
+        if (!files_too) EXPECT_EQ(answer, query.offers) << query.words;
+    }
+}
+
+TEST(Completion, EveryShellKnowsEveryOption) {
+    const Program program;
+    for (const char* shell : {"bash", "zsh", "fish"}) {
+        const ChildResult script = run_kilolux({"--completion", shell});
+        EXPECT_EQ(script.code, 0) << script.err;
+        for (const CLI::App* command : program.app().get_subcommands({})) {
+            for (const std::string& name : option_names(*command)) {
+                const std::string word =
+                    std::string(shell) == "fish" ? " -l " + name.substr(2) : name;
+                EXPECT_TRUE(contains(script.out, word)) << shell << " " << word;
+            }
+        }
+    }
+    EXPECT_EQ(run_child({"/bin/bash", "-c",
+                         std::string(KILOLUX_PROGRAM) + " --completion bash | bash -n"})
+                  .code,
+              0);
+}
+
+}  // namespace
+}  // namespace kilolux

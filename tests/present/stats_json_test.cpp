@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/stats_json.h"
+
+#include <gtest/gtest.h>
+
+#include "messages.h"
+#include "temporary_folder.h"
+
+namespace kilolux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+FrameRecord make_record(int frame) {
+    FrameRecord record;
+    record.frame = frame;
+    record.time = 0.5 * frame;
+    record.file = "f" + std::to_string(frame) + ".exr";
+    record.stats.lights_given = 10;
+    record.stats.lights_used = 7;
+    record.stats.lights_rejected = 3;
+    record.stats.grid[0] = 16;
+    record.stats.grid[1] = 9;
+    record.stats.grid[2] = 44;
+    record.stats.coarse_pairs = 5'000'000'000;
+    record.stats.active_clusters = 12;
+    record.stats.refined_pairs = 34;
+    record.stats.evaluations_per_pixel = 5.5;
+    record.stats.useful_evaluations_per_pixel = 4.25;
+    record.stats.stages = {{"cull_lights", 1.5, 0.25}, {"shade", 2.5, 0.0}};
+    record.stats.frame_ms = 100.0 + frame;
+    return record;
+}
+
+Json make_document(const std::vector<FrameRecord>& frames, bool sequence) {
+    DeviceInfo device;
+    device.name = "a device";
+    device.version = "OpenCL 3.0";
+    device.lane_width = 8;
+    ScenePlan plan;
+    plan.features = {"pbr", "point-lights"};
+    return stats_json(device, plan, frames, sequence);
+}
+
+TEST(StatsJson, HasTheKeysToolsRelyOn) {
+    const Json json = make_document({make_record(0)}, false);
+    EXPECT_EQ(json.at("device").at("name"), "a device");
+    EXPECT_EQ(json.at("device").at("version"), "OpenCL 3.0");
+    EXPECT_EQ(json.at("device").at("lane_width"), 8);
+    EXPECT_EQ(json.at("plan"), Json({"pbr", "point-lights"}));
+    EXPECT_EQ(json.at("lights"),
+              Json({{"given", 10}, {"used", 7}, {"rejected", 3}, {"dropped", 0}}));
+    EXPECT_EQ(json.at("clusters").at("grid"), Json({16, 9, 44}));
+    EXPECT_EQ(json.at("clusters").at("coarse_pairs"), 5'000'000'000);
+    EXPECT_EQ(json.at("clusters").at("active"), 12);
+    EXPECT_EQ(json.at("clusters").at("refined_pairs"), 34);
+    EXPECT_EQ(json.at("evaluations").at("per_pixel"), 5.5);
+    EXPECT_EQ(json.at("evaluations").at("useful_per_pixel"), 4.25);
+    ASSERT_EQ(json.at("stages").size(), 2u);
+    EXPECT_EQ(json.at("stages")[0],
+              Json({{"name", "cull_lights"}, {"ms", 1.5}, {"limit_ms", 0.25}}));
+    EXPECT_TRUE(json.at("stages")[1].at("limit_ms").is_null());
+    EXPECT_EQ(json.at("frame_ms"), 100.0);
+    EXPECT_FALSE(json.contains("error"));
+    EXPECT_FALSE(json.contains("frames"));
+}
+
+TEST(StatsJson, WhatWasNotCountedIsNull) {
+    FrameRecord record = make_record(0);
+    record.stats.useful_evaluations_per_pixel = -1.0;
+    EXPECT_TRUE(make_document({record}, false)["evaluations"]["useful_per_pixel"].is_null());
+}
+
+TEST(StatsJson, ErrorWhenAReferenceWasGiven) {
+    FrameRecord record = make_record(0);
+    record.comparison = Comparison{"rmse", 0.5, 0.1, {{"rmse", 0.5}, {"max", 2.0}}};
+    const Json error = make_document({record}, false).at("error");
+    EXPECT_EQ(error.at("metric"), "rmse");
+    EXPECT_EQ(error.at("value"), 0.5);
+    EXPECT_EQ(error.at("threshold"), 0.1);
+    EXPECT_EQ(error.at("passed"), false);
+    EXPECT_EQ(error.at("errors").at("max"), 2.0);
+}
+
+TEST(StatsJson, SequencesHaveEveryFrameAndTheLastOnTop) {
+    const Json json = make_document({make_record(3), make_record(5)}, true);
+    EXPECT_EQ(json.at("frame_ms"), 105.0);
+    ASSERT_EQ(json.at("frames").size(), 2u);
+    EXPECT_EQ(json.at("frames")[0].at("frame"), 3);
+    EXPECT_EQ(json.at("frames")[0].at("time"), 1.5);
+    EXPECT_EQ(json.at("frames")[0].at("file"), "f3.exr");
+    EXPECT_EQ(json.at("frames")[0].at("frame_ms"), 103.0);
+    EXPECT_TRUE(make_document({}, true).at("frames").empty());
+}
+
+TEST(StatsJson, WrittenWholeOrNotAtAll) {
+    const TemporaryFolder folder;
+    write_json((folder / "s.json").string(), make_document({make_record(0)}, false));
+    EXPECT_EQ(Json::parse(text_of_file(folder / "s.json")).at("frame_ms"), 100.0);
+    const auto message =
+        message_of<Error>([&] { write_json((folder / "no/s.json").string(), Json::object()); });
+    EXPECT_TRUE(contains(message, "no/s.json")) << message;
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"s.json"}));
+}
+
+}  // namespace
+}  // namespace kilolux
