@@ -107,6 +107,11 @@ double mean_of_drawn(const std::vector<uint>& counts) {
     return drawn > 0 ? sum / static_cast<double>(drawn) : 0.0;
 }
 
+const std::vector<std::string>& aov_names() {
+    static const std::vector<std::string> names = {"depth", "position", "normal", "albedo", "roughness", "metallic", "emissive", "light-count", "cluster"};
+    return names;
+}
+
 Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& camera) {
     if (name == "depth") return plane_layer(name, {"Z"}, s, SURFACE_DEPTH);
     if (name == "position") return world_layer(name, {"P.X", "P.Y", "P.Z"}, s, camera);

@@ -30,6 +30,9 @@ struct DecodedSurfaces {
     ClusterGrid grid{};
 };
 
+/// The AOV layers' names, as `--aov` takes them.
+const std::vector<std::string>& aov_names();
+
 /// One AOV layer. Positions and normals are in world space. Throws UsageError for an unknown name.
 Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera);
 
