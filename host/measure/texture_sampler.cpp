@@ -82,9 +82,6 @@ void TextureSampler::prepare(const TextureUse& use, TextureEncoding encoding) {
     if (!out.empty()) return;
     const Image& source = scene_.images[static_cast<std::size_t>(image)];
     out.push_back({.width = source.width, .height = source.height, .texels = {}});
-    Texture clamping;
-    clamping.image = image;
-    clamping.sampler.wrap_s = clamping.sampler.wrap_t = Wrap::clamp;
     while (out.back().width > 1 || out.back().height > 1) {
         const Level& above = out.back();
         Level level{.width = std::max(1, above.width / 2),
@@ -94,14 +91,29 @@ void TextureSampler::prepare(const TextureUse& use, TextureEncoding encoding) {
                             static_cast<std::size_t>(level.height));
         parallel_rows(level.height, [&](int y) {
             for (int x = 0; x < level.width; ++x) {
-                const glm::dvec2 uv((x + 0.5) / level.width, (y + 0.5) / level.height);
                 level.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
                              static_cast<std::size_t>(x)] =
-                    glm::vec4(bilinear(clamping, encoding, above, uv));
+                    glm::vec4(averaged(image, encoding, above, x, y));
             }
         });
         out.push_back(std::move(level));
     }
+}
+
+glm::dvec4 TextureSampler::averaged(int image, TextureEncoding encoding, const Level& above, int x,
+                                    int y) const {
+    if (above.width % 2 == 0 && above.height % 2 == 0) {
+        return 0.25 * (texel(image, encoding, above, 2 * x, 2 * y) +
+                       texel(image, encoding, above, 2 * x + 1, 2 * y) +
+                       texel(image, encoding, above, 2 * x, 2 * y + 1) +
+                       texel(image, encoding, above, 2 * x + 1, 2 * y + 1));
+    }
+    Texture clamping;
+    clamping.image = image;
+    clamping.sampler.wrap_s = clamping.sampler.wrap_t = Wrap::clamp;
+    const int width = std::max(1, above.width / 2);
+    const int height = std::max(1, above.height / 2);
+    return bilinear(clamping, encoding, above, {(x + 0.5) / width, (y + 0.5) / height});
 }
 
 const TextureSampler::Levels& TextureSampler::levels(int image, TextureEncoding encoding) const {

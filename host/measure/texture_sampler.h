@@ -45,6 +45,8 @@ class TextureSampler {
 
     void prepare(const TextureUse& use, TextureEncoding encoding);
     glm::dvec4 texel(int image, TextureEncoding encoding, const Level& level, int x, int y) const;
+    glm::dvec4 averaged(int image, TextureEncoding encoding, const Level& above, int x,
+                        int y) const;
     glm::dvec4 bilinear(const Texture& texture, TextureEncoding encoding, const Level& level,
                         const glm::dvec2& uv) const;
     glm::dvec4 nearest(const Texture& texture, TextureEncoding encoding, const Level& level,
