@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -75,36 +77,57 @@ TEST(Bvh, FindsTheNearestOfEveryTriangle) {
     }
 }
 
-// A bumpy height field seen along -Z: rays through its corners and edges, exactly.
-TEST(Bvh, NothingSlipsThroughSharedEdgesAndCorners) {
-    constexpr int kSize = 12;
-    std::mt19937 random(4);
-    std::uniform_real_distribution<double> unit;
+// A height field of unit squares, moved by up to `jitter`, with every corner first in some
+// triangle.
+struct HeightField {
+    static constexpr int kSize = 12;
     std::vector<glm::dvec3> grid;
-    for (int i = 0; i < (kSize + 1) * (kSize + 1); ++i) {
-        grid.emplace_back(i % (kSize + 1) + 0.3 * unit(random),
-                          i / (kSize + 1) + 0.3 * unit(random), unit(random));
-    }
-    const auto corner = [&](int x, int y) {
-        return grid[static_cast<std::size_t>(y * (kSize + 1) + x)];
-    };
     std::vector<BvhTriangle> triangles;
-    for (int y = 0; y < kSize; ++y) {
-        for (int x = 0; x < kSize; ++x) {
-            triangles.push_back({{corner(x, y), corner(x + 1, y), corner(x + 1, y + 1)}, 0, 0});
-            triangles.push_back({{corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)}, 0, 0});
+
+    HeightField(double jitter, unsigned seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> unit;
+        for (int i = 0; i < (kSize + 1) * (kSize + 1); ++i) {
+            grid.emplace_back(i % (kSize + 1) + jitter * unit(random),
+                              i / (kSize + 1) + jitter * unit(random), unit(random));
+        }
+        const auto add = [&](std::array<glm::dvec3, 3> corners) {
+            std::rotate(corners.begin(), corners.begin() + random() % 3, corners.end());
+            triangles.push_back({corners, 0, 0});
+        };
+        for (int y = 0; y < kSize; ++y) {
+            for (int x = 0; x < kSize; ++x) {
+                add({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+                add({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+            }
         }
     }
-    const Bvh bvh(triangles);
-    for (int i = 0; i < 20000; ++i) {
-        const int x = 1 + i % (kSize - 1), y = 1 + (i / kSize) % (kSize - 1);
-        const double share = i % 3 == 0 ? 0.0 : unit(random);
-        const glm::dvec3 target = glm::mix(corner(x, y), corner(x - i % 2, y - 1), share);
-        for (const glm::dvec3& eye :
-             {glm::dvec3(target.x, target.y, 100.0), glm::dvec3(3.0, 4.0, 50.0)}) {
-            const Ray ray{eye, target - eye, 0.0, 2.0};
-            ASSERT_TRUE(bvh.nearest(ray, any))
-                << "ray " << i << " to " << target.x << ' ' << target.y << ' ' << target.z;
+    glm::dvec3 at(int x, int y) const {
+        return grid[static_cast<std::size_t>(y * (kSize + 1) + x)];
+    }
+};
+
+// Rays exactly through corners, and through edges as exactly as they can be: on the field without
+// jitter straight down, where the edge functions are 0.
+TEST(Bvh, NothingSlipsThroughSharedEdgesAndCorners) {
+    for (const double jitter : {0.0, 0.3}) {
+        const HeightField field(jitter, 4);
+        const Bvh bvh(field.triangles);
+        std::mt19937 random(5);
+        for (int i = 0; i < 20000; ++i) {
+            const auto inner = [&] { return 1 + static_cast<int>(random() % (field.kSize - 1)); };
+            const int x = inner(), y = inner();
+            const int step_x = static_cast<int>(random() % 2),
+                      step_y = static_cast<int>(random() % 2);
+            const double share = 0.125 * static_cast<double>(random() % 8);
+            const glm::dvec3 target =
+                glm::mix(field.at(x, y), field.at(x - step_x, y - step_y), share);
+            for (const glm::dvec3& eye :
+                 {glm::dvec3(target.x, target.y, 100.0), glm::dvec3(3.0, 4.0, 50.0)}) {
+                const Ray ray{eye, target - eye, 0.0, 2.0};
+                ASSERT_TRUE(bvh.nearest(ray, any))
+                    << "ray " << i << " to " << target.x << ' ' << target.y << ' ' << target.z;
+            }
         }
     }
 }
