@@ -22,7 +22,7 @@ typedef struct TileSlices {
 static inline UV slices_of_strip(GBuffer g, ClusterGrid grid, uint x, uint y) {
     FV depth01 = load_depth01(g, x, y);
     FV z = view_depth(g.view, pixel_centers_x(x), fv((float)y + 0.5f), depth01);
-    UV slice = slice_of_depth(grid, z);
+    UV slice = fine_slice_of_depth(grid, z);
     MASK drawn = (depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(g.view.width));
     return select((UV)(NO_SLICE), slice, full_mask(drawn));
 }

@@ -40,7 +40,7 @@ kernel void count_lights(global const uchar* restrict gbuffer,
     if (any_lane(drawn)) {
         FV z = view_depth(view, pixel_centers_x(x), fv((float)y + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
         FV3 p = load_position(g, x, y, z);
-        UV slice = slice_of_depth(grid, z);
+        UV slice = fine_slice_of_depth(grid, z);
         uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
         uint end = min(cluster_offsets[tile + 1], cluster_capacity);
         for (uint i = cluster_offsets[tile]; i < end; ++i) {

@@ -16,11 +16,11 @@
 #endif
 #define BATCH (GROUP * VW)
 
-// The coarse cluster that holds a fine tile's slice.
+// The coarse cluster that holds a fine tile's fine slice.
 static inline uint coarse_cluster(ClusterGrid grid, uint fine_tiles_x, uint tile, uint slice) {
     uint column = tile % fine_tiles_x * FINE_TILE / grid.tile_width;
     uint row = tile / fine_tiles_x * FINE_TILE / grid.tile_height;
-    return cluster_index(grid, column, row, slice);
+    return cluster_index(grid, column, row, slice >> grid.fine_slice_bits);
 }
 
 static inline uint fine_tiles_in_row(View view) { return (view.width + FINE_TILE - 1) / FINE_TILE; }

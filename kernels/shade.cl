@@ -165,7 +165,7 @@ kernel void shade(global const uchar* restrict gbuffer,
 #if ALL_LIGHTS
     sum = sum_lights(sum, any_drawn, p, lights, lists, light_count STAGED_ARGUMENT);
 #else
-    UV slice = slice_of_depth(grid, z);
+    UV slice = fine_slice_of_depth(grid, z);
     uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
     uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     LightSum unlit = sum;

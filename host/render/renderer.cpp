@@ -42,6 +42,7 @@ GridRequest grid_request(const GridSettings& settings, const Camera& camera, con
     request.tiles_x = static_cast<uint>(settings.tiles_x);
     request.tiles_y = static_cast<uint>(settings.tiles_y);
     request.slices_per_octave = static_cast<uint>(settings.slices_per_octave);
+    request.fine_per_octave = static_cast<uint>(settings.fine_per_octave);
     request.position_pad = position_pad;
     double farthest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {

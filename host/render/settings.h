@@ -20,6 +20,7 @@ struct GridSettings {
     int tiles_x = 16;
     int tiles_y = 9;
     int slices_per_octave = 4;  // 1, 2, 4, ... 64
+    int fine_per_octave = 16;   // of active clusters: slices_per_octave ... 64
 };
 
 /// How kernels are built and launched; 0: the tuning table's choice for the device.

@@ -25,6 +25,8 @@ ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint heigh
     grid.tiles_y = (height + grid.tile_height - 1) / grid.tile_height;
     const uint per_octave = std::bit_floor(std::clamp(request.slices_per_octave, 1u, 64u));
     grid.slice_shift = 23u - static_cast<uint>(std::countr_zero(per_octave));
+    const uint fine = std::bit_floor(std::clamp(request.fine_per_octave, per_octave, 64u));
+    grid.fine_slice_bits = static_cast<uint>(std::countr_zero(fine / per_octave));
     // 2^-100: far from denormals, which devices may flush.
     const float first = std::clamp(request.z_first, 0x1p-100f, 0x1p100f);
     const float last = std::clamp(request.z_last, first, 0x1p100f);

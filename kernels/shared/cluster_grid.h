@@ -20,7 +20,8 @@ SHARED_STRUCT(ClusterGrid) {
     uint z_first_bits;  // bits of z_first [m], the near end of slice 0
     uint cluster_count;
     float position_pad;  // [m] how far a stored position may lie from its pixel's ray and depth
-    uint unused0, unused1, unused2;
+    uint fine_slice_bits;  // a coarse slice holds 2^this slices of the active clusters
+    uint unused0, unused1;
 };
 SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 
@@ -31,6 +32,13 @@ SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
     LANE_UINT slice = (lane_bits(clamped) - grid.z_first_bits) >> grid.slice_shift;
     return min(slice, grid.slices - 1u);
+}
+
+// The same for the finer slices of active clusters; a coarse slice is fine >> grid.fine_slice_bits.
+SHARED_FN LANE_UINT fine_slice_of_depth(ClusterGrid grid, FV z) {
+    grid.slice_shift -= grid.fine_slice_bits;
+    grid.slices <<= grid.fine_slice_bits;
+    return slice_of_depth(grid, z);
 }
 
 // Depth [m] at which a slice begins, exactly representable. Slice 0 also takes what is nearer.
