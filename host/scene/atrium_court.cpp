@@ -21,40 +21,9 @@ void add_round_basin(MeshBuilder& builder, const Profile& profile) {
     }
 }
 
-}  // namespace
-
-MeshBuilder court_paving() {
-    MeshBuilder builder;
-    const double x = kHalfX - kStepsDepth;
-    const double z = kHalfZ - kStepsDepth;
-    // Around the basin, so that nothing is drawn below the water.
-    const auto slab = [&](glm::dvec2 low, glm::dvec2 high) {
-        builder.quad({low.x, kCourtFloor, low.y}, {high.x, kCourtFloor, low.y},
-                     {high.x, kCourtFloor, high.y}, {low.x, kCourtFloor, high.y}, {0, 1, 0});
-    };
-    slab({-x, -z}, {-kBasin.x, z});
-    slab({kBasin.x, -z}, {x, z});
-    slab({-kBasin.x, -z}, {kBasin.x, -kBasin.y});
-    slab({-kBasin.x, kBasin.y}, {kBasin.x, z});
-    return builder;
-}
-
-MeshBuilder fountain_marble() {
-    MeshBuilder builder;
+// Pedestal and two bowls, one above the other, with a finial.
+void add_fountain(MeshBuilder& builder) {
     const double f = kCourtFloor;
-    add_round_basin(builder, {{{0.42, f},
-                               {0.42, f + 0.10},
-                               {0.36, f + 0.14},
-                               {0.33, f + 0.34},
-                               {0.36, f + 0.40},
-                               {0.42, f + 0.44},
-                               {0.43, f + 0.50},
-                               {0.40, f + 0.53},
-                               {0.02, f + 0.53},
-                               {-0.02, f + 0.50},
-                               {-0.02, f + 0.44},
-                               {0.0, f + 0.43}},
-                              0.6});
     builder.lathe({{{0.42, f},
                     {0.42, f + 0.45},
                     {0.36, f + 0.50},
@@ -92,6 +61,43 @@ MeshBuilder fountain_marble() {
                     {0.0, f + 2.78}},
                    0.9},
                   20);
+}
+
+}  // namespace
+
+MeshBuilder court_paving() {
+    MeshBuilder builder;
+    const double x = kHalfX - kStepsDepth;
+    const double z = kHalfZ - kStepsDepth;
+    // Around the basin, so that nothing is drawn below the water.
+    const auto slab = [&](glm::dvec2 low, glm::dvec2 high) {
+        builder.quad({low.x, kCourtFloor, low.y}, {high.x, kCourtFloor, low.y},
+                     {high.x, kCourtFloor, high.y}, {low.x, kCourtFloor, high.y}, {0, 1, 0});
+    };
+    slab({-x, -z}, {-kBasin.x, z});
+    slab({kBasin.x, -z}, {x, z});
+    slab({-kBasin.x, -z}, {kBasin.x, -kBasin.y});
+    slab({-kBasin.x, kBasin.y}, {kBasin.x, z});
+    return builder;
+}
+
+MeshBuilder fountain_marble() {
+    MeshBuilder builder;
+    const double f = kCourtFloor;
+    add_round_basin(builder, {{{0.42, f},
+                               {0.42, f + 0.10},
+                               {0.36, f + 0.14},
+                               {0.33, f + 0.34},
+                               {0.36, f + 0.40},
+                               {0.42, f + 0.44},
+                               {0.43, f + 0.50},
+                               {0.40, f + 0.53},
+                               {0.02, f + 0.53},
+                               {-0.02, f + 0.50},
+                               {-0.02, f + 0.44},
+                               {0.0, f + 0.43}},
+                              0.6});
+    add_fountain(builder);
     return builder;
 }
 
