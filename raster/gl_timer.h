@@ -1,33 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+
+#include "raster/gl_context.h"
 #include "raster/gl_object.h"
 
 namespace kilolux {
 
-/// How long the GL takes for what is issued between begin() and end().
+/// How long the GL takes for what is issued between begin() and end(). Where the CPU draws, the two
+/// wait for the GL and read the clock: llvmpipe's timer queries leave out the vertices, and give
+/// the time of day when a pass spans several of its internal scenes.
 class GlTimer {
  public:
     void begin() {
-        if (!query_) query_ = make_query(GL_TIME_ELAPSED);
-        glBeginQuery(GL_TIME_ELAPSED, query_.name());
+        if (!query_) {
+            query_ = make_query(GL_TIME_ELAPSED);
+            software_ = is_software_renderer();
+        }
+        if (software_) {
+            glFinish();
+            start_ = Clock::now();
+        } else {
+            glBeginQuery(GL_TIME_ELAPSED, query_.name());
+        }
     }
+
     void end() {
-        glEndQuery(GL_TIME_ELAPSED);
-        used_ = true;
+        if (software_) {
+            glFinish();
+            elapsed_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+        } else {
+            glEndQuery(GL_TIME_ELAPSED);
+            pending_ = true;
+        }
     }
 
     /// Of the latest begin/end [ms], 0 before the first. Waits for the GL to be done with it.
     double last_ms() const {
-        if (!used_) return 0.0;
+        if (!pending_) return elapsed_ms_;
         GLuint64 elapsed_ns = 0;
         glGetQueryObjectui64v(query_.name(), GL_QUERY_RESULT, &elapsed_ns);
         return static_cast<double>(elapsed_ns) * 1e-6;
     }
 
  private:
+    using Clock = std::chrono::steady_clock;
+
     GlQuery query_;
-    bool used_ = false;
+    Clock::time_point start_;
+    double elapsed_ms_ = 0.0;
+    bool software_ = false;
+    bool pending_ = false;
 };
 
 }  // namespace kilolux
