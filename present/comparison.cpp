@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/comparison.h"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-
 #include "host/base/error.h"
+#include "host/measure/flip_hdr.h"
+#include "host/measure/flip_ldr.h"
+#include "host/measure/metrics.h"
 #include "present/image_file.h"
 
 namespace kilolux {
@@ -17,6 +14,7 @@ std::string size_text(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
+// Display codes as read_image() gives those of a file.
 std::vector<float> display_colour(const Frame& frame) {
     std::vector<float> colour;
     colour.reserve(frame.display.size() / 4 * 3);
@@ -26,59 +24,44 @@ std::vector<float> display_colour(const Frame& frame) {
     return colour;
 }
 
-// What is not finite and not the same is infinitely wrong, so that no average can pass over it.
-double difference(float a, float b) {
-    if (std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || a == b) return 0.0;
-    const double d = std::abs(static_cast<double>(a) - static_cast<double>(b));
-    return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
+RgbImage linear_of_display(RgbImage image) {
+    for (double& value : image.rgb) value = linear_from_srgb(value);
+    return image;
 }
 
-std::vector<std::pair<std::string, double>> errors_of(const std::vector<float>& picture,
-                                                      const std::vector<float>& reference) {
-    double squares = 0.0;
-    double sum = 0.0;
-    double largest = 0.0;
-    double different = 0.0;
-    for (std::size_t i = 0; i < picture.size(); i += 3) {
-        bool same = true;
-        for (std::size_t c = i; c < i + 3; ++c) {
-            const double d = difference(picture[c], reference[c]);
-            squares += d * d;
-            sum += d;
-            largest = std::max(largest, d);
-            same = same && d == 0.0;
-        }
-        different += same ? 0.0 : 1.0;
-    }
-    const double count = std::max(1.0, static_cast<double>(picture.size()));
-    return {{"rmse", std::sqrt(squares / count)},
-            {"mean", sum / count},
-            {"max", largest},
-            {"different-pixels", different}};
+double flip_of(const RgbImage& picture, const RgbImage& reference, bool linear) {
+    if (linear) return flip_hdr(picture, reference).flip.error.mean;
+    return flip_ldr(linear_of_display(picture), linear_of_display(reference)).error.mean;
 }
 
 }  // namespace
 
 std::vector<std::string> metric_names() {
-    return {"rmse", "mean", "max", "different-pixels"};
+    return {"rmse", "mean", "max", "max-relative", "relmse", "different-pixels", "flip"};
 }
 
 Reference::Reference(std::filesystem::path file)
     : file_(std::move(file)), linear_(image_meaning(file_) == ImageMeaning::linear) {
     const FloatImage image = read_image(file_);
-    width_ = image.width;
-    height_ = image.height;
-    colour_ = colour_of(image);
+    colour_ = rgb_image_of(image.width, image.height, colour_of(image));
 }
 
 Comparison Reference::compare(const Frame& frame, const std::string& metric,
                               double threshold) const {
-    if (frame.width != width_ || frame.height != height_) {
-        throw Error(file_.string() + ": the reference is " + size_text(width_, height_) +
-                    " pixels, the picture " + size_text(frame.width, frame.height));
+    if (frame.width != colour_.width || frame.height != colour_.height) {
+        throw Error(file_.string() + ": the reference is " +
+                    size_text(colour_.width, colour_.height) + " pixels, the picture " +
+                    size_text(frame.width, frame.height));
     }
+    const RgbImage picture =
+        rgb_image_of(frame.width, frame.height, linear_ ? frame.radiance : display_colour(frame));
+    const HdrMetrics m = compare_hdr(picture, colour_);
     Comparison out{metric, 0.0, threshold, {}};
-    out.errors = errors_of(linear_ ? frame.radiance : display_colour(frame), colour_);
+    out.errors = {
+        {"rmse", m.rmse},        {"mean", m.absolute.mean},
+        {"max", m.absolute.max}, {"max-relative", m.relative.max},
+        {"relmse", m.rel_mse},   {"different-pixels", static_cast<double>(m.different_pixels)}};
+    if (metric == "flip") out.errors.emplace_back("flip", flip_of(picture, colour_, linear_));
     for (const auto& [name, value] : out.errors) {
         if (name == metric) out.value = value;
     }

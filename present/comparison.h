@@ -6,19 +6,24 @@
 #include <utility>
 #include <vector>
 
+#include "host/measure/rgb_image.h"
 #include "host/render/frame.h"
 
 namespace kilolux {
 
-/// Errors that --metric knows; each is 0 for equal pictures and larger for worse ones.
+/// Errors that --metric knows; each is 0 for equal pictures and larger for worse ones. Of linear
+/// files in their unit, of others in [0, 1]: `rmse`, `mean` and `max` of |x-r|; `max-relative`, the
+/// largest |x-r| / |r|; `relmse`, relative squares; `different-pixels`, by any bit; `flip`, what an
+/// observer notices on average (HDR-FLIP for linear files).
 std::vector<std::string> metric_names();
 
 /// How far a picture is from its reference.
 struct Comparison {
     std::string metric;
-    double value = 0.0;                                  // of `metric`
-    double threshold = 0.0;                              // largest value that passes
-    std::vector<std::pair<std::string, double>> errors;  // of every metric, by name
+    double value = 0.0;      // of `metric`
+    double threshold = 0.0;  // largest value that passes
+    std::vector<std::pair<std::string, double>>
+        errors;  // by name; `flip`, which is slow, if asked for
     bool passed() const { return value <= threshold; }
 };
 
@@ -34,10 +39,8 @@ class Reference {
 
  private:
     std::filesystem::path file_;
-    int width_ = 0;
-    int height_ = 0;
     bool linear_ = true;
-    std::vector<float> colour_;  // 3 * width * height
+    RgbImage colour_;
 };
 
 }  // namespace kilolux

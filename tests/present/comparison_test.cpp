@@ -54,11 +54,25 @@ TEST(Comparison, MetricsOfOneWrongValue) {
     EXPECT_NEAR(error_of(c, "rmse"), std::sqrt(0.25 / 36.0), 1e-12);
     EXPECT_NEAR(error_of(c, "mean"), 0.5 / 36.0, 1e-12);
     EXPECT_EQ(error_of(c, "max"), 0.5);
+    EXPECT_EQ(error_of(c, "max-relative"), 0.5);
     EXPECT_EQ(error_of(c, "different-pixels"), 1.0);
     EXPECT_TRUE(c.passed());
     EXPECT_FALSE(reference.compare(frame, "rmse", 0.08).passed());
     EXPECT_FALSE(reference.compare(frame, "max", 0.49).passed());
     EXPECT_TRUE(reference.compare(frame, "different-pixels", 1.0).passed());
+}
+
+TEST(Comparison, FlipSeesWhatAnObserverSees) {
+    const TemporaryFolder folder;
+    Frame frame = make_frame(24, 24, 0.5f);
+    for (const char* name : {"r.exr", "r.png"}) write_image(folder / name, frame);
+    for (std::size_t i = 0; i < frame.radiance.size(); i += 2) frame.radiance[i] = 0.05f;
+    for (std::size_t i = 0; i < frame.display.size(); i += 2) frame.display[i] = 20;
+    for (const char* name : {"r.exr", "r.png"}) {
+        const double flip = Reference(folder / name).compare(frame, "flip", 0.0).value;
+        EXPECT_GT(flip, 0.1) << name;
+        EXPECT_LE(flip, 1.0) << name;
+    }
 }
 
 TEST(Comparison, WhatIsNotFiniteNeverPasses) {

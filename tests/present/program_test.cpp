@@ -174,9 +174,9 @@ TEST(Completion, BashOffersWhatFits) {
     for (const Query& query : queries) {
         std::string answer;
         std::getline(answers, answer);
-        EXPECT_TRUE(answer.starts_with(query.offers)) << query.words << ": " << answer;
         const bool files_too = query.words.ends_with("host");
-        if (!files_too) EXPECT_EQ(answer, query.offers) << query.words;
+        const std::string seen = files_too ? answer.substr(0, query.offers.size()) : answer;
+        EXPECT_EQ(seen, query.offers) << query.words;
     }
 }
 

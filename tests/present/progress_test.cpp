@@ -60,7 +60,7 @@ TEST(Progress, Lines) {
     EXPECT_EQ(progress_line("rendering", 0, 4, 0.0, 40),
               "rendering 0/4 [                  ]   0 %");
     EXPECT_EQ(progress_line("rendering", 1, 4, 10.0, 43),
-              "rendering 1/4 [==      ]  25 %, 30 s left");
+              "rendering 1/4 [==        ]  25 %, 30 s left");
     EXPECT_EQ(progress_line("f", 4, 4, 10.0, 30), "f 4/4 [================] 100 %");
     EXPECT_TRUE(contains(progress_line("f", 1, 2, 600.0, 79), "10:00 min left"));
     EXPECT_TRUE(contains(progress_line("f", 1, 101, 180.0, 79), "5:00 h left"));
