@@ -2,6 +2,7 @@
 #include "tests/opencl/test_gpu.h"
 
 #include <cstdlib>
+#include <map>
 #include <string>
 
 #include "host/base/source.h"
@@ -28,15 +29,17 @@ cl::Program build_probe(const Gpu& gpu, std::span<const std::string_view> header
         "#ifdef __clang__\n#pragma clang diagnostic ignored \"-Wpsabi\"\n#endif\n";
     for (const std::string_view header : headers) source += splice_source(header, false).text;
     source += "#line 1 \"probe\"\n" + std::string(text);
-    cl::Program program(gpu.context, source);
     const std::string all_options = "-cl-std=CL1.2 -Werror -DVW=" +
                                     std::to_string(gpu.info.lane_width) + " " + options.text();
+    static std::map<std::string, cl::Program> programs;
+    const auto [place, is_new] = programs.try_emplace(all_options + source, gpu.context, source);
+    if (!is_new) return place->second;
     try {
-        program.build(gpu.device, all_options.c_str());
+        place->second.build(gpu.device, all_options.c_str());
     } catch (const cl::Error&) {
-        throw Error("probe: " + program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(gpu.device));
+        throw Error("probe: " + place->second.getBuildInfo<CL_PROGRAM_BUILD_LOG>(gpu.device));
     }
-    return program;
+    return place->second;
 }
 
 }  // namespace kilolux
