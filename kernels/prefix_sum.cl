@@ -11,22 +11,22 @@
 #define PER_ITEM 1024
 #endif
 
-static inline uint sum_of_item(global const uint* counts, uint n, uint first) {
-    uint sum = 0;
+static inline ulong sum_of_item(global const uint* counts, uint n, uint first) {
+    ulong sum = 0;
     for (uint i = first; i < min(first + PER_ITEM, n); ++i) sum += counts[i];
     return sum;
 }
 
 // Exclusive scan of one value a work-item over the work-group.
-static inline uint scan_group(uint value, local uint* shared_sums) {
+static inline ulong scan_group(ulong value, local ulong* shared_sums) {
 #if GROUP == 1
-    return 0u;
+    return 0ul;
 #else
     uint item = get_local_id(0);
     shared_sums[item] = value;
     barrier(CLK_LOCAL_MEM_FENCE);  // every value is there before any is read
     for (uint step = 1; step < GROUP; step <<= 1) {
-        uint other = item >= step ? shared_sums[item - step] : 0u;
+        ulong other = item >= step ? shared_sums[item - step] : 0ul;
         barrier(CLK_LOCAL_MEM_FENCE);  // all have read before any writes
         shared_sums[item] += other;
         barrier(CLK_LOCAL_MEM_FENCE);  // all have written before the next round reads
@@ -37,22 +37,22 @@ static inline uint scan_group(uint value, local uint* shared_sums) {
 
 kernel void prefix_sum_blocks(global const uint* restrict counts,  // [n]
                               uint n,
-                              global uint* restrict block_sums) {  // out [groups]
-    local uint shared_sums[GROUP];
-    uint sum = sum_of_item(counts, n, (uint)get_global_id(0) * PER_ITEM);
-    uint before = scan_group(sum, shared_sums);
+                              global ulong* restrict block_sums) {  // out [groups]
+    local ulong shared_sums[GROUP];
+    ulong sum = sum_of_item(counts, n, (uint)get_global_id(0) * PER_ITEM);
+    ulong before = scan_group(sum, shared_sums);
     if (get_local_id(0) == GROUP - 1) block_sums[get_group_id(0)] = before + sum;
 }
 
-kernel void prefix_sum_totals(global uint* restrict block_sums,  // in: sums, out: offsets [block_count]
+kernel void prefix_sum_totals(global ulong* restrict block_sums,  // in: sums, out: offsets [block_count]
                               uint block_count,
                               uint n,
                               global uint* restrict offsets,     // out: offsets[n] = total, modulo 2^32
                               global ulong* restrict total) {    // out [1]: the exact total
     ulong sum = 0;
     for (uint block = 0; block < block_count; ++block) {
-        uint value = block_sums[block];
-        block_sums[block] = (uint)sum;
+        ulong value = block_sums[block];
+        block_sums[block] = sum;
         sum += value;
     }
     offsets[n] = (uint)sum;
@@ -61,11 +61,12 @@ kernel void prefix_sum_totals(global uint* restrict block_sums,  // in: sums, ou
 
 kernel void prefix_sum_apply(global const uint* restrict counts,      // [n]
                              uint n,
-                             global const uint* restrict block_sums,  // [groups], offsets
+                             global const ulong* restrict block_sums, // [groups], offsets
                              global uint* restrict offsets) {         // out [n + 1]; the last by prefix_sum_totals
-    local uint shared_sums[GROUP];
+    local ulong shared_sums[GROUP];
     uint first = (uint)get_global_id(0) * PER_ITEM;
-    uint sum = block_sums[get_group_id(0)] + scan_group(sum_of_item(counts, n, first), shared_sums);
+    // Offsets are modulo 2^32: the host refuses larger lists by the exact total.
+    uint sum = (uint)(block_sums[get_group_id(0)] + scan_group(sum_of_item(counts, n, first), shared_sums));
     for (uint i = first; i < min(first + PER_ITEM, n); ++i) {
         uint value = counts[i];
         offsets[i] = sum;

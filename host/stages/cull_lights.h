@@ -23,7 +23,8 @@ class CullLights {
     /// Enqueues only. Lists ascend by light index within a cluster, whatever the tuning.
     CoarseLists enqueue(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer);
 
-    /// Same result from the brute-force kernel (every light against every cluster); blocks. The oracle.
+    /// The brute-force kernel: every light against every cluster's box; blocks. The oracle. Lists are
+    /// enqueue()'s plus lights that touch only the part of a box outside the cluster's part of the frustum.
     CoarseLists brute_force(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer);
 
     /// Pairs of the last enqueue; blocks until it is done.

@@ -26,8 +26,8 @@ SHARED_STRUCT(ClusterGrid) {
 SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 
 // Slice of a depth z [m]. The bits of a positive float are a piecewise linear log2 of it, exactly
-// monotone and the same on every device. Nearer than z_first (or negative, or NaN) falls into slice 0,
-// farther than the last slice into the last: no pixel is lost.
+// monotone and the same on every device. Nearer than z_first (or negative) falls into slice 0, farther
+// than the last slice into the last: no pixel is lost. NaN, which max() leaves open, falls into either.
 SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
     LANE_UINT slice = (lane_bits(clamped) - grid.z_first_bits) >> grid.slice_shift;

@@ -59,6 +59,8 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 to_eye;      // unit
     FV n_dot_v;
     FV alpha2;       // pbr: roughness^4
+    FV ggx_slope;    // pbr: (1 - alpha2) / alpha
+    FV ggx_floor;    // pbr: alpha
     FV smith_v;      // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
     FV exponent;     // blinn-phong
 };
@@ -107,11 +109,15 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     p.to_eye = zero3();
     p.n_dot_v = fv(0.0f);
     p.alpha2 = fv(0.0f);
+    p.ggx_slope = fv(0.0f);
+    p.ggx_floor = fv(0.0f);
     p.smith_v = fv(0.0f);
     p.exponent = fv(0.0f);
 #if SHADING != SHADING_LAMBERT
     FV alpha = clamped_alpha(s.roughness);
     p.alpha2 = alpha * alpha;
+    p.ggx_slope = (fv(1.0f) - p.alpha2) / alpha;
+    p.ggx_floor = alpha;
     p.to_eye = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
     if (!orthographic) {
         FV inv_distance = rsqrt(max(dot3(s.position, s.position), fv(1e-30f)));
@@ -182,10 +188,11 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
     // Lagrange's identity |n x h|^2 = 1 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1).
     FV3 nxh = cross3(p.normal, h);
     FV sin2 = min(dot3(nxh, nxh) * (inv_h * inv_h), fv(1.0f));
-    FV ggx = fma(sin2, fv(1.0f) - p.alpha2, p.alpha2);
+    // Divided by alpha, so that the peak of a mirror keeps the size it has in the end.
+    FV ggx = fma(sin2, p.ggx_slope, p.ggx_floor);
     FV smith_l = sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - p.alpha2, p.alpha2));
     FV smith = fma(n_dot_l, p.smith_v, p.n_dot_v * smith_l);
-    // D * V without its constants alpha2 / (2 pi), which finish_shading multiplies in.
+    // D * V without its constant 1 / (2 pi), which finish_shading multiplies in.
     FV lobe = lit / (ggx * ggx * smith);
     FV schlick = max(fma(-dot3(p.to_eye, h), inv_h, fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
@@ -241,18 +248,17 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
     f0 = fv3(fma(albedo.x, s.metallic, dielectric * f0.x), fma(albedo.y, s.metallic, dielectric * f0.y),
              fma(albedo.z, s.metallic, dielectric * f0.z));
 #endif
-    FV alpha = clamped_alpha(s.roughness);
-    FV alpha2 = alpha * alpha;
 #endif
 #if SHADING == SHADING_BLINN_PHONG
+    FV alpha = clamped_alpha(s.roughness);
     // (n + 2) / (8 pi) with n = 2 / alpha2 - 2: Walter et al. 2007's match of exponent and roughness.
-    FV lobe = fv(0.25f * INV_PI) / alpha2;
+    FV lobe = fv(0.25f * INV_PI) / (alpha * alpha);
     out_radiance = fv3(fma(base.x * k, sum.diffuse.x, f0.x * lobe * sum.specular.x),
                        fma(base.y * k, sum.diffuse.y, f0.y * lobe * sum.specular.y),
                        fma(base.z * k, sum.diffuse.z, f0.z * lobe * sum.specular.z));
 #endif
 #if SHADING == SHADING_PBR
-    FV lobe = alpha2 * fv(0.5f * INV_PI);
+    FV lobe = fv(0.5f * INV_PI);
     FV3 specular = sum.specular;
 #if HAS_METALLIC
     specular = fv3(fma(f0.x, sum.specular.x, sum.fresnel.x), fma(f0.y, sum.specular.y, sum.fresnel.y),

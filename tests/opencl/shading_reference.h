@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "kernels/shared/light.h"
+#include "tests/opencl/vec3d.h"
+
+namespace kilolux {
+
+/// A point on a surface in view space, as kernels/shared/evaluate.h's Surface.
+struct SurfaceD {
+    Vec3d position;
+    Vec3d normal;  // any length
+    Vec3d albedo{0.5, 0.5, 0.5};
+    Vec3d emissive;
+    double roughness = 1, metallic = 0, occlusion = 1;
+};
+
+/// How the scene is lit and looked at.
+struct Lighting {
+    std::span<const ShadeLight> lights;
+    std::span<const DirectionalLight> directional;
+    double ambient = 0;
+    bool orthographic = false;
+    int shading = 0;  // SHADING_*
+};
+
+struct ReferenceRadiance {
+    Vec3d value;
+    double scale = 0;  // sum over lights of intensity * falloff, of the strongest channel: what rounding is relative to
+};
+
+/// Radiance in double, from the published formulas: windowed inverse square; Lambert, Blinn-Phong
+/// (Walter et al. 2007), or glTF 2.0 appendix B (GGX, height-correlated Smith, Schlick).
+ReferenceRadiance reference_radiance(const SurfaceD& surface, const Lighting& lighting);
+
+/// |found - expected| relative to the larger of the expected value and the scale; NaN counts as infinite.
+double relative_error(Vec3d found, const ReferenceRadiance& expected);
+
+}  // namespace kilolux
