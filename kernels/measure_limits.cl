@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the device can do at best, for the limits that stages are held against. Arithmetic: every
-// work-item keeps enough independent chains of FV in registers to hide the units' latencies (two FMA
-// pipes of 4..5 cycles need 8..10), on numbers that neither grow nor become denormal. Memory: every
-// work-item walks `count` vectors, `step` apart from `item * item_step` on; neighbouring work-items
-// take neighbouring vectors on GPUs (item_step 1), a contiguous range each on CPUs (step 1).
+// work-item keeps enough independent chains of FV in registers to hide the units' latencies (two
+// FMA pipes of 4..5 cycles need 8..10), on numbers that neither grow nor become denormal. Memory:
+// every work-item walks `count` vectors, `step` apart from `item * item_step` on; neighbouring
+// work-items take neighbouring vectors on GPUs (item_step 1), a contiguous range each on CPUs (step
+// 1).
 #include "kernels/device/lanes.h"
 
 #define EACH_10(op) op(0) op(1) op(2) op(3) op(4) op(5) op(6) op(7) op(8) op(9)
@@ -11,8 +12,8 @@
 #define FMA_CHAINS 10
 #define ADD_CHAINS 4
 
-#define DECLARE_X(i) FV x##i = start + (i) * 0.01f;
-#define DECLARE_Y(i) FV y##i = start - (i) * 0.01f;
+#define DECLARE_X(i) FV x##i = start + (i)*0.01f;
+#define DECLARE_Y(i) FV y##i = start - (i)*0.01f;
 #define ADD_X(i) sum += x##i;
 #define ADD_Y(i) sum += y##i;
 #define FMA_X(i) x##i = fma(x##i, fv(a), fv(b));
@@ -22,7 +23,8 @@
 #define DIVIDE_X(i) x##i = fv(a) / x##i;
 
 // FMA_CHAINS fused multiply-adds a lane and iteration.
-kernel void fma_rate(uint iterations, float a, float b, global float* restrict out) {  // out [items][VW]
+kernel void fma_rate(uint iterations, float a, float b,
+                     global float* restrict out) {  // out [items][VW]
     FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
@@ -33,9 +35,10 @@ kernel void fma_rate(uint iterations, float a, float b, global float* restrict o
     store_lanes(sum, out + get_global_id(0) * VW);
 }
 
-// The same with ADD_CHAINS additions beside: evaluate() has about as many that need no multiplier, and
-// some CPUs add on other pipes than they multiply on.
-kernel void instruction_rate(uint iterations, float a, float b, global float* restrict out) {  // out [items][VW]
+// The same with ADD_CHAINS additions beside: evaluate() has about as many that need no multiplier,
+// and some CPUs add on other pipes than they multiply on.
+kernel void instruction_rate(uint iterations, float a, float b,
+                             global float* restrict out) {  // out [items][VW]
     FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     EACH_4(DECLARE_Y)
@@ -50,7 +53,8 @@ kernel void instruction_rate(uint iterations, float a, float b, global float* re
 }
 
 // Special functions as the shading kernels' compiler makes them, FMA_CHAINS a lane and iteration.
-kernel void rsqrt_rate(uint iterations, float a, float b, global float* restrict out) {  // out [items][VW]
+kernel void rsqrt_rate(uint iterations, float a, float b,
+                       global float* restrict out) {  // out [items][VW]
     FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
@@ -61,7 +65,8 @@ kernel void rsqrt_rate(uint iterations, float a, float b, global float* restrict
     store_lanes(sum, out + get_global_id(0) * VW);
 }
 
-kernel void sqrt_rate(uint iterations, float a, float b, global float* restrict out) {  // out [items][VW]
+kernel void sqrt_rate(uint iterations, float a, float b,
+                      global float* restrict out) {  // out [items][VW]
     FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
@@ -72,7 +77,8 @@ kernel void sqrt_rate(uint iterations, float a, float b, global float* restrict 
     store_lanes(sum, out + get_global_id(0) * VW);
 }
 
-kernel void division_rate(uint iterations, float a, float b, global float* restrict out) {  // out [items][VW]
+kernel void division_rate(uint iterations, float a, float b,
+                          global float* restrict out) {  // out [items][VW]
     FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
@@ -84,12 +90,13 @@ kernel void division_rate(uint iterations, float a, float b, global float* restr
 }
 
 // Does nothing: what a launch costs.
-kernel void launch_nothing(global float* restrict out) { (void)out; }
+kernel void launch_nothing(global float* restrict out) {
+    (void)out;
+}
 
 kernel void write_memory(uint repeats, uint count, uint item_step, uint step,
-                         global float* restrict to,    // out [items * count][VW]
-                         global float* restrict from,
-                         global float* restrict out) {
+                         global float* restrict to,  // out [items * count][VW]
+                         global float* restrict from, global float* restrict out) {
     size_t first = (size_t)get_global_id(0) * item_step;
     for (uint r = 0; r < repeats; ++r) {
         FV value = fv((float)(r + 1));

@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An entry is lines of text: the first names format, kind and version, the next ones the device, then a
-// "key value" line for each number, and last the checksum of all before it.
+// An entry is lines of text: the first names format, kind and version, the next ones the device,
+// then a "key value" line for each number, and last the checksum of all before it.
 constexpr std::string_view kFormat = "kilolux-cache 1";
 constexpr std::string_view kChecksum = "checksum ";
 constexpr std::size_t kLargestEntry = 64 * 1024;  // [byte]; ours have about one KiB

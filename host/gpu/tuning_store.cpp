@@ -13,17 +13,24 @@ constexpr CacheKind kKind = {"tuning", 1};
 
 struct Field {
     const char* name;
-    int Tuning::* value;
+    int Tuning::*value;
 };
 
 constexpr Field kFields[] = {
-    {"shade_rows", &Tuning::shade_rows},       {"cull_group", &Tuning::cull_group},
-    {"cull_chunks", &Tuning::cull_chunks},     {"refine_group", &Tuning::refine_group},
-    {"prefix_group", &Tuning::prefix_group},   {"prefix_per_item", &Tuning::prefix_per_item},
-    {"tile_group", &Tuning::tile_group},       {"light_group", &Tuning::light_group},
+    {"shade_rows", &Tuning::shade_rows},           {"shade_stage", &Tuning::shade_stage},
+    {"cull_group", &Tuning::cull_group},           {"cull_chunks", &Tuning::cull_chunks},
+    {"refine_group", &Tuning::refine_group},       {"prefix_group", &Tuning::prefix_group},
+    {"prefix_per_item", &Tuning::prefix_per_item}, {"tile_group", &Tuning::tile_group},
+    {"light_group", &Tuning::light_group},
 };
 
-bool is_power_of_two(int value) { return value > 0 && std::has_single_bit(static_cast<uint>(value)); }
+// Bounded by the local memory that every device has (CL_DEVICE_LOCAL_MEM_SIZE >= 32 KiB): 512 * 52
+// bytes.
+constexpr int kMostStaged = 512;
+
+bool is_power_of_two(int value) {
+    return value > 0 && std::has_single_bit(static_cast<uint>(value));
+}
 
 // A value of an entry as an int; -1, which nothing accepts, if it is missing or none.
 int int_of(const CacheValues& values, std::string_view key) {
@@ -38,10 +45,15 @@ int int_of(const CacheValues& values, std::string_view key) {
 bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
     const Tuning& t = stored.tuning;
     const int largest_group = device.max_work_group;
-    const auto is_group = [&](int group) { return is_power_of_two(group) && group <= largest_group; };
+    const auto is_group = [&](int group) {
+        return is_power_of_two(group) && group <= largest_group;
+    };
     if (!is_power_of_two(stored.lanes) || stored.lanes > FINE_TILE) return false;
     if (!is_power_of_two(t.shade_rows) || t.shade_rows > FINE_TILE) return false;
     if (FINE_TILE / stored.lanes * t.shade_rows > largest_group) return false;
+    if (t.shade_stage != 0 && (!is_power_of_two(t.shade_stage) || t.shade_stage > kMostStaged))
+        return false;
+    if (t.shade_stage != 0 && t.shade_rows != FINE_TILE) return false;
     if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
     return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&
            is_group(t.tile_group) && is_group(t.light_group);

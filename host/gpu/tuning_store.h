@@ -22,8 +22,8 @@ bool is_valid(const StoredTuning& tuning, const DeviceInfo& device);
 /// The built-in table's row for the device, with the device's own lane width.
 StoredTuning built_in_tuning(const DeviceInfo& device);
 
-/// What `kilolux bench --tune` found for this device and driver; none if it never ran, or if the entry
-/// is damaged or no longer valid.
+/// What `kilolux bench --tune` found for this device and driver; none if it never ran, or if the
+/// entry is damaged or no longer valid.
 std::optional<StoredTuning> stored_tuning(const DeviceInfo& device);
 
 /// Keeps the winner in the user's cache folder. Throws Error when that cannot be written.

@@ -15,7 +15,7 @@ constexpr CacheKind kKind = {"limits", 1};
 
 struct Field {
     const char* name;
-    double DeviceLimits::* value;
+    double DeviceLimits::*value;
 };
 
 constexpr Field kFields[] = {
@@ -70,8 +70,9 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         limits.lanes = info.lane_width;
         limits.fma_flops = 2.0 * kernels.lane_operations_per_s("fma_rate", kFmaChains);
         limits.one_lane_fma_flops =
-            info.lane_width == 1 ? limits.fma_flops
-                                 : 2.0 * LimitKernels(one_lane).lane_operations_per_s("fma_rate", kFmaChains);
+            info.lane_width == 1
+                ? limits.fma_flops
+                : 2.0 * LimitKernels(one_lane).lane_operations_per_s("fma_rate", kFmaChains);
         limits.lane_instructions_per_s =
             std::max(limits.fma_flops / 2.0,
                      kernels.lane_operations_per_s("instruction_rate", kFmaChains + kAddChains));

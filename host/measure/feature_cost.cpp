@@ -24,7 +24,8 @@ bool is_forceable(const std::string& feature) {
 ScenePlan plan_with(const LightingBench& bench, const std::string& feature) {
     RenderSettings settings = bench.settings();
     settings.force_features.push_back(feature);
-    return make_scene_plan(bench.scene(), settings, settings.lights.count + bench.scene().lights.size());
+    return make_scene_plan(bench.scene(), settings,
+                           settings.lights.count + bench.scene().lights.size());
 }
 
 // The least of a few turns each: what else the machine does then hits both alike.
@@ -34,8 +35,14 @@ FeatureCost measure_cost(LightingBench& bench, const std::string& feature, int r
     without.runs = std::max(1, runs / kTurns);
     LightingRequest with = without;
     with.plan = plan_with(bench, feature);
-    FeatureCost cost{feature, true, 0.0, 0.0, with.plan.gbuffer_bytes_per_pixel - without.plan.gbuffer_bytes_per_pixel, {}};
-    // Geometry takes longer than all kernels on a CPU: its noise would drown what does not concern it.
+    FeatureCost cost{feature,
+                     true,
+                     0.0,
+                     0.0,
+                     with.plan.gbuffer_bytes_per_pixel - without.plan.gbuffer_bytes_per_pixel,
+                     {}};
+    // Geometry takes longer than all kernels on a CPU: its noise would drown what does not concern
+    // it.
     without.geometry = with.geometry = cost.bytes_per_pixel != 0;
     double least_without = bench.run(without).ms;
     double least_with = bench.run(with).ms;
@@ -56,9 +63,11 @@ std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs) {
         if (is_forceable(feature)) {
             costs.push_back(measure_cost(bench, feature, runs));
         } else if (feature == "point-lights") {
-            costs.push_back({feature, false, 0.0, 0.0, 0, "without lights the list stages run on empty lists"});
+            costs.push_back(
+                {feature, false, 0.0, 0.0, 0, "without lights the list stages run on empty lists"});
         } else {
-            costs.push_back({feature, false, 0.0, 0.0, 0, "compiled into the shaders of materials that use it only"});
+            costs.push_back({feature, false, 0.0, 0.0, 0,
+                             "compiled into the shaders of materials that use it only"});
         }
     }
     return costs;

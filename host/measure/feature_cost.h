@@ -18,8 +18,8 @@ struct FeatureCost {
     std::string why;
 };
 
-/// Compiles each left-out feature in, and each costlier shading model, and times the same frame with
-/// and without, in turns. The picture stays the same but for shading models.
+/// Compiles each left-out feature in, and each costlier shading model, and times the same frame
+/// with and without, in turns. The picture stays the same but for shading models.
 std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs = 5);
 
 }  // namespace kilolux

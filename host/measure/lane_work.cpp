@@ -2,7 +2,8 @@
 #include "host/measure/stage_model.h"
 #include "kernels/shared/evaluate_modes.h"
 
-/// The operations of kernels/shared/evaluate.h and kernels/device/gbuffer.h, counted by their source.
+/// The operations of kernels/shared/evaluate.h and kernels/device/gbuffer.h, counted by their
+/// source.
 namespace kilolux {
 namespace {
 
@@ -21,8 +22,8 @@ LaneWork blinn_phong_work() {
 }
 
 LaneWork pbr_work(bool metallic) {
-    // n x h 6, its square 3, times 1/h^2 2, at most 1 1, GGX 1; Smith 2 and a square root 1, both 2;
-    // lobe 2 and a division 1; Schlick 3 + 1 + 1 + 1 + 2, 1 - f 1.
+    // n x h 6, its square 3, times 1/h^2 2, at most 1 1, GGX 1; Smith 2 and a square root 1, both
+    // 2; lobe 2 and a division 1; Schlick 3 + 1 + 1 + 1 + 2, 1 - f 1.
     const LaneWork lobe = {30.0, 0.0, 1.0, 1.0};
     // Diffuse weight 1; specular weight 2 (dielectric), or 1 and its untinted part's 1.
     const LaneWork sums = (metallic ? 3.0 : 2.0) * kAddScaled + LaneWork{3.0};
@@ -42,7 +43,8 @@ LaneWork incident_work(const KernelFeatures& kernels) {
 
 // Position, normal and albedo from what the layout stores.
 LaneWork decode_work(uint gbuffer) {
-    // Codes 2, conversion 2, scale 2; octahedron: |x|, |y| 2, z 2, fold 1, signs 6, square 3, root, inverse, scale 3.
+    // Codes 2, conversion 2, scale 2; octahedron: |x|, |y| 2, z 2, fold 1, signs 6, square 3, root,
+    // inverse, scale 3.
     const LaneWork unpack = {6.0};
     const LaneWork octahedral = {19.0, 0.0, 1.0, 1.0};
     const LaneWork position = {3.0};
@@ -65,8 +67,8 @@ LaneWork decode_work(uint gbuffer) {
 // make_shading_point() and finish_shading() beyond Lambert's.
 LaneWork gloss_work(const KernelFeatures& kernels) {
     if (kernels.shading == SHADING_LAMBERT) return {};
-    // Roughness 3, its squares 3, distance to the eye 4 and an inverse root 1, direction 3; the sums' three
-    // more components 6.
+    // Roughness 3, its squares 3, distance to the eye 4 and an inverse root 1, direction 3; the
+    // sums' three more components 6.
     LaneWork work = {20.0, 1.0};
     if (kernels.shading == SHADING_BLINN_PHONG) {
         // Exponent: a division and 1; lobe: a division; specular 1 + 3, beside the diffuse term.
@@ -83,11 +85,13 @@ LaneWork gloss_work(const KernelFeatures& kernels) {
 }  // namespace
 
 LaneWork operator+(const LaneWork& a, const LaneWork& b) {
-    return {a.instructions + b.instructions, a.rsqrts + b.rsqrts, a.sqrts + b.sqrts, a.divisions + b.divisions};
+    return {a.instructions + b.instructions, a.rsqrts + b.rsqrts, a.sqrts + b.sqrts,
+            a.divisions + b.divisions};
 }
 
 LaneWork operator*(double times, const LaneWork& work) {
-    return {times * work.instructions, times * work.rsqrts, times * work.sqrts, times * work.divisions};
+    return {times * work.instructions, times * work.rsqrts, times * work.sqrts,
+            times * work.divisions};
 }
 
 LaneWork work_of_evaluation(const KernelFeatures& kernels) {
@@ -104,9 +108,10 @@ LaneWork work_of_directional(const KernelFeatures& kernels) {
 }
 
 LaneWork work_of_pixel(const KernelFeatures& kernels) {
-    // Pixel centre 2, depth 2 and a division 1, slice 4, mask 4; the list's sum joins 3 and is selected 3;
-    // albedo / pi 6, ambient 3, background 3.
-    LaneWork work = LaneWork{31.0, 0.0, 0.0, 1.0} + decode_work(kernels.gbuffer) + gloss_work(kernels);
+    // Pixel centre 2, depth 2 and a division 1, slice 4, mask 4; the list's sum joins 3 and is
+    // selected 3; albedo / pi 6, ambient 3, background 3.
+    LaneWork work =
+        LaneWork{31.0, 0.0, 0.0, 1.0} + decode_work(kernels.gbuffer) + gloss_work(kernels);
     // Emissive: codes 5, scale 3, sum 3.
     if (kernels.material) work = work + LaneWork{11.0};
     if (kernels.occlusion) work = work + LaneWork{3.0};

@@ -29,8 +29,8 @@ double event_seconds(const cl::Event& event) {
     return 1e-9 * static_cast<double>(std::max<cl_ulong>(end - start, 1));
 }
 
-// Work per second of run(n), which takes `work(n) = n * unit` and returns its seconds: n doubles until
-// a run is long enough, then the best of several counts.
+// Work per second of run(n), which takes `work(n) = n * unit` and returns its seconds: n doubles
+// until a run is long enough, then the best of several counts.
 template <typename Run>
 double best_rate(double unit, uint most, Run run) {
     const Clock::time_point start = Clock::now();
@@ -63,12 +63,17 @@ std::uint64_t cached_buffer_bytes(const DeviceInfo& device) {
 }
 
 LimitKernels::LimitKernels(const Gpu& gpu)
-    : gpu_(gpu), program_(build_program(gpu, "measure_limits")),
-      group_(gpu.info.is_cpu ? 1 : std::min<std::size_t>(256, static_cast<std::size_t>(gpu.info.max_work_group))),
+    : gpu_(gpu),
+      program_(build_program(gpu, "measure_limits")),
+      group_(gpu.info.is_cpu
+                 ? 1
+                 : std::min<std::size_t>(256, static_cast<std::size_t>(gpu.info.max_work_group))),
       // Some CPU threads start late: four pieces each let the others take over. GPUs hide latency.
-      items_(static_cast<std::size_t>(gpu.info.compute_units) * (gpu.info.is_cpu ? 4 : 16 * group_)),
+      items_(static_cast<std::size_t>(gpu.info.compute_units) *
+             (gpu.info.is_cpu ? 4 : 16 * group_)),
       walkers_(gpu.info.is_cpu ? static_cast<std::size_t>(gpu.info.compute_units) : items_),
-      out_(gpu.context, CL_MEM_READ_WRITE, items_ * static_cast<std::size_t>(gpu.info.lane_width) * sizeof(float)) {}
+      out_(gpu.context, CL_MEM_READ_WRITE,
+           items_ * static_cast<std::size_t>(gpu.info.lane_width) * sizeof(float)) {}
 
 double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
     // Fixed point of x -> fma(x, a, b): b / (1 - a) = 1; a / x swings about sqrt(a).
@@ -76,7 +81,8 @@ double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
     cl::KernelFunctor<uint, float, float, cl::Buffer> run(program_, kernel);
     const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(items_), cl::NDRange(group_));
     const double unit = static_cast<double>(items_) * gpu_.info.lane_width * operations;
-    return best_rate(unit, 1u << 30, [&](uint n) { return event_seconds(run(items, n, kA, kB, out_)); });
+    return best_rate(unit, 1u << 30,
+                     [&](uint n) { return event_seconds(run(items, n, kA, kB, out_)); });
 }
 
 // How the work-items share the buffers: see kernels/measure_limits.cl.
@@ -87,17 +93,21 @@ struct LimitKernels::Walk {
 };
 
 double LimitKernels::walk_bytes_per_s(const char* kernel, const Walk& walk) {
-    cl::KernelFunctor<uint, uint, uint, uint, cl::Buffer, cl::Buffer, cl::Buffer> run(program_, kernel);
+    cl::KernelFunctor<uint, uint, uint, uint, cl::Buffer, cl::Buffer, cl::Buffer> run(program_,
+                                                                                      kernel);
     const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(walkers_), cl::NDRange(group_));
     return best_rate(walk.bytes_per_repeat, 1u << 20, [&](uint repeats) {
-        return event_seconds(run(items, repeats, walk.count, walk.item_step, walk.step, walk.to, walk.from, out_));
+        return event_seconds(
+            run(items, repeats, walk.count, walk.item_step, walk.step, walk.to, walk.from, out_));
     });
 }
 
 MemoryRates LimitKernels::memory_rates(std::uint64_t bytes) {
-    const std::uint64_t vector_bytes = sizeof(float) * static_cast<std::uint64_t>(gpu_.info.lane_width);
+    const std::uint64_t vector_bytes =
+        sizeof(float) * static_cast<std::uint64_t>(gpu_.info.lane_width);
     Walk walk;
-    walk.count = static_cast<uint>(std::max<std::uint64_t>(bytes / vector_bytes / walkers_ / 4 * 4, 4));
+    walk.count =
+        static_cast<uint>(std::max<std::uint64_t>(bytes / vector_bytes / walkers_ / 4 * 4, 4));
     walk.item_step = gpu_.info.is_cpu ? walk.count : 1;
     walk.step = gpu_.info.is_cpu ? 1 : static_cast<uint>(walkers_);
     const std::size_t used = std::size_t{walk.count} * walkers_ * vector_bytes;
@@ -139,7 +149,8 @@ LaunchTimes LimitKernels::launch_times() {
     constexpr int kLaunches = 200;
     cl::KernelFunctor<cl::Buffer> nothing(program_, "launch_nothing");
     const cl::EnqueueArgs one(gpu_.queue, cl::NDRange(group_), cl::NDRange(group_));
-    LaunchTimes best{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    LaunchTimes best{std::numeric_limits<double>::infinity(),
+                     std::numeric_limits<double>::infinity()};
     for (int i = 0; i < kLaunches; ++i) {
         const Clock::time_point start = Clock::now();
         const cl::Event event = nothing(one, out_);

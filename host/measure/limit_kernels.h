@@ -41,7 +41,7 @@ std::uint64_t cached_buffer_bytes(const DeviceInfo& device);
 
 /// Runs kernels/measure_limits.cl at the Gpu's lane width. Each rate is the best of several runs.
 class LimitKernels {
-   public:
+ public:
     explicit LimitKernels(const Gpu& gpu);
 
     /// Lane operations of one of the *_rate kernels, which does `operations` a lane and iteration.
@@ -53,15 +53,15 @@ class LimitKernels {
     TransferRates transfer_rates();
     LaunchTimes launch_times();
 
-   private:
+ private:
     struct Walk;
     double walk_bytes_per_s(const char* kernel, const Walk& walk);
 
     Gpu gpu_;
     cl::Program program_;
-    std::size_t group_;        // work-items of a group
-    std::size_t items_;        // work-items that keep the arithmetic busy
-    std::size_t walkers_;      // work-items that share a buffer
+    std::size_t group_;    // work-items of a group
+    std::size_t items_;    // work-items that keep the arithmetic busy
+    std::size_t walkers_;  // work-items that share a buffer
     cl::Buffer out_;
 };
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
-#include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {
@@ -17,7 +17,9 @@ constexpr double kBoundBytes = sizeof(float4);
 constexpr double kCounterBytes = sizeof(uint);
 constexpr int kPrefixSumLaunches = 3;
 
-double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8; }
+double index_bytes(const StageCounts& c) {
+    return c.kernels.light_index_bits / 8;
+}
 
 // Reads each count twice, writes each offset.
 StageWork prefix_sum_work(double counts) {
@@ -28,17 +30,20 @@ StageWork prefix_sum_work(double counts) {
     return work;
 }
 
-// The part of cone_reaches() that every light pays, point lights too: q 9, radius 7 and a square root,
-// q^2 3, the guard 4.
-LaneWork work_of_cone_guard() { return {24.0, 0.0, 1.0, 0.0}; }
+// The part of cone_reaches() that every light pays, point lights too: q 9, radius 7 and a square
+// root, q^2 3, the guard 4.
+LaneWork work_of_cone_guard() {
+    return {24.0, 0.0, 1.0, 0.0};
+}
 
 StageWork prepare_work(const StageCounts& c) {
     StageWork work;
     const double directional = c.directional_lights * sizeof(DirectionalLight);
     work.bytes_read = c.lights * sizeof(Light) + directional;
-    work.bytes_written = c.lights * (sizeof(ShadeLight) + kBoundBytes + sizeof(LightExtent)) + directional;
-    // Rotations 18, 1/range^2 2, radius 6, ends in depth 4, pixel intervals 2 * 12, tile intervals 2 * 19,
-    // slices 10, behind the camera 2; and 9 divisions.
+    work.bytes_written =
+        c.lights * (sizeof(ShadeLight) + kBoundBytes + sizeof(LightExtent)) + directional;
+    // Rotations 18, 1/range^2 2, radius 6, ends in depth 4, pixel intervals 2 * 12, tile intervals
+    // 2 * 19, slices 10, behind the camera 2; and 9 divisions.
     work.lanes = c.lights * LaneWork{113.0, 0.0, 0.0, 9.0} + c.directional_lights * LaneWork{9.0};
     work.launches = (c.lights > 0.0 ? 1 : 0) + (c.directional_lights > 0.0 ? 1 : 0);
     return work;
@@ -56,12 +61,14 @@ StageWork build_work(const StageCounts& c) {
 // Counting and filling walk the lights once each; then a cursor, an offset and a total a cluster.
 StageWork cull_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.clusters);
-    const double light = kBoundBytes + sizeof(LightExtent) + (c.kernels.spot_lights ? sizeof(ShadeLight) : 0.0);
+    const double light =
+        kBoundBytes + sizeof(LightExtent) + (c.kernels.spot_lights ? sizeof(ShadeLight) : 0.0);
     work.bytes_read += 2.0 * light * c.lights + 3.0 * kCounterBytes * c.clusters;
     work.bytes_written += 3.0 * kCounterBytes * c.clusters + index_bytes(c) * c.coarse_pairs;
     // An extent's six ends, twice; a pair is counted (1) and placed (3).
     work.lanes = c.lights * LaneWork{12.0} + c.coarse_pairs * LaneWork{4.0};
-    if (c.kernels.spot_lights) work.lanes = work.lanes + 2.0 * c.coarse_pairs * work_of_cone_guard();
+    if (c.kernels.spot_lights)
+        work.lanes = work.lanes + 2.0 * c.coarse_pairs * work_of_cone_guard();
     work.launches += 3;
     return work;
 }
@@ -84,12 +91,13 @@ StageWork bin_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.tiles);
     work.bytes_read += 4.0 * c.pixels + (4.0 + position_bytes(c.kernels.gbuffer)) * c.drawn_pixels;
     work.bytes_written += kCounterBytes * c.tiles + sizeof(ActiveCluster) * c.active_clusters;
-    // A slice: pixel centre 2, depth 2 and a division, slice 4, mask 4, selection 1, extremes 3; for both
-    // launches. Then the box: mask 1, centre 2, depth 3, position 3, extremes 12, count 1. A tile's further
-    // clusters each search the tile's slices, 3 a pixel, in both launches.
+    // A slice: pixel centre 2, depth 2 and a division, slice 4, mask 4, selection 1, extremes 3;
+    // for both launches. Then the box: mask 1, centre 2, depth 3, position 3, extremes 12, count 1.
+    // A tile's further clusters each search the tile's slices, 3 a pixel, in both launches.
     const double further = std::max(c.active_clusters - c.tiles, 0.0);
     work.lanes = (c.pixels + c.drawn_pixels) * LaneWork{17.0, 0.0, 0.0, 1.0} +
-                 c.drawn_pixels * LaneWork{22.0, 0.0, 0.0, 1.0} + 2.0 * kTilePixels * further * LaneWork{3.0};
+                 c.drawn_pixels * LaneWork{22.0, 0.0, 0.0, 1.0} +
+                 2.0 * kTilePixels * further * LaneWork{3.0};
     work.launches += 2;
     return work;
 }
@@ -97,9 +105,10 @@ StageWork bin_work(const StageCounts& c) {
 StageWork refine_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.tiles);
     work.bytes_read += 2.0 * sizeof(ActiveCluster) * c.active_clusters;
-    work.bytes_written += kCounterBytes * c.tiles + 2.0 * kCounterBytes * c.active_clusters + index_bytes(c) * c.refined_pairs;
-    // Distances by axis 12, their squares' sum 3, range 1, test 1, end of the list 3, flag 1; a light that
-    // stays is placed (2).
+    work.bytes_written += kCounterBytes * c.tiles + 2.0 * kCounterBytes * c.active_clusters +
+                          index_bytes(c) * c.refined_pairs;
+    // Distances by axis 12, their squares' sum 3, range 1, test 1, end of the list 3, flag 1; a
+    // light that stays is placed (2).
     work.lanes = c.refine_tests * LaneWork{21.0} + c.refined_pairs * LaneWork{2.0};
     if (c.kernels.spot_lights) work.lanes = work.lanes + c.refined_pairs * work_of_cone_guard();
     work.launches += 2;
@@ -112,7 +121,8 @@ StageWork shade_work(const StageCounts& c) {
     work.bytes_read = 4.0 * c.pixels + (c.gbuffer_bytes_per_pixel - 4.0) * c.drawn_pixels +
                       sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
     work.bytes_written = kRadianceBytes * c.pixels;
-    work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) + c.evaluations * work_of_evaluation(c.kernels) +
+    work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) +
+                 c.evaluations * work_of_evaluation(c.kernels) +
                  c.drawn_pixels * c.directional_lights * work_of_directional(c.kernels);
     work.launches = 1;
     return work;
@@ -152,9 +162,11 @@ struct Model {
 };
 
 constexpr Model kModels[] = {
-    {"geometry", geometry_work},       {"gbuffer_bridge", bridge_work}, {"prepare_lights", prepare_work},
-    {"build_clusters", build_work},    {"cull_lights", cull_work},      {"bin_pixels", bin_work},
-    {"refine_lights", refine_work},    {"shade", shade_work},           {"tonemap", tonemap_work},
+    {"geometry", geometry_work},      {"gbuffer_bridge", bridge_work},
+    {"prepare_lights", prepare_work}, {"build_clusters", build_work},
+    {"cull_lights", cull_work},       {"bin_pixels", bin_work},
+    {"refine_lights", refine_work},   {"shade", shade_work},
+    {"tonemap", tonemap_work},
 };
 
 // What fits the cache moves at the cache's rate, the rest at memory's.
@@ -170,7 +182,8 @@ double bytes_seconds(const StageWork& work, const DeviceLimits& limits) {
 }
 
 double special_seconds(const LaneWork& lanes, const DeviceLimits& limits) {
-    return lanes.rsqrts / limits.rsqrt_per_s + lanes.sqrts / limits.sqrt_per_s + lanes.divisions / limits.divisions_per_s;
+    return lanes.rsqrts / limits.rsqrt_per_s + lanes.sqrts / limits.sqrt_per_s +
+           lanes.divisions / limits.divisions_per_s;
 }
 
 }  // namespace
@@ -181,7 +194,8 @@ const char* bound_name(Bound bound) {
 }
 
 std::optional<StageWork> stage_work(std::string_view stage, const StageCounts& counts) {
-    const auto* found = std::find_if(std::begin(kModels), std::end(kModels), [&](const Model& m) { return m.stage == stage; });
+    const auto* found = std::find_if(std::begin(kModels), std::end(kModels),
+                                     [&](const Model& m) { return m.stage == stage; });
     if (found == std::end(kModels)) return std::nullopt;
     return found->work(counts);
 }
@@ -195,13 +209,17 @@ StageLimit stage_limit(const StageWork& work, const DeviceLimits& limits) {
     StageLimit limit;
     limit.ms = 1e3 * (most + launches);
     if (launches < most) {
-        limit.bound = most == bytes ? Bound::bytes : most == instructions ? Bound::instructions : Bound::special_functions;
+        limit.bound = most == bytes          ? Bound::bytes
+                      : most == instructions ? Bound::instructions
+                                             : Bound::special_functions;
     }
     return limit;
 }
 
-FrameSetup frame_setup(const RenderSettings& settings, const ScenePlan& plan, const DeviceInfo& device) {
-    return {settings.width, settings.height, plan.kernels, plan.gbuffer_bytes_per_pixel, settings.renderer, device.is_cpu};
+FrameSetup frame_setup(const RenderSettings& settings, const ScenePlan& plan,
+                       const DeviceInfo& device) {
+    return {settings.width,    settings.height, plan.kernels, plan.gbuffer_bytes_per_pixel,
+            settings.renderer, device.is_cpu};
 }
 
 StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {

@@ -14,31 +14,31 @@
 
 /// The least that each stage must do, as numbers, and the time that takes at the device's limits.
 ///
-/// How it is counted. Bytes: what the stage's inputs and outputs hold, each once for every launch that
-/// needs it; what stays in registers or is read again from a near cache costs nothing. Lane
-/// instructions: the operations that the kernels' source spells, per pixel, light or pair, with fma as
-/// one; comparisons, selections, conversions and bit operations count one each, negations nothing, what
-/// does not change in the loop nothing, loads and stores nothing (they are bytes), loop counters and
-/// list bookkeeping nothing, and a special function one. Special functions are counted beside, as the
-/// devices' units for them are slower. Tunables (chunks, groups) cost nothing: what they add is loss.
-/// So a limit is a lower bound of the algorithm as it is, not of the best conceivable one; how far the
-/// algorithm is from that says k* / k.
+/// How it is counted. Bytes: what the stage's inputs and outputs hold, each once for every launch
+/// that needs it; what stays in registers or is read again from a near cache costs nothing. Lane
+/// instructions: the operations that the kernels' source spells, per pixel, light or pair, with fma
+/// as one; comparisons, selections, conversions and bit operations count one each, negations
+/// nothing, what does not change in the loop nothing, loads and stores nothing (they are bytes),
+/// loop counters and list bookkeeping nothing, and a special function one. Special functions are
+/// counted beside, as the devices' units for them are slower. Tunables (chunks, groups) cost
+/// nothing: what they add is loss. So a limit is a lower bound of the algorithm as it is, not of
+/// the best conceivable one; how far the algorithm is from that says k* / k.
 namespace kilolux {
 
 /// What the stages of one frame had to work on.
 struct StageCounts {
-    double pixels = 0.0;           // of the image
-    double drawn_pixels = 0.0;     // that are not background
-    double lights = 0.0;           // point and spot
+    double pixels = 0.0;        // of the image
+    double drawn_pixels = 0.0;  // that are not background
+    double lights = 0.0;        // point and spot
     double directional_lights = 0.0;
-    double tiles = 0.0;            // fine tiles
-    double box_intervals = 0.0;    // of the coarse grid: slices * (tiles_x + tiles_y + 1)
-    double clusters = 0.0;         // coarse
+    double tiles = 0.0;          // fine tiles
+    double box_intervals = 0.0;  // of the coarse grid: slices * (tiles_x + tiles_y + 1)
+    double clusters = 0.0;       // coarse
     double coarse_pairs = 0.0;
     double active_clusters = 0.0;
-    double refine_tests = 0.0;     // entries of the active clusters' coarse lists
+    double refine_tests = 0.0;  // entries of the active clusters' coarse lists
     double refined_pairs = 0.0;
-    double evaluations = 0.0;      // of lights at pixels: k * drawn_pixels
+    double evaluations = 0.0;  // of lights at pixels: k * drawn_pixels
     double gbuffer_bytes_per_pixel = 12.0;
     bool device_is_host = true;  // the device reads the G-buffer where OpenGL left it
     KernelFeatures kernels;
@@ -99,7 +99,8 @@ struct FrameSetup {
     RendererKind renderer = RendererKind::deferred;
     bool device_is_host = true;
 };
-FrameSetup frame_setup(const RenderSettings& settings, const ScenePlan& plan, const DeviceInfo& device);
+FrameSetup frame_setup(const RenderSettings& settings, const ScenePlan& plan,
+                       const DeviceInfo& device);
 
 StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/error.h"
+#include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
 namespace {
@@ -13,7 +14,7 @@ constexpr int kRounds = 2;
 // A parameter and the values that are tried.
 struct Dimension {
     const char* name;
-    int Tuning::* value;  // null: the lane width
+    int Tuning::*value;  // null: the lane width
     std::vector<int> values;
 };
 
@@ -23,25 +24,34 @@ int value_of(const StoredTuning& tuning, const Dimension& dimension) {
 
 StoredTuning with_value(StoredTuning tuning, const Dimension& dimension, int value) {
     (dimension.value ? tuning.tuning.*dimension.value : tuning.lanes) = value;
+    // Work-groups that stage are whole tiles.
+    if (dimension.value == &Tuning::shade_stage && value > 0) tuning.tuning.shade_rows = FINE_TILE;
     return tuning;
 }
 
-// CPUs gain from wide lanes and lose with groups, as their barriers split loops; GPUs the other way.
+// CPUs gain from wide lanes and lose with groups, as their barriers split loops; GPUs the other
+// way.
 std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
     const int units = device.compute_units;
     const std::vector<int> rows = {1, 2, 4, 8, 16};
     if (device.is_cpu) {
         return {{"lanes", nullptr, {1, 4, 8, 16}},
                 {"shade_rows", &Tuning::shade_rows, rows},
-                {"cull_chunks", &Tuning::cull_chunks, {units, 2 * units, 4 * units, 8 * units, 16 * units}},
+                {"shade_stage", &Tuning::shade_stage, {0, 64}},
+                {"cull_chunks",
+                 &Tuning::cull_chunks,
+                 {units, 2 * units, 4 * units, 8 * units, 16 * units}},
                 {"cull_group", &Tuning::cull_group, {1, 4}},
                 {"refine_group", &Tuning::refine_group, {1, 4}},
                 {"tile_group", &Tuning::tile_group, {1, 4, 16}},
                 {"light_group", &Tuning::light_group, {1, 4, 16, 64}}};
     }
     return {{"lanes", nullptr, {1, 2, 4}},
+            {"shade_stage", &Tuning::shade_stage, {0, 32, 64, 128, 256, 512}},
             {"shade_rows", &Tuning::shade_rows, rows},
-            {"cull_chunks", &Tuning::cull_chunks, {units, 4 * units, 8 * units, 16 * units, 32 * units, 64 * units}},
+            {"cull_chunks",
+             &Tuning::cull_chunks,
+             {units, 4 * units, 8 * units, 16 * units, 32 * units, 64 * units}},
             {"cull_group", &Tuning::cull_group, {1, 8, 32, 64, 128, 256}},
             {"refine_group", &Tuning::refine_group, {16, 32, 64, 128, 256}},
             {"tile_group", &Tuning::tile_group, {16, 32, 64, 128, 256}},
@@ -57,7 +67,8 @@ struct Search {
 
     bool was_tried(const StoredTuning& tuning) const {
         return tuning == result.start ||
-               std::any_of(result.trials.begin(), result.trials.end(), [&](const TuningTrial& t) { return t.tuning == tuning; });
+               std::any_of(result.trials.begin(), result.trials.end(),
+                           [&](const TuningTrial& t) { return t.tuning == tuning; });
     }
 
     bool beats(double ms) const { return ms < (1.0 - kTuningGain) * result.best_ms; }
@@ -70,7 +81,8 @@ struct Search {
     }
 
     void try_value(const Dimension& dimension, int value) {
-        TuningTrial trial{dimension.name, value, with_value(result.best, dimension, value), 0.0, true, false, {}};
+        TuningTrial trial{
+            dimension.name, value, with_value(result.best, dimension, value), 0.0, true, false, {}};
         if (!is_valid(trial.tuning, device) || was_tried(trial.tuning)) return;
         try {
             const TuningMeasurement measured = measure(trial.tuning);
@@ -91,17 +103,20 @@ struct Search {
 }  // namespace
 
 bool TuningResult::same_pictures() const {
-    return std::all_of(trials.begin(), trials.end(), [](const TuningTrial& t) { return t.same_picture; });
+    return std::all_of(trials.begin(), trials.end(),
+                       [](const TuningTrial& t) { return t.same_picture; });
 }
 
-TuningResult tune(const StoredTuning& start, const DeviceInfo& device, const MeasureTuning& measure) {
+TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
+                  const MeasureTuning& measure) {
     const TuningMeasurement first = measure(start);
     Search search{device, measure, {start, start, first.ms, first.ms, {}}, first.picture};
     for (int round = 0; round < kRounds; ++round) {
         const StoredTuning before = search.result.best;
         for (const Dimension& dimension : dimensions_of(device)) {
             for (const int value : dimension.values) {
-                if (value != value_of(search.result.best, dimension)) search.try_value(dimension, value);
+                if (value != value_of(search.result.best, dimension))
+                    search.try_value(dimension, value);
             }
         }
         if (search.result.best == before) break;

@@ -44,11 +44,13 @@ struct TuningResult {
 /// An improvement must exceed this share of the time: less is noise.
 inline constexpr double kTuningGain = 0.03;
 
-/// Coordinate descent from `start`, two rounds over lanes, shade_rows, cull_chunks, cull_group,
-/// refine_group, tile_group and light_group: each is set to the fastest of its values while the others
-/// stand. An alternative is taken if it beats the incumbent by more than kTuningGain, does so once more
-/// when both are measured again, and its picture has the start's bits.
-TuningResult tune(const StoredTuning& start, const DeviceInfo& device, const MeasureTuning& measure);
+/// Coordinate descent from `start`, two rounds over lanes, shade_rows, shade_stage, cull_chunks,
+/// cull_group, refine_group, tile_group and light_group: each is set to the fastest of its values
+/// while the others stand. An alternative is taken if it beats the incumbent by more than
+/// kTuningGain, does so once more when both are measured again, and its picture has the start's
+/// bits.
+TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
+                  const MeasureTuning& measure);
 
 /// The same on a bench's frame from the built-in table, each time the least of `runs`.
 TuningResult tune(LightingBench& bench, int runs = 5);

@@ -5,7 +5,8 @@
 
 namespace kilolux {
 
-GridRequest grid_request(const GridSettings& settings, const Camera& camera, const Box& box, float pad) {
+GridRequest grid_request(const GridSettings& settings, const Camera& camera, const Box& box,
+                         float pad) {
     GridRequest request;
     request.tiles_x = static_cast<uint>(settings.tiles_x);
     request.tiles_y = static_cast<uint>(settings.tiles_y);
@@ -13,8 +14,11 @@ GridRequest grid_request(const GridSettings& settings, const Camera& camera, con
     request.position_pad = pad;
     double farthest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
-        if (!box.empty()) farthest = std::max(farthest, -glm::dot(camera.world_from_view[2], p - camera.position));
+        const glm::dvec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                           corner & 4 ? box.max.z : box.min.z);
+        if (!box.empty())
+            farthest =
+                std::max(farthest, -glm::dot(camera.world_from_view[2], p - camera.position));
     }
     farthest = std::min(std::max(farthest, 1e-6), camera.z_far);
     // A parallel view has no smallest distance: slices as fine as a 256th of the depth.

@@ -7,9 +7,10 @@
 
 namespace kilolux {
 
-/// The coarse grid for what a camera sees of a scene in `box`: it starts at the near plane and ends with
-/// the scene. `pad`: position_pad().
-GridRequest grid_request(const GridSettings& settings, const Camera& camera, const Box& box, float pad);
+/// The coarse grid for what a camera sees of a scene in `box`: it starts at the near plane and ends
+/// with the scene. `pad`: position_pad().
+GridRequest grid_request(const GridSettings& settings, const Camera& camera, const Box& box,
+                         float pad);
 
 /// How far a G-buffer layout's stored positions may lie from the pixel's ray and depth [m].
 float position_pad(uint layout, const Box& box, const Camera& camera);

@@ -28,12 +28,14 @@ std::uint64_t hash_words(std::span<const uint> words) {
 }
 
 bool same_planes(const GBufferNeeds& a, const GBufferNeeds& b) {
-    return a.layout == b.layout && a.material == b.material && a.occlusion == b.occlusion && a.emissive_scale == b.emissive_scale;
+    return a.layout == b.layout && a.material == b.material && a.occlusion == b.occlusion &&
+           a.emissive_scale == b.emissive_scale;
 }
 
 // The least time of each stage so far.
 void keep_least(std::vector<StageTime>& least, const std::string& stage, double ms) {
-    const auto found = std::find_if(least.begin(), least.end(), [&](const StageTime& s) { return s.name == stage; });
+    const auto found = std::find_if(least.begin(), least.end(),
+                                    [&](const StageTime& s) { return s.name == stage; });
     if (found == least.end()) {
         least.push_back({stage, ms, 0.0});
     } else {
@@ -44,7 +46,8 @@ void keep_least(std::vector<StageTime>& least, const std::string& stage, double 
 // The stages after the G-buffer.
 struct Stages {
     Stages(const Gpu& gpu, const LightingRequest& request, const RenderSettings& settings)
-        : lists(gpu, request.tuning.tuning, request.plan.kernels), shade(gpu, request.tuning.tuning, request.plan.kernels),
+        : lists(gpu, request.tuning.tuning, request.plan.kernels),
+          shade(gpu, request.tuning.tuning, request.plan.kernels),
           tonemap(gpu, request.tuning.tuning, static_cast<int>(settings.tone_curve)) {
         shade.set_ambient(settings.ambient);
     }
@@ -56,7 +59,8 @@ struct Stages {
 }  // namespace
 
 struct LightingBench::Parts {
-    Parts(const Scene& the_scene, const RenderSettings& the_settings, const Camera& the_camera, double time);
+    Parts(const Scene& the_scene, const RenderSettings& the_settings, const Camera& the_camera,
+          double time);
     void load_lights(double time);
     void set_layout(const GBufferNeeds& needs);
     void draw(std::vector<StageTime>* least);
@@ -80,10 +84,19 @@ struct LightingBench::Parts {
     StageTimer timer;
 };
 
-LightingBench::Parts::Parts(const Scene& the_scene, const RenderSettings& the_settings, const Camera& the_camera, double time)
-    : scene(the_scene), settings(the_settings), camera(the_camera), box(bounds(the_scene)),
-      plan(make_scene_plan(the_scene, the_settings, the_settings.lights.count + the_scene.lights.size())), gpu(open_device(the_settings)),
-      device(describe(gpu.device)), context(GlContext::headless()), gpu_scene(the_scene), bridge(gpu) {
+LightingBench::Parts::Parts(const Scene& the_scene, const RenderSettings& the_settings,
+                            const Camera& the_camera, double time)
+    : scene(the_scene),
+      settings(the_settings),
+      camera(the_camera),
+      box(bounds(the_scene)),
+      plan(make_scene_plan(the_scene, the_settings,
+                           the_settings.lights.count + the_scene.lights.size())),
+      gpu(open_device(the_settings)),
+      device(describe(gpu.device)),
+      context(GlContext::headless()),
+      gpu_scene(the_scene),
+      bridge(gpu) {
     load_lights(time);
 }
 
@@ -100,7 +113,8 @@ void LightingBench::Parts::load_lights(double time) {
     lights.count = static_cast<uint>(rows.local.size());
     lights.directional_count = static_cast<uint>(rows.directional.size());
     lights.lights = GrowingBuffer(gpu, "lights").reserve(rows.local.size() * sizeof(Light));
-    lights.directional = GrowingBuffer(gpu, "lights").reserve(rows.directional.size() * sizeof(DirectionalLight));
+    lights.directional =
+        GrowingBuffer(gpu, "lights").reserve(rows.directional.size() * sizeof(DirectionalLight));
     upload<Light>(gpu, lights.lights, rows.local);
     upload<DirectionalLight>(gpu, lights.directional, rows.directional);
 }
@@ -114,17 +128,20 @@ void LightingBench::Parts::set_layout(const GBufferNeeds& needs) {
 void LightingBench::Parts::draw(std::vector<StageTime>* least) {
     gpu.queue.finish();
     geometry->draw(camera, settings.width, settings.height);
-    gbuffer = bridge.transfer(geometry->targets(), geometry->needs(), view_of(camera, settings.width, settings.height));
+    gbuffer = bridge.transfer(geometry->targets(), geometry->needs(),
+                              view_of(camera, settings.width, settings.height));
     if (!least) return;
     keep_least(*least, "geometry", geometry->last_ms());
     keep_least(*least, "gbuffer_bridge", bridge.last_ms());
 }
 
 LightLists LightingBench::Parts::light(Stages& stages, Radiance& radiance) {
-    const GridRequest request = grid_request(settings.grid, camera, box, position_pad(geometry->needs().layout, box, camera));
+    const GridRequest request = grid_request(settings.grid, camera, box,
+                                             position_pad(geometry->needs().layout, box, camera));
     const ClusterGrid grid = make_cluster_grid(request, gbuffer.view.width, gbuffer.view.height);
     const LightLists lists = stages.lists.enqueue(lights, gbuffer, grid, timer);
-    radiance = stages.shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    radiance =
+        stages.shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
     stages.tonemap.enqueue(radiance, settings.exposure, timer);
     return lists;
 }
@@ -146,7 +163,8 @@ LightingRun LightingBench::Parts::run(const LightingRequest& request) {
     for (int i = 0; i < std::max(request.runs, 1); ++i) {
         if (request.geometry) draw(&out.stats.stages);
         light(stages, radiance);
-        for (const StageTimer::Time& stage : timer.take()) keep_least(out.stats.stages, stage.stage, stage.ms);
+        for (const StageTimer::Time& stage : timer.take())
+            keep_least(out.stats.stages, stage.stage, stage.ms);
     }
     for (const StageTime& stage : out.stats.stages) out.ms += stage.ms;
     const std::size_t words = std::size_t{3} * gbuffer.view.stride * gbuffer.view.height;
@@ -154,7 +172,8 @@ LightingRun LightingBench::Parts::run(const LightingRequest& request) {
     return out;
 }
 
-LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings, const Camera& camera, double time)
+LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
+                             const Camera& camera, double time)
     : parts_(std::make_unique<Parts>(scene, settings, camera, time)) {}
 LightingBench::~LightingBench() = default;
 LightingBench::LightingBench(LightingBench&&) noexcept = default;
@@ -168,8 +187,14 @@ LightingRequest LightingBench::request() const {
     return {parts_->plan, choose_tuning(parts_->device, parts_->settings.kernels)};
 }
 
-const DeviceInfo& LightingBench::device() const { return parts_->device; }
-const Scene& LightingBench::scene() const { return parts_->scene; }
-const RenderSettings& LightingBench::settings() const { return parts_->settings; }
+const DeviceInfo& LightingBench::device() const {
+    return parts_->device;
+}
+const Scene& LightingBench::scene() const {
+    return parts_->scene;
+}
+const RenderSettings& LightingBench::settings() const {
+    return parts_->settings;
+}
 
 }  // namespace kilolux

@@ -15,8 +15,9 @@ namespace kilolux {
 
 /// One measurement of the stages from lights to display on a fixed G-buffer.
 struct LightingRun {
-    FrameStats stats;  // stages: the least time of each over the runs; counts as in a rendered frame
-    double ms = 0.0;   // sum of the stages' times
+    FrameStats
+        stats;        // stages: the least time of each over the runs; counts as in a rendered frame
+    double ms = 0.0;  // sum of the stages' times
     std::uint64_t picture = 0;  // hash of every bit of the radiance
 };
 
@@ -28,12 +29,15 @@ struct LightingRequest {
     bool geometry = false;  // also the stages geometry and gbuffer_bridge, drawn anew in each run
 };
 
-/// Times the renderer's kernels with other features, lane widths and tunings than it would choose, on
-/// one frame: scene, camera and lights are set up once, and the G-buffer is drawn once for each layout.
+/// Times the renderer's kernels with other features, lane widths and tunings than it would choose,
+/// on one frame: scene, camera and lights are set up once, and the G-buffer is drawn once for each
+/// layout.
 class LightingBench {
-   public:
-    /// The scene must outlive this. Makes its own headless OpenGL context. Throws Error as Renderer does.
-    LightingBench(const Scene& scene, const RenderSettings& settings, const Camera& camera, double time = 0.0);
+ public:
+    /// The scene must outlive this. Makes its own headless OpenGL context. Throws Error as Renderer
+    /// does.
+    LightingBench(const Scene& scene, const RenderSettings& settings, const Camera& camera,
+                  double time = 0.0);
     ~LightingBench();
     LightingBench(LightingBench&&) noexcept;
     LightingBench& operator=(LightingBench&&) noexcept;
@@ -49,7 +53,7 @@ class LightingBench {
     const Scene& scene() const;
     const RenderSettings& settings() const;
 
-   private:
+ private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
