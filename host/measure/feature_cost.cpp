@@ -30,28 +30,27 @@ ScenePlan plan_with(const LightingBench& bench, const std::string& feature) {
 
 // The least of a few turns each: what else the machine does then hits both alike.
 FeatureCost measure_cost(LightingBench& bench, const std::string& feature, int runs) {
-    constexpr int kTurns = 2;
+    constexpr int kTurns = 3;
     LightingRequest without = bench.request();
-    without.runs = std::max(1, runs / kTurns);
+    without.runs = std::max(1, (runs + kTurns - 1) / kTurns);
     LightingRequest with = without;
     with.plan = plan_with(bench, feature);
-    FeatureCost cost{feature,
-                     true,
-                     0.0,
-                     0.0,
-                     with.plan.gbuffer_bytes_per_pixel - without.plan.gbuffer_bytes_per_pixel,
-                     {}};
+    FeatureCost cost;
+    cost.feature = feature;
+    cost.measured = true;
+    cost.bytes_per_pixel = with.plan.gbuffer_bytes_per_pixel - without.plan.gbuffer_bytes_per_pixel;
     // Geometry takes longer than all kernels on a CPU: its noise would drown what does not concern
     // it.
     without.geometry = with.geometry = cost.bytes_per_pixel != 0;
-    double least_without = bench.run(without).ms;
-    double least_with = bench.run(with).ms;
-    for (int turn = 1; turn < kTurns; ++turn) {
-        least_without = std::min(least_without, bench.run(without).ms);
-        least_with = std::min(least_with, bench.run(with).ms);
+    std::vector<double> ms_without, ms_with;
+    for (int turn = 0; turn < kTurns; ++turn) {
+        ms_without.push_back(bench.run(without).ms);
+        ms_with.push_back(bench.run(with).ms);
     }
-    cost.ms = least_with - least_without;
-    cost.percent = least_without > 0.0 ? 100.0 * cost.ms / least_without : 0.0;
+    const auto [least, most] = std::minmax_element(ms_without.begin(), ms_without.end());
+    cost.ms = *std::min_element(ms_with.begin(), ms_with.end()) - *least;
+    cost.noise_ms = *most - *least;
+    cost.percent = *least > 0.0 ? 100.0 * cost.ms / *least : 0.0;
     return cost;
 }
 
@@ -63,10 +62,10 @@ std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs) {
         if (is_forceable(feature)) {
             costs.push_back(measure_cost(bench, feature, runs));
         } else if (feature == "point-lights") {
-            costs.push_back(
-                {feature, false, 0.0, 0.0, 0, "without lights the list stages run on empty lists"});
+            costs.push_back({feature, false, 0.0, 0.0, 0.0, 0,
+                             "without lights the list stages run on empty lists"});
         } else {
-            costs.push_back({feature, false, 0.0, 0.0, 0,
+            costs.push_back({feature, false, 0.0, 0.0, 0.0, 0,
                              "compiled into the shaders of materials that use it only"});
         }
     }

@@ -12,7 +12,8 @@ namespace kilolux {
 struct FeatureCost {
     std::string feature;
     bool measured = false;    // false: it costs nothing where it is absent, as `why` says
-    double ms = 0.0;          // more time a frame with it; below the noise it may be negative
+    double ms = 0.0;          // more time a frame with it; negative only by noise
+    double noise_ms = 0.0;    // how far the turns without it differ: what `ms` is uncertain by
     double percent = 0.0;     // of the frame's kernels (and its geometry, where the G-buffer grows)
     int bytes_per_pixel = 0;  // more G-buffer
     std::string why;

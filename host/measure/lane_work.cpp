@@ -3,7 +3,10 @@
 #include "kernels/shared/evaluate_modes.h"
 
 /// The operations of kernels/shared/evaluate.h and kernels/device/gbuffer.h, counted by their
-/// source.
+/// source. Checked against PoCL 3.1's AVX2 code of shade's inner loop, where an inverse square root
+/// is two instructions: Lambert 23, with spot lights 34, Blinn-Phong 85, PBR 68, with metals 71
+/// vector arithmetic instructions a light; by the source 23, 33, 84, 68, 71 (two negations are the
+/// rest).
 namespace kilolux {
 namespace {
 
