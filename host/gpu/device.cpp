@@ -51,6 +51,8 @@ DeviceInfo describe(const cl::Device& device) {
     info.is_cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
     info.lane_width = natural_lane_width(device, info.is_cpu);
     info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
+    info.max_work_group = static_cast<int>(std::min<std::size_t>(device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(), 65536));
+    info.cache_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>();
     info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     info.max_allocation_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     return info;

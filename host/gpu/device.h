@@ -18,6 +18,8 @@ struct DeviceInfo {
     bool is_cpu = false;
     int lane_width = 1;  // floats that a kernel's FV holds here
     int compute_units = 1;
+    int max_work_group = 1;  // work-items of a work-group
+    std::uint64_t cache_bytes = 0;  // of the largest cache that global memory has; 0: unknown
     std::uint64_t memory_bytes = 0;
     std::uint64_t max_allocation_bytes = 0;
 };

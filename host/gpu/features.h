@@ -32,6 +32,7 @@ struct Tuning {
     int prefix_per_item = 4096;
     int tile_group = 1;      // tiles a work-group of bin_pixels takes
     int light_group = 1;     // work-items of prepare_lights, build_clusters and other maps
+    bool operator==(const Tuning&) const = default;
 };
 
 Tuning default_tuning(const DeviceInfo& device);

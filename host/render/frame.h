@@ -28,10 +28,13 @@ struct FrameStats {
     std::uint64_t lights_used = 0;
     std::uint64_t lights_rejected = 0;  // unusable: not finite, no range, no intensity
     std::uint64_t lights_dropped = 0;
+    std::uint64_t directional_lights = 0;  // of those used
     std::uint32_t grid[3] = {0, 0, 0};  // tiles x, tiles y, slices
     std::uint64_t coarse_pairs = 0;
     std::uint64_t active_clusters = 0;
+    std::uint64_t refine_tests = 0;  // lights of the active clusters' coarse lists
     std::uint64_t refined_pairs = 0;
+    std::uint64_t drawn_pixels = 0;  // that are not background; 0: not counted
     double evaluations_per_pixel = 0.0;         // k, over pixels that are not background
     double useful_evaluations_per_pixel = 0.0;  // k*: lights whose range covers the pixel; < 0: not counted
     std::vector<StageTime> stages;

@@ -4,7 +4,7 @@
 namespace kilolux {
 
 ListStages::ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : prepare_(gpu, tuning), build_(gpu), cull_(gpu, tuning, features), bin_(gpu, tuning, features), refine_(gpu, tuning, features) {}
+    : gpu_(gpu), prepare_(gpu, tuning), build_(gpu), cull_(gpu, tuning, features), bin_(gpu, tuning, features), refine_(gpu, tuning, features) {}
 
 LightLists ListStages::enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer) {
     LightLists lists;
@@ -21,6 +21,25 @@ bool ListStages::fit() {
     const bool coarse = cull_.fits();
     const bool active = bin_.fits();
     return coarse && active && refine_.fits();
+}
+
+void ListStages::count(const LightLists& lists, FrameStats& stats) const {
+    const ClusterGrid& grid = lists.boxes.grid;
+    stats.grid[0] = grid.tiles_x;
+    stats.grid[1] = grid.tiles_y;
+    stats.grid[2] = grid.slices;
+    stats.coarse_pairs = cull_.pairs();
+    stats.active_clusters = bin_.active();
+    stats.refine_tests = refine_.tests();
+    stats.refined_pairs = 0;
+    stats.drawn_pixels = 0;
+    double evaluations = 0.0;
+    for (const ActiveCluster& cluster : download<ActiveCluster>(gpu_, lists.clusters.clusters, stats.active_clusters)) {
+        stats.refined_pairs += cluster.list_count;
+        stats.drawn_pixels += cluster.pixel_count;
+        evaluations += static_cast<double>(cluster.list_count) * cluster.pixel_count;
+    }
+    stats.evaluations_per_pixel = stats.drawn_pixels > 0 ? evaluations / static_cast<double>(stats.drawn_pixels) : 0.0;
 }
 
 }  // namespace kilolux

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/render/frame.h"
 #include "host/stages/bin_pixels.h"
 #include "host/stages/build_clusters.h"
 #include "host/stages/cull_lights.h"
@@ -29,10 +30,12 @@ class ListStages {
     /// True if the lists of the last enqueue are complete; else room has grown: enqueue again. Blocks.
     bool fit();
 
-    std::uint64_t coarse_pairs() const { return cull_.pairs(); }
-    std::uint64_t active_clusters() const { return bin_.active(); }
+    /// Sets the counts of the last enqueue, whose result is `lists`: pairs, active clusters, lights evaluated
+    /// a pixel. Blocks.
+    void count(const LightLists& lists, FrameStats& stats) const;
 
    private:
+    Gpu gpu_;
     PrepareLights prepare_;
     BuildClusters build_;
     CullLights cull_;

@@ -9,6 +9,8 @@
 #include "host/base/log.h"
 #include "host/interop/gbuffer_bridge.h"
 #include "host/render/frame_parts.h"
+#include "host/render/grid_request.h"
+#include "host/render/kernel_choice.h"
 #include "host/render/light_input.h"
 #include "host/render/light_lists.h"
 #include "host/scene/light_ranges.h"
@@ -34,38 +36,6 @@ std::vector<SceneLight> lights_with_ranges(const Scene& scene) {
              std::to_string(kDefaultRangeBudget) + " each");
     }
     return lights;
-}
-
-// A camera that looks at nothing behind its far plane, and a grid that ends with the scene.
-GridRequest grid_request(const GridSettings& settings, const Camera& camera, const Box& box, float position_pad) {
-    GridRequest request;
-    request.tiles_x = static_cast<uint>(settings.tiles_x);
-    request.tiles_y = static_cast<uint>(settings.tiles_y);
-    request.slices_per_octave = static_cast<uint>(settings.slices_per_octave);
-    request.fine_per_octave = static_cast<uint>(settings.fine_per_octave);
-    request.position_pad = position_pad;
-    double farthest = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z);
-        if (!box.empty()) farthest = std::max(farthest, -glm::dot(camera.world_from_view[2], p - camera.position));
-    }
-    farthest = std::min(std::max(farthest, 1e-6), camera.z_far);
-    // A parallel view has no smallest distance: slices as fine as a 256th of the depth.
-    const double nearest = camera.orthographic ? farthest / 256.0 : camera.z_near;
-    request.z_first = static_cast<float>(std::min(nearest, farthest));
-    request.z_last = static_cast<float>(farthest);
-    return request;
-}
-
-// How far a layout's stored positions may lie from the pixel's ray and depth [m].
-float position_pad(uint layout, const Box& box, const Camera& camera) {
-    if (box.empty()) return 0.0f;
-    const glm::dvec3 world = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const double largest = std::max({world.x, world.y, world.z});
-    const double reach = glm::length(box.size()) + glm::length(camera.position - box.center());
-    if (layout == GBUFFER_HALF) return static_cast<float>(1.8 * largest * 0x1p-11 + 4e-6 * reach);
-    const bool stored = layout == GBUFFER_FULL || layout == GBUFFER_OCT_2X4;
-    return stored ? static_cast<float>(4e-6 * reach) : 0.0f;
 }
 
 }  // namespace
@@ -115,19 +85,12 @@ std::optional<GlContext> context_from(GlSource gl) {
 
 std::uint64_t most_lights(const RenderSettings& settings, const Scene& scene) { return settings.lights.count + scene.lights.size(); }
 
-Tuning tuning_for(const Gpu& gpu, const RenderSettings& settings) {
-    Tuning tuning = default_tuning(gpu.info);
-    if (settings.kernels.group_height > 0) tuning.shade_rows = settings.kernels.group_height;
-    if (settings.kernels.chunks > 0) tuning.cull_chunks = settings.kernels.chunks;
-    return tuning;
-}
-
 }  // namespace
 
 Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl)
     : scene(the_scene), settings(the_settings), box(bounds(the_scene)), scene_lights(lights_with_ranges(the_scene)),
       plan(make_scene_plan(the_scene, the_settings, most_lights(the_settings, the_scene))),
-      gpu(choose_device(the_settings.device), the_settings.kernels.lanes), tuning(tuning_for(gpu, the_settings)),
+      gpu(open_device(the_settings)), tuning(choose_tuning(describe(gpu.device), the_settings.kernels).tuning),
       context(context_from(gl)), gpu_scene(the_scene), geometry(gpu_scene, plan.gbuffer), bridge(gpu),
       light_buffer(gpu, "lights"), directional_buffer(gpu, "lights"), list_stages(gpu, tuning, plan.kernels),
       shade(gpu, tuning, plan.kernels), tonemap(gpu, tuning, static_cast<int>(the_settings.tone_curve)),
@@ -167,17 +130,7 @@ Radiance Renderer::Parts::light(const GBuffer& gbuffer, const Camera& camera, co
 }
 
 void Renderer::Parts::count(const GBuffer& gbuffer, const LightLists& lists, FrameStats& stats) {
-    stats.coarse_pairs = list_stages.coarse_pairs();
-    stats.active_clusters = list_stages.active_clusters();
-    const auto clusters = download<ActiveCluster>(gpu, lists.clusters.clusters, stats.active_clusters);
-    std::uint64_t pixels = 0;
-    double evaluations = 0.0;
-    for (const ActiveCluster& cluster : clusters) {
-        stats.refined_pairs += cluster.list_count;
-        pixels += cluster.pixel_count;
-        evaluations += static_cast<double>(cluster.list_count) * cluster.pixel_count;
-    }
-    stats.evaluations_per_pixel = pixels > 0 ? evaluations / static_cast<double>(pixels) : 0.0;
+    list_stages.count(lists, stats);
     stats.useful_evaluations_per_pixel = -1.0;
     if (!settings.count_useful) return;
     StageTimer untimed;
@@ -213,6 +166,7 @@ Frame Renderer::Parts::render_sample(const Camera& camera, double time, bool las
     frame.stats.lights_given = lights.size();
     frame.stats.lights_rejected = rows.rejected;
     frame.stats.lights_used = rows.local.size() + rows.directional.size();
+    frame.stats.directional_lights = rows.directional.size();
     frame.stats.lights_dropped = lights.size() - rows.rejected - frame.stats.lights_used;
     const double lights_ms = ms_since(start);
 

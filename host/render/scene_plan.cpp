@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/base/error.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -59,7 +60,23 @@ struct Feature {
     bool needed;
 };
 
+void check_forced(const std::vector<std::string>& names) {
+    const std::vector<std::string>& known = forceable_features();
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        std::string list;
+        for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
+        throw Error("scene plan: '" + name + "' cannot be forced; these can: " + list);
+    }
+}
+
 }  // namespace
+
+const std::vector<std::string>& forceable_features() {
+    static const std::vector<std::string> names = {"spot-lights", "directional-lights", "metallic", "emissive",
+                                                   "occlusion",   "wide-light-index",   "blinn-phong", "pbr"};
+    return names;
+}
 
 ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, std::uint64_t light_count) {
     const std::vector<Material> materials = materials_in_use(scene);
@@ -67,22 +84,30 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
     const auto any_light = [&](LightType type) {
         return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const SceneLight& l) { return l.type == type; });
     };
+    check_forced(settings.force_features);
+    const auto forced = [&](std::string_view name) {
+        return std::find(settings.force_features.begin(), settings.force_features.end(), name) != settings.force_features.end();
+    };
     ScenePlan plan;
     plan.kernels.shading = shading_of(settings.shading, materials);
+    if (forced("blinn-phong")) plan.kernels.shading = SHADING_BLINN_PHONG;
+    if (forced("pbr")) plan.kernels.shading = SHADING_PBR;
     const bool glossy = plan.kernels.shading != SHADING_LAMBERT;
     float emission = 0.0f;
     for (const Material& m : materials) emission = std::max(emission, largest_emission(m));
     plan.gbuffer.layout = settings.gbuffer;
-    plan.kernels.metallic = glossy && any_material(is_metallic);
-    plan.gbuffer.material = plan.kernels.metallic || emission > 0.0f;
+    plan.kernels.metallic = (glossy && any_material(is_metallic)) || forced("metallic");
+    const bool emissive = emission > 0.0f || forced("emissive");
+    plan.gbuffer.material = plan.kernels.metallic || emissive;
     plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
-    plan.gbuffer.occlusion = settings.ambient > 0.0f && any_material([](const Material& m) { return m.occlusion_texture.present(); });
+    plan.gbuffer.occlusion = (settings.ambient > 0.0f && any_material([](const Material& m) { return m.occlusion_texture.present(); })) ||
+                             forced("occlusion");
     plan.kernels.gbuffer = settings.gbuffer;
     plan.kernels.material = plan.gbuffer.material;
     plan.kernels.occlusion = plan.gbuffer.occlusion;
-    plan.kernels.spot_lights = any_light(LightType::spot);
-    plan.kernels.directional_lights = any_light(LightType::directional);
-    plan.kernels.light_index_bits = light_count <= 65536 ? 16 : 32;
+    plan.kernels.spot_lights = any_light(LightType::spot) || forced("spot-lights");
+    plan.kernels.directional_lights = any_light(LightType::directional) || forced("directional-lights");
+    plan.kernels.light_index_bits = light_count <= 65536 && !forced("wide-light-index") ? 16 : 32;
     plan.gbuffer_bytes_per_pixel = static_cast<int>(make_gbuffer_layout(plan.gbuffer, 16, 1).bytes_per_pixel);
     plan.features.push_back(shading_name(plan.kernels.shading));
     const Feature features[] = {
@@ -90,7 +115,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
         {"spot-lights", plan.kernels.spot_lights},
         {"directional-lights", plan.kernels.directional_lights},
         {"metallic", plan.kernels.metallic},
-        {"emissive", emission > 0.0f},
+        {"emissive", emissive},
         {"occlusion", plan.gbuffer.occlusion},
         {"normal-maps", any_material([](const Material& m) { return m.normal_texture.present(); })},
         {"alpha-mask", any_material([](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},

@@ -48,6 +48,7 @@ struct RenderSettings {
     GridSettings grid;
     KernelSettings kernels;
     bool count_useful = false;  // also count k*, at the price of one more pass
+    std::vector<std::string> force_features;  // compiled in although the scene lacks them; see forceable_features()
     std::string device;  // name, part of it, or index; empty: the best
 };
 

@@ -20,6 +20,9 @@ class RefineLights {
     RefinedLists enqueue(const PreparedLights& lights, const CoarseLists& coarse, const ActiveClusters& clusters,
                          const View& view, const ClusterGrid& grid, StageTimer& timer);
 
+    /// Lights that the last enqueue tested, once for each active cluster; blocks.
+    std::uint64_t tests() const { return prefix_sum_.total(); }
+
     /// True if the last enqueue's lists are complete; else makes room for the next. Blocks.
     bool fits();
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/device_cache.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "host/base/error.h"
+#include "host/base/log.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+// An entry is lines of text: the first names format, kind and version, the next ones the device,
+// then a "key value" line for each number, and last the checksum of all before it.
+constexpr std::string_view kFormat = "kilolux-cache 1";
+constexpr std::string_view kChecksum = "checksum ";
+constexpr std::size_t kLargestEntry = 64 * 1024;  // [byte]; ours have about one KiB
+
+fs::path absolute_folder(const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path folder = value ? value : "";
+    return folder.is_absolute() ? folder : fs::path();
+}
+
+// FNV-1a, 64 bits (Fowler, Noll, Vo), as 16 hexadecimal digits.
+std::string hash_text(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
+    return digits;
+}
+
+std::string one_line(std::string text) {
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    }
+    return text;
+}
+
+// Names the device and everything whose change makes old numbers wrong.
+std::string device_lines(const DeviceInfo& device) {
+    return "device " + one_line(device.name) + "\nversion " + one_line(device.version) +
+           "\ndriver " + one_line(device.driver) + "\nplatform " + one_line(device.platform) +
+           "\ncompute_units " + std::to_string(device.compute_units) + "\n";
+}
+
+std::string head_lines(const DeviceInfo& device, CacheKind kind) {
+    return std::string(kFormat) + " " + std::string(kind.name) + " " +
+           std::to_string(kind.version) + "\n" + device_lines(device);
+}
+
+// The whole file; empty when there is none or it is no entry of ours.
+std::string read_entry(const fs::path& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kLargestEntry) return {};
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return in ? text.str() : std::string();
+}
+
+// What stands before a right checksum line at the end; none if it is wrong or missing.
+std::optional<std::string_view> checked_text(std::string_view entry) {
+    const std::size_t line = entry.rfind(kChecksum);
+    if (line == std::string_view::npos) return std::nullopt;
+    const std::string_view text = entry.substr(0, line);
+    const std::string expected = std::string(kChecksum) + hash_text(text) + "\n";
+    if (entry.substr(line) != expected) return std::nullopt;
+    return text;
+}
+
+std::optional<CacheValues> parse_values(std::string_view text) {
+    CacheValues values;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        const std::size_t space = line.find(' ');
+        if (space == std::string_view::npos || space == 0) return std::nullopt;
+        double value = 0.0;
+        const char* last = line.data() + line.size();
+        const auto [end, error] = std::from_chars(line.data() + space + 1, last, value);
+        if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
+        values.emplace(line.substr(0, space), value);
+    }
+    return values;
+}
+
+std::optional<CacheValues> parse_entry(std::string_view entry, const std::string& head) {
+    const auto text = checked_text(entry);
+    if (!text || !text->starts_with(head)) return std::nullopt;
+    return parse_values(text->substr(head.size()));
+}
+
+std::string shortest(double value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+    return {text, end};
+}
+
+std::string entry_text(const std::string& head, const CacheValues& values) {
+    std::string text = head;
+    for (const auto& [key, value] : values) text += key + " " + shortest(value) + "\n";
+    return text + std::string(kChecksum) + hash_text(text) + "\n";
+}
+
+[[noreturn]] void fail(const fs::path& path, const char* what, int code) {
+    throw Error("cache: " + path.string() + ": " + what + ": " + std::strerror(code));
+}
+
+// A folder of ours, only for its owner; the folders above it as the user's mask has it.
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder.parent_path(), error);
+    if (error) fail(folder.parent_path(), "cannot make the folder", error.value());
+    if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) {
+        fail(folder, "cannot make the folder", errno);
+    }
+}
+
+// Writes all of `text` or returns the error's code.
+int write_all(int file, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(file, text.data(), text.size());
+        if (written < 0 && errno != EINTR) return errno;
+        if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return 0;
+}
+
+}  // namespace
+
+fs::path cache_folder() {
+    const fs::path xdg = absolute_folder("XDG_CACHE_HOME");
+    if (!xdg.empty()) return xdg / "kilolux";
+    const fs::path home = absolute_folder("HOME");
+    return home.empty() ? fs::path() : home / ".cache" / "kilolux";
+}
+
+fs::path device_cache_file(const DeviceInfo& device, CacheKind kind) {
+    const fs::path folder = cache_folder();
+    if (folder.empty()) return {};
+    return folder / (std::string(kind.name) + "-" + hash_text(device_lines(device)) + ".txt");
+}
+
+std::optional<CacheValues> read_device_cache(const DeviceInfo& device, CacheKind kind) {
+    const fs::path file = device_cache_file(device, kind);
+    if (file.empty()) return std::nullopt;
+    const std::string entry = read_entry(file);
+    if (entry.empty()) return std::nullopt;
+    auto values = parse_entry(entry, head_lines(device, kind));
+    if (!values) detail("cache: " + file.string() + ": not used: damaged or of another version");
+    return values;
+}
+
+void write_device_cache(const DeviceInfo& device, CacheKind kind, const CacheValues& values) {
+    const fs::path file = device_cache_file(device, kind);
+    if (file.empty()) throw Error("cache: no folder: neither XDG_CACHE_HOME nor HOME is a path");
+    make_folder(file.parent_path());
+    std::string temporary = file.string() + ".XXXXXX";
+    const int descriptor = ::mkstemp(temporary.data());  // mode 0600
+    if (descriptor < 0) fail(file, "cannot write", errno);
+    int code = write_all(descriptor, entry_text(head_lines(device, kind), values));
+    if (::close(descriptor) != 0 && code == 0) code = errno;
+    if (code == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) code = errno;
+    if (code == 0) return;
+    ::unlink(temporary.c_str());
+    fail(file, "cannot write", code);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "host/gpu/device.h"
+
+namespace kilolux {
+
+/// What a cache entry holds: numbers by name. Names are single words.
+using CacheValues = std::map<std::string, double, std::less<>>;
+
+/// A kind of entry, e.g. {"limits", 1}. A new version makes older entries foreign.
+struct CacheKind {
+    std::string_view name;
+    int version = 1;
+};
+
+/// The user's cache folder of this program: $XDG_CACHE_HOME/kilolux, else $HOME/.cache/kilolux;
+/// empty when the environment names neither (XDG Base Directory Specification: relative paths do
+/// not count).
+std::filesystem::path cache_folder();
+
+/// Where the entry of a device lies: one file for each device, driver and kind; empty without a
+/// folder.
+std::filesystem::path device_cache_file(const DeviceInfo& device, CacheKind kind);
+
+/// The device's entry; none when there is no whole, unharmed entry of this kind, version and
+/// device. What cannot be used is said with --verbose, and made anew by whoever asked.
+std::optional<CacheValues> read_device_cache(const DeviceInfo& device, CacheKind kind);
+
+/// Writes the device's entry beside its place and renames it, readable by its owner only. Numbers
+/// come back exactly. Throws Error with the path and the reason when it cannot be written.
+void write_device_cache(const DeviceInfo& device, CacheKind kind, const CacheValues& values);
+
+}  // namespace kilolux

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/tuning_store.h"
+
+#include <bit>
+
+#include "host/gpu/device_cache.h"
+#include "kernels/shared/cluster_grid.h"
+
+namespace kilolux {
+namespace {
+
+constexpr CacheKind kKind = {"tuning", 1};
+
+struct Field {
+    const char* name;
+    int Tuning::*value;
+};
+
+constexpr Field kFields[] = {
+    {"shade_rows", &Tuning::shade_rows},           {"shade_stage", &Tuning::shade_stage},
+    {"cull_group", &Tuning::cull_group},           {"cull_chunks", &Tuning::cull_chunks},
+    {"refine_group", &Tuning::refine_group},       {"prefix_group", &Tuning::prefix_group},
+    {"prefix_per_item", &Tuning::prefix_per_item}, {"tile_group", &Tuning::tile_group},
+    {"light_group", &Tuning::light_group},
+};
+
+// Bounded by the local memory that every device has (CL_DEVICE_LOCAL_MEM_SIZE >= 32 KiB): 512 * 52
+// bytes.
+constexpr int kMostStaged = 512;
+
+bool is_power_of_two(int value) {
+    return value > 0 && std::has_single_bit(static_cast<uint>(value));
+}
+
+// A value of an entry as an int; -1, which nothing accepts, if it is missing or none.
+int int_of(const CacheValues& values, std::string_view key) {
+    const auto found = values.find(key);
+    if (found == values.end() || !(found->second >= 0.0 && found->second <= 1e9)) return -1;
+    const int value = static_cast<int>(found->second);
+    return value == found->second ? value : -1;
+}
+
+}  // namespace
+
+bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
+    const Tuning& t = stored.tuning;
+    const int largest_group = device.max_work_group;
+    const auto is_group = [&](int group) {
+        return is_power_of_two(group) && group <= largest_group;
+    };
+    if (!is_power_of_two(stored.lanes) || stored.lanes > FINE_TILE) return false;
+    if (!is_power_of_two(t.shade_rows) || t.shade_rows > FINE_TILE) return false;
+    if (FINE_TILE / stored.lanes * t.shade_rows > largest_group) return false;
+    if (t.shade_stage != 0 && (!is_power_of_two(t.shade_stage) || t.shade_stage > kMostStaged))
+        return false;
+    if (t.shade_stage != 0 && t.shade_rows != FINE_TILE) return false;
+    if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
+    return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&
+           is_group(t.tile_group) && is_group(t.light_group);
+}
+
+StoredTuning built_in_tuning(const DeviceInfo& device) {
+    return {device.lane_width, default_tuning(device)};
+}
+
+std::optional<StoredTuning> stored_tuning(const DeviceInfo& device) {
+    const auto values = read_device_cache(device, kKind);
+    if (!values) return std::nullopt;
+    StoredTuning stored;
+    stored.lanes = int_of(*values, "lanes");
+    for (const Field& field : kFields) stored.tuning.*field.value = int_of(*values, field.name);
+    if (!is_valid(stored, device)) return std::nullopt;
+    return stored;
+}
+
+void store_tuning(const DeviceInfo& device, const StoredTuning& stored) {
+    CacheValues values = {{"lanes", stored.lanes}};
+    for (const Field& field : kFields) values.emplace(field.name, stored.tuning.*field.value);
+    write_device_cache(device, kKind, values);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/device_limits.h"
+
+#include <cmath>
+
+#include "host/base/error.h"
+#include "host/base/log.h"
+#include "host/gpu/device_cache.h"
+#include "host/measure/limit_kernels.h"
+
+namespace kilolux {
+namespace {
+
+constexpr CacheKind kKind = {"limits", 1};
+
+struct Field {
+    const char* name;
+    double DeviceLimits::*value;
+};
+
+constexpr Field kFields[] = {
+    {"fma_flops", &DeviceLimits::fma_flops},
+    {"one_lane_fma_flops", &DeviceLimits::one_lane_fma_flops},
+    {"lane_instructions_per_s", &DeviceLimits::lane_instructions_per_s},
+    {"rsqrt_per_s", &DeviceLimits::rsqrt_per_s},
+    {"sqrt_per_s", &DeviceLimits::sqrt_per_s},
+    {"divisions_per_s", &DeviceLimits::divisions_per_s},
+    {"read_bandwidth", &DeviceLimits::read_bandwidth},
+    {"write_bandwidth", &DeviceLimits::write_bandwidth},
+    {"copy_bandwidth", &DeviceLimits::copy_bandwidth},
+    {"cached_read_bandwidth", &DeviceLimits::cached_read_bandwidth},
+    {"cached_write_bandwidth", &DeviceLimits::cached_write_bandwidth},
+    {"cached_copy_bandwidth", &DeviceLimits::cached_copy_bandwidth},
+    {"cache_bytes", &DeviceLimits::cache_bytes},
+    {"upload_bandwidth", &DeviceLimits::upload_bandwidth},
+    {"download_bandwidth", &DeviceLimits::download_bandwidth},
+    {"launch_latency_ms", &DeviceLimits::launch_latency_ms},
+    {"launch_event_ms", &DeviceLimits::launch_event_ms},
+};
+
+CacheValues values_of(const DeviceLimits& limits) {
+    CacheValues values = {{"lanes", limits.lanes}};
+    for (const Field& field : kFields) values.emplace(field.name, limits.*field.value);
+    return values;
+}
+
+// None unless every limit is there and positive.
+std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
+    const auto kept_lanes = values.find("lanes");
+    if (kept_lanes == values.end() || kept_lanes->second != lanes) return std::nullopt;
+    DeviceLimits limits;
+    limits.lanes = lanes;
+    for (const Field& field : kFields) {
+        const auto found = values.find(field.name);
+        if (found == values.end() || !(found->second > 0.0)) return std::nullopt;
+        limits.*field.value = found->second;
+    }
+    return limits;
+}
+
+}  // namespace
+
+DeviceLimits measure_device_limits(const Gpu& gpu) {
+    return in_stage("measure_limits", [&] {
+        const DeviceInfo info = describe(gpu.device);
+        const Gpu natural(gpu.context, gpu.queue, info.lane_width);
+        const Gpu one_lane(gpu.context, gpu.queue, 1);
+        LimitKernels kernels(natural);
+        DeviceLimits limits;
+        limits.lanes = info.lane_width;
+        limits.fma_flops = 2.0 * kernels.lane_operations_per_s("fma_rate", kFmaChains);
+        limits.one_lane_fma_flops =
+            info.lane_width == 1
+                ? limits.fma_flops
+                : 2.0 * LimitKernels(one_lane).lane_operations_per_s("fma_rate", kFmaChains);
+        limits.lane_instructions_per_s =
+            std::max(limits.fma_flops / 2.0,
+                     kernels.lane_operations_per_s("instruction_rate", kFmaChains + kAddChains));
+        limits.rsqrt_per_s = kernels.lane_operations_per_s("rsqrt_rate", kFmaChains);
+        limits.sqrt_per_s = kernels.lane_operations_per_s("sqrt_rate", kFmaChains);
+        limits.divisions_per_s = kernels.lane_operations_per_s("division_rate", kFmaChains);
+        limits.cache_bytes = static_cast<double>(std::max(info.cache_bytes, kSmallestCache));
+        const MemoryRates large = kernels.memory_rates(large_buffer_bytes(info));
+        limits.read_bandwidth = large.read;
+        limits.write_bandwidth = large.write;
+        limits.copy_bandwidth = large.copy;
+        const MemoryRates small = kernels.memory_rates(cached_buffer_bytes(info));
+        // A cache is at least as fast as the memory behind it, whatever a disturbed run says.
+        limits.cached_read_bandwidth = std::max(small.read, large.read);
+        limits.cached_write_bandwidth = std::max(small.write, large.write);
+        limits.cached_copy_bandwidth = std::max(small.copy, large.copy);
+        const TransferRates transfer = kernels.transfer_rates();
+        limits.upload_bandwidth = transfer.upload;
+        limits.download_bandwidth = transfer.download;
+        const LaunchTimes launch = kernels.launch_times();
+        limits.launch_latency_ms = launch.finish_ms;
+        limits.launch_event_ms = launch.event_ms;
+        return limits;
+    });
+}
+
+DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again) {
+    const DeviceInfo info = describe(gpu.device);
+    if (!measure_again) {
+        if (const auto values = read_device_cache(info, kKind)) {
+            if (const auto limits = limits_of(*values, info.lane_width)) return *limits;
+        }
+    }
+    const DeviceLimits limits = measure_device_limits(gpu);
+    try {
+        write_device_cache(info, kKind, values_of(limits));
+    } catch (const Error& error) {
+        warn(std::string(error.what()) + "; the device's limits will be measured again");
+    }
+    return limits;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "host/gpu/buffer.h"
+#include "host/gpu/program.h"
+
+namespace kilolux {
+
+/// Independent chains of kernels/measure_limits.cl.
+inline constexpr int kFmaChains = 10;
+inline constexpr int kAddChains = 4;
+/// For devices that do not tell [byte].
+inline constexpr std::uint64_t kSmallestCache = 1 << 20;
+
+/// [byte/s]; copy counts both ways.
+struct MemoryRates {
+    double read = 0.0;
+    double write = 0.0;
+    double copy = 0.0;
+};
+
+/// [byte/s] between host memory and the device.
+struct TransferRates {
+    double upload = 0.0;
+    double download = 0.0;
+};
+
+/// Of an empty kernel [ms].
+struct LaunchTimes {
+    double finish_ms = 0.0;  // enqueued and waited for, on the host's clock
+    double event_ms = 0.0;   // from start to end by its own event
+};
+
+/// Size of a buffer that no cache of the device holds, as far as its memory allows [byte].
+std::uint64_t large_buffer_bytes(const DeviceInfo& device);
+
+/// Size of one of two buffers that the last cache holds, and the caches before it do not [byte].
+std::uint64_t cached_buffer_bytes(const DeviceInfo& device);
+
+/// Runs kernels/measure_limits.cl at the Gpu's lane width. Each rate is the best of several runs.
+class LimitKernels {
+ public:
+    explicit LimitKernels(const Gpu& gpu);
+
+    /// Lane operations of one of the *_rate kernels, which does `operations` a lane and iteration.
+    double lane_operations_per_s(const char* kernel, int operations);
+
+    /// Of two filled buffers of `bytes` each.
+    MemoryRates memory_rates(std::uint64_t bytes);
+
+    TransferRates transfer_rates();
+    LaunchTimes launch_times();
+
+ private:
+    struct Walk;
+    double walk_bytes_per_s(const char* kernel, const Walk& walk);
+
+    Gpu gpu_;
+    cl::Program program_;
+    std::size_t group_;    // work-items of a group
+    std::size_t items_;    // work-items that keep the arithmetic busy
+    std::size_t walkers_;  // work-items that share a buffer
+    cl::Buffer out_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/tuning_store.h"
+#include "host/render/settings.h"
+
+namespace kilolux {
+
+/// How kernels are built and launched on a device: what `settings` asks for, else what was measured
+/// to be best there (stored_tuning), else the built-in table.
+StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& settings);
+
+/// The device of the settings with the lane width of choose_tuning().
+Gpu open_device(const RenderSettings& settings);
+
+}  // namespace kilolux

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/device_limits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "host/gpu/device_cache.h"
+#include "host/measure/limit_kernels.h"
+#include "tests/measure/cache_sandbox.h"
+
+namespace kilolux {
+namespace {
+
+constexpr CacheKind kKind = {"limits", 1};
+
+class DeviceLimitsTest : public CacheSandbox {
+ protected:
+    DeviceLimitsTest() : gpu_(choose_device("")) {}
+    Gpu gpu_;
+};
+
+void expect_plausible(const DeviceLimits& l) {
+    const double all[] = {l.fma_flops,
+                          l.one_lane_fma_flops,
+                          l.lane_instructions_per_s,
+                          l.rsqrt_per_s,
+                          l.sqrt_per_s,
+                          l.divisions_per_s,
+                          l.read_bandwidth,
+                          l.write_bandwidth,
+                          l.copy_bandwidth,
+                          l.cached_read_bandwidth,
+                          l.cached_write_bandwidth,
+                          l.cached_copy_bandwidth,
+                          l.cache_bytes,
+                          l.upload_bandwidth,
+                          l.download_bandwidth,
+                          l.launch_latency_ms,
+                          l.launch_event_ms};
+    for (const double value : all)
+        EXPECT_TRUE(std::isfinite(value) && value > 0.0) << &value - all << ": " << value;
+    EXPECT_GE(l.lane_instructions_per_s, l.fma_flops / 2.0);
+    EXPECT_GE(l.cached_read_bandwidth, l.read_bandwidth);
+    EXPECT_GE(l.cached_write_bandwidth, l.write_bandwidth);
+    EXPECT_GE(l.cached_copy_bandwidth, l.copy_bandwidth);
+    // A special function takes a vector instruction at least.
+    EXPECT_LT(l.rsqrt_per_s, l.lane_instructions_per_s);
+    EXPECT_LT(l.divisions_per_s, l.lane_instructions_per_s);
+}
+
+TEST_F(DeviceLimitsTest, ArePlausibleAndUseTheVectorUnit) {
+    DeviceLimits limits = measure_device_limits(gpu_);
+    expect_plausible(limits);
+    EXPECT_EQ(limits.lanes, describe(gpu_.device).lane_width);
+    if (limits.lanes == 1) return;
+    // Lanes that are done one after the other give 1. What else the machine does may slow a
+    // measurement.
+    constexpr double kScalarBound = 1.5;
+    for (int i = 0; i < 4 && limits.effective_lanes() < kScalarBound; ++i)
+        limits = measure_device_limits(gpu_);
+    EXPECT_GT(limits.effective_lanes(), kScalarBound);
+}
+
+TEST_F(DeviceLimitsTest, DoNotDependOnTheLanesThatTheCallerShadesWith) {
+    const Gpu one_lane(gpu_.context, gpu_.queue, 1);
+    EXPECT_EQ(measure_device_limits(one_lane).lanes, describe(gpu_.device).lane_width);
+}
+
+TEST_F(DeviceLimitsTest, AreMeasuredOnceAndKept) {
+    const DeviceLimits first = cached_device_limits(gpu_);
+    EXPECT_EQ(cached_device_limits(gpu_), first);
+    // What is kept is what is read: a changed entry comes back as it is.
+    auto values = read_device_cache(gpu_.info, kKind);
+    ASSERT_TRUE(values);
+    (*values)["fma_flops"] = 12345.0;
+    write_device_cache(gpu_.info, kKind, *values);
+    EXPECT_EQ(cached_device_limits(gpu_).fma_flops, 12345.0);
+    const DeviceLimits again = cached_device_limits(gpu_, true);
+    EXPECT_NE(again.fma_flops, 12345.0);
+    EXPECT_EQ(cached_device_limits(gpu_), again);
+}
+
+TEST_F(DeviceLimitsTest, AreMeasuredAgainWhenAnEntryCannotBeTrue) {
+    auto values = CacheValues{{"lanes", describe(gpu_.device).lane_width}, {"fma_flops", 1.0}};
+    write_device_cache(gpu_.info, kKind, values);  // incomplete
+    expect_plausible(cached_device_limits(gpu_));
+    values = *read_device_cache(gpu_.info, kKind);
+    values["read_bandwidth"] = 0.0;  // would make every limit infinite
+    write_device_cache(gpu_.info, kKind, values);
+    expect_plausible(cached_device_limits(gpu_));
+    std::ofstream(device_cache_file(gpu_.info, kKind)) << "damaged";
+    expect_plausible(cached_device_limits(gpu_));
+}
+
+TEST_F(DeviceLimitsTest, WorkWithoutACacheFolder) {
+    std::ofstream(folder() / "file") << "";
+    set("XDG_CACHE_HOME", (folder() / "file").c_str());
+    testing::internal::CaptureStderr();
+    const DeviceLimits limits = cached_device_limits(gpu_);
+    const std::string warning = testing::internal::GetCapturedStderr();
+    expect_plausible(limits);
+    EXPECT_NE(warning.find("measured again"), std::string::npos) << warning;
+}
+
+TEST(BufferSizes, FitWhatTheDeviceHas) {
+    DeviceInfo device;
+    for (const std::uint64_t cache :
+         {std::uint64_t{0}, std::uint64_t{32} << 20, std::uint64_t{1} << 30}) {
+        for (const std::uint64_t memory : {std::uint64_t{256} << 20, std::uint64_t{64} << 30}) {
+            device.cache_bytes = cache;
+            device.memory_bytes = memory;
+            device.max_allocation_bytes = memory / 4;
+            const std::uint64_t bytes = large_buffer_bytes(device);
+            EXPECT_LE(2 * bytes, memory / 8) << cache << " " << memory;
+            EXPECT_GT(bytes, 0u);
+            const std::uint64_t small = cached_buffer_bytes(device);
+            EXPECT_LE(2 * small, std::max(cache, kSmallestCache)) << cache;
+        }
+    }
+    device.cache_bytes = 32 << 20;
+    EXPECT_EQ(large_buffer_bytes(device), std::uint64_t{128} << 20);
+    EXPECT_EQ(cached_buffer_bytes(device), std::uint64_t{8} << 20);
+}
+
+}  // namespace
+}  // namespace kilolux

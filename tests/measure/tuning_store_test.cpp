@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/tuning_store.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "host/base/error.h"
+#include "host/gpu/device_cache.h"
+#include "tests/measure/cache_sandbox.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr CacheKind kKind = {"numbers", 1};
+const CacheValues kValues = {{"big", 4.75e11}, {"exact", 0.1}, {"small", 2.2e-4}, {"whole", 16.0}};
+
+DeviceInfo device_named(const std::string& name) {
+    DeviceInfo device;
+    device.name = name;
+    device.version = "OpenCL 3.0";
+    device.driver = "1.2.3";
+    device.platform = "Test";
+    device.is_cpu = true;
+    device.lane_width = 8;
+    device.compute_units = 2;
+    device.max_work_group = 4096;
+    return device;
+}
+
+StoredTuning some_tuning() {
+    StoredTuning stored{4, {}};
+    stored.tuning.shade_rows = 8;
+    stored.tuning.cull_chunks = 24;
+    stored.tuning.light_group = 64;
+    return stored;
+}
+
+std::string text_of(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+void overwrite(const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
+}
+
+using DeviceCache = CacheSandbox;
+using TuningStore = CacheSandbox;
+
+TEST_F(DeviceCache, FollowsTheEnvironment) {
+    set("XDG_CACHE_HOME", "/somewhere");
+    EXPECT_EQ(cache_folder(), fs::path("/somewhere/kilolux"));
+    set("XDG_CACHE_HOME", "relative");
+    set("HOME", "/home/me");
+    EXPECT_EQ(cache_folder(), fs::path("/home/me/.cache/kilolux"));
+    set("XDG_CACHE_HOME", nullptr);
+    EXPECT_EQ(cache_folder(), fs::path("/home/me/.cache/kilolux"));
+    set("HOME", nullptr);
+    EXPECT_TRUE(cache_folder().empty());
+    EXPECT_FALSE(read_device_cache(device_named("a"), kKind));
+    EXPECT_THROW(write_device_cache(device_named("a"), kKind, kValues), Error);
+}
+
+TEST_F(DeviceCache, ReturnsTheSameNumbers) {
+    const DeviceInfo device = device_named("a");
+    EXPECT_FALSE(read_device_cache(device, kKind));
+    write_device_cache(device, kKind, kValues);
+    EXPECT_EQ(read_device_cache(device, kKind), kValues);
+    write_device_cache(device, kKind, {});
+    EXPECT_EQ(read_device_cache(device, kKind), CacheValues());
+}
+
+TEST_F(DeviceCache, IsForItsOwnerOnlyAndLeavesNothingElse) {
+    const DeviceInfo device = device_named("a");
+    write_device_cache(device, kKind, kValues);
+    write_device_cache(device, kKind, kValues);
+    struct stat status {};
+    ASSERT_EQ(::stat(device_cache_file(device, kKind).c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777u, 0600u);
+    ASSERT_EQ(::stat(cache_folder().c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777u, 0700u);
+    const auto files =
+        std::distance(fs::directory_iterator(cache_folder()), fs::directory_iterator());
+    EXPECT_EQ(files, 1);
+}
+
+TEST_F(DeviceCache, TellsDevicesDriversKindsAndVersionsApart) {
+    const DeviceInfo device = device_named("a");
+    write_device_cache(device, kKind, kValues);
+    EXPECT_FALSE(read_device_cache(device_named("b"), kKind));
+    DeviceInfo updated = device;
+    updated.driver = "1.2.4";
+    EXPECT_FALSE(read_device_cache(updated, kKind));
+    EXPECT_FALSE(read_device_cache(device, {"other", 1}));
+    EXPECT_FALSE(read_device_cache(device, {kKind.name, 2}));
+    // Another device's entry under this one's name, as a collision or a copied folder would leave
+    // it.
+    fs::copy_file(device_cache_file(device, kKind), device_cache_file(device_named("b"), kKind));
+    EXPECT_FALSE(read_device_cache(device_named("b"), kKind));
+}
+
+TEST_F(DeviceCache, IgnoresEveryTruncation) {
+    const DeviceInfo device = device_named("a");
+    write_device_cache(device, kKind, kValues);
+    const fs::path file = device_cache_file(device, kKind);
+    const std::string whole = text_of(file);
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        overwrite(file, whole.substr(0, length));
+        ASSERT_FALSE(read_device_cache(device, kKind)) << "length " << length;
+    }
+    overwrite(file, whole);
+    EXPECT_TRUE(read_device_cache(device, kKind));
+}
+
+TEST_F(DeviceCache, IgnoresEveryFlippedBit) {
+    const DeviceInfo device = device_named("a");
+    write_device_cache(device, kKind, kValues);
+    const fs::path file = device_cache_file(device, kKind);
+    const std::string whole = text_of(file);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        std::string harmed = whole;
+        harmed[i] = static_cast<char>(harmed[i] ^ (1 << (i % 7)));
+        overwrite(file, harmed);
+        ASSERT_FALSE(read_device_cache(device, kKind)) << "byte " << i;
+    }
+}
+
+TEST_F(DeviceCache, IgnoresWhatIsNoEntry) {
+    const DeviceInfo device = device_named("a");
+    write_device_cache(device, kKind, kValues);
+    const fs::path file = device_cache_file(device, kKind);
+    for (const std::string& text :
+         {std::string("{}"), std::string(1 << 20, 'x'), std::string(100, '\0')}) {
+        overwrite(file, text);
+        EXPECT_FALSE(read_device_cache(device, kKind)) << text.substr(0, 10);
+    }
+    fs::remove(file);
+    fs::create_directory(file);
+    EXPECT_FALSE(read_device_cache(device, kKind));
+    EXPECT_THROW(write_device_cache(device, kKind, kValues), Error);
+    const auto files =
+        std::distance(fs::directory_iterator(cache_folder()), fs::directory_iterator());
+    EXPECT_EQ(files, 1) << "a temporary file was left";
+}
+
+TEST_F(DeviceCache, SaysWhereItCannotWrite) {
+    overwrite(folder() / "file", "");
+    set("XDG_CACHE_HOME", (folder() / "file").c_str());
+    try {
+        write_device_cache(device_named("a"), kKind, kValues);
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find((folder() / "file").string()), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST_F(TuningStore, ReturnsWhatWasStored) {
+    const DeviceInfo device = device_named("a");
+    EXPECT_FALSE(stored_tuning(device));
+    store_tuning(device, some_tuning());
+    EXPECT_EQ(stored_tuning(device), some_tuning());
+    EXPECT_FALSE(stored_tuning(device_named("b")));
+}
+
+TEST_F(TuningStore, RefusesValuesThatNoKernelTakes) {
+    const DeviceInfo device = device_named("a");
+    const auto refused = [&](auto change) {
+        StoredTuning stored = some_tuning();
+        change(stored);
+        store_tuning(device, stored);
+        return !is_valid(stored, device) && !stored_tuning(device);
+    };
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.lanes = 32; }));
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.lanes = 3; }));
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_rows = 32; }));
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_rows = 0; }));
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.shade_stage = 64; }))
+        << "staging takes 16 rows";
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.cull_chunks = 0; }));
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.cull_group = 3; }));
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.refine_group = 8192; }))
+        << "a group is at most 4096";
+    EXPECT_TRUE(refused([](StoredTuning& s) { s.tuning.light_group = -1; }));
+    EXPECT_FALSE(refused([](StoredTuning&) {}));
+}
+
+TEST_F(TuningStore, RefusesAnEntryWithoutAValue) {
+    const DeviceInfo device = device_named("a");
+    write_device_cache(device, {"tuning", 1}, {{"lanes", 4.0}, {"shade_rows", 8.0}});
+    EXPECT_FALSE(stored_tuning(device));
+}
+
+TEST_F(TuningStore, BuiltInTableIsValid) {
+    DeviceInfo device = device_named("a");
+    EXPECT_TRUE(is_valid(built_in_tuning(device), device));
+    device.is_cpu = false;
+    device.lane_width = 1;
+    device.max_work_group = 1024;
+    EXPECT_TRUE(is_valid(built_in_tuning(device), device));
+}
+
+}  // namespace
+}  // namespace kilolux
