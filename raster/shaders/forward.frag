@@ -7,7 +7,9 @@
 
 layout(std140, binding = 1) uniform ForwardBlock { ForwardRow frame; };
 layout(std430, binding = 0) readonly buffer Lights { ShadeLight lights[]; };  // view space
-layout(std430, binding = 1) readonly buffer DirectionalLights { DirectionalLight directional_lights[]; };
+layout(std430, binding = 1) readonly buffer DirectionalLights {
+    DirectionalLight directional_lights[];
+};
 #ifdef CLUSTERED
 layout(std430, binding = 2) readonly buffer ClusterOffsets { uint cluster_offsets[]; };
 layout(std430, binding = 3) readonly buffer LightLists { uint light_lists[]; };

@@ -4,7 +4,8 @@
 // TEXCOORD0, TEXCOORD1, VERTEX_COLOR, TANGENT, POSITION, NO_SURFACE (depth alone).
 
 layout(location = 0) uniform vec4 view_from_object[3];    // rows
-layout(location = 3) uniform vec4 normal_from_object[3];  // rows; [0].w: -1 where the object is mirrored, else 1
+// Rows; [0].w: -1 where the object is mirrored, else 1.
+layout(location = 3) uniform vec4 normal_from_object[3];
 layout(location = 6) uniform mat4 clip_from_view;
 
 layout(location = 0) in vec3 position;

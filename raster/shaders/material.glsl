@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fragment's material is: factors times textures, as glTF 2.0 defines them. A variant has the
-// textures whose *_UV is defined, as an expression that gives the texture's coordinates.
+// What a fragment's material is: factors times textures, as glTF 2.0 defines them. A variant has
+// the textures whose *_UV is defined, as an expression that gives the texture's coordinates.
 #include "raster/shaders/draw_rows.h"
 #include "raster/shaders/normalize.glsl"
 

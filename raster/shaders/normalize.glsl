@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// The unit vector along v, also where the square of v's length would overflow or underflow; zero for zero.
+// The unit vector along v, also where the square of v's length would overflow or underflow; zero
+// for zero.
 vec3 unit_or_zero(vec3 v) {
     vec3 a = abs(v);
     float largest = max(a.x, max(a.y, a.z));
