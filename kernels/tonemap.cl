@@ -10,7 +10,7 @@
 
 // The sRGB code of linear v, correctly rounded: IEC 61966-2-1 by table.
 static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
-    // NaN becomes 0; below 2^-13 is code 0.
+    // Below 2^-13 is code 0.
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
     UV bucket = (lane_bits(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;
 #if VW == 1
@@ -26,6 +26,10 @@ static inline UV srgb_code(global const float* bucket_boundary, global const uin
 #endif
 }
 
+// NaN and negative light are black, infinite light is white, not what a tone curve would make of them.
+// fmax, since max leaves NaN open.
+static inline FV displayable(FV v) { return fmin(fmax(v, fv(0.0f)), fv(1e9f)); }
+
 kernel void tonemap(global const float* restrict radiance,         // [3][height][stride]
                     uint pixel_count,                              // height * stride
                     float gain,                                    // 2^exposure
@@ -36,8 +40,7 @@ kernel void tonemap(global const float* restrict radiance,         // [3][height
     if (pixel >= pixel_count) return;
     FV3 c = fv3(load_lanes(radiance + pixel) * gain, load_lanes(radiance + pixel_count + pixel) * gain,
                 load_lanes(radiance + 2 * pixel_count + pixel) * gain);
-    // Infinite light is white, not the NaN that a tone curve would make of it.
-    c = fv3(min(c.x, fv(1e9f)), min(c.y, fv(1e9f)), min(c.z, fv(1e9f)));
+    c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
 #if TONE_CURVE == TONE_CURVE_NEUTRAL
     c = neutral_tone_curve(c);
 #elif TONE_CURVE == TONE_CURVE_ACES

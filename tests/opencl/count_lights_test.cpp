@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights per pixel against a count in double.
+#include "host/stages/count_lights.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/opencl/light_sets.h"
+#include "tests/opencl/stage_run.h"
+#include "tests/opencl/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+struct Bracket {
+    uint low = 0, high = 0;
+};
+
+// Lights whose range covers p for certain, and those that may by rounding.
+Bracket covering(const std::vector<float4>& bounds, const std::vector<Light>& lights, Vec3d p) {
+    Bracket count;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const double ratio = length(p - Vec3d{bounds[i].x, bounds[i].y, bounds[i].z}) / lights[i].position_range.w;
+        count.low += ratio < 1 - 1e-6 ? 1 : 0;
+        count.high += ratio < 1 + 1e-6 ? 1 : 0;
+    }
+    return count;
+}
+
+void expect_counts(int lanes, std::uint32_t light_count) {
+    const Gpu gpu = test_gpu(lanes);
+    const View view = make_view({49, 35});
+    const ClusterGrid grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
+    LightMix mix;
+    mix.count = light_count;
+    const std::vector<Light> lights = random_lights(view, mix);
+    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, {}, noise_depth(0.3, 60, 0.2, 8)));
+    const Tuning tuning = default_tuning(gpu.info);
+    ListStages stages(gpu, tuning, {});
+    const DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
+    const HostLists lists = download_lists(gpu, {}, grid, device);
+    CountLights stage(gpu, tuning, {});
+    StageTimer timer;
+    const LightCounts counts = stage.enqueue(gbuffer, device.lights, grid, device.clusters, device.refined, timer);
+    const std::size_t size = std::size_t{view.stride} * view.height;
+    const auto evaluated = download<uint>(gpu, counts.evaluated, size);
+    const auto covered = download<uint>(gpu, counts.covering, size);
+    const auto bounds = download<float4>(gpu, device.lights.bounds, lights.size());
+    const Planes planes = decode(gpu, {}, gbuffer);
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.stride; ++x) {
+            const std::size_t i = std::size_t{y} * view.stride + x;
+            if (x >= view.width || length(planes.vector(SURFACE_NORMAL, x, y)) == 0) {
+                ASSERT_EQ(evaluated[i], ~0u);
+                ASSERT_EQ(covered[i], ~0u);
+                continue;
+            }
+            const ActiveCluster* c = lists.find(fine_tile(view, x, y), slice_by_search(grid, planes.at(SURFACE_DEPTH, x, y)));
+            ASSERT_NE(c, nullptr);
+            ASSERT_EQ(evaluated[i], c->list_count) << "pixel " << x << ", " << y;
+            const Bracket expected = covering(bounds, lights, planes.vector(SURFACE_POSITION, x, y));
+            ASSERT_GE(covered[i], expected.low) << "pixel " << x << ", " << y;
+            ASSERT_LE(covered[i], expected.high) << "pixel " << x << ", " << y;
+        }
+    }
+}
+
+TEST(CountLights, AgreesWithACountInDouble) {
+    for (const std::uint32_t count : {0u, 1u, 800u}) expect_counts(0, count);
+    for (const int lanes : {1, 16}) expect_counts(lanes, 300);
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/device.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "host/base/error.h"
+#include "tests/opencl/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+std::string error_of(std::string_view choice) {
+    try {
+        choose_device(choice);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Device, IsChosenByIndexAndByPartOfItsNameInAnyCase) {
+    const auto devices = all_devices();
+    ASSERT_FALSE(devices.empty());
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        EXPECT_EQ(choose_device(std::to_string(i))(), devices[i]());
+    }
+    std::string name = describe(devices.front()).name.substr(0, 8);
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    EXPECT_EQ(choose_device(name)(), devices.front()());
+}
+
+TEST(Device, GpuIsPreferredElseTheFirst) {
+    const auto devices = all_devices();
+    cl::Device expected = devices.front();
+    for (std::size_t i = devices.size(); i-- > 0;) {
+        if ((devices[i].getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0) expected = devices[i];
+    }
+    EXPECT_EQ(choose_device("")(), expected());
+}
+
+TEST(Device, UnknownChoiceListsWhatThereIs) {
+    for (const std::string choice : {"no-such-device", "999", "-1", "0x"}) {
+        const std::string message = error_of(choice);
+        EXPECT_NE(message.find("no device '" + choice + "'"), std::string::npos) << message;
+        EXPECT_NE(message.find("0: " + describe(all_devices().front()).name), std::string::npos) << message;
+    }
+}
+
+TEST(DeviceDeathTest, WithoutADriverSaysWhatToInstall) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    EXPECT_EXIT(
+        {
+            setenv("OCL_ICD_VENDORS", "/nonexistent", 1);
+            const std::string message = error_of("");
+            std::fprintf(stderr, "%s\n", message.c_str());
+            std::exit(message.find("no device found") != std::string::npos ? 0 : 1);
+        },
+        testing::ExitedWithCode(0), "pocl-opencl-icd");
+}
+
+TEST(Device, LaneWidthIsTheDevicesOwnUnlessGiven) {
+    const Gpu gpu = test_gpu();
+    const int own = gpu.info.lane_width;
+    EXPECT_TRUE(own == 1 || own == 2 || own == 4 || own == 8 || own == 16) << own;
+    EXPECT_EQ(Gpu(gpu.context, gpu.queue, 2).info.lane_width, 2);
+    EXPECT_EQ(Gpu(gpu.context, gpu.queue).info.lane_width, own);
+    EXPECT_EQ(Gpu(gpu.device).info.name, gpu.info.name);
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every kernel once on a small odd image: what runs under oclgrind, and the least that any device must do.
+#include <gtest/gtest.h>
+
+#include "kernels/shared/evaluate_modes.h"
+#include "kernels/shared/tone_curve.h"
+#include "host/stages/count_lights.h"
+#include "host/stages/shade.h"
+#include "host/stages/tonemap.h"
+#include "tests/opencl/light_sets.h"
+#include "tests/opencl/stage_run.h"
+#include "tests/opencl/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+struct Variant {
+    int lanes = 1;
+    int group = 1;        // of refine_lights and prefix_sum
+    int cull_group = 1;
+    int shade_stage = 0;
+    int light_index_bits = 16;
+    uint layout = GBUFFER_PACKED;
+    int shading = SHADING_PBR;
+};
+
+Tuning tuning_of(const Gpu& gpu, const Variant& v) {
+    Tuning tuning = default_tuning(gpu.info);
+    tuning.refine_group = tuning.prefix_group = v.group;
+    tuning.prefix_per_item = 3;
+    tuning.cull_group = v.cull_group;
+    tuning.cull_chunks = 3;
+    tuning.shade_stage = v.shade_stage;
+    tuning.shade_rows = 2;
+    tuning.tile_group = tuning.light_group = 4;
+    return tuning;
+}
+
+KernelFeatures features_of(const Variant& v) {
+    KernelFeatures features;
+    features.shading = v.shading;
+    features.gbuffer = v.layout;
+    features.material = features.metallic = features.occlusion = true;
+    features.spot_lights = features.directional_lights = true;
+    features.light_index_bits = v.light_index_bits;
+    return features;
+}
+
+void run_every_kernel(const Variant& v) {
+    const Gpu gpu = test_gpu(v.lanes);
+    const Tuning tuning = tuning_of(gpu, v);
+    const KernelFeatures features = features_of(v);
+    ViewShape shape;
+    shape.width = 33;
+    shape.height = 17;
+    const View view = make_view(shape);
+    LightMix mix;
+    mix.count = 150;
+    mix.range_max = 30;
+    mix.spots = 0.3;
+    const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f, 0.0f}, view.width, view.height);
+    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.2, 8)));
+    const LightInput lights = upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
+    ListStages stages(gpu, tuning, features);
+    const DeviceLists lists = stages.run(lights, gbuffer, grid);
+    StageTimer timer;
+    CullLights oracle(gpu, tuning, features);
+    oracle.brute_force(lists.lights, lists.boxes, timer);
+    Shade shade(gpu, tuning, features);
+    const std::size_t size = std::size_t{3} * view.stride * view.height;
+    const Radiance radiance = shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    const auto listed = download<float>(gpu, radiance.planes, size);
+    const auto all = download<float>(gpu, shade.enqueue_all_lights(gbuffer, lists.lights, timer).planes, size);
+    EXPECT_EQ(std::memcmp(listed.data(), all.data(), size * sizeof(float)), 0);
+    Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
+    tonemap.enqueue(radiance, 0.0f, timer);
+    CountLights count(gpu, tuning, features);
+    count.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    decode(gpu, features, gbuffer);
+    gpu.queue.finish();
+    EXPECT_GT(download_lists(gpu, features, grid, lists).refined.size(), 500u);
+}
+
+TEST(EveryKernel, OneItemAGroup) { run_every_kernel({}); }
+
+TEST(EveryKernel, LanesAndLargeGroups) {
+    run_every_kernel({4, 64, 4, 16, 32, GBUFFER_FULL, SHADING_BLINN_PHONG});
+}
+
+TEST(EveryKernel, WideLanes) { run_every_kernel({16, 1, 4, 0, 32, GBUFFER_HALF, SHADING_LAMBERT}); }
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Programs, buffers and timers: what they say when the device refuses.
+#include "host/gpu/program.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "host/base/source.h"
+#include "host/gpu/buffer.h"
+#include "host/gpu/stage_timer.h"
+#include "tests/opencl/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+template <typename Body>
+std::string error_of(const Body& body) {
+    try {
+        body();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+void expect_contains(const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << "'" << part << "' is not in: " << message;
+}
+
+TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
+    const Gpu gpu = test_gpu();
+    const std::string message = error_of([&] { build_program(gpu, "tonemap", BuildOptions().define("fv", "no_such_function")); });
+    expect_contains(message, "kernels/tonemap.cl: build failed with CL_BUILD_PROGRAM_FAILURE");
+    expect_contains(message, gpu.info.name);
+    expect_contains(message, "-Dfv=no_such_function");
+    expect_contains(message, "no_such_function");
+}
+
+TEST(Program, CompilerMessagesNameTheFileAndLineOfAnInclude) {
+    const auto folder = std::filesystem::temp_directory_path() / "kilolux_program_test";
+    for (const std::string& path : embedded_paths("kernels/")) {
+        std::filesystem::create_directories((folder / path).parent_path());
+        std::ofstream(folder / path) << embedded_text(path);
+    }
+    std::ofstream(folder / "kernels/device/lanes.h") << "// broken on line 3\n\nint oops = ;\n";
+    setenv("KILOLUX_SOURCE_DIR", folder.c_str(), 1);
+    const std::string message = error_of([] { build_program(test_gpu(), "tonemap"); });
+    unsetenv("KILOLUX_SOURCE_DIR");
+    std::filesystem::remove_all(folder);
+    expect_contains(message, "kernels/device/lanes.h:3");
+}
+
+TEST(Program, UnknownStageIsAnError) {
+    expect_contains(error_of([] { build_program(test_gpu(), "no_such_stage"); }), "kernels/no_such_stage.cl");
+}
+
+TEST(Program, SameTextAndOptionsAreBuiltOnce) {
+    const Gpu gpu = test_gpu();
+    const cl::Program first = build_program(gpu, "build_clusters");
+    EXPECT_EQ(first(), build_program(gpu, "build_clusters")());
+    EXPECT_NE(first(), build_program(gpu, "build_clusters", BuildOptions().define("UNUSED", 1))());
+    EXPECT_NE(first(), build_program(test_gpu(2), "build_clusters")());
+}
+
+TEST(Program, LaunchFailureNamesStageAndError) {
+    const std::string message = error_of([] {
+        in_stage("cull_lights", [] {
+            Gpu gpu = test_gpu();
+            const cl::Program program = build_program(gpu, "build_clusters");
+            cl::Kernel kernel(program, "no_such_kernel");
+        });
+    });
+    expect_contains(message, "cull_lights: ");
+    expect_contains(message, "failed with CL_INVALID_KERNEL_NAME");
+    EXPECT_EQ(cl_error_name(-9999), "OpenCL error -9999");
+}
+
+TEST(GrowingBuffer, GrowsAndNeverShrinks) {
+    GrowingBuffer buffer(test_gpu(), "test");
+    EXPECT_EQ(buffer.bytes(), 0u);
+    buffer.reserve(0);
+    EXPECT_EQ(buffer.bytes(), 16u);
+    const cl::Buffer first = buffer.reserve(1000);
+    EXPECT_EQ(buffer.bytes(), 1000u);
+    EXPECT_EQ(first.getInfo<CL_MEM_SIZE>(), 1000u);
+    EXPECT_EQ(buffer.reserve(999)(), first());
+    EXPECT_EQ(buffer.reserve(1000)(), first());
+    EXPECT_NE(buffer.reserve(1001)(), first());
+    EXPECT_EQ(buffer.get().getInfo<CL_MEM_SIZE>(), 1001u);
+}
+
+TEST(GrowingBuffer, MoreThanTheDeviceAllocatesIsAnErrorAndKeepsWhatThereIs) {
+    const Gpu gpu = test_gpu();
+    GrowingBuffer buffer(gpu, "cull_lights");
+    buffer.reserve(64);
+    const std::size_t limit = gpu.info.max_allocation_bytes;
+    const std::string message = error_of([&] { buffer.reserve(limit + 1); });
+    expect_contains(message, "cull_lights: needs a buffer of ");
+    expect_contains(message, gpu.info.name + " allocates at most " + std::to_string(limit >> 20) + " MiB");
+    EXPECT_EQ(buffer.bytes(), 64u);
+    EXPECT_EQ(buffer.get().getInfo<CL_MEM_SIZE>(), 64u);
+}
+
+TEST(StageTimer, SumsEventsByStageInOrderOfFirstUse) {
+    const Gpu gpu = test_gpu();
+    const std::vector<uint> values(1000, 7);
+    const cl::Buffer buffer = new_buffer(gpu, values);
+    StageTimer timer;
+    for (const char* stage : {"b", "a", "b"}) {
+        cl::Event event;
+        gpu.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, 4000, values.data(), nullptr, &event);
+        timer.record(stage, event);
+    }
+    const auto times = timer.take();
+    ASSERT_EQ(times.size(), 2u);
+    EXPECT_EQ(times[0].stage, "b");
+    EXPECT_EQ(times[1].stage, "a");
+    EXPECT_GE(times[0].ms, 0.0);
+    EXPECT_TRUE(timer.take().empty());
+}
+
+}  // namespace
+}  // namespace kilolux
