@@ -31,8 +31,8 @@ struct DeviceLimits {
     double launch_event_ms = 0.0;    // the same by the kernel's own events
     bool operator==(const DeviceLimits&) const = default;
 
-    /// How many lanes' work a vector instruction does: near `lanes` where the vector unit is in
-    /// use.
+    /// How many lanes' work an instruction does: near `lanes` on CPUs whose vector unit is in use,
+    /// near 1 on GPUs, where every work-item is a lane of the hardware already.
     double effective_lanes() const {
         return one_lane_fma_flops > 0.0 ? fma_flops / one_lane_fma_flops : 0.0;
     }
