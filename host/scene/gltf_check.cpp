@@ -47,8 +47,8 @@ void make_wide_integer_float(json& value) {
 
 // One check of a file: its document, and the place that is being looked at.
 struct Checker {
-    json& root;
     const std::string& name;
+    std::size_t target_count = 0;  // of the array that the rule's indices point into
 
     [[noreturn]] void fail(const std::string& where, const json& value,
                            const std::string& expected) const {
@@ -80,13 +80,11 @@ void Checker::check_integer(const GltfRule& rule, json& value, const std::string
 
 void Checker::check_index(const GltfRule& rule, json& value, const std::string& where) const {
     make_whole_number_integer(value);
-    const json::json_pointer pointer(rule.target);
-    const std::size_t count = root.contains(pointer) ? root.at(pointer).size() : 0;
     const bool fits = value.is_number_integer() && value.get<double>() >= 0 &&
-                      value.get<double>() < static_cast<double>(count);
+                      value.get<double>() < static_cast<double>(target_count);
     if (fits) return;
     const std::string what = rule.target.substr(rule.target.rfind('/') + 1);
-    fail(where, value, "an index into the " + std::to_string(count) + " " + what);
+    fail(where, value, "an index into the " + std::to_string(target_count) + " " + what);
 }
 
 void Checker::check_numbers(const GltfRule& rule, json& value, const std::string& where) const {
@@ -200,8 +198,14 @@ json parse(const std::string& text, const std::string& name) {
 
 json parse_gltf_json(const std::string& text, const std::string& name) {
     json root = parse(text, name);
-    Checker checker{root, name};
-    for (const GltfRule& rule : gltf_rules()) checker.visit(rule, root, rule.path, "");
+    for (const GltfRule& rule : gltf_rules()) {
+        Checker checker{name};
+        const json::json_pointer target(rule.target);
+        if (rule.kind == JsonKind::index && root.contains(target)) {
+            checker.target_count = root.at(target).size();
+        }
+        checker.visit(rule, root, rule.path, "");
+    }
     return root;
 }
 

@@ -20,10 +20,14 @@ float unit(double value) {
     return static_cast<float>(std::clamp(value, 0.0, 1.0));
 }
 
-// Non-negative and finite.
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
+
+float finite(double value) {
+    return static_cast<float>(std::clamp(value, -kMaxFloat, kMaxFloat));
+}
+
 float positive(double value) {
-    return static_cast<float>(
-        std::clamp(value, 0.0, static_cast<double>(std::numeric_limits<float>::max())));
+    return finite(std::max(value, 0.0));
 }
 
 AlphaMode convert_alpha_mode(const std::string& mode) {
@@ -67,7 +71,7 @@ Material convert_material(const tinygltf::Material& source, TextureTable& textur
     out.roughness = unit(pbr.roughnessFactor);
     out.metallic_roughness_texture = textures.convert(use_of(pbr.metallicRoughnessTexture));
     out.normal_texture = textures.convert(use_of(source.normalTexture));
-    out.normal_scale = to_float(source.normalTexture.scale);
+    out.normal_scale = finite(source.normalTexture.scale);
     out.occlusion_texture = textures.convert(use_of(source.occlusionTexture));
     out.occlusion_strength = unit(source.occlusionTexture.strength);
     for (glm::length_t c = 0; c < 3; ++c) {

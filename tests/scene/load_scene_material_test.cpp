@@ -212,7 +212,7 @@ TEST(LoadSceneMaterial, ReadsNormalizedTextureCoordinates) {
     const Blob bytes = bytes_of<std::uint16_t>({0, 0, 65535, 13107, 0, 65535});
     file.primitive()["attributes"]["TEXCOORD_0"] =
         file.add_accessor(bytes, {kUnsignedShort, "VEC2", 3, true, 0});
-    const auto& texcoords = load(file).meshes[0].texcoords;
+    const auto texcoords = load(file).meshes[0].texcoords;
     EXPECT_EQ(texcoords[0].at(1), glm::vec2(1.0f, 0.2f));
     EXPECT_TRUE(texcoords[1].empty());
 }

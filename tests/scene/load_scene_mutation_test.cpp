@@ -177,13 +177,14 @@ void reset_peak_memory() {
 
 using Mutation = Blob (*)(Random&, const GltfBuilder&);
 
-// A crash leaves the file that caused it in the folder that is printed.
+// A crash leaves the file that caused it in the folder that is printed. --gtest_random_seed=N asks
+// for other mutations than the usual ones.
 void expect_loads_or_errors(Mutation mutate, unsigned random_seed) {
     reset_peak_memory();
     const TempFolder folder;
     const std::filesystem::path file = folder.path() / "mutated.glb";
     std::cout << "mutated files go to " << file << std::endl;
-    Random random(random_seed);
+    Random random(random_seed + 1000u * static_cast<unsigned>(GTEST_FLAG_GET(random_seed)));
     int loaded = 0;
     int refused = 0;
     const std::vector<GltfBuilder> all = seeds();
