@@ -150,8 +150,8 @@ Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
         const std::string ignored = OIIO::geterror();
         document.fail(name, "is of no image format that can be read");
     }
-    OIIO::Filesystem::IOMemReader reader(
-        OIIO::cspan<unsigned char>(encoded.bytes.data(), encoded.bytes.size()));
+    OIIO::Filesystem::IOMemReader reader(OIIO::cspan<unsigned char>(
+        encoded.bytes.data(), static_cast<std::ptrdiff_t>(encoded.bytes.size())));
     OIIO::ImageSpec wanted;
     wanted.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::ImageSpec spec;
