@@ -39,14 +39,14 @@ static inline RunningSum start_sum(LightSum total) {
     return sum;
 }
 
-static inline RunningSum add_light(RunningSum sum, ShadingPoint p, ShadeLight light, uint index) {
+// The sum as light `index` joins it: a new block where the index enters one.
+static inline RunningSum enter_block(RunningSum sum, uint index) {
     uint block_number = index >> SUM_BLOCK_LOG2;
     if (block_number != sum.block_number) {
         sum.block_number = block_number;
         sum.total = add_sums(sum.total, sum.block);
         sum.block = zero_sum();
     }
-    sum.block = evaluate(sum.block, p, light);
     return sum;
 }
 
@@ -88,13 +88,17 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, g
         stage_batch(staged, lights, list, first, end);
         barrier(CLK_LOCAL_MEM_FENCE);  // the batch is complete
         if (!wanted) continue;
-        for (uint i = 0; i < end - first; ++i) sum = add_light(sum, p, staged.lights[i], staged.indices[i]);
+        for (uint i = 0; i < end - first; ++i) {
+            sum = enter_block(sum, staged.indices[i]);
+            sum.block = evaluate(sum.block, p, staged.lights[i]);
+        }
     }
 #else
     if (!wanted) return total;
     for (uint i = 0; i < count; ++i) {
         uint light = light_of_entry(list, i);
-        sum = add_light(sum, p, lights[light], light);
+        sum = enter_block(sum, light);
+        sum.block = evaluate(sum.block, p, lights[light]);
     }
 #endif
     return add_sums(sum.total, sum.block);

@@ -2,14 +2,15 @@
 // Linear HDR radiance -> 8-bit sRGB: exposure, tone curve, transfer function, exact rounding.
 // One work-item makes VW neighbouring pixels of a row.
 #include "kernels/device/lanes.h"
+#include "kernels/shared/power.h"
 #include "kernels/shared/tone_curve.h"
 
 #ifndef TONE_CURVE
 #define TONE_CURVE TONE_CURVE_NEUTRAL
 #endif
 
-// The sRGB code of linear v, correctly rounded: IEC 61966-2-1 by table.
-static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
+// The sRGB code of linear v, correctly rounded: IEC 61966-2-1 by table, lane by lane.
+static inline UV srgb_code_by_table(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
     // Below 2^-13 is code 0.
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
     UV bucket = (lane_bits(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;
@@ -24,6 +25,22 @@ static inline UV srgb_code(global const float* bucket_boundary, global const uin
     MASK above = c >= LANES(FV, BOUNDARY_AT);
     return code + (KX_CONCAT(as_, UV)(above) & 1u);
 #endif
+}
+
+// The same by arithmetic in all lanes at once; only where a value lies within 1/512 of a code's boundary,
+// far more than the arithmetic's error (1e-4), do the lanes ask the table.
+static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
+    FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
+    FV curve = fma(pow_of_unit(c, c - fv(1.0f), fv(1.0f / 2.4f)), fv(1.055f * 255.0f), fv(0.5f - 0.055f * 255.0f));
+    FV line = fma(c, fv(12.92f * 255.0f), fv(0.5f));
+    FV code_and_rest = select_fv(c <= fv(0.0031308f), line, curve);
+    UV code = to_uint_lanes(code_and_rest);
+    FV rest = code_and_rest - to_float_lanes(code);
+    FV from_middle = rest - fv(0.5f);
+    if (any_lane(max(from_middle, -from_middle) > fv(0.5f - 1.0f / 512.0f))) {
+        return srgb_code_by_table(bucket_boundary, bucket_code, v);
+    }
+    return code;
 }
 
 // NaN and negative light are black, infinite light is white, not what a tone curve would make of them.

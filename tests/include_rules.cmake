@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # Who may include whom. Includes point down only: ROOT's files are checked against this table.
 #   cmake -DROOT=<source folder> -P tests/include_rules.cmake
 set(rooms kernels/shared kernels/device kernels host/base host/scene host/gpu host/stages host/interop

@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # The include rules must catch what they forbid: each line below breaks one, in a tree of its own.
 #   cmake -DRULES=<include_rules.cmake> -DWORK=<empty folder> -P tests/include_rules_selftest.cmake
 function(expect_red name file line)

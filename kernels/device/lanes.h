@@ -31,13 +31,7 @@
 #define to_uint_lanes(x) KX_CONCAT(convert_, UV)(x)
 #define to_int_lanes(x) KX_CONCAT(convert_, IV)(x)
 
-static inline bool any_lane(MASK mask) {
-#if VW == 1
-    return mask != 0;
-#else
-    return any(mask);
-#endif
-}
+static inline bool any_lane(MASK mask) { return any_of(mask); }
 
 // A comparison's value as a mask of all bits, whatever the width: scalars compare to 0 or 1.
 #if VW == 1

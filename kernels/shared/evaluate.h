@@ -12,6 +12,7 @@
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/power.h"
 #include "kernels/shared/types.h"
 
 #ifndef SHADING
@@ -22,6 +23,11 @@
 #endif
 #ifndef HAS_METALLIC
 #define HAS_METALLIC 0
+#endif
+// Leave a light whose window is 0 in all lanes before its costly part: pays for all but lambert, where
+// the branch costs more than it saves.
+#ifndef EARLY_OUT
+#define EARLY_OUT (SHADING != SHADING_LAMBERT)
 #endif
 
 // Nearer than this the inverse square stops growing: light sources have a size [m].
@@ -130,42 +136,6 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     return p;
 }
 
-// (1 - h)^n for h in [0, 1], n >= 0, absolute error below 2e-7 at any n. Written out rather than
-// pow(): 1 - h rounds away what a large n magnifies, pow is 10 times slower in vectors, and devices
-// differ in it. Polynomials: Cephes logf and exp2f (Moshier 1989).
-SHARED_FN FV pow_one_minus(FV h, FV n) {
-    FV c = max(fv(1.0f) - h, fv(1e-30f));
-    // c = m 2^e with m in [sqrt(1/2), sqrt(2)): the constant is the bits of 1 less those of sqrt(1/2).
-    LANE_UINT biased = (lane_bits(c) + 0x4afb0du) >> 23u;
-    FV e = lane_float_of(biased) - fv(127.0f);
-    FV m = lane_float(lane_bits(c) - ((biased - 127u) << 23u));
-    FV f = select_fv(e == fv(0.0f), -h, m - fv(1.0f));
-    FV p = fv(7.0376836292e-2f);
-    p = fma(p, f, fv(-1.1514610310e-1f));
-    p = fma(p, f, fv(1.1676998740e-1f));
-    p = fma(p, f, fv(-1.2420140846e-1f));
-    p = fma(p, f, fv(1.4249322787e-1f));
-    p = fma(p, f, fv(-1.6668057665e-1f));
-    p = fma(p, f, fv(2.0000714765e-1f));
-    p = fma(p, f, fv(-2.4999993993e-1f));
-    p = fma(p, f, fv(3.3333331174e-1f));
-    FV f2 = f * f;
-    FV log_c = fma(f2 * f, p, fma(fv(-0.5f), f2, f));
-    FV x = n * fma(log_c, fv(1.44269504f), e);
-    // 2^-60 is nothing beside the lobe's peak, and keeps denormals, which are slow, out of what follows.
-    x = max(x, fv(-60.0f));
-    LANE_UINT i = lane_uint_of(x - fv(0.5f));  // to nearest, as x <= 0 and conversion truncates
-    FV g = x - lane_float_of(i);
-    FV q = fv(1.535336188e-4f);
-    q = fma(q, g, fv(1.339887440e-3f));
-    q = fma(q, g, fv(9.618437358e-3f));
-    q = fma(q, g, fv(5.550332471e-2f));
-    q = fma(q, g, fv(2.402264791e-1f));
-    q = fma(q, g, fv(6.931472029e-1f));
-    q = fma(q, g, fv(1.0f));
-    return q * lane_float((i + 127u) << 23u);
-}
-
 // Adds light that arrives along `v` * `inv_length`, a unit vector, with `color` * `strength` where
 // strength already holds the falloff.
 SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV strength, float4 color) {
@@ -216,6 +186,9 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     FV d2 = dot3(v, v);
     FV x = d2 * fv(light.position_inv_range2.w);
     FV window = max(fma(-x, x, fv(1.0f)), fv(0.0f));
+#if EARLY_OUT
+    if (!any_of(window > fv(0.0f))) return sum;
+#endif
     FV inv_d = rsqrt(max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN)));
     FV strength = window * (inv_d * inv_d);
 #if HAS_SPOT_LIGHTS

@@ -42,6 +42,12 @@
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
 #define LANE_UINT UV
+// Is the mask set in any lane?
+#if VW == 1
+#define any_of(mask) ((mask) != 0)
+#else
+#define any_of(mask) (any(mask))
+#endif
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
 #define lane_float(x) KX_CONCAT(as_, FV)(x)
 // Truncated to an integer (two's complement), and back.
@@ -70,6 +76,7 @@ using std::max;
 using std::min;
 using std::sqrt;
 inline float fv(float s) { return s; }
+inline bool any_of(bool mask) { return mask; }
 inline float select_fv(bool mask, float a, float b) { return mask ? a : b; }
 inline uint float_bits(float x) { return std::bit_cast<uint>(x); }
 inline float bits_float(uint x) { return std::bit_cast<float>(x); }
@@ -97,6 +104,7 @@ inline float lane_float_of(uint x) { return static_cast<float>(static_cast<int>(
 #define MASK bool
 #define fv(s) float(s)
 #define select_fv(mask, a, b) ((mask) ? (a) : (b))
+#define any_of(mask) (mask)
 #define rsqrt inversesqrt
 #define float_bits floatBitsToUint
 #define bits_float uintBitsToFloat
