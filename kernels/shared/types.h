@@ -42,17 +42,33 @@
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
 #define LANE_UINT UV
-// Is the mask set in any lane?
-#if VW == 1
-#define any_of(mask) ((mask) != 0)
-#else
-#define any_of(mask) (any(mask))
-#endif
+#define any_of(mask) any_lane_set(mask)
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
 #define lane_float(x) KX_CONCAT(as_, FV)(x)
 // Truncated to an integer (two's complement), and back.
 #define lane_uint_of(x) KX_CONCAT(as_, UV)(KX_CONCAT(convert_, IV)(x))
 #define lane_float_of(x) KX_CONCAT(convert_, FV)(KX_CONCAT(as_, IV)(x))
+
+// Is the mask set in any lane? By halves: PoCL's any() asks lane by lane.
+static inline bool any_lane_set(MASK m) {
+#if VW == 16
+    int8 a = m.lo | m.hi;
+    int4 b = a.lo | a.hi;
+    int2 c = b.lo | b.hi;
+    return (c.x | c.y) != 0;
+#elif VW == 8
+    int4 b = m.lo | m.hi;
+    int2 c = b.lo | b.hi;
+    return (c.x | c.y) != 0;
+#elif VW == 4
+    int2 c = m.lo | m.hi;
+    return (c.x | c.y) != 0;
+#elif VW == 2
+    return (m.x | m.y) != 0;
+#else
+    return m != 0;
+#endif
+}
 
 #elif defined(__cplusplus)
 #include <algorithm>
