@@ -147,6 +147,9 @@ kernel void refine_lights(global const ShadeLight* restrict lights,  // [count],
             uint room = place < list_capacity ? list_capacity - place : 0u;
             place += append(flags, coarse_lists, first, lists + place, room, ballots);
         }
+#if GROUP > 1
+        barrier(CLK_GLOBAL_MEM_FENCE);  // all have read the cluster before its list is set
+#endif
         if (get_local_id(0) == 0) {
             clusters[i].list_begin = min(begin, list_capacity);
             clusters[i].list_count = min(place, list_capacity) - min(begin, list_capacity);
