@@ -31,7 +31,7 @@ BoxMap expected_boxes(const ClusterGrid& grid, const Planes& planes) {
             // Background decodes to no normal.
             const Vec3d normal = planes.vector(SURFACE_NORMAL, x, y);
             if (dot(normal, normal) == 0.0) continue;
-            const uint slice = slice_by_search(grid, planes.at(SURFACE_DEPTH, x, y));
+            const uint slice = slice_by_search(fine_grid(grid), planes.at(SURFACE_DEPTH, x, y));
             Box& box = boxes[{fine_tile(view, x, y), slice}];
             const float px = planes.at(SURFACE_POSITION, x, y);
             const float py = planes.at(SURFACE_POSITION + 1, x, y);

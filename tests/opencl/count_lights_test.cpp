@@ -54,7 +54,7 @@ void expect_counts(int lanes, std::uint32_t light_count) {
                 ASSERT_EQ(covered[i], ~0u);
                 continue;
             }
-            const ActiveCluster* c = lists.find(fine_tile(view, x, y), slice_by_search(grid, planes.at(SURFACE_DEPTH, x, y)));
+            const ActiveCluster* c = lists.find(fine_tile(view, x, y), slice_by_search(fine_grid(grid), planes.at(SURFACE_DEPTH, x, y)));
             ASSERT_NE(c, nullptr);
             ASSERT_EQ(evaluated[i], c->list_count) << "pixel " << x << ", " << y;
             const Bracket expected = covering(bounds, lights, planes.vector(SURFACE_POSITION, x, y));

@@ -52,7 +52,7 @@ Pairs expect_none_missing(const CullCase& c, const ReachTest& test, const HostLi
     for (const uint pixel : c.pixels) {
         const uint x = pixel % view.width;
         const uint y = pixel / view.width;
-        const uint slice = slice_by_search(c.grid, c.planes.at(SURFACE_DEPTH, x, y));
+        const uint slice = slice_by_search(fine_grid(c.grid), c.planes.at(SURFACE_DEPTH, x, y));
         const ActiveCluster* cluster = lists.find(fine_tile(view, x, y), slice);
         if (cluster == nullptr) {
             ADD_FAILURE() << "pixel " << x << ", " << y << " has no active cluster";

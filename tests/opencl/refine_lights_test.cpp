@@ -23,7 +23,8 @@ double box_distance(const ActiveCluster& c, float4 p) {
 
 uint coarse_cluster(const View& view, const ClusterGrid& grid, uint tile, uint slice) {
     const uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
-    return cluster_index(grid, tile % tiles_x * FINE_TILE / grid.tile_width, tile / tiles_x * FINE_TILE / grid.tile_height, slice);
+    return cluster_index(grid, tile % tiles_x * FINE_TILE / grid.tile_width, tile / tiles_x * FINE_TILE / grid.tile_height,
+                         slice >> grid.fine_slice_bits);
 }
 
 // A list in double: lights nearer to the box than their range, where rounding does not decide.

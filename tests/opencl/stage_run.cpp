@@ -92,6 +92,12 @@ Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbu
             download<float>(gpu, planes, std::size_t{SURFACE_PLANES} * view.stride * view.height)};
 }
 
+ClusterGrid fine_grid(ClusterGrid grid) {
+    grid.slice_shift -= grid.fine_slice_bits;
+    grid.slices <<= grid.fine_slice_bits;
+    return grid;
+}
+
 uint slice_by_search(const ClusterGrid& grid, double z) {
     uint slice = 0;
     while (slice + 1 < grid.slices && z >= depth_of_slice(grid, slice + 1)) ++slice;

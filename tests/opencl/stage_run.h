@@ -88,6 +88,9 @@ inline uint fine_tile(const View& view, uint x, uint y) {
     return y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
 }
 
+/// The grid whose slices are those of active clusters.
+ClusterGrid fine_grid(ClusterGrid grid);
+
 /// Slice of a depth by searching the slices' ends: the definition, without bit tricks.
 uint slice_by_search(const ClusterGrid& grid, double z);
 
