@@ -30,7 +30,7 @@ SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
     LANE_UINT slice = (lane_bits(clamped) - grid.z_first_bits) >> grid.slice_shift;
-    return min(slice, grid.slices - 1u);
+    return min(slice, lane_uints(grid.slices - 1u));
 }
 
 // Depth [m] at which a slice begins, exactly representable. Slice 0 also takes what is nearer.

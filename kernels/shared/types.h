@@ -42,6 +42,7 @@
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
 #define LANE_UINT UV
+#define lane_uints(s) ((UV)(s))
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
 #define lane_float(x) KX_CONCAT(as_, FV)(x)
 // Truncated to an integer (two's complement), and back.
@@ -70,6 +71,7 @@ using std::max;
 using std::min;
 using std::sqrt;
 inline float fv(float s) { return s; }
+inline uint lane_uints(uint s) { return s; }
 inline float select_fv(bool mask, float a, float b) { return mask ? a : b; }
 inline uint float_bits(float x) { return std::bit_cast<uint>(x); }
 inline float bits_float(uint x) { return std::bit_cast<float>(x); }
@@ -101,6 +103,7 @@ inline float lane_float_of(uint x) { return static_cast<float>(static_cast<int>(
 #define float_bits floatBitsToUint
 #define bits_float uintBitsToFloat
 #define LANE_UINT uint
+#define lane_uints(s) uint(s)
 #define lane_bits floatBitsToUint
 #define lane_float uintBitsToFloat
 #define lane_uint_of(x) uint(int(x))
