@@ -30,12 +30,12 @@ static inline ShadeLight shade_light(View view, Light light) {
 static inline UV tile_interval(FV lo, FV hi, uint tile_size, uint tiles) {
     float inv = 1.0f / (float)tile_size;
     float end = (float)tiles;
-    FV first = floor(clamp(fma(lo, fv(inv), fv(-0.01f)), -1.0f, end));
-    FV last = floor(clamp(fma(hi, fv(inv), fv(0.01f)), -1.0f, end));
+    FV first = floor(clamp(fma(lo, fv(inv), fv(-0.01f)), fv(-1.0f), fv(end)));
+    FV last = floor(clamp(fma(hi, fv(inv), fv(0.01f)), fv(-1.0f), fv(end)));
     UV first_tile = to_uint_lanes(max(first, fv(0.0f)));
     // A screen is at least a tile wide: last = -1 becomes an empty interval, first 1 and last 0.
     MASK outside = (last < fv(0.0f)) | (first >= fv(end));
-    UV last_tile = to_uint_lanes(clamp(last, 0.0f, end - 1.0f));
+    UV last_tile = to_uint_lanes(clamp(last, fv(0.0f), fv(end - 1.0f)));
     UV interval = first_tile | (last_tile << 16);
     return select(interval, (UV)(1u), full_mask(outside));
 }

@@ -10,16 +10,6 @@
 namespace kilolux {
 namespace {
 
-// Kernels say fma where they mean it: the same bits for every lane width and on every call site.
-// Clang warns that wide vectors change the ABI of functions; ours are all inlined.
-constexpr std::string_view kPrologue =
-    "#pragma OPENCL FP_CONTRACT OFF\n"
-    "#ifdef __clang__\n"
-    "#if __has_warning(\"-Wpsabi\")\n"
-    "#pragma clang diagnostic ignored \"-Wpsabi\"\n"
-    "#endif\n"
-    "#endif\n";
-
 std::string build_log(const cl::Program& program, const cl::Device& device) {
     try {
         return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
@@ -61,7 +51,7 @@ cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOpti
     const std::string file = "kernels/" + std::string(stem) + ".cl";
     const std::string all_options =
         "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) + (options.text().empty() ? "" : " ") + options.text();
-    const std::string text = std::string(kPrologue) + splice_source(file, false).text;
+    const std::string text = std::string(kKernelPrologue) + splice_source(file, false).text;
     const std::scoped_lock lock(mutex);
     const Key key(gpu.context(), all_options + "\n" + text);
     auto found = programs.find(key);

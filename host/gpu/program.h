@@ -22,6 +22,16 @@ class BuildOptions {
     std::string text_;
 };
 
+/// What every program begins with. Kernels say fma where they mean it: the same bits for every lane
+/// width and on every call site. Clang warns that wide vectors change the ABI of functions; ours are all inlined.
+inline constexpr std::string_view kKernelPrologue =
+    "#pragma OPENCL FP_CONTRACT OFF\n"
+    "#ifdef __clang__\n"
+    "#if __has_warning(\"-Wpsabi\")\n"
+    "#pragma clang diagnostic ignored \"-Wpsabi\"\n"
+    "#endif\n"
+    "#endif\n";
+
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
 /// The same text, options and device in one process are built once.
 /// Throws Error with file, device, options and the compiler's log.

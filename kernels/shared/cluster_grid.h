@@ -31,7 +31,7 @@ SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
     LANE_UINT slice = (lane_bits(clamped) - grid.z_first_bits) >> grid.slice_shift;
-    return min(slice, grid.slices - 1u);
+    return min(slice, lane_uints(grid.slices - 1u));
 }
 
 // The same for the finer slices of active clusters; a coarse slice is fine >> grid.fine_slice_bits.

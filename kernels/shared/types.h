@@ -43,6 +43,7 @@
 #define bits_float(x) as_float(x)
 #define LANE_UINT UV
 #define any_of(mask) any_lane_set(mask)
+#define lane_uints(s) ((UV)(s))
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
 #define lane_float(x) KX_CONCAT(as_, FV)(x)
 // Truncated to an integer (two's complement), and back.
@@ -93,6 +94,7 @@ using std::min;
 using std::sqrt;
 inline float fv(float s) { return s; }
 inline bool any_of(bool mask) { return mask; }
+inline uint lane_uints(uint s) { return s; }
 inline float select_fv(bool mask, float a, float b) { return mask ? a : b; }
 inline uint float_bits(float x) { return std::bit_cast<uint>(x); }
 inline float bits_float(uint x) { return std::bit_cast<float>(x); }
@@ -125,6 +127,7 @@ inline float lane_float_of(uint x) { return static_cast<float>(static_cast<int>(
 #define float_bits floatBitsToUint
 #define bits_float uintBitsToFloat
 #define LANE_UINT uint
+#define lane_uints(s) uint(s)
 #define lane_bits floatBitsToUint
 #define lane_float uintBitsToFloat
 #define lane_uint_of(x) uint(int(x))

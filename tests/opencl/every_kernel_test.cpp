@@ -15,7 +15,7 @@ namespace kilolux {
 namespace {
 
 struct Variant {
-    int lanes = 16;
+    int lanes = 4;
     int group = 1;        // of refine_lights and prefix_sum
     int cull_group = 1;
     int shade_stage = 0;
@@ -59,8 +59,9 @@ void run_every_kernel(const Variant& v) {
     mix.count = v.light_count;
     mix.range_max = 30;
     mix.spots = 0.3;
-    const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f, 0.0f}, view.width, view.height);
-    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.2, 8)));
+    // Padded, since half positions stray from their pixel by up to 0.03 m here.
+    const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f, 0.1f}, view.width, view.height);
+    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.6, 8)));
     const LightInput lights = upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
     ListStages stages(gpu, tuning, features);
     const DeviceLists lists = stages.run(lights, gbuffer, grid);
@@ -72,7 +73,9 @@ void run_every_kernel(const Variant& v) {
     const Radiance radiance = shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
     const auto listed = download<float>(gpu, radiance.planes, size);
     const auto all = download<float>(gpu, shade.enqueue_all_lights(gbuffer, lists.lights, timer).planes, size);
-    EXPECT_EQ(std::memcmp(listed.data(), all.data(), size * sizeof(float)), 0);
+    for (std::size_t i = 0; i < size; ++i) {
+        ASSERT_EQ(listed[i], all[i]) << "value " << i << " of planes of " << size / 3;
+    }
     Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
     tonemap.enqueue(radiance, 0.0f, timer);
     CountLights count(gpu, tuning, features);
@@ -89,7 +92,7 @@ TEST(EveryKernel, LargeGroupsAndSeveralBatches) {
 }
 
 TEST(EveryKernel, LanesAndLargeGroups) {
-    run_every_kernel({4, 64, 1, 0, 16, GBUFFER_HALF, SHADING_BLINN_PHONG});
+    run_every_kernel({8, 64, 1, 0, 16, GBUFFER_HALF, SHADING_BLINN_PHONG});
 }
 
 }  // namespace

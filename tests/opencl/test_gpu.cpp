@@ -24,9 +24,7 @@ Gpu test_gpu(int lane_width) {
 
 cl::Program build_probe(const Gpu& gpu, std::span<const std::string_view> headers,
                         std::string_view text, const BuildOptions& options) {
-    std::string source =
-        "#pragma OPENCL FP_CONTRACT OFF\n"
-        "#ifdef __clang__\n#pragma clang diagnostic ignored \"-Wpsabi\"\n#endif\n";
+    std::string source(kKernelPrologue);
     for (const std::string_view header : headers) source += splice_source(header, false).text;
     source += "#line 1 \"probe\"\n" + std::string(text);
     const std::string all_options = "-cl-std=CL1.2 -Werror -DVW=" +

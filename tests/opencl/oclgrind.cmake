@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+# Runs the one test FILTER of TESTS (a Google Test program) under OCLGRIND; fails on any report and if
+# the test fails. What oclgrind 21.10 needs to be right:
+# - no optimisation: it lacks intrinsics that its compiler then makes, and takes for uninitialised what
+#   the optimiser left undefined on purpose;
+# - one test a process: it takes reused buffers for uninitialised;
+# - at most 8 lanes: it takes vectors of 16 for uninitialised in the arguments of functions;
+# - the tests' own verdict: it crashes at exit when programs live as long as the process.
+set(log ${CMAKE_CURRENT_BINARY_DIR}/oclgrind_${FILTER}.log)
+file(REMOVE ${log})
+execute_process(
+  COMMAND ${OCLGRIND} --build-options -cl-opt-disable --data-races --uninitialized --check-api --max-errors 20
+          --log ${log} ${TESTS} --gtest_filter=${FILTER}
+  OUTPUT_VARIABLE output ERROR_VARIABLE output)
+message("${output}")
+if(NOT EXISTS ${log})
+  message(FATAL_ERROR "oclgrind did not run")
+endif()
+file(READ ${log} reports)
+string(STRIP "${reports}" reports)
+if(reports)
+  message(FATAL_ERROR "oclgrind reports:\n${reports}")
+endif()
+if(output MATCHES "FAILED" OR NOT output MATCHES "PASSED  . 1 test")
+  message(FATAL_ERROR "${FILTER} fails under oclgrind")
+endif()
