@@ -24,9 +24,9 @@ enum class GlSource {
 
 /// Renders one scene: the whole data flow, from meshes and lights to pixels.
 class Renderer {
-   public:
-    /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error when a
-    /// device, GL or a build fails.
+ public:
+    /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error
+    /// when a device, GL or a build fails.
     Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl = GlSource::headless);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
@@ -39,7 +39,7 @@ class Renderer {
     const DeviceInfo& device() const;
     const ScenePlan& plan() const;
 
-   private:
+ private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
