@@ -8,8 +8,13 @@
 #include "host/render/forward_path.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/light_source.h"
+#include "host/render/radiance_sum.h"
+#include "host/render/sample_pattern.h"
+#include "host/render/views.h"
+#include "host/stages/bloom.h"
 #include "host/stages/tonemap.h"
 #include "raster/gl_context.h"
+#include "raster/overdraw_pass.h"
 
 namespace kilolux {
 namespace {
@@ -29,6 +34,14 @@ bool is_forward(RendererKind renderer) {
     return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
 }
 
+// The same picture with every light at every pixel.
+RenderSettings reference_of(RenderSettings settings) {
+    settings.renderer = RendererKind::deferred_all;
+    settings.show = "lit";
+    settings.aovs.clear();
+    return settings;
+}
+
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -40,8 +53,10 @@ std::vector<DeviceInfo> list_devices() {
 struct Renderer::Parts {
     Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
     Frame render(const Camera& camera, double time);
-    Radiance light(const Camera& camera, const LightRows& rows, FrameStats& stats);
-    void add_pixels(const Camera& camera, Frame& frame);
+    Radiance light(const SampleInput& sample, FrameStats& stats);
+    Radiance light_samples(const Camera& camera, const LightRows& rows, FrameStats& stats);
+    void take_stage_times(FrameStats& stats);
+    void add_pixels(const Camera& camera, double time, Frame& frame);
 
     RenderSettings settings;
     ScenePlan plan;
@@ -53,6 +68,10 @@ struct Renderer::Parts {
     RenderContext context;
     std::optional<DeferredPath> deferred;  // this,
     std::optional<ForwardPath> forward;    // or this
+    std::unique_ptr<Renderer> reference;   // for the view of differences from it
+    std::optional<OverdrawPass> overdraw;  // for its view
+    RadianceSum sum;
+    std::optional<Bloom> bloom;  // none at a share of 0
     Tonemap tonemap;
     StageTimer timer;
 };
@@ -66,26 +85,62 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
       gpu_scene(the_scene),
       lights(gpu, the_scene, settings.lights),
       context{settings, plan, gpu, tuning, gpu_scene, bounds(the_scene)},
+      sum(gpu),
       tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
     if (is_forward(settings.renderer)) {
         forward.emplace(context);
     } else {
         deferred.emplace(context);
     }
+    if (settings.bloom > 0.0f) bloom.emplace(gpu);
+    if (settings.show == "overdraw") overdraw.emplace(gpu_scene);
+    if (settings.show == "difference") {
+        reference =
+            std::make_unique<Renderer>(the_scene, reference_of(settings), GlSource::current);
+    }
 }
 
-// From the lights to a picture's radiance, by the path that was asked for.
-Radiance Renderer::Parts::light(const Camera& camera, const LightRows& rows, FrameStats& stats) {
-    const SampleInput sample{camera, rows, lights.upload(rows)};
+// From the lights to a sample's radiance, by the path that was asked for.
+Radiance Renderer::Parts::light(const SampleInput& sample, FrameStats& stats) {
     return deferred ? deferred->light(sample, timer, stats) : forward->light(sample, timer, stats);
 }
 
-void Renderer::Parts::add_pixels(const Camera& camera, Frame& frame) {
+// The mean of the jittered samples. Sample 0, through the pixels' centres, comes last: counts, AOVs
+// and views are its, since depths, ids and unit vectors have no mean.
+Radiance Renderer::Parts::light_samples(const Camera& camera, const LightRows& rows,
+                                        FrameStats& stats) {
+    const LightInput input = lights.upload(rows);
+    if (settings.samples <= 1) return light({camera, rows, input}, stats);
+    sum.clear();
+    for (int i = settings.samples - 1; i >= 0; --i) {
+        Camera jittered = camera;
+        jittered.jitter += sample_offset(static_cast<std::uint32_t>(i));
+        sum.add(light({jittered, rows, input}, stats));
+        take_stage_times(stats);
+    }
+    return sum.mean();
+}
+
+// Before the next sample, whose lists may have to be made again, and its time counted anew.
+void Renderer::Parts::take_stage_times(FrameStats& stats) {
+    for (const StageTimer::Time& stage : timer.take()) {
+        add_stage_time(stats.stages, stage.stage, stage.ms);
+    }
+}
+
+// AOVs, and the view in place of the lit picture.
+void Renderer::Parts::add_pixels(const Camera& camera, double time, Frame& frame) {
     if (!wants_pixels(settings)) return;
     const DecodedSurfaces pixels = deferred ? deferred->pixels() : forward->pixels(camera);
     for (const std::string& name : settings.aovs) {
         frame.aovs.push_back(make_aov(name, pixels, camera));
     }
+    if (settings.show == "lit") return;
+    std::vector<float> fragments, reference_radiance;
+    if (overdraw) fragments = overdraw->count(camera, settings.width, settings.height);
+    if (reference) reference_radiance = reference->render(camera, time).radiance;
+    frame.display = make_view(settings.show, {pixels, camera, context.box, fragments,
+                                              frame.radiance, reference_radiance});
 }
 
 Frame Renderer::Parts::render(const Camera& camera, double time) {
@@ -97,18 +152,17 @@ Frame Renderer::Parts::render(const Camera& camera, double time) {
     const LightRows rows = lights.at(time, camera.position, frame.stats);
     add_stage_time(frame.stats.stages, "light_input", ms_since(start));
 
-    const Radiance radiance = light(camera, rows, frame.stats);
-    const cl::Buffer display = tonemap.enqueue(radiance, settings.exposure, timer);
+    const Radiance radiance = light_samples(camera, rows, frame.stats);
+    const Radiance glowing = bloom ? bloom->enqueue(radiance, settings.bloom, timer) : radiance;
+    const cl::Buffer display = tonemap.enqueue(glowing, settings.exposure, timer);
 
     const View& view = radiance.view;
     const std::size_t plane = std::size_t{view.stride} * view.height;
     frame.radiance = tight_radiance(download<float>(gpu, radiance.planes, 3 * plane), view);
     frame.display = tight_display(download<uint>(gpu, display, plane), view);
     frame.stats.frame_ms = ms_since(start);
-    for (const StageTimer::Time& stage : timer.take()) {
-        add_stage_time(frame.stats.stages, stage.stage, stage.ms);
-    }
-    add_pixels(camera, frame);
+    take_stage_times(frame.stats);
+    add_pixels(camera, time, frame);
     return frame;
 }
 

@@ -32,8 +32,10 @@ class Renderer {
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// The picture at `time` [s]. Blocks until it is on the host. The same arguments give the same
-    /// bits on every call.
+    /// The picture at `time` [s]: the mean of settings.samples jittered samples (sample_pattern.h).
+    /// AOVs, views and counts are those of the sample through the pixels' centres; stage times are
+    /// sums over the samples. Blocks until it is on the host. The same arguments give the same bits
+    /// on every call.
     Frame render(const Camera& camera, double time);
 
     const DeviceInfo& device() const;
