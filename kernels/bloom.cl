@@ -16,7 +16,19 @@ static inline FV bloomable(FV v) {
     return fmin(fmax(v, fv(0.0f)), fv(1e36f));
 }
 
+// p[0], p[2], p[4] ...
+static inline FV every_second(global const float* p) {
+#if VW == 1
+    return p[0];
+#else
+    return (FV)(load_lanes(p).even, load_lanes(p + VW).even);
+#endif
+}
+
+// Source pixels at `offset` from twice x .. x + VW - 1, clamped to the row.
 static inline FV tap(global const float* row, uint width, uint x, int offset) {
+    int first = (int)(x * 2u) + offset;
+    if (first >= 0 && first + 2 * VW <= (int)width) return bloomable(every_second(row + first));
 #define TAP(i) row[clamped((int)((x + i) * 2u) + offset, width)]
     return bloomable(LANES(FV, TAP));
 #undef TAP

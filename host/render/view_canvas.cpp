@@ -25,7 +25,7 @@ constexpr DisplayColor kInk = {255, 255, 255};
 
 std::string number_text(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
+    std::snprintf(text, sizeof text, value > 0.0 && value < 0.01 ? "%.1e" : "%.3g", value);
     std::string out = text;
     for (char& c : out) c = c == 'e' ? 'E' : c;
     return out;
@@ -117,13 +117,18 @@ void draw_legend(Canvas& canvas, const HeatScale& scale) {
         const DisplayColor color = heat_color((x + 0.5) / bar);
         fill(canvas, {margin + x, top + margin, margin + x + 1, top + margin + 8 * zoom}, color);
     }
-    // The ends' numbers and the middle's, under the bar.
-    for (const double t : {0.0, 0.5, 1.0}) {
-        const std::string text = number_text(value_at(scale, t));
-        const int center = margin + static_cast<int>(t * bar);
-        const int x = std::max(center - text_width(text, zoom) / 2, margin);
-        draw_text(canvas, x, top + 2 * margin + 8 * zoom, zoom, text);
-    }
+    // Under the bar: its ends' numbers, and the middle's where it fits between them.
+    const std::string low = number_text(value_at(scale, 0.0));
+    const std::string middle = number_text(value_at(scale, 0.5));
+    const std::string high = number_text(value_at(scale, 1.0));
+    const int y = top + 2 * margin + 8 * zoom;
+    const int high_x = margin + bar - text_width(high, zoom);
+    const int middle_x = margin + (bar - text_width(middle, zoom)) / 2;
+    draw_text(canvas, margin, y, zoom, low);
+    draw_text(canvas, high_x, y, zoom, high);
+    const bool fits =
+        margin + text_width(low, zoom) < middle_x && middle_x + text_width(middle, zoom) < high_x;
+    if (fits) draw_text(canvas, middle_x, y, zoom, middle);
     draw_text(canvas, bar + 3 * margin, top + margin, zoom, scale.unit);
 }
 
