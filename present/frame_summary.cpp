@@ -41,8 +41,10 @@ std::string light_line(const FrameStats& s) {
     std::string out = "lights  " + std::to_string(s.lights_used) + " of " +
                       std::to_string(s.lights_given) + " used, " +
                       std::to_string(s.lights_rejected) + " rejected, " +
-                      std::to_string(s.lights_dropped) + " dropped; " +
-                      fixed(s.evaluations_per_pixel, 1) + " evaluated a pixel";
+                      std::to_string(s.lights_dropped) + " dropped";
+    if (s.evaluations_per_pixel >= 0.0) {
+        out += "; " + fixed(s.evaluations_per_pixel, 1) + " evaluated a pixel";
+    }
     if (s.useful_evaluations_per_pixel >= 0.0) {
         out += ", " + fixed(s.useful_evaluations_per_pixel, 1) + " useful";
     }

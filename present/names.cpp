@@ -2,6 +2,7 @@
 #include "present/names.h"
 
 #include "host/base/gbuffer_layout.h"
+#include "host/render/views.h"
 
 namespace kilolux {
 
@@ -27,7 +28,7 @@ std::vector<std::string> gbuffer_names() {
 }
 
 std::vector<std::string> show_names() {
-    return {"lit"};
+    return view_names();
 }
 
 std::string name_of(RendererKind renderer) {

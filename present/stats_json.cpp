@@ -32,9 +32,9 @@ void add_frame(Json& out, const FrameRecord& record) {
                        {"coarse_pairs", s.coarse_pairs},
                        {"active", s.active_clusters},
                        {"refined_pairs", s.refined_pairs}};
-    const double useful = s.useful_evaluations_per_pixel;
-    out["evaluations"] = {{"per_pixel", s.evaluations_per_pixel},
-                          {"useful_per_pixel", useful < 0.0 ? Json(nullptr) : Json(useful)}};
+    const auto counted = [](double mean) { return mean < 0.0 ? Json(nullptr) : Json(mean); };
+    out["evaluations"] = {{"per_pixel", counted(s.evaluations_per_pixel)},
+                          {"useful_per_pixel", counted(s.useful_evaluations_per_pixel)}};
     out["stages"] = Json::array();
     for (const StageTime& stage : s.stages) {
         const Json limit = stage.limit_ms > 0.0 ? Json(stage.limit_ms) : Json(nullptr);

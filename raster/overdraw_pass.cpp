@@ -11,12 +11,12 @@ OverdrawPass::OverdrawPass(const GpuScene& scene)
       programs_(scene, "raster/shaders/overdraw.frag", {{"NO_SURFACE", "1"}}, coverage_features()),
       draw_list_(scene.scene()) {}
 
-std::vector<float> OverdrawPass::count(const Camera& camera, int width, int height) const {
+std::vector<float> OverdrawPass::count(const Camera& camera, int width, int height,
+                                       DrawOrder order) const {
     check_target_size(width, height);
     const TargetPlan plan{{GL_R32F}, {}, {}};
     const GBufferTargets targets(plan, width, height);
-    const std::vector<Draw> draws =
-        draw_list_.visible(camera, width, height, false, DrawOrder::front_to_back);
+    const std::vector<Draw> draws = draw_list_.visible(camera, width, height, false, order);
     {
         const RasterState state(targets.framebuffer(), width, height);
         targets.clear();

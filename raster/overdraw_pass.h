@@ -15,8 +15,10 @@ class OverdrawPass {
     /// The GpuScene must outlive this.
     explicit OverdrawPass(const GpuScene& scene);
 
-    /// Draws in the geometry pass's order and returns the counts, width * height, row 0 on top.
-    std::vector<float> count(const Camera& camera, int width, int height) const;
+    /// Draws in the order given, the geometry pass's by default, and returns the counts, width *
+    /// height, row 0 on top.
+    std::vector<float> count(const Camera& camera, int width, int height,
+                             DrawOrder order = DrawOrder::front_to_back) const;
 
  private:
     const GpuScene& scene_;

@@ -35,7 +35,9 @@ struct FrameStats {
     std::uint64_t refine_tests = 0;  // lights of the active clusters' coarse lists
     std::uint64_t refined_pairs = 0;
     std::uint64_t drawn_pixels = 0;  // that are not background; 0: not counted
-    double evaluations_per_pixel = 0.0;         // k, over pixels that are not background
+    // k, over pixels that are not background; < 0: not counted. Forward shading counts fragments that
+    // later ones hide, too.
+    double evaluations_per_pixel = 0.0;
     double useful_evaluations_per_pixel = 0.0;  // k*: lights whose range covers the pixel; < 0: not counted
     std::vector<StageTime> stages;
     double frame_ms = 0.0;

@@ -14,7 +14,8 @@ float value_at(const DecodedSurfaces& s, std::size_t plane, std::size_t pixel) {
 }
 
 glm::dvec3 vector_at(const DecodedSurfaces& s, std::size_t plane, std::size_t pixel) {
-    return {value_at(s, plane, pixel), value_at(s, plane + 1, pixel), value_at(s, plane + 2, pixel)};
+    return {value_at(s, plane, pixel), value_at(s, plane + 1, pixel),
+            value_at(s, plane + 2, pixel)};
 }
 
 // Fills a layer from `components(pixel in the planes, output)`.
@@ -29,7 +30,8 @@ void fill(Layer& layer, const View& view, Components&& components) {
     }
 }
 
-Layer plane_layer(std::string_view name, std::vector<std::string> channels, const DecodedSurfaces& s, std::size_t first_plane) {
+Layer plane_layer(std::string_view name, std::vector<std::string> channels,
+                  const DecodedSurfaces& s, std::size_t first_plane) {
     Layer layer{std::string(name), std::move(channels), {}, false};
     const std::size_t n = layer.channels.size();
     fill(layer, s.view, [&](std::size_t pixel, float* out) {
@@ -38,13 +40,15 @@ Layer plane_layer(std::string_view name, std::vector<std::string> channels, cons
     return layer;
 }
 
-Layer world_layer(std::string_view name, std::vector<std::string> channels, const DecodedSurfaces& s, const Camera& camera) {
+Layer world_layer(std::string_view name, std::vector<std::string> channels,
+                  const DecodedSurfaces& s, const Camera& camera) {
     Layer layer{std::string(name), std::move(channels), {}, false};
     const bool position = name == "position";
     fill(layer, s.view, [&](std::size_t pixel, float* out) {
         const glm::dvec3 v = vector_at(s, position ? SURFACE_POSITION : SURFACE_NORMAL, pixel);
         const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
-        const glm::dvec3 world = camera.world_from_view * v + (position ? camera.position : glm::dvec3(0.0));
+        const glm::dvec3 world =
+            camera.world_from_view * v + (position ? camera.position : glm::dvec3(0.0));
         for (int c = 0; c < 3; ++c) out[c] = drawn ? static_cast<float>(world[c]) : 0.0f;
     });
     return layer;
@@ -53,8 +57,8 @@ Layer world_layer(std::string_view name, std::vector<std::string> channels, cons
 Layer count_layer(const DecodedSurfaces& s) {
     Layer layer{"light-count", {"light-count"}, {}, true};
     fill(layer, s.view, [&](std::size_t pixel, float* out) {
-        const uint count = s.evaluated.empty() ? 0u : s.evaluated[pixel];
-        *out = count == ~0u ? 0.0f : static_cast<float>(count);
+        const uint count = s.evaluated[pixel];
+        *out = count == kBackground ? 0.0f : static_cast<float>(count);
     });
     return layer;
 }
@@ -63,15 +67,21 @@ Layer count_layer(const DecodedSurfaces& s) {
 Layer cluster_layer(const DecodedSurfaces& s) {
     Layer layer{"cluster", {"cluster"}, {}, true};
     fill(layer, s.view, [&](std::size_t pixel, float* out) {
-        const float z = value_at(s, SURFACE_DEPTH, pixel);
-        const uint x = static_cast<uint>(pixel % s.view.stride) / s.grid.tile_width;
-        const uint y = static_cast<uint>(pixel / s.view.stride) / s.grid.tile_height;
-        *out = z == 0.0f ? 0.0f : static_cast<float>(cluster_index(s.grid, x, y, slice_of_depth(s.grid, z)) + 1);
+        const std::optional<uint> cluster = coarse_cluster_at(s, pixel);
+        *out = cluster ? static_cast<float>(*cluster + 1) : 0.0f;
     });
     return layer;
 }
 
 }  // namespace
+
+std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixel) {
+    const float z = value_at(s, SURFACE_DEPTH, pixel);
+    if (z == 0.0f) return std::nullopt;
+    const uint x = static_cast<uint>(pixel % s.view.stride) / s.grid.tile_width;
+    const uint y = static_cast<uint>(pixel / s.view.stride) / s.grid.tile_height;
+    return cluster_index(s.grid, x, y, slice_of_depth(s.grid, z));
+}
 
 std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view) {
     std::vector<float> out(std::size_t{3} * view.width * view.height);
@@ -90,7 +100,8 @@ std::vector<std::uint8_t> tight_display(const std::vector<uint>& pixels, const V
     for (std::size_t y = 0; y < view.height; ++y) {
         for (std::size_t x = 0; x < view.width; ++x) {
             const uint pixel = pixels[y * view.stride + x];
-            for (uint c = 0; c < 4; ++c) out[4 * (y * view.width + x) + c] = static_cast<std::uint8_t>(pixel >> (8 * c));
+            for (uint c = 0; c < 4; ++c)
+                out[4 * (y * view.width + x) + c] = static_cast<std::uint8_t>(pixel >> (8 * c));
         }
     }
     return out;
@@ -100,7 +111,7 @@ double mean_of_drawn(const std::vector<uint>& counts) {
     double sum = 0.0;
     std::size_t drawn = 0;
     for (const uint count : counts) {
-        if (count == ~0u) continue;
+        if (count == kBackground) continue;
         sum += count;
         ++drawn;
     }
@@ -108,7 +119,9 @@ double mean_of_drawn(const std::vector<uint>& counts) {
 }
 
 const std::vector<std::string>& aov_names() {
-    static const std::vector<std::string> names = {"depth", "position", "normal", "albedo", "roughness", "metallic", "emissive", "light-count", "cluster"};
+    static const std::vector<std::string> names = {"depth",    "position",    "normal",
+                                                   "albedo",   "roughness",   "metallic",
+                                                   "emissive", "light-count", "cluster"};
     return names;
 }
 
@@ -116,10 +129,12 @@ Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& ca
     if (name == "depth") return plane_layer(name, {"Z"}, s, SURFACE_DEPTH);
     if (name == "position") return world_layer(name, {"P.X", "P.Y", "P.Z"}, s, camera);
     if (name == "normal") return world_layer(name, {"N.X", "N.Y", "N.Z"}, s, camera);
-    if (name == "albedo") return plane_layer(name, {"albedo.R", "albedo.G", "albedo.B"}, s, SURFACE_ALBEDO);
+    if (name == "albedo")
+        return plane_layer(name, {"albedo.R", "albedo.G", "albedo.B"}, s, SURFACE_ALBEDO);
     if (name == "roughness") return plane_layer(name, {"roughness"}, s, SURFACE_ROUGHNESS);
     if (name == "metallic") return plane_layer(name, {"metallic"}, s, SURFACE_METALLIC);
-    if (name == "emissive") return plane_layer(name, {"emissive.R", "emissive.G", "emissive.B"}, s, SURFACE_EMISSIVE);
+    if (name == "emissive")
+        return plane_layer(name, {"emissive.R", "emissive.G", "emissive.B"}, s, SURFACE_EMISSIVE);
     if (name == "light-count") return count_layer(s);
     if (name == "cluster") return cluster_layer(s);
     throw UsageError("--aov: '" + std::string(name) + "' is not a layer");

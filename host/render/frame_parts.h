@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -22,13 +23,20 @@ std::vector<std::uint8_t> tight_display(const std::vector<uint>& pixels, const V
 /// Mean of the counts that are not background's ~0; 0 if there are none.
 double mean_of_drawn(const std::vector<uint>& counts);
 
-/// A decoded G-buffer on the host.
+/// What counts of lights say where nothing was drawn.
+constexpr uint kBackground = ~0u;
+
+/// A decoded G-buffer on the host, with what is known of each pixel's lights.
 struct DecodedSurfaces {
     View view{};
     std::vector<float> planes;    // [SURFACE_PLANES][height][stride]
-    std::vector<uint> evaluated;  // [height][stride] lights of the pixel's list; empty if not counted
+    std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground
+    std::vector<uint> covering;   // [height][stride] k*: those that reach it; empty if not counted
     ClusterGrid grid{};
 };
+
+/// The coarse cluster of the pixel at an index of the planes; none for background.
+std::optional<uint> coarse_cluster_at(const DecodedSurfaces& surfaces, std::size_t pixel);
 
 /// The AOV layers' names, as `--aov` takes them.
 const std::vector<std::string>& aov_names();

@@ -4,21 +4,24 @@
 namespace kilolux {
 
 ListStages::ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : gpu_(gpu), prepare_(gpu, tuning), build_(gpu), cull_(gpu, tuning, features), bin_(gpu, tuning, features), refine_(gpu, tuning, features) {}
+    : gpu_(gpu),
+      coarse_(gpu, tuning, features),
+      bin_(gpu, tuning, features),
+      refine_(gpu, tuning, features) {}
 
-LightLists ListStages::enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer) {
-    LightLists lists;
-    lists.lights = prepare_.enqueue(input, gbuffer.view, grid, timer);
-    lists.boxes = build_.enqueue(gbuffer.view, grid, timer);
-    lists.coarse = cull_.enqueue(lists.lights, lists.boxes, timer);
+LightLists ListStages::enqueue(const LightInput& input, const GBuffer& gbuffer,
+                               const ClusterGrid& grid, StageTimer& timer) {
+    const CoarseResult coarse = coarse_.enqueue(input, gbuffer.view, grid, timer);
+    LightLists lists{coarse.lights, coarse.boxes, coarse.lists, {}, {}};
     lists.clusters = bin_.enqueue(gbuffer, grid, timer);
-    lists.refined = refine_.enqueue(lists.lights, lists.coarse, lists.clusters, gbuffer.view, grid, timer);
+    lists.refined =
+        refine_.enqueue(lists.lights, lists.coarse, lists.clusters, gbuffer.view, grid, timer);
     return lists;
 }
 
 bool ListStages::fit() {
     // The later stages' needs are known only once the earlier ones are complete.
-    const bool coarse = cull_.fits();
+    const bool coarse = coarse_.fit();
     const bool active = bin_.fits();
     return coarse && active && refine_.fits();
 }
@@ -28,18 +31,24 @@ void ListStages::count(const LightLists& lists, FrameStats& stats) const {
     stats.grid[0] = grid.tiles_x;
     stats.grid[1] = grid.tiles_y;
     stats.grid[2] = grid.slices;
-    stats.coarse_pairs = cull_.pairs();
+    stats.coarse_pairs = coarse_.pairs();
     stats.active_clusters = bin_.active();
     stats.refine_tests = refine_.tests();
     stats.refined_pairs = 0;
     stats.drawn_pixels = 0;
     double evaluations = 0.0;
-    for (const ActiveCluster& cluster : download<ActiveCluster>(gpu_, lists.clusters.clusters, stats.active_clusters)) {
+    for (const ActiveCluster& cluster :
+         download<ActiveCluster>(gpu_, lists.clusters.clusters, stats.active_clusters)) {
         stats.refined_pairs += cluster.list_count;
         stats.drawn_pixels += cluster.pixel_count;
         evaluations += static_cast<double>(cluster.list_count) * cluster.pixel_count;
     }
-    stats.evaluations_per_pixel = stats.drawn_pixels > 0 ? evaluations / static_cast<double>(stats.drawn_pixels) : 0.0;
+    stats.evaluations_per_pixel =
+        stats.drawn_pixels > 0 ? evaluations / static_cast<double>(stats.drawn_pixels) : 0.0;
+}
+
+HostCoarseLists ListStages::download_coarse(const LightLists& lists) const {
+    return coarse_.download({lists.lights, lists.boxes, lists.coarse});
 }
 
 }  // namespace kilolux

@@ -1,41 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/renderer.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <optional>
 
-#include "host/base/log.h"
-#include "host/interop/gbuffer_bridge.h"
-#include "host/render/frame_parts.h"
-#include "host/render/grid_request.h"
+#include "host/render/deferred_path.h"
+#include "host/render/forward_path.h"
 #include "host/render/kernel_choice.h"
-#include "host/render/light_input.h"
-#include "host/render/light_lists.h"
-#include "host/scene/light_ranges.h"
-#include "host/stages/count_lights.h"
-#include "host/stages/decode_gbuffer.h"
-#include "host/stages/shade.h"
+#include "host/render/light_source.h"
+#include "host/render/radiance_sum.h"
+#include "host/render/sample_pattern.h"
+#include "host/render/views.h"
+#include "host/stages/bloom.h"
 #include "host/stages/tonemap.h"
-#include "raster/geometry_pass.h"
 #include "raster/gl_context.h"
-#include "raster/gpu_scene.h"
+#include "raster/overdraw_pass.h"
 
 namespace kilolux {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double ms_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
-std::vector<SceneLight> lights_with_ranges(const Scene& scene) {
-    std::vector<SceneLight> lights = scene.lights;
-    if (const std::size_t filled = fill_missing_ranges(lights); filled > 0) {
-        note(scene.name + ": " + std::to_string(filled) + " lights without a range got one from their intensity, error at most " +
-             std::to_string(kDefaultRangeBudget) + " each");
-    }
-    return lights;
+std::optional<GlContext> context_from(GlSource gl) {
+    if (gl == GlSource::current) return std::nullopt;
+    return GlContext::headless();
+}
+
+bool is_forward(RendererKind renderer) {
+    return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
+}
+
+// The same picture with every light at every pixel.
+RenderSettings reference_of(RenderSettings settings) {
+    settings.renderer = RendererKind::deferred_all;
+    settings.show = "lit";
+    settings.aovs.clear();
+    return settings;
 }
 
 }  // namespace
@@ -48,140 +52,117 @@ std::vector<DeviceInfo> list_devices() {
 
 struct Renderer::Parts {
     Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
-    Frame render_sample(const Camera& camera, double time, bool last);
-    LightInput upload_lights(const LightRows& rows);
-    Radiance light(const GBuffer& gbuffer, const Camera& camera, const LightInput& input, FrameStats& stats);
-    void count(const GBuffer& gbuffer, const LightLists& lists, FrameStats& stats);
-    void add_aovs(const GBuffer& gbuffer, const Camera& camera, Frame& frame);
+    Frame render(const Camera& camera, double time);
+    Radiance light(const SampleInput& sample, FrameStats& stats);
+    Radiance light_samples(const Camera& camera, const LightRows& rows, FrameStats& stats);
+    void take_stage_times(FrameStats& stats);
+    void add_pixels(const Camera& camera, double time, Frame& frame);
 
-    const Scene& scene;
     RenderSettings settings;
-    Box box;
-    std::vector<SceneLight> scene_lights;
     ScenePlan plan;
     Gpu gpu;
     Tuning tuning;
-    std::optional<GlContext> context;
+    std::optional<GlContext> gl_context;
     GpuScene gpu_scene;
-    GeometryPass geometry;
-    GBufferBridge bridge;
-    GrowingBuffer light_buffer, directional_buffer;
-    ListStages list_stages;
-    Shade shade;
+    LightSource lights;
+    RenderContext context;
+    std::optional<DeferredPath> deferred;  // this,
+    std::optional<ForwardPath> forward;    // or this
+    std::unique_ptr<Renderer> reference;   // for the view of differences from it
+    std::optional<OverdrawPass> overdraw;  // for its view
+    RadianceSum sum;
+    std::optional<Bloom> bloom;  // none at a share of 0
     Tonemap tonemap;
-    CountLights count_lights;
-    DecodeGBuffer decode;
-    std::optional<LightCounts> light_counts;
-    ClusterGrid grid{};  // of the last frame
     StageTimer timer;
 };
 
-namespace {
-
-std::optional<GlContext> context_from(GlSource gl) {
-    if (gl == GlSource::current) return std::nullopt;
-    return GlContext::headless();
-}
-
-std::uint64_t most_lights(const RenderSettings& settings, const Scene& scene) { return settings.lights.count + scene.lights.size(); }
-
-}  // namespace
-
 Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl)
-    : scene(the_scene), settings(the_settings), box(bounds(the_scene)), scene_lights(lights_with_ranges(the_scene)),
-      plan(make_scene_plan(the_scene, the_settings, most_lights(the_settings, the_scene))),
-      gpu(open_device(the_settings)), tuning(choose_tuning(describe(gpu.device), the_settings.kernels).tuning),
-      context(context_from(gl)), gpu_scene(the_scene), geometry(gpu_scene, plan.gbuffer), bridge(gpu),
-      light_buffer(gpu, "lights"), directional_buffer(gpu, "lights"), list_stages(gpu, tuning, plan.kernels),
-      shade(gpu, tuning, plan.kernels), tonemap(gpu, tuning, static_cast<int>(the_settings.tone_curve)),
-      count_lights(gpu, tuning, plan.kernels), decode(gpu, tuning, plan.kernels) {
-    shade.set_ambient(settings.ambient);
-}
-
-LightInput Renderer::Parts::upload_lights(const LightRows& rows) {
-    LightInput input;
-    input.count = static_cast<uint>(rows.local.size());
-    input.directional_count = static_cast<uint>(rows.directional.size());
-    input.lights = light_buffer.reserve(rows.local.size() * sizeof(Light));
-    input.directional = directional_buffer.reserve(rows.directional.size() * sizeof(DirectionalLight));
-    upload<Light>(gpu, input.lights, rows.local);
-    upload<DirectionalLight>(gpu, input.directional, rows.directional);
-    return input;
-}
-
-// From the G-buffer and the lights to radiance.
-Radiance Renderer::Parts::light(const GBuffer& gbuffer, const Camera& camera, const LightInput& input, FrameStats& stats) {
-    const GridRequest request = grid_request(settings.grid, camera, box, position_pad(settings.gbuffer, box, camera));
-    grid = make_cluster_grid(request, gbuffer.view.width, gbuffer.view.height);
-    stats.grid[0] = grid.tiles_x;
-    stats.grid[1] = grid.tiles_y;
-    stats.grid[2] = grid.slices;
-    LightLists lists = list_stages.enqueue(input, gbuffer, grid, timer);
-    if (settings.renderer == RendererKind::deferred_all) return shade.enqueue_all_lights(gbuffer, lists.lights, timer);
-    Radiance radiance = shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
-    // Room for the lists is last frame's: where that was too little, grow it and do this frame again.
-    while (!list_stages.fit()) {
-        timer.take();
-        lists = list_stages.enqueue(input, gbuffer, grid, timer);
-        radiance = shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    : settings(the_settings),
+      plan(make_scene_plan(the_scene, settings, settings.lights.count + the_scene.lights.size())),
+      gpu(open_device(settings)),
+      tuning(choose_tuning(describe(gpu.device), settings.kernels).tuning),
+      gl_context(context_from(gl)),
+      gpu_scene(the_scene),
+      lights(gpu, the_scene, settings.lights),
+      context{settings, plan, gpu, tuning, gpu_scene, bounds(the_scene)},
+      sum(gpu),
+      tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
+    if (is_forward(settings.renderer)) {
+        forward.emplace(context);
+    } else {
+        deferred.emplace(context);
     }
-    count(gbuffer, lists, stats);
-    return radiance;
-}
-
-void Renderer::Parts::count(const GBuffer& gbuffer, const LightLists& lists, FrameStats& stats) {
-    list_stages.count(lists, stats);
-    stats.useful_evaluations_per_pixel = -1.0;
-    if (!settings.count_useful) return;
-    StageTimer untimed;
-    light_counts = count_lights.enqueue(gbuffer, lists.lights, lists.boxes.grid, lists.clusters, lists.refined, untimed);
-    const auto covering = download<uint>(gpu, light_counts->covering, std::size_t{gbuffer.view.stride} * gbuffer.view.height);
-    stats.useful_evaluations_per_pixel = mean_of_drawn(covering);
-}
-
-void Renderer::Parts::add_aovs(const GBuffer& gbuffer, const Camera& camera, Frame& frame) {
-    if (settings.aovs.empty()) return;
-    StageTimer untimed;
-    const View& view = gbuffer.view;
-    DecodedSurfaces surfaces;
-    surfaces.view = view;
-    surfaces.grid = grid;
-    surfaces.planes = download<float>(gpu, decode.enqueue(gbuffer, untimed), std::size_t{SURFACE_PLANES} * view.stride * view.height);
-    if (light_counts) {
-        surfaces.evaluated = download<uint>(gpu, light_counts->evaluated, std::size_t{view.stride} * view.height);
+    if (settings.bloom > 0.0f) bloom.emplace(gpu);
+    if (settings.show == "overdraw") overdraw.emplace(gpu_scene);
+    if (settings.show == "difference") {
+        reference =
+            std::make_unique<Renderer>(the_scene, reference_of(settings), GlSource::current);
     }
-    for (const std::string& name : settings.aovs) frame.aovs.push_back(make_aov(name, surfaces, camera));
 }
 
-Frame Renderer::Parts::render_sample(const Camera& camera, double time, bool last) {
-    if (context) context->make_current();
+// From the lights to a sample's radiance, by the path that was asked for.
+Radiance Renderer::Parts::light(const SampleInput& sample, FrameStats& stats) {
+    return deferred ? deferred->light(sample, timer, stats) : forward->light(sample, timer, stats);
+}
+
+// The mean of the jittered samples. Sample 0, through the pixels' centres, comes last: counts, AOVs
+// and views are its, since depths, ids and unit vectors have no mean.
+Radiance Renderer::Parts::light_samples(const Camera& camera, const LightRows& rows,
+                                        FrameStats& stats) {
+    const LightInput input = lights.upload(rows);
+    if (settings.samples <= 1) return light({camera, rows, input}, stats);
+    sum.clear();
+    for (int i = settings.samples - 1; i >= 0; --i) {
+        Camera jittered = camera;
+        jittered.jitter += sample_offset(static_cast<std::uint32_t>(i));
+        sum.add(light({jittered, rows, input}, stats));
+        take_stage_times(stats);
+    }
+    return sum.mean();
+}
+
+// Before the next sample, whose lists may have to be made again, and its time counted anew.
+void Renderer::Parts::take_stage_times(FrameStats& stats) {
+    for (const StageTimer::Time& stage : timer.take()) {
+        add_stage_time(stats.stages, stage.stage, stage.ms);
+    }
+}
+
+// AOVs, and the view in place of the lit picture.
+void Renderer::Parts::add_pixels(const Camera& camera, double time, Frame& frame) {
+    if (!wants_pixels(settings)) return;
+    const DecodedSurfaces pixels = deferred ? deferred->pixels() : forward->pixels(camera);
+    for (const std::string& name : settings.aovs) {
+        frame.aovs.push_back(make_aov(name, pixels, camera));
+    }
+    if (settings.show == "lit") return;
+    std::vector<float> fragments, reference_radiance;
+    if (overdraw) fragments = overdraw->count(camera, settings.width, settings.height);
+    if (reference) reference_radiance = reference->render(camera, time).radiance;
+    frame.display = make_view(settings.show, {pixels, camera, context.box, fragments,
+                                              frame.radiance, reference_radiance});
+}
+
+Frame Renderer::Parts::render(const Camera& camera, double time) {
+    if (gl_context) gl_context->make_current();
     const Clock::time_point start = Clock::now();
     Frame frame;
     frame.width = settings.width;
     frame.height = settings.height;
-    std::vector<SceneLight> lights = scene_lights;
-    const std::vector<SceneLight> generated = generate_lights(settings.lights, scene, time);
-    lights.insert(lights.end(), generated.begin(), generated.end());
-    const LightRows rows = make_light_rows(lights, camera.position);
-    frame.stats.lights_given = lights.size();
-    frame.stats.lights_rejected = rows.rejected;
-    frame.stats.lights_used = rows.local.size() + rows.directional.size();
-    frame.stats.directional_lights = rows.directional.size();
-    frame.stats.lights_dropped = lights.size() - rows.rejected - frame.stats.lights_used;
-    const double lights_ms = ms_since(start);
+    const LightRows rows = lights.at(time, camera.position, frame.stats);
+    add_stage_time(frame.stats.stages, "light_input", ms_since(start));
 
-    const LightInput input = upload_lights(rows);
-    geometry.draw(camera, settings.width, settings.height);
-    const GBuffer gbuffer = bridge.transfer(geometry.targets(), plan.gbuffer, view_of(camera, settings.width, settings.height));
-    const Radiance radiance = light(gbuffer, camera, input, frame.stats);
-    const cl::Buffer display = tonemap.enqueue(radiance, settings.exposure, timer);
-    frame.radiance = tight_radiance(download<float>(gpu, radiance.planes, std::size_t{3} * gbuffer.view.stride * gbuffer.view.height), gbuffer.view);
-    frame.display = tight_display(download<uint>(gpu, display, std::size_t{gbuffer.view.stride} * gbuffer.view.height), gbuffer.view);
+    const Radiance radiance = light_samples(camera, rows, frame.stats);
+    const Radiance glowing = bloom ? bloom->enqueue(radiance, settings.bloom, timer) : radiance;
+    const cl::Buffer display = tonemap.enqueue(glowing, settings.exposure, timer);
+
+    const View& view = radiance.view;
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    frame.radiance = tight_radiance(download<float>(gpu, radiance.planes, 3 * plane), view);
+    frame.display = tight_display(download<uint>(gpu, display, plane), view);
     frame.stats.frame_ms = ms_since(start);
-
-    frame.stats.stages = {{"light_input", lights_ms, 0.0}, {"geometry", geometry.last_ms(), 0.0}, {"gbuffer_bridge", bridge.last_ms(), 0.0}};
-    for (const StageTimer::Time& stage : timer.take()) frame.stats.stages.push_back({stage.stage, stage.ms, 0.0});
-    if (last) add_aovs(gbuffer, camera, frame);
+    take_stage_times(frame.stats);
+    add_pixels(camera, time, frame);
     return frame;
 }
 
@@ -192,10 +173,14 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Frame Renderer::render(const Camera& camera, double time) {
-    return in_stage("render", [&] { return parts_->render_sample(camera, time, true); });
+    return in_stage("render", [&] { return parts_->render(camera, time); });
 }
 
-const DeviceInfo& Renderer::device() const { return parts_->gpu.info; }
-const ScenePlan& Renderer::plan() const { return parts_->plan; }
+const DeviceInfo& Renderer::device() const {
+    return parts_->gpu.info;
+}
+const ScenePlan& Renderer::plan() const {
+    return parts_->plan;
+}
 
 }  // namespace kilolux

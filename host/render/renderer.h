@@ -24,22 +24,24 @@ enum class GlSource {
 
 /// Renders one scene: the whole data flow, from meshes and lights to pixels.
 class Renderer {
-   public:
-    /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error when a
-    /// device, GL or a build fails.
+ public:
+    /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error
+    /// when a device, GL or a build fails.
     Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl = GlSource::headless);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// The picture at `time` [s]. Blocks until it is on the host. The same arguments give the same
-    /// bits on every call.
+    /// The picture at `time` [s]: the mean of settings.samples jittered samples (sample_pattern.h).
+    /// AOVs, views and counts are those of the sample through the pixels' centres; stage times are
+    /// sums over the samples. Blocks until it is on the host. The same arguments give the same bits
+    /// on every call.
     Frame render(const Camera& camera, double time);
 
     const DeviceInfo& device() const;
     const ScenePlan& plan() const;
 
-   private:
+ private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };

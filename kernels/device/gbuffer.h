@@ -86,10 +86,22 @@ static inline FV load_half(GBuffer g, uint plane, uint pixel) {
 #endif
 }
 
+// The rows of VW pixels of a plane of float4.
+static inline global const float4* load_rows(GBuffer g, uint plane, uint pixel) {
+    return (global const float4*)(g.bytes + g.layout.offset_bytes[plane]) + pixel;
+}
+#define ROW_X(i) rows[i].x
+#define ROW_Y(i) rows[i].y
+#define ROW_Z(i) rows[i].z
+#define ROW_W(i) rows[i].w
+
 // Position in view space of VW pixels with depth z [m].
 static inline FV3 load_position(GBuffer g, uint x, uint y, FV z) {
 #if GBUFFER == GBUFFER_FULL
     return load_float3(g, PLANE_POSITION_X, y * g.view.stride + x);
+#elif GBUFFER == GBUFFER_OCT_2X4
+    global const float4* rows = load_rows(g, PLANE_ROW_0, y * g.view.stride + x);
+    return fv3(LANES(FV, ROW_X), LANES(FV, ROW_Y), LANES(FV, ROW_Z));
 #elif GBUFFER == GBUFFER_HALF
     // World positions in half floats, as three WebGPU ancestors store them.
     uint pixel = y * g.view.stride + x;
@@ -109,6 +121,9 @@ static inline FV3 load_normal(GBuffer g, uint pixel) {
     FV3 world = fv3(load_half(g, PLANE_NORMAL_X, pixel), load_half(g, PLANE_NORMAL_Y, pixel), load_half(g, PLANE_NORMAL_Z, pixel));
     FV3 n = rotate_to_view(g.view, world);
     return scale3(n, rsqrt(max(dot3(n, n), fv(1e-20f))));
+#elif GBUFFER == GBUFFER_OCT_2X4
+    global const float4* rows = load_rows(g, PLANE_ROW_1, pixel);
+    return octahedral_decode(LANES(FV, ROW_X), LANES(FV, ROW_Y));
 #else
     UV packed = load_uint_plane(g, PLANE_NORMAL, pixel);
     FV nx = snorm_of_unorm16(packed & 0xffffu);
@@ -134,14 +149,12 @@ static inline Surface load_float_material(GBuffer g, uint pixel, Surface s) {
     return s;
 }
 
-static inline Surface load_packed_material(GBuffer g, uint pixel, Surface s) {
-    UV rgba = load_uint_plane(g, PLANE_ALBEDO, pixel);
-#if GBUFFER == GBUFFER_HALF
-    s.albedo = fv3(unorm8(rgba & 255u), unorm8((rgba >> 8) & 255u), unorm8((rgba >> 16) & 255u));
-#else
-    s.albedo = decode_srgb(g.srgb, rgba);
-#endif
-    s.roughness = unorm8(rgba >> 24);
+static inline FV3 unorm8_color(UV rgba) {
+    return fv3(unorm8(rgba & 255u), unorm8((rgba >> 8) & 255u), unorm8((rgba >> 16) & 255u));
+}
+
+// The 8-bit planes that all layouts but `full` may have.
+static inline Surface load_optional_planes(GBuffer g, uint pixel, Surface s) {
 #if HAS_MATERIAL
     UV material = load_uint_plane(g, PLANE_MATERIAL, pixel);
     s.emissive = scale3(decode_srgb(g.srgb, material), fv(g.layout.emissive_scale));
@@ -158,6 +171,29 @@ static inline Surface load_packed_material(GBuffer g, uint pixel, Surface s) {
     return s;
 }
 
+static inline Surface load_packed_material(GBuffer g, uint pixel, Surface s) {
+    UV rgba = load_uint_plane(g, PLANE_ALBEDO, pixel);
+#if GBUFFER == GBUFFER_HALF
+    s.albedo = unorm8_color(rgba);
+#else
+    s.albedo = decode_srgb(g.srgb, rgba);
+#endif
+    s.roughness = unorm8(rgba >> 24);
+    return load_optional_planes(g, pixel, s);
+}
+
+static inline Surface load_row_material(GBuffer g, uint pixel, Surface s) {
+    global const float4* rows = load_rows(g, PLANE_ROW_0, pixel);
+    s.albedo = unorm8_color(to_uint_lanes(LANES(FV, ROW_W)));
+    s = load_optional_planes(g, pixel, s);
+    rows = load_rows(g, PLANE_ROW_1, pixel);
+    s.roughness = LANES(FV, ROW_Z);
+#if HAS_MATERIAL
+    s.metallic = LANES(FV, ROW_W);
+#endif
+    return s;
+}
+
 // The surfaces of VW pixels from (x, y) on at depths z [m].
 static inline Surface load_surface(GBuffer g, uint x, uint y, FV z) {
     uint pixel = y * g.view.stride + x;
@@ -169,6 +205,8 @@ static inline Surface load_surface(GBuffer g, uint x, uint y, FV z) {
     s.emissive = zero3();
 #if GBUFFER == GBUFFER_FULL
     return load_float_material(g, pixel, s);
+#elif GBUFFER == GBUFFER_OCT_2X4
+    return load_row_material(g, pixel, s);
 #else
     return load_packed_material(g, pixel, s);
 #endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/coarse_stages.h"
+
+namespace kilolux {
+
+CoarseStages::CoarseStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : gpu_(gpu),
+      index_bits_(features.light_index_bits),
+      prepare_(gpu, tuning),
+      build_(gpu),
+      cull_(gpu, tuning, features) {}
+
+CoarseResult CoarseStages::enqueue(const LightInput& input, const View& view,
+                                   const ClusterGrid& grid, StageTimer& timer) {
+    CoarseResult out;
+    out.lights = prepare_.enqueue(input, view, grid, timer);
+    out.boxes = build_.enqueue(view, grid, timer);
+    out.lists = cull_.enqueue(out.lights, out.boxes, timer);
+    return out;
+}
+
+HostCoarseLists CoarseStages::download(const CoarseResult& result) const {
+    HostCoarseLists out;
+    out.grid = result.boxes.grid;
+    out.offsets = kilolux::download<uint>(gpu_, result.lists.offsets,
+                                          std::size_t{out.grid.cluster_count} + 1);
+    const std::size_t entries = out.offsets.back();
+    if (index_bits_ == 32) {
+        out.lists = kilolux::download<uint>(gpu_, result.lists.lists, entries);
+        return out;
+    }
+    const auto narrow = kilolux::download<std::uint16_t>(gpu_, result.lists.lists, entries);
+    out.lists.assign(narrow.begin(), narrow.end());
+    return out;
+}
+
+}  // namespace kilolux

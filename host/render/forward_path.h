@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "host/render/coarse_stages.h"
+#include "host/render/surface_pass.h"
+#include "raster/forward_pass.h"
+#include "raster/overdraw_pass.h"
+
+namespace kilolux {
+
+/// `forward` and `forward-plus`: OpenGL shades where it draws. Forward takes every light for every
+/// fragment, in the scene's order; forward-plus draws depth first and takes the coarse lists that
+/// OpenCL makes. A G-buffer is drawn only for AOVs, views and counts.
+class ForwardPath {
+ public:
+    explicit ForwardPath(const RenderContext& context);
+
+    /// As DeferredPath::light. evaluations_per_pixel is -1 unless settings.count_useful asks for
+    /// it: for forward, lights times fragments shaded at a pixel; useful ones are not counted.
+    Radiance light(const SampleInput& sample, StageTimer& timer, FrameStats& stats);
+
+    /// Surfaces and counts of the last light(), for AOVs and views. Blocks.
+    DecodedSurfaces pixels(const Camera& camera);
+
+ private:
+    HostCoarseLists make_lists(const SampleInput& sample, const View& view, StageTimer& timer,
+                               FrameStats& stats);
+    std::vector<uint> evaluated(const Camera& camera, const DecodedSurfaces& surfaces);
+
+    RenderContext context_;
+    bool clustered_;
+    ForwardPass forward_;
+    std::optional<CoarseStages> coarse_;  // forward-plus only
+    GrowingBuffer radiance_;
+    std::optional<SurfacePass> surfaces_;  // made when first asked for
+    std::optional<OverdrawPass> overdraw_;
+    // Of the last light().
+    ClusterGrid grid_{};
+    HostCoarseLists lists_;
+    uint local_lights_ = 0;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/light_source.h"
+
+#include "host/base/log.h"
+#include "host/scene/light_ranges.h"
+
+namespace kilolux {
+namespace {
+
+std::vector<SceneLight> lights_with_ranges(const Scene& scene) {
+    std::vector<SceneLight> lights = scene.lights;
+    if (const std::size_t filled = fill_missing_ranges(lights); filled > 0) {
+        note(scene.name + ": " + std::to_string(filled) +
+             " lights without a range got one from their intensity, error at most " +
+             std::to_string(kDefaultRangeBudget) + " each");
+    }
+    return lights;
+}
+
+}  // namespace
+
+LightSource::LightSource(const Gpu& gpu, const Scene& scene, const LightOptions& generated)
+    : gpu_(gpu),
+      scene_(scene),
+      generated_(generated),
+      own_(lights_with_ranges(scene)),
+      local_(gpu, "lights"),
+      directional_(gpu, "lights") {}
+
+LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) const {
+    std::vector<SceneLight> lights = own_;
+    const std::vector<SceneLight> generated = generate_lights(generated_, scene_, time);
+    lights.insert(lights.end(), generated.begin(), generated.end());
+    LightRows rows = make_light_rows(lights, camera_position);
+    stats.lights_given = lights.size();
+    stats.lights_rejected = rows.rejected;
+    stats.lights_used = rows.local.size() + rows.directional.size();
+    stats.directional_lights = rows.directional.size();
+    stats.lights_dropped = lights.size() - rows.rejected - stats.lights_used;
+    return rows;
+}
+
+LightInput LightSource::upload(const LightRows& rows) {
+    LightInput input;
+    input.count = static_cast<uint>(rows.local.size());
+    input.directional_count = static_cast<uint>(rows.directional.size());
+    input.lights = local_.reserve(rows.local.size() * sizeof(Light));
+    input.directional = directional_.reserve(rows.directional.size() * sizeof(DirectionalLight));
+    kilolux::upload<Light>(gpu_, input.lights, rows.local);
+    kilolux::upload<DirectionalLight>(gpu_, input.directional, rows.directional);
+    return input;
+}
+
+}  // namespace kilolux

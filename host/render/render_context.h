@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/render/frame.h"
+#include "host/render/light_input.h"
+#include "host/render/scene_plan.h"
+#include "host/render/settings.h"
+#include "host/scene/camera.h"
+#include "raster/gpu_scene.h"
+
+namespace kilolux {
+
+/// What every path of a renderer is made for; outlives them.
+struct RenderContext {
+    const RenderSettings& settings;
+    const ScenePlan& plan;
+    const Gpu& gpu;
+    const Tuning& tuning;
+    const GpuScene& gpu_scene;
+    Box box;  // of the scene, world space [m]
+};
+
+/// One sample of a frame to light: the lights on the host and, uploaded, on the device.
+struct SampleInput {
+    const Camera& camera;
+    const LightRows& rows;
+    LightInput lights;
+};
+
+/// Adds to the stage's time, or appends the stage.
+void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms);
+
+}  // namespace kilolux

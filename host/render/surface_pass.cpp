@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/surface_pass.h"
+
+#include "host/render/grid_request.h"
+
+namespace kilolux {
+
+SurfacePass::SurfacePass(const RenderContext& context)
+    : context_(context),
+      geometry_(context.gpu_scene, context.plan.gbuffer),
+      bridge_(context.gpu),
+      decode_(context.gpu, context.tuning, context.plan.kernels) {}
+
+GBuffer SurfacePass::draw(const Camera& camera, std::vector<StageTime>& stages) {
+    const RenderSettings& settings = context_.settings;
+    geometry_.draw(camera, settings.width, settings.height);
+    GBuffer gbuffer = bridge_.transfer(geometry_.targets(), context_.plan.gbuffer,
+                                       view_of(camera, settings.width, settings.height));
+    add_stage_time(stages, "geometry", geometry_.last_ms());
+    add_stage_time(stages, "gbuffer_bridge", bridge_.last_ms());
+    return gbuffer;
+}
+
+DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& grid) {
+    StageTimer untimed;
+    const View& view = gbuffer.view;
+    DecodedSurfaces out;
+    out.view = view;
+    out.grid = grid;
+    out.planes = download<float>(context_.gpu, decode_.enqueue(gbuffer, untimed),
+                                 std::size_t{SURFACE_PLANES} * view.stride * view.height);
+    return out;
+}
+
+ClusterGrid coarse_grid(const RenderContext& context, const Camera& camera, FrameStats& stats) {
+    const RenderSettings& settings = context.settings;
+    const bool forward = settings.renderer == RendererKind::forward ||
+                         settings.renderer == RendererKind::forward_plus;
+    const uint layout = forward ? GBUFFER_PACKED : settings.gbuffer;
+    const GridRequest request =
+        grid_request(settings.grid, camera, context.box, position_pad(layout, context.box, camera));
+    const ClusterGrid grid = make_cluster_grid(request, static_cast<uint>(settings.width),
+                                               static_cast<uint>(settings.height));
+    stats.grid[0] = grid.tiles_x;
+    stats.grid[1] = grid.tiles_y;
+    stats.grid[2] = grid.slices;
+    return grid;
+}
+
+bool wants_pixels(const RenderSettings& settings) {
+    return !settings.aovs.empty() || settings.show != "lit";
+}
+
+}  // namespace kilolux

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/interop/gbuffer_bridge.h"
+#include "host/render/frame_parts.h"
+#include "host/render/render_context.h"
+#include "host/stages/decode_gbuffer.h"
+#include "raster/geometry_pass.h"
+
+namespace kilolux {
+
+/// The scene's surfaces: drawn by OpenGL, on the OpenCL device, and decoded.
+class SurfacePass {
+ public:
+    explicit SurfacePass(const RenderContext& context);
+
+    /// Draws the G-buffer and brings it to the device, where it stays until the next call. Waits
+    /// for OpenGL. Adds the stages geometry and gbuffer_bridge to `stages`.
+    GBuffer draw(const Camera& camera, std::vector<StageTime>& stages);
+
+    /// The surfaces of the last draw() on the host. Blocks.
+    DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);
+
+    const GBufferTargets& targets() const { return geometry_.targets(); }
+
+ private:
+    RenderContext context_;
+    GeometryPass geometry_;
+    GBufferBridge bridge_;
+    DecodeGBuffer decode_;
+};
+
+/// The coarse grid of a frame.
+ClusterGrid coarse_grid(const RenderContext& context, const Camera& camera, FrameStats& stats);
+
+/// Whether someone reads the surfaces or the counts of single pixels.
+bool wants_pixels(const RenderSettings& settings);
+
+}  // namespace kilolux

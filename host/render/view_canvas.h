@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace kilolux {
+
+using DisplayColor = std::array<std::uint8_t, 3>;  // sRGB codes
+
+/// An opaque display picture, 4 bytes a pixel, row 0 on top.
+struct Canvas {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;
+
+    /// Does nothing outside the picture.
+    void set(int x, int y, const DisplayColor& color);
+};
+
+/// A black picture.
+Canvas make_canvas(int width, int height);
+
+/// The heat map's colour at t in [0, 1], clamped: black over violet and orange to pale yellow, of
+/// steadily rising lightness, so that order survives grey print and colour blindness. Linear
+/// between nine colours of matplotlib's inferno (Smith and van der Walt 2015, CC0).
+DisplayColor heat_color(double t);
+
+/// A colour for a number, unlike those of the numbers beside it.
+DisplayColor id_color(std::uint32_t id);
+
+/// What a heat map's ends stand for.
+struct HeatScale {
+    double low = 0.0;
+    double high = 1.0;         // > low
+    bool logarithmic = false;  // low > 0
+    std::string_view unit;     // capital letters, digits, and "*-+.:/%" beside the bar
+};
+
+double position_on(const HeatScale& scale, double value);
+
+/// Bar with numbers in the lower left corner; pictures under 128 x 48 pixels get none.
+void draw_legend(Canvas& canvas, const HeatScale& scale);
+
+/// Text in a 5 x 7 font, upper left corner at (x, y). Other characters than the legend's are blank.
+void draw_text(Canvas& canvas, int x, int y, int zoom, std::string_view text);
+
+}  // namespace kilolux

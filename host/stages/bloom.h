@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/gpu/buffer.h"
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/stage_timer.h"
+
+namespace kilolux {
+
+/// Light that spreads in the eye or lens: the image mixed with wide blurs of itself.
+class Bloom {
+ public:
+    explicit Bloom(const Gpu& gpu);
+
+    /// (1 - share) * radiance + share * blurred radiance, share in [0, 1]; 0 returns `radiance`
+    /// itself. The blur is a mean over octaves of width up to a sixteenth of the image; it has the
+    /// image's mean, up to half pixels at borders of odd size. Negative light and NaN do not
+    /// spread. Enqueues only; `radiance` stays as it is.
+    Radiance enqueue(const Radiance& radiance, float share, StageTimer& timer);
+
+ private:
+    Gpu gpu_;
+    cl::Program program_;
+    std::vector<GrowingBuffer> levels_;  // [0]: the result; [i]: the image 2^i times smaller
+};
+
+}  // namespace kilolux

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The four renderers against each other: lists must not change a picture.
+#include <cmath>
+
+#include "tests/render/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+constexpr uint kLayouts[] = {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_NORMAL_XY,
+                             GBUFFER_OCT_2X4};
+
+Frame render_as(const Scene& scene, RenderSettings settings, RendererKind renderer) {
+    settings.renderer = renderer;
+    return render_once(scene, settings);
+}
+
+// How much of the picture is lit at all: a comparison of black pictures would say nothing.
+double lit_share(const Frame& frame) {
+    std::size_t lit = 0;
+    for (const float value : frame.radiance) lit += value > 1e-3f;
+    return static_cast<double>(lit) / static_cast<double>(frame.radiance.size());
+}
+
+void expect_same_bits(const Frame& a, const Frame& b) {
+    ASSERT_EQ(a.radiance.size(), b.radiance.size());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.radiance.size(); ++i) different += a.radiance[i] != b.radiance[i];
+    EXPECT_EQ(different, 0u) << "of " << a.radiance.size();
+    EXPECT_EQ(a.display, b.display);
+}
+
+// Relative to the value, or to a hundredth of the mean where it is nearly black.
+std::vector<double> relative_differences(const Frame& a, const Frame& b) {
+    double mean = 0.0;
+    for (const float value : a.radiance) mean += value;
+    const double floor = 0.01 * mean / static_cast<double>(a.radiance.size());
+    std::vector<double> out;
+    for (std::size_t i = 0; i < a.radiance.size(); ++i) {
+        out.push_back(std::abs(a.radiance[i] - b.radiance[i]) / (a.radiance[i] + floor));
+    }
+    return out;
+}
+
+TEST(Paths, DeferredIsDeferredAllBitForBit) {
+    const Scene scenes[] = {make_generated_scene("grid"), make_generated_scene("plain"),
+                            grid_with_every_light()};
+    for (const Scene& scene : scenes) {
+        for (const uint layout : kLayouts) {
+            SCOPED_TRACE(scene.name + ", " + gbuffer_layout_name(layout) + ", " +
+                         std::to_string(scene.lights.size()) + " own lights");
+            RenderSettings settings = small_settings();
+            settings.gbuffer = layout;
+            const Frame all = render_as(scene, settings, RendererKind::deferred_all);
+            expect_same_bits(all, render_as(scene, settings, RendererKind::deferred));
+            EXPECT_GT(lit_share(all), 0.2);
+        }
+    }
+}
+
+TEST(Paths, ForwardPlusIsForwardBitForBit) {
+    for (const Scene& scene : {make_generated_scene("grid"), grid_with_every_light()}) {
+        const RenderSettings settings = small_settings();
+        const Frame forward = render_as(scene, settings, RendererKind::forward);
+        expect_same_bits(forward, render_as(scene, settings, RendererKind::forward_plus));
+        EXPECT_GT(lit_share(forward), 0.2);
+    }
+}
+
+TEST(Paths, AllFourAgreeWithTheFullGBuffer) {
+    const Scene scene = grid_with_every_light();
+    RenderSettings settings = small_settings(192, 108);
+    settings.gbuffer = GBUFFER_FULL;
+    const Frame deferred = render_as(scene, settings, RendererKind::deferred);
+    for (const RendererKind other :
+         {RendererKind::deferred_all, RendererKind::forward, RendererKind::forward_plus}) {
+        SCOPED_TRACE(static_cast<int>(other));
+        const auto differences = relative_differences(deferred, render_as(scene, settings, other));
+        EXPECT_LT(quantile(differences, 0.5), 1e-4);
+        EXPECT_LT(quantile(differences, 0.999), 1e-2);
+    }
+}
+
+// The first mesh's material becomes glass.
+Scene with_glass() {
+    Scene scene = make_generated_scene("grid");
+    int glass = -1;
+    for (const Instance& instance : scene.instances) {
+        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+        if (material > glass) glass = material;
+    }
+    Material& material = scene.materials[static_cast<std::size_t>(glass)];
+    material.alpha_mode = AlphaMode::blend;
+    material.base_color.w = 0.5f;
+    return scene;
+}
+
+TEST(Paths, SurfacesThatBlendAreDrawnByAll) {
+    const Scene scene = with_glass();
+    Scene opaque = scene;
+    for (Material& m : opaque.materials) {
+        if (m.alpha_mode == AlphaMode::blend) m.base_color.w = 0.0f;  // invisible
+    }
+    RenderSettings settings = small_settings(192, 108);
+    settings.gbuffer = GBUFFER_FULL;
+    const Frame deferred = render_as(scene, settings, RendererKind::deferred);
+    expect_same_bits(deferred, render_as(scene, settings, RendererKind::deferred_all));
+    for (const RendererKind other : {RendererKind::forward, RendererKind::forward_plus}) {
+        const auto differences = relative_differences(deferred, render_as(scene, settings, other));
+        EXPECT_LT(quantile(differences, 0.5), 1e-4);
+        EXPECT_LT(quantile(differences, 0.999), 1e-2);
+    }
+    const auto seen =
+        relative_differences(deferred, render_as(opaque, settings, RendererKind::deferred));
+    EXPECT_GT(quantile(seen, 0.99), 0.02) << "nothing in the picture blends";
+}
+
+TEST(Paths, CountsAreThoseOfThePath) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings();
+    settings.count_useful = true;
+    const auto stats = [&](RendererKind renderer) {
+        return render_as(scene, settings, renderer).stats;
+    };
+    const FrameStats deferred = stats(RendererKind::deferred);
+    const FrameStats plus = stats(RendererKind::forward_plus);
+    const FrameStats forward = stats(RendererKind::forward);
+    EXPECT_EQ(stats(RendererKind::deferred_all).evaluations_per_pixel, 300.0);
+    EXPECT_EQ(plus.coarse_pairs, deferred.coarse_pairs);
+    EXPECT_GE(forward.evaluations_per_pixel, 300.0);
+    EXPECT_LT(plus.evaluations_per_pixel, 300.0);
+    EXPECT_GT(plus.evaluations_per_pixel, deferred.evaluations_per_pixel);
+    EXPECT_GT(deferred.evaluations_per_pixel, deferred.useful_evaluations_per_pixel);
+    settings.count_useful = false;
+    EXPECT_LT(stats(RendererKind::forward).evaluations_per_pixel, 0.0);
+}
+
+const Layer& layer(const Frame& frame, std::string_view name) {
+    for (const Layer& l : frame.aovs) {
+        if (l.name == name) return l;
+    }
+    throw std::runtime_error("no layer " + std::string(name));
+}
+
+double largest_difference(const Layer& a, const Layer& b) {
+    double out = 0.0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        out = std::max(out, std::abs(double{a.values[i]} - b.values[i]));
+    }
+    return out;
+}
+
+TEST(Paths, Oct2x4DecodesToWhatFullStores) {
+    const Scene scene = make_generated_scene("grid");
+    for (const int lanes : {1, 8}) {
+        RenderSettings settings = small_settings(96, 54, 0);
+        settings.aovs = {"depth", "position", "normal", "albedo", "roughness", "metallic"};
+        settings.kernels.lanes = lanes;
+        settings.gbuffer = GBUFFER_FULL;
+        const Frame full = render_once(scene, settings);
+        settings.gbuffer = GBUFFER_OCT_2X4;
+        const Frame oct = render_once(scene, settings);
+        const auto error = [&](const char* name) {
+            return largest_difference(layer(full, name), layer(oct, name));
+        };
+        for (const char* name : {"depth", "position", "roughness", "metallic"}) {
+            EXPECT_EQ(error(name), 0.0) << name;
+        }
+        EXPECT_LT(error("normal"), 2e-6);              // float32 rounding of the octahedron
+        EXPECT_LT(error("albedo"), 0.5 / 255 + 1e-6);  // 8 bits
+        EXPECT_GT(error("albedo"), 0.0);
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
