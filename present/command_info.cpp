@@ -3,7 +3,10 @@
 #include <memory>
 
 #include "host/base/log.h"
+#include "host/measure/device_limits.h"
+#include "host/measure/feature_cost.h"
 #include "host/render/renderer.h"
+#include "present/command_bench.h"
 #include "present/commands.h"
 #include "present/device_list.h"
 #include "present/frame_summary.h"
@@ -21,6 +24,7 @@ using Json = nlohmann::ordered_json;
 struct InfoOptions {
     SharedOptions shared;
     bool json = false;
+    bool costs = false;
     std::string stats;
 };
 
@@ -59,6 +63,29 @@ Json scene_json(const Scene& scene, const LightOptions& generated) {
             {"light_box", box_json(scene.light_box.empty() ? bounds(scene) : scene.light_box)}};
 }
 
+Json cost_json(const FeatureCost& cost) {
+    Json out = {{"name", cost.feature}};
+    if (!cost.measured) {
+        out["ms"] = nullptr;
+        out["why"] = cost.why;
+        return out;
+    }
+    out["ms"] = cost.ms;
+    out["noise_ms"] = cost.noise_ms;
+    out["percent"] = cost.percent;
+    out["bytes_per_pixel"] = cost.bytes_per_pixel;
+    return out;
+}
+
+// What each feature that the scene does without would cost on this picture.
+Json costs_json(const InfoOptions& options, const Scene& scene) {
+    const Camera camera = choose_camera(options.shared.camera, scene);
+    LightingBench bench(scene, options.shared.settings, camera, options.shared.time);
+    Json out = Json::array();
+    for (const FeatureCost& cost : measure_feature_costs(bench)) out.push_back(cost_json(cost));
+    return out;
+}
+
 Json info_json(const InfoOptions& options) {
     const Scene scene = open_scene(options.shared.scene, options.shared.time);
     const Renderer renderer(scene, options.shared.settings);
@@ -71,11 +98,26 @@ Json info_json(const InfoOptions& options) {
     out["plan"] = plan.features;
     out["left_out"] = plan.left_out;
     out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
+    out["limits"] =
+        limits_json(cached_device_limits(Gpu(choose_device(options.shared.settings.device))));
+    if (options.costs) out["costs"] = costs_json(options, scene);
     return out;
 }
 
 std::string text_of(const Json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// A feature's cost or a device in one line.
+std::string object_line(const Json& entry) {
+    std::string line = text_of(entry["name"]);
+    if (!entry.contains("ms")) return line;
+    if (entry["ms"].is_null()) return line + ": nothing, " + text_of(entry["why"]);
+    char text[128];
+    std::snprintf(text, sizeof text, ": %+.3f ms (%+.1f %%, noise %.3f ms), %+d bytes per pixel",
+                  entry["ms"].get<double>(), entry["percent"].get<double>(),
+                  entry["noise_ms"].get<double>(), entry["bytes_per_pixel"].get<int>());
+    return line + text;
 }
 
 // "name: value" lines, objects indented below their name, lists of texts with a dash each.
@@ -92,7 +134,8 @@ void add_lines(std::string& out, const Json& value, const std::string& indent) {
             continue;
         }
         for (const Json& entry : part) {
-            out += indent + "  - " + text_of(entry.is_object() ? entry["name"] : entry) + "\n";
+            out +=
+                indent + "  - " + (entry.is_object() ? object_line(entry) : text_of(entry)) + "\n";
         }
     }
 }
@@ -124,6 +167,8 @@ void add_info_command(Program& program) {
     add_shared_options(command, options->shared);
     Registrar(command, "Output")
         .flag("--json", options->json, "JSON instead of text")
+        .flag("--costs", options->costs,
+              "Measure what each feature that the scene does without would cost; takes a while")
         .text({"--stats", "FILE", "", "Write the JSON to a file; - for standard output"},
               options->stats);
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/measure/device_limits.h"
+#include "host/measure/statistics.h"
+#include "host/measure/table.h"
+#include "host/render/settings.h"
+
+namespace kilolux {
+
+/// The shading kernel alone, one shading model compiled with one lane width.
+struct ShadingMeasurement {
+    std::string model;  // "lambert", "blinn-phong", "pbr"
+    int lanes = 1;
+    Statistics ms;
+    double limit_ms = 0.0;        // by the device's limits
+    double instruction_ms = 0.0;  // by its instructions alone
+    std::string bound;
+    double evaluations = 0.0;
+    double bytes = 0.0;
+    double speed_up = 0.0;  // least time with one lane / least time with these lanes
+
+    /// Limits are the best of several runs, so the least time stands against them.
+    double ratio() const { return ms.min > 0.0 ? limit_ms / ms.min : 0.0; }
+    double instruction_ratio() const { return ms.min > 0.0 ? instruction_ms / ms.min : 0.0; }
+};
+
+/// Lights per pixel of measure_shading().
+inline constexpr int kShadingLights = 64;
+
+/// Times the all-lights shading kernel on a synthetic full-screen G-buffer (packed, without
+/// optional planes; settings' size) whose every pixel is in range of kShadingLights point lights:
+/// each model with 1, 4, 8 and 16 lanes (and the device's own), in turns, so that what else the
+/// machine does hits all alike. `on_run` is called after every run and may throw to stop.
+std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings,
+                                                const DeviceLimits& limits, int runs,
+                                                const std::function<void()>& on_run);
+
+/// Runs that measure_shading() makes for one of `runs`.
+int shading_variants(const RenderSettings& settings);
+
+Table shading_table(const std::vector<ShadingMeasurement>& measurements);
+
+}  // namespace kilolux
