@@ -103,7 +103,9 @@ void expect_case(const Case& c) {
 }
 
 // From in front of slice 0 to beyond the last, 30 % background.
-DepthOf wide_noise() { return noise_depth(0.2, 90.0, 0.3, 11); }
+DepthOf wide_noise() {
+    return noise_depth(0.2, 90.0, 0.3, 11);
+}
 
 TEST(BinPixels, AgreesWithAMapOfPixelsAtEverySize) {
     for (const auto& [width, height] :
@@ -124,7 +126,8 @@ TEST(BinPixels, AgreesAtEveryLaneWidthAndGroupSize) {
 TEST(BinPixels, AgreesOnDepthDiscontinuities) {
     expect_case({"checkerboard", 97, 65, checkerboard_depth(0.6, 40.0)});
     expect_case({"all slices", 64, 64, noise_depth(0.4, 60.0, 0.0, 3)});
-    expect_case({"orthographic", 97, 65, noise_depth(-5.0, 80.0, 0.2, 3), 0, 1, GBUFFER_PACKED, true});
+    expect_case(
+        {"orthographic", 97, 65, noise_depth(-5.0, 80.0, 0.2, 3), 0, 1, GBUFFER_PACKED, true});
 }
 
 TEST(BinPixels, AgreesOnLayoutsThatStorePositions) {

@@ -32,7 +32,7 @@ Boxes build(const View& view, const ClusterGrid& grid) {
 }
 
 std::vector<ViewShape> shapes() {
-    std::vector<ViewShape> all(8);
+    std::vector<ViewShape> all(9);
     all[0] = {640, 480};
     all[1] = {1, 1};
     all[2] = {17, 31};
@@ -41,6 +41,8 @@ std::vector<ViewShape> shapes() {
     all[5] = {333, 222, 12.0, 8.0, 100.0, -3.0, -4.0, 90.0, 0, 0, true};
     all[6] = {64, 64, 1e-3, 1e-3};
     all[7] = {640, 480, 50.0, 40.0, 0, 0, 0.0, 1e4, 0, 0, true};
+    // Pixels smaller than the rounding of their rays.
+    all[8] = {64, 64, 1e-6, 1e-6, 0.5, -0.25};
     return all;
 }
 
@@ -53,7 +55,8 @@ bool holds(Interval interval, double value) {
 }
 
 // Depths of a slice that a float can have, its ends among them.
-std::vector<double> depths_of(const ClusterGrid& grid, uint slice, bool orthographic, Random& random) {
+std::vector<double> depths_of(const ClusterGrid& grid, uint slice, bool orthographic,
+                              Random& random) {
     const double begin = depth_of_slice(grid, slice);
     const float end = depth_of_slice(grid, slice + 1);
     std::vector<double> depths = {begin, static_cast<float>(random.uniform(begin, end)),
@@ -69,12 +72,14 @@ void expect_pixels_inside(const View& view, const ClusterGrid& grid, const Boxes
         for (const double z : depths_of(grid, slice, view.orthographic != 0, random)) {
             ASSERT_TRUE(boxes.depths[slice].lo <= z && z <= boxes.depths[slice].hi) << "z = " << z;
             const double s = view.orthographic != 0 ? 1.0 : z;
-            for (uint x = 0; x < view.width; x += (x % grid.tile_width == grid.tile_width - 1) ? 1 : 5) {
+            for (uint x = 0; x < view.width;
+                 x += (x % grid.tile_width == grid.tile_width - 1) ? 1 : 5) {
                 const double px = ((x + 0.5) * view.ray.x + view.ray.y) * s;
                 const uint column = slice * grid.tiles_x + x / grid.tile_width;
                 ASSERT_TRUE(holds(boxes.columns[column], px)) << "x " << x << ", z " << z;
             }
-            for (uint y = 0; y < view.height; y += (y % grid.tile_height == grid.tile_height - 1) ? 1 : 5) {
+            for (uint y = 0; y < view.height;
+                 y += (y % grid.tile_height == grid.tile_height - 1) ? 1 : 5) {
                 const double py = ((y + 0.5) * view.ray.z + view.ray.w) * s;
                 const uint row = slice * grid.tiles_y + y / grid.tile_height;
                 ASSERT_TRUE(holds(boxes.rows[row], py)) << "y " << y << ", z " << z;
@@ -93,7 +98,8 @@ void expect_tight(const View& view, const ClusterGrid& grid, const Boxes& boxes)
             const double b = (column + 1) * grid.tile_width * double{view.ray.x} + view.ray.y;
             const double lo = std::min({a * z0, a * z1, b * z0, b * z1});
             const double hi = std::max({a * z0, a * z1, b * z0, b * z1});
-            const double slack = 2e-6 * z1 * (std::abs(view.ray.y) + std::abs(b)) + grid.position_pad * 1.01;
+            const double slack =
+                2e-6 * z1 * (std::abs(view.ray.y) + std::abs(b)) + grid.position_pad * 1.01;
             const Interval found = boxes.columns[slice * grid.tiles_x + column];
             ASSERT_GE(found.lo, lo - slack) << "slice " << slice << ", column " << column;
             ASSERT_LE(found.hi, hi + slack) << "slice " << slice << ", column " << column;
@@ -103,9 +109,9 @@ void expect_tight(const View& view, const ClusterGrid& grid, const Boxes& boxes)
 
 TEST(BuildClusters, BoxesHoldEveryPixelOfTheirTileAndSlice) {
     for (const ViewShape& shape : shapes()) {
-        for (const GridRequest& request : {GridRequest{16, 9, 4, 0.1f, 100.0f, 0.0f},
-                                           GridRequest{3, 2, 1, 1e-3f, 1e4f, 0.0f},
-                                           GridRequest{64, 64, 16, 0.7f, 9.0f, 0.0f}}) {
+        for (const GridRequest& request :
+             {GridRequest{16, 9, 4, 0.1f, 100.0f, 0.0f}, GridRequest{3, 2, 1, 1e-3f, 1e4f, 0.0f},
+              GridRequest{64, 64, 16, 0.7f, 9.0f, 0.0f}}) {
             SCOPED_TRACE(std::to_string(shape.width) + "x" + std::to_string(shape.height));
             const View view = make_view(shape);
             const ClusterGrid grid = make_cluster_grid(request, shape.width, shape.height);

@@ -19,54 +19,76 @@ struct Bracket {
 Bracket covering(const std::vector<float4>& bounds, const std::vector<Light>& lights, Vec3d p) {
     Bracket count;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const double ratio = length(p - Vec3d{bounds[i].x, bounds[i].y, bounds[i].z}) / lights[i].position_range.w;
+        const double ratio =
+            length(p - Vec3d{bounds[i].x, bounds[i].y, bounds[i].z}) / lights[i].position_range.w;
         count.low += ratio < 1 - 1e-6 ? 1 : 0;
         count.high += ratio < 1 + 1e-6 ? 1 : 0;
     }
     return count;
 }
 
-void expect_counts(int lanes, std::uint32_t light_count) {
+// What the stage made of an image, and what it made it from.
+struct Counted {
+    ClusterGrid grid{};
+    HostLists lists;
+    Planes planes;
+    std::vector<Light> lights;
+    std::vector<float4> bounds;
+    std::vector<uint> evaluated, covering;
+};
+
+Counted count_lights(int lanes, std::uint32_t light_count) {
     const Gpu gpu = test_gpu(lanes);
     const View view = make_view({49, 35});
-    const ClusterGrid grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
+    Counted out;
+    out.grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
     LightMix mix;
     mix.count = light_count;
-    const std::vector<Light> lights = random_lights(view, mix);
-    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, {}, noise_depth(0.3, 60, 0.2, 8)));
+    out.lights = random_lights(view, mix);
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, {}, noise_depth(0.3, 60, 0.2, 8)));
     const Tuning tuning = default_tuning(gpu.info);
     ListStages stages(gpu, tuning, {});
-    const DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
-    const HostLists lists = download_lists(gpu, {}, grid, device);
+    const DeviceLists device = stages.run(upload_lights(gpu, out.lights), gbuffer, out.grid);
+    out.lists = download_lists(gpu, {}, out.grid, device);
     CountLights stage(gpu, tuning, {});
     StageTimer timer;
-    const LightCounts counts = stage.enqueue(gbuffer, device.lights, grid, device.clusters, device.refined, timer);
+    const LightCounts counts =
+        stage.enqueue(gbuffer, device.lights, out.grid, device.clusters, device.refined, timer);
     const std::size_t size = std::size_t{view.stride} * view.height;
-    const auto evaluated = download<uint>(gpu, counts.evaluated, size);
-    const auto covered = download<uint>(gpu, counts.covering, size);
-    const auto bounds = download<float4>(gpu, device.lights.bounds, lights.size());
-    const Planes planes = decode(gpu, {}, gbuffer);
+    out.evaluated = download<uint>(gpu, counts.evaluated, size);
+    out.covering = download<uint>(gpu, counts.covering, size);
+    out.bounds = download<float4>(gpu, device.lights.bounds, out.lights.size());
+    out.planes = decode(gpu, {}, gbuffer);
+    return out;
+}
+
+void expect_counts(const Counted& c) {
+    const View& view = c.planes.view;
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.stride; ++x) {
             const std::size_t i = std::size_t{y} * view.stride + x;
-            if (x >= view.width || length(planes.vector(SURFACE_NORMAL, x, y)) == 0) {
-                ASSERT_EQ(evaluated[i], ~0u);
-                ASSERT_EQ(covered[i], ~0u);
+            if (x >= view.width || length(c.planes.vector(SURFACE_NORMAL, x, y)) == 0) {
+                ASSERT_EQ(c.evaluated[i], ~0u);
+                ASSERT_EQ(c.covering[i], ~0u);
                 continue;
             }
-            const ActiveCluster* c = lists.find(fine_tile(view, x, y), slice_by_search(fine_grid(grid), planes.at(SURFACE_DEPTH, x, y)));
-            ASSERT_NE(c, nullptr);
-            ASSERT_EQ(evaluated[i], c->list_count) << "pixel " << x << ", " << y;
-            const Bracket expected = covering(bounds, lights, planes.vector(SURFACE_POSITION, x, y));
-            ASSERT_GE(covered[i], expected.low) << "pixel " << x << ", " << y;
-            ASSERT_LE(covered[i], expected.high) << "pixel " << x << ", " << y;
+            const ActiveCluster* cluster =
+                c.lists.find(fine_tile(view, x, y),
+                             slice_by_search(fine_grid(c.grid), c.planes.at(SURFACE_DEPTH, x, y)));
+            ASSERT_NE(cluster, nullptr);
+            ASSERT_EQ(c.evaluated[i], cluster->list_count) << "pixel " << x << ", " << y;
+            const Bracket expected =
+                covering(c.bounds, c.lights, c.planes.vector(SURFACE_POSITION, x, y));
+            ASSERT_GE(c.covering[i], expected.low) << "pixel " << x << ", " << y;
+            ASSERT_LE(c.covering[i], expected.high) << "pixel " << x << ", " << y;
         }
     }
 }
 
 TEST(CountLights, AgreesWithACountInDouble) {
-    for (const std::uint32_t count : {0u, 1u, 800u}) expect_counts(0, count);
-    for (const int lanes : {1, 16}) expect_counts(lanes, 300);
+    for (const std::uint32_t count : {0u, 1u, 800u}) expect_counts(count_lights(0, count));
+    for (const int lanes : {1, 16}) expect_counts(count_lights(lanes, 300));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// No light is missing from the list of a pixel that it reaches, by float64; lists hold little else, and
-// they are the same for every tuning.
+// No light is missing from the list of a pixel that it reaches, by float64; lists hold little else,
+// and they are the same for every tuning.
 #include "host/stages/cull_lights.h"
 
 #include <gtest/gtest.h>
@@ -64,14 +64,16 @@ Pairs expect_none_missing(const CullCase& c, const ReachTest& test, const HostLi
         std::vector<bool> listed(c.lights.size(), false);
         for (const uint light : lists.refined_of(*cluster)) listed[light] = true;
         for (const uint pixel : pixels) {
-            const Vec3d p = c.planes.vector(SURFACE_POSITION, pixel % view.width, pixel / view.width);
+            const Vec3d p =
+                c.planes.vector(SURFACE_POSITION, pixel % view.width, pixel / view.width);
             for (std::size_t light = 0; light < c.lights.size(); ++light) {
                 if (!test.reaches(light, p)) continue;
                 ++pairs.reaching;
                 if (listed[light]) continue;
-                ADD_FAILURE() << "light " << light << " (range " << test.ranges[light] << ", distance "
-                              << length(test.offset(light, p)) << ") is missing at pixel "
-                              << pixel % view.width << ", " << pixel / view.width;
+                ADD_FAILURE() << "light " << light << " (range " << test.ranges[light]
+                              << ", distance " << length(test.offset(light, p))
+                              << ") is missing at pixel " << pixel % view.width << ", "
+                              << pixel / view.width;
                 return pairs;
             }
         }
@@ -80,13 +82,16 @@ Pairs expect_none_missing(const CullCase& c, const ReachTest& test, const HostLi
     return pairs;
 }
 
-double interval_distance(double c, double lo, double hi) { return std::max({lo - c, c - hi, 0.0}); }
+double interval_distance(double c, double lo, double hi) {
+    return std::max({lo - c, c - hi, 0.0});
+}
 
 // Whoever is listed reaches the box of the pixels, but for rounding.
 void expect_no_idlers(const CullCase& c, const ReachTest& test, const HostLists& lists) {
     for (const ActiveCluster& box : lists.clusters) {
         const auto list = lists.refined_of(box);
-        ASSERT_TRUE(std::is_sorted(list.begin(), list.end(), std::less_equal<>()) || list.size() < 2);
+        ASSERT_TRUE(std::is_sorted(list.begin(), list.end(), std::less_equal<>()) ||
+                    list.size() < 2);
         for (const uint light : list) {
             ASSERT_LT(light, c.lights.size());
             const float4 p = test.lights[light].position_inv_range2;
@@ -98,21 +103,26 @@ void expect_no_idlers(const CullCase& c, const ReachTest& test, const HostLists&
     }
 }
 
-bool within(uint packed, uint value) { return (packed & 0xffffu) <= value && value <= packed >> 16; }
+bool within(uint packed, uint value) {
+    return (packed & 0xffffu) <= value && value <= packed >> 16;
+}
 
 bool within(const LightExtent& e, const ClusterGrid& grid, uint cluster) {
-    return within(e.columns, cluster % grid.tiles_x) && within(e.rows, cluster / grid.tiles_x % grid.tiles_y) &&
+    return within(e.columns, cluster % grid.tiles_x) &&
+           within(e.rows, cluster / grid.tiles_x % grid.tiles_y) &&
            within(e.slices, cluster / grid.tiles_x / grid.tiles_y);
 }
 
-// The walk's lists equal, entry by entry, the brute-force kernel's less the lights whose extent spares
-// the cluster: boxes reach beyond their part of the frustum, extents do not.
-void expect_as_brute_force(const Gpu& gpu, const CullCase& c, const DeviceLists& device, const HostLists& lists) {
+// The walk's lists equal, entry by entry, the brute-force kernel's less the lights whose extent
+// spares the cluster: boxes reach beyond their part of the frustum, extents do not.
+void expect_as_brute_force(const Gpu& gpu, const CullCase& c, const DeviceLists& device,
+                           const HostLists& lists) {
     CullLights oracle(gpu, default_tuning(gpu.info), c.features);
     StageTimer timer;
     const CoarseLists brute = oracle.brute_force(device.lights, device.boxes, timer);
     const auto offsets = download<uint>(gpu, brute.offsets, std::size_t{c.grid.cluster_count} + 1);
-    const auto entries = download_indices(gpu, brute.lists, offsets.back(), c.features.light_index_bits);
+    const auto entries =
+        download_indices(gpu, brute.lists, offsets.back(), c.features.light_index_bits);
     const auto extents = download<LightExtent>(gpu, device.lights.extents, c.lights.size());
     for (uint cluster = 0; cluster < c.grid.cluster_count; ++cluster) {
         std::vector<uint> expected;
@@ -120,7 +130,8 @@ void expect_as_brute_force(const Gpu& gpu, const CullCase& c, const DeviceLists&
             if (within(extents[entries[i]], c.grid, cluster)) expected.push_back(entries[i]);
         }
         const auto found = lists.coarse_of(cluster);
-        ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end())) << "cluster " << cluster;
+        ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()))
+            << "cluster " << cluster;
     }
 }
 
@@ -137,7 +148,8 @@ TEST(CullLights, NoLightIsMissingByFloat64AndFewAreListedInVain) {
         const Pairs pairs = expect_none_missing(c, test, lists);
         expect_no_idlers(c, test, lists);
         expect_as_brute_force(gpu, c, device, lists);
-        // Most lights are made to reach something, though not to reach the only pixel of a small image.
+        // Most lights are made to reach something, though not to reach the only pixel of a small
+        // image.
         EXPECT_GT(pairs.reaching, c.lights.size() / 4);
         sum.tested += pairs.tested;
         sum.reaching += pairs.reaching;
@@ -178,7 +190,8 @@ TEST(CullLights, ListsAreTheSameForEveryTuningLaneWidthAndRun) {
     const CullCase c = make_cull_case(test_gpu(), *scenario);
     const std::string expected = lists_of(test_gpu(), c, default_tuning(test_gpu().info));
     for (int run = 0; run < 5; ++run) {
-        ASSERT_TRUE(lists_of(test_gpu(), c, default_tuning(test_gpu().info)) == expected) << "run " << run;
+        ASSERT_TRUE(lists_of(test_gpu(), c, default_tuning(test_gpu().info)) == expected)
+            << "run " << run;
     }
     int index = 0;
     for (const Tuning& tuning : tunings(test_gpu().info)) {
@@ -197,19 +210,23 @@ void expect_all_listed(uint count) {
     features.light_index_bits = count <= 65536 ? 16 : 32;
     const View view = make_view({1, 1});
     const ClusterGrid grid = make_cluster_grid({}, 1, 1);
-    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 3.0, 0, 1)));
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 3.0, 0, 1)));
     const std::vector<Light> lights(count, point_light({}, 100.0));
     ListStages stages(gpu, default_tuning(gpu.info), features);
-    const HostLists lists = download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
+    const HostLists lists =
+        download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
     ASSERT_EQ(lists.clusters.size(), 1u);
     const auto list = lists.refined_of(lists.clusters.front());
     std::vector<uint> expected(count);
     std::iota(expected.begin(), expected.end(), 0u);
-    EXPECT_TRUE(std::equal(list.begin(), list.end(), expected.begin(), expected.end())) << count << " lights";
+    EXPECT_TRUE(std::equal(list.begin(), list.end(), expected.begin(), expected.end()))
+        << count << " lights";
 }
 
 TEST(CullLights, HoldsAnyNumberOfLightsInOneCluster) {
-    for (const uint count : {0u, 1u, 2u, 255u, 256u, 257u, 65535u, 65536u, 65537u, 100000u}) expect_all_listed(count);
+    for (const uint count : {0u, 1u, 2u, 255u, 256u, 257u, 65535u, 65536u, 65537u, 100000u})
+        expect_all_listed(count);
 }
 
 TEST(CullLights, LacksRoomOnceThenGrows) {
@@ -224,7 +241,8 @@ TEST(CullLights, LacksRoomOnceThenGrows) {
     const PreparedLights prepared = prepare.enqueue(upload_lights(gpu, lights), view, grid, timer);
     const ClusterBoxes boxes = build.enqueue(view, grid, timer);
     const CoarseLists first = cull.enqueue(prepared, boxes, timer);
-    ASSERT_GT(std::size_t{grid.cluster_count} * lights.size(), first.capacity) << "the case does not overflow";
+    ASSERT_GT(std::size_t{grid.cluster_count} * lights.size(), first.capacity)
+        << "the case does not overflow";
     EXPECT_EQ(cull.pairs(), std::size_t{grid.cluster_count} * lights.size());
     EXPECT_FALSE(cull.fits());
     const CoarseLists second = cull.enqueue(prepared, boxes, timer);

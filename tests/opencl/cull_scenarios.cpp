@@ -111,7 +111,8 @@ void make_tangent(const Gpu& gpu, CullCase& c, Random& random) {
 std::vector<uint> drawn_pixels(const Synthetic& image, Random& random) {
     std::vector<uint> pixels;
     const View& view = image.view;
-    const auto* depth = reinterpret_cast<const float*>(image.bytes.data() + image.layout.offset_bytes[PLANE_DEPTH]);
+    const auto* depth =
+        reinterpret_cast<const float*>(image.bytes.data() + image.layout.offset_bytes[PLANE_DEPTH]);
     for (uint i = 0; i < view.width * view.height; ++i) {
         if (depth[i / view.width * view.stride + i % view.width] > 0.0f) pixels.push_back(i);
     }
@@ -133,25 +134,31 @@ std::vector<CullScenario> cull_scenarios() {
     straight.rotated = false;
     GridRequest padded = usual;
     padded.position_pad = 1e-3f;
-    return {{"noise", sized(97, 65), usual, noise},
-            {"noise, fine grid", straight, fine, noise},
-            {"smooth", sized(97, 65), usual, slanted_depth(1.0, 20.0, 97)},
-            {"far/near 1e7", sized(97, 65), {16, 9, 4, 1e-3f, 1e4f, 0.0f}, noise_depth(1e-3, 1e4, 0, 9)},
-            {"far 1e6", straight, {16, 9, 1, 0.1f, 1e6f, 0.0f}, noise_depth(0.1, 1e6, 0, 9)},
-            {"sheared", sheared(0.5, -0.5), usual, noise},
-            {"sheared beside the axis", sheared(2.5, 1.5), usual, noise},
-            {"oblique near plane", oblique(), usual, noise_depth(0.2, 3.0, 0.2, 4)},
-            {"orthographic, near 0", orthographic(0.0, 90.0), usual, noise_depth(0.0, 89.0, 0.2, 4)},
-            {"orthographic, near -50", orthographic(-50.0, 90.0), fine, noise_depth(-49.0, 89.0, 0.2, 4)},
-            {"one pixel", sized(1, 1), usual, noise},
-            {"17x31", sized(17, 31), usual, noise},
-            {"8192x1", {8192, 1, 1.0, 0.01}, usual, noise},
-            {"1919x1079", sized(1919, 1079), usual, slanted_depth(0.3, 70.0, 1919)},
-            {"stored positions", sized(97, 65), padded, noise, GBUFFER_FULL},
-            {"spots", sized(97, 65), usual, noise, GBUFFER_PACKED, true},
-            {"spots, fine grid", straight, fine, slanted_depth(1.0, 20.0, 97), GBUFFER_PACKED, true},
-            {"spots, sheared", sheared(0.5, -0.5), usual, noise, GBUFFER_PACKED, true},
-            {"spots, orthographic", orthographic(-5.0, 90.0), usual, noise_depth(-4.0, 89.0, 0.2, 4), GBUFFER_PACKED, true}};
+    return {
+        {"noise", sized(97, 65), usual, noise},
+        {"noise, fine grid", straight, fine, noise},
+        {"smooth", sized(97, 65), usual, slanted_depth(1.0, 20.0, 97)},
+        {"far/near 1e7",
+         sized(97, 65),
+         {16, 9, 4, 1e-3f, 1e4f, 0.0f},
+         noise_depth(1e-3, 1e4, 0, 9)},
+        {"far 1e6", straight, {16, 9, 1, 0.1f, 1e6f, 0.0f}, noise_depth(0.1, 1e6, 0, 9)},
+        {"sheared", sheared(0.5, -0.5), usual, noise},
+        {"sheared beside the axis", sheared(2.5, 1.5), usual, noise},
+        {"oblique near plane", oblique(), usual, noise_depth(0.2, 3.0, 0.2, 4)},
+        {"orthographic, near 0", orthographic(0.0, 90.0), usual, noise_depth(0.0, 89.0, 0.2, 4)},
+        {"orthographic, near -50", orthographic(-50.0, 90.0), fine,
+         noise_depth(-49.0, 89.0, 0.2, 4)},
+        {"one pixel", sized(1, 1), usual, noise},
+        {"17x31", sized(17, 31), usual, noise},
+        {"8192x1", {8192, 1, 1.0, 0.01}, usual, noise},
+        {"1919x1079", sized(1919, 1079), usual, slanted_depth(0.3, 70.0, 1919)},
+        {"stored positions", sized(97, 65), padded, noise, GBUFFER_FULL},
+        {"spots", sized(97, 65), usual, noise, GBUFFER_PACKED, true},
+        {"spots, fine grid", straight, fine, slanted_depth(1.0, 20.0, 97), GBUFFER_PACKED, true},
+        {"spots, sheared", sheared(0.5, -0.5), usual, noise, GBUFFER_PACKED, true},
+        {"spots, orthographic", orthographic(-5.0, 90.0), usual, noise_depth(-4.0, 89.0, 0.2, 4),
+         GBUFFER_PACKED, true}};
 }
 
 CullCase make_cull_case(const Gpu& gpu, const CullScenario& scenario) {
@@ -168,7 +175,8 @@ CullCase make_cull_case(const Gpu& gpu, const CullScenario& scenario) {
     for (uint i = 0; i < scenario.light_count; ++i) {
         const Sphere sphere = adversarial_sphere(c, i % 6, random);
         const Light point = point_light(world_from_view(view, sphere.center), sphere.range);
-        const double outer = i % 12 < 6 ? random.uniform(0.01, 0.2) : random.uniform(0.2, 1.5707963);
+        const double outer =
+            i % 12 < 6 ? random.uniform(0.01, 0.2) : random.uniform(0.2, 1.5707963);
         c.lights.push_back(scenario.spots && i % 4 != 0
                                ? spot_light(point, random.direction(), 0.5 * outer, outer)
                                : point);

@@ -33,8 +33,9 @@ struct CullCase {
     std::vector<Light> lights;
 };
 
-/// A sixth of the lights each: anywhere; tangent to a pixel within 4 ulp; centred on the grid's planes;
-/// up to 1e6 times the scene; down to 1e-6 of it and around a pixel; behind and around the camera.
+/// A sixth of the lights each: anywhere; tangent to a pixel within 4 ulp; centred on the grid's
+/// planes; up to 1e6 times the scene; down to 1e-6 of it and around a pixel; behind and around the
+/// camera.
 CullCase make_cull_case(const Gpu& gpu, const CullScenario& scenario);
 
 }  // namespace kilolux

@@ -26,13 +26,15 @@ KernelFeatures features_of(uint layout) {
 
 double expected_depth(const View& view, Synthetic& image, uint x, uint y) {
     const double depth01 = image.plane<float>(PLANE_DEPTH)[y * view.stride + x];
-    const double q = depth01 * view.depth.x + (x + 0.5) * view.depth.y + (y + 0.5) * view.depth.z + view.depth.w;
+    const double q =
+        depth01 * view.depth.x + (x + 0.5) * view.depth.y + (y + 0.5) * view.depth.z + view.depth.w;
     return view.orthographic != 0 ? q : 1 / q;
 }
 
 Vec3d position_on_ray(const View& view, uint x, uint y, double z) {
     const double s = view.orthographic != 0 ? 1 : z;
-    return {((x + 0.5) * view.ray.x + view.ray.y) * s, ((y + 0.5) * view.ray.z + view.ray.w) * s, -z};
+    return {((x + 0.5) * view.ray.x + view.ray.y) * s, ((y + 0.5) * view.ray.z + view.ray.w) * s,
+            -z};
 }
 
 template <typename Visit>
@@ -70,7 +72,8 @@ TEST(DecodeGBuffer, DepthAndPositionLieOnThePixelsRay) {
             const double size = view.orthographic != 0 ? 200.0 : z;
             EXPECT_NEAR(planes.at(SURFACE_DEPTH, x, y), z, kDepthTolerance * size);
             const Vec3d p = position_on_ray(view, x, y, planes.at(SURFACE_DEPTH, x, y));
-            const double tolerance = kPositionTolerance * extent * (view.orthographic != 0 ? 1.0 : z);
+            const double tolerance =
+                kPositionTolerance * extent * (view.orthographic != 0 ? 1.0 : z);
             EXPECT_LE(length(planes.vector(SURFACE_POSITION, x, y) - p), tolerance);
         });
     }
@@ -80,7 +83,8 @@ TEST(DecodeGBuffer, BackgroundAndPaddingAreZero) {
     const Gpu gpu = test_gpu();
     const View view = make_view({17, 31});
     const KernelFeatures features = features_of(GBUFFER_PACKED);
-    const Planes planes = decode(gpu, features, upload_gbuffer(gpu, make_synthetic(view, features, no_depth())));
+    const Planes planes =
+        decode(gpu, features, upload_gbuffer(gpu, make_synthetic(view, features, no_depth())));
     for (const float value : planes.values) ASSERT_EQ(value, 0.0f);
 }
 
@@ -98,7 +102,8 @@ Vec3d octahedral_normal(uint packed) {
     const double v = (packed >> 16) / 65535.0 * 2 - 1;
     const double z = 1 - std::abs(u) - std::abs(v);
     if (z >= 0) return normalized({u, v, z});
-    return normalized({(1 - std::abs(v)) * (u >= 0 ? 1 : -1), (1 - std::abs(u)) * (v >= 0 ? 1 : -1), z});
+    return normalized(
+        {(1 - std::abs(v)) * (u >= 0 ? 1 : -1), (1 - std::abs(u)) * (v >= 0 ? 1 : -1), z});
 }
 
 // Attributes that `packed` and `normal-xy` have in common.
@@ -110,22 +115,27 @@ void expect_packed_attributes(Synthetic& image, const Planes& planes, uint x, ui
     ASSERT_LE(length(planes.vector(SURFACE_EMISSIVE, x, y) - srgb_color(material) * 2.5), 5e-7);
     ASSERT_NEAR(planes.at(SURFACE_ROUGHNESS, x, y), (albedo >> 24) / 255.0, 1e-7);
     ASSERT_NEAR(planes.at(SURFACE_METALLIC, x, y), (material >> 24) / 255.0, 1e-7);
-    ASSERT_NEAR(planes.at(SURFACE_OCCLUSION, x, y), image.plane<unsigned char>(PLANE_OCCLUSION)[i] / 255.0, 1e-7);
+    ASSERT_NEAR(planes.at(SURFACE_OCCLUSION, x, y),
+                image.plane<unsigned char>(PLANE_OCCLUSION)[i] / 255.0, 1e-7);
 }
 
 TEST(DecodeGBuffer, PackedAttributesAtEveryLaneWidth) {
     for (const int lanes : {1, 2, 4, 8, 16}) {
         const Gpu gpu = test_gpu(lanes);
         const KernelFeatures features = features_of(GBUFFER_PACKED);
-        Synthetic image = make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
+        Synthetic image =
+            make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
         // Axes, seams and corners of the octahedron, which noise seldom meets.
-        const uint codes[] = {0u, 0xffffu, 0xffff0000u, 0xffffffffu, 0x7fff7fffu, 0x80008000u, 0x7fffffffu, 0x80000000u};
+        const uint codes[] = {0u,          0xffffu,     0xffff0000u, 0xffffffffu,
+                              0x7fff7fffu, 0x80008000u, 0x7fffffffu, 0x80000000u};
         for (uint i = 0; i < std::size(codes); ++i) image.plane<uint>(PLANE_NORMAL)[i] = codes[i];
         const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
         for_drawn(image, [&](uint x, uint y) {
             expect_packed_attributes(image, planes, x, y);
-            const Vec3d expected = octahedral_normal(image.plane<uint>(PLANE_NORMAL)[y * image.view.stride + x]);
-            ASSERT_LE(length(planes.vector(SURFACE_NORMAL, x, y) - expected), 5e-7) << x << ", " << y;
+            const Vec3d expected =
+                octahedral_normal(image.plane<uint>(PLANE_NORMAL)[y * image.view.stride + x]);
+            ASSERT_LE(length(planes.vector(SURFACE_NORMAL, x, y) - expected), 5e-7)
+                << x << ", " << y;
         });
     }
 }
@@ -153,13 +163,16 @@ TEST(DecodeGBuffer, FullLayoutIsReadAsItIs) {
     const KernelFeatures features = features_of(GBUFFER_FULL);
     Synthetic image = make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
     const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
-    const std::pair<uint, uint> pairs[] = {{SURFACE_POSITION, PLANE_POSITION_X}, {SURFACE_NORMAL, PLANE_NORMAL_X},
-                                           {SURFACE_ALBEDO, PLANE_ALBEDO_R}, {SURFACE_ROUGHNESS, PLANE_ROUGHNESS},
-                                           {SURFACE_METALLIC, PLANE_METALLIC}, {SURFACE_EMISSIVE, PLANE_EMISSIVE_R},
-                                           {SURFACE_OCCLUSION, PLANE_OCCLUSION_F}};
+    const std::pair<uint, uint> pairs[] = {
+        {SURFACE_POSITION, PLANE_POSITION_X},  {SURFACE_NORMAL, PLANE_NORMAL_X},
+        {SURFACE_ALBEDO, PLANE_ALBEDO_R},      {SURFACE_ROUGHNESS, PLANE_ROUGHNESS},
+        {SURFACE_METALLIC, PLANE_METALLIC},    {SURFACE_EMISSIVE, PLANE_EMISSIVE_R},
+        {SURFACE_OCCLUSION, PLANE_OCCLUSION_F}};
     for_drawn(image, [&](uint x, uint y) {
         for (const auto& [surface, plane] : pairs) {
-            EXPECT_EQ(planes.at(surface, x, y), image.plane<float>(plane)[y * image.view.stride + x]) << "plane " << plane;
+            EXPECT_EQ(planes.at(surface, x, y),
+                      image.plane<float>(plane)[y * image.view.stride + x])
+                << "plane " << plane;
         }
     });
 }
@@ -173,10 +186,12 @@ TEST(DecodeGBuffer, HalfLayoutTurnsWorldIntoViewSpace) {
     for_drawn(image, [&](uint x, uint y) {
         const uint i = y * image.view.stride + x;
         const auto vector = [&](uint plane) {
-            return Vec3d{half_value(image.plane<std::uint16_t>(plane)[i]), half_value(image.plane<std::uint16_t>(plane + 1)[i]),
+            return Vec3d{half_value(image.plane<std::uint16_t>(plane)[i]),
+                         half_value(image.plane<std::uint16_t>(plane + 1)[i]),
                          half_value(image.plane<std::uint16_t>(plane + 2)[i])};
         };
-        const Vec3d p = view_from_world(image.view, vector(PLANE_POSITION_X) - Vec3d{camera.x, camera.y, camera.z});
+        const Vec3d p = view_from_world(
+            image.view, vector(PLANE_POSITION_X) - Vec3d{camera.x, camera.y, camera.z});
         const Vec3d n = normalized(view_from_world(image.view, vector(PLANE_NORMAL_X)));
         EXPECT_LE(length(planes.vector(SURFACE_POSITION, x, y) - p), 5e-7 * (length(p) + 1));
         EXPECT_LE(length(planes.vector(SURFACE_NORMAL, x, y) - n), 1e-6);

@@ -44,8 +44,8 @@ kernel void probe(global const float* h, global const float* n, global float* ou
 )";
 
 std::vector<float> rows_of(const SurfaceD& s) {
-    const double values[] = {s.position.x, s.position.y, s.position.z, s.normal.x,   s.normal.y,
-                             s.normal.z,   s.albedo.x,   s.albedo.y,   s.albedo.z,   s.emissive.x,
+    const double values[] = {s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y,
+                             s.normal.z,   s.albedo.x,   s.albedo.y,   s.albedo.z, s.emissive.x,
                              s.emissive.y, s.emissive.z, s.roughness,  s.metallic, s.occlusion};
     std::vector<float> rows;
     for (const double value : values) rows.push_back(static_cast<float>(value));
@@ -53,7 +53,13 @@ std::vector<float> rows_of(const SurfaceD& s) {
 }
 
 SurfaceD surface_of(const std::vector<float>& r) {
-    return {{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}, {r[9], r[10], r[11]}, r[12], r[13], r[14]};
+    return {{r[0], r[1], r[2]},
+            {r[3], r[4], r[5]},
+            {r[6], r[7], r[8]},
+            {r[9], r[10], r[11]},
+            r[12],
+            r[13],
+            r[14]};
 }
 
 template <typename T>
@@ -63,7 +69,8 @@ std::vector<T> copy_of(std::span<const T> values) {
 
 }  // namespace
 
-ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting, int lanes) {
+ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting,
+                           int lanes) {
     Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(surfaces.size(), 16);
     ProbeResult result;
@@ -73,16 +80,20 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
         for (std::size_t row = 0; row < rows.size(); ++row) in[row * count + i] = rows[row];
         result.surfaces.push_back(surface_of(rows));
     }
-    const cl::Program program =
-        build_probe(gpu, kHeaders, kProbe,
-                    BuildOptions().define("SHADING", lighting.shading).define("HAS_METALLIC", 1).define("HAS_SPOT_LIGHTS", 1));
+    const cl::Program program = build_probe(gpu, kHeaders, kProbe,
+                                            BuildOptions()
+                                                .define("SHADING", lighting.shading)
+                                                .define("HAS_METALLIC", 1)
+                                                .define("HAS_SPOT_LIGHTS", 1));
     const cl::Buffer out = new_buffer(gpu, std::vector<float>(3 * count));
     const cl::NDRange items(count / static_cast<std::size_t>(gpu.info.lane_width));
-    cl::KernelFunctor<cl::Buffer, uint, cl::Buffer, uint, cl::Buffer, uint, float, uint, cl::Buffer>(program, "probe")(
+    cl::KernelFunctor<cl::Buffer, uint, cl::Buffer, uint, cl::Buffer, uint, float, uint,
+                      cl::Buffer>(program, "probe")(
         cl::EnqueueArgs(gpu.queue, items), new_buffer(gpu, in), static_cast<uint>(count),
         new_buffer(gpu, copy_of(lighting.lights)), static_cast<uint>(lighting.lights.size()),
-        new_buffer(gpu, copy_of(lighting.directional)), static_cast<uint>(lighting.directional.size()),
-        static_cast<float>(lighting.ambient), lighting.orthographic ? 1u : 0u, out);
+        new_buffer(gpu, copy_of(lighting.directional)),
+        static_cast<uint>(lighting.directional.size()), static_cast<float>(lighting.ambient),
+        lighting.orthographic ? 1u : 0u, out);
     const auto found = download<float>(gpu, out, 3 * count);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         result.radiance.push_back({found[i], found[count + i], found[2 * count + i]});
@@ -90,7 +101,8 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
     return result;
 }
 
-std::vector<float> probe_pow_one_minus(const std::vector<float>& h, const std::vector<float>& n, int lanes) {
+std::vector<float> probe_pow_one_minus(const std::vector<float>& h, const std::vector<float>& n,
+                                       int lanes) {
     Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(h.size(), 16);
     std::vector<float> padded_h = h;
@@ -100,7 +112,8 @@ std::vector<float> probe_pow_one_minus(const std::vector<float>& h, const std::v
     const cl::Program program = build_probe(gpu, kHeaders, kPowProbe);
     const cl::Buffer out = new_buffer(gpu, std::vector<float>(count));
     cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer>(program, "probe")(
-        cl::EnqueueArgs(gpu.queue, cl::NDRange(count / static_cast<std::size_t>(gpu.info.lane_width))),
+        cl::EnqueueArgs(gpu.queue,
+                        cl::NDRange(count / static_cast<std::size_t>(gpu.info.lane_width))),
         new_buffer(gpu, padded_h), new_buffer(gpu, padded_n), out);
     return download<float>(gpu, out, h.size());
 }

@@ -13,11 +13,13 @@ struct ProbeResult {
     std::vector<Vec3d> radiance;
 };
 
-/// Shades each surface by every light with kernels/shared/evaluate.h on the device, without a G-buffer
-/// between. lighting.shading chooses the model; spots and metals are compiled in.
-ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting, int lanes = 0);
+/// Shades each surface by every light with kernels/shared/evaluate.h on the device, without a
+/// G-buffer between. lighting.shading chooses the model; spots and metals are compiled in.
+ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting,
+                           int lanes = 0);
 
 /// (1 - h)^n on the device.
-std::vector<float> probe_pow_one_minus(const std::vector<float>& h, const std::vector<float>& n, int lanes = 0);
+std::vector<float> probe_pow_one_minus(const std::vector<float>& h, const std::vector<float>& n,
+                                       int lanes = 0);
 
 }  // namespace kilolux

@@ -11,13 +11,15 @@
 namespace kilolux {
 namespace {
 
-// Relative to the larger of the radiance and the sum of intensity * falloff: u = 6e-8 times the dozens
-// of operations of a term.
+// Relative to the larger of the radiance and the sum of intensity * falloff: u = 6e-8 times the
+// dozens of operations of a term.
 constexpr double kTolerance = 1e-5;
 
 constexpr int kShadings[] = {SHADING_LAMBERT, SHADING_BLINN_PHONG, SHADING_PBR};
 
-float f(double x) { return static_cast<float>(x); }
+float f(double x) {
+    return static_cast<float>(x);
+}
 
 ShadeLight light_at(Vec3d p, double range, Vec3d intensity) {
     return {{f(p.x), f(p.y), f(p.z), f(1 / (range * range))},
@@ -47,8 +49,8 @@ SurfaceD random_surface(Random& random, double roughness_min) {
     SurfaceD s;
     const double z = random.log_uniform(0.5, 20);
     s.position = {z * random.uniform(-1, 1), z * random.uniform(-1, 1), -z};
-    // Towards the eye, perspective or not, as what is drawn is: where n.h <= 0, Blinn-Phong's exponents
-    // below 1 have infinite slope.
+    // Towards the eye, perspective or not, as what is drawn is: where n.h <= 0, Blinn-Phong's
+    // exponents below 1 have infinite slope.
     do {
         s.normal = random.direction();
     } while (s.normal.z < 0 || dot(s.normal, s.position) > 0);
@@ -66,10 +68,12 @@ TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     for (int i = 0; i < 40; ++i) {
         const Vec3d p{random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-20, 2)};
         const double range = random.log_uniform(1, 40);
-        lights.push_back(i % 2 == 0 ? light_at(p, range, {random.unit(), 5, 2})
-                                    : spot_at(p, range, random.direction(), random.uniform(0.1, 1.57)));
+        lights.push_back(i % 2 == 0
+                             ? light_at(p, range, {random.unit(), 5, 2})
+                             : spot_at(p, range, random.direction(), random.uniform(0.1, 1.57)));
     }
-    const std::vector<DirectionalLight> sun = {{{0.6f, 0.64f, 0.48f, 0.0f}, {1.0f, 0.9f, 0.8f, 0.0f}}};
+    const std::vector<DirectionalLight> sun = {
+        {{0.6f, 0.64f, 0.48f, 0.0f}, {1.0f, 0.9f, 0.8f, 0.0f}}};
     std::vector<SurfaceD> surfaces;
     for (int i = 0; i < 3000; ++i) surfaces.push_back(random_surface(random, 0.3));
     for (const int shading : kShadings) {
@@ -77,7 +81,8 @@ TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
             const Lighting all{lights, sun, 0.1, orthographic, shading};
             EXPECT_LE(worst_error(surfaces, all), kTolerance) << "shading " << shading;
             const Lighting none{{}, {}, 0.1, orthographic, shading};
-            EXPECT_LE(worst_error(surfaces, none), kTolerance) << "shading " << shading << ", no lights";
+            EXPECT_LE(worst_error(surfaces, none), kTolerance)
+                << "shading " << shading << ", no lights";
         }
     }
 }
@@ -89,9 +94,11 @@ TEST(Evaluate, NormalsThatFaceAwayFromTheEyeStayAccurate) {
         surfaces.push_back(random_surface(random, 0.3));
         surfaces.back().normal = surfaces.back().normal * -1.0;
     }
-    const std::vector<ShadeLight> lights = {light_at({1, 2, -30}, 90, {1, 2, 3}), light_at({0, -5, -9}, 90, {1, 2, 3})};
+    const std::vector<ShadeLight> lights = {light_at({1, 2, -30}, 90, {1, 2, 3}),
+                                            light_at({0, -5, -9}, 90, {1, 2, 3})};
     for (const int shading : {SHADING_LAMBERT, SHADING_PBR}) {
-        EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kTolerance) << "shading " << shading;
+        EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kTolerance)
+            << "shading " << shading;
     }
 }
 
@@ -101,12 +108,16 @@ TEST(Evaluate, LightAtTheShadingPointIsFinite) {
     s.normal = {0, 0, 1};
     s.roughness = 0.5;
     for (const int shading : kShadings) {
-        for (const double d : {0.0, 1e-30, 1e-20, 1e-10, 1e-7, 1e-5, 1e-4, 1e-3, 0.0099, 0.01, 0.0101}) {
-            for (const Vec3d& direction : {Vec3d{0, 0, 1}, Vec3d{0.6, 0, 0.8}, Vec3d{1, 0, 0}, Vec3d{0, 0, -1}}) {
-                const std::vector<ShadeLight> lights = {light_at(s.position + direction * d, 3, {1, 1, 1})};
+        for (const double d :
+             {0.0, 1e-30, 1e-20, 1e-10, 1e-7, 1e-5, 1e-4, 1e-3, 0.0099, 0.01, 0.0101}) {
+            for (const Vec3d& direction :
+                 {Vec3d{0, 0, 1}, Vec3d{0.6, 0, 0.8}, Vec3d{1, 0, 0}, Vec3d{0, 0, -1}}) {
+                const std::vector<ShadeLight> lights = {
+                    light_at(s.position + direction * d, 3, {1, 1, 1})};
                 const Lighting lighting{lights, {}, 0, false, shading};
                 // I / LIGHT_D_MIN^2 is the most that falls in.
-                EXPECT_LE(worst_error({s}, lighting), kTolerance) << "shading " << shading << ", d = " << d;
+                EXPECT_LE(worst_error({s}, lighting), kTolerance)
+                    << "shading " << shading << ", d = " << d;
             }
         }
     }
@@ -120,8 +131,9 @@ TEST(Evaluate, HugeAndTinyIntensitiesStayAccurate) {
         for (const double intensity : {1e30, 1e20, 1e6, 1e-6, 1e-25}) {
             std::vector<ShadeLight> lights;
             for (int i = 0; i < 1000; ++i) {
-                lights.push_back(light_at({random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-9, 1)}, 50,
-                                          Vec3d{1, 0.5, 0.25} * intensity));
+                lights.push_back(
+                    light_at({random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-9, 1)},
+                             50, Vec3d{1, 0.5, 0.25} * intensity));
             }
             for (SurfaceD& s : surfaces) s.emissive = {};
             EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kTolerance)
@@ -135,8 +147,9 @@ TEST(Evaluate, SumsAHundredThousandLightsAccurately) {
     std::vector<ShadeLight> lights;
     for (int i = 0; i < 100000; ++i) {
         const double intensity = std::exp(random.uniform(-6, 6));
-        lights.push_back(light_at({random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-9, 1)}, 50,
-                                  {intensity, 1, intensity}));
+        lights.push_back(
+            light_at({random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-9, 1)}, 50,
+                     {intensity, 1, intensity}));
     }
     std::vector<SurfaceD> surfaces;
     for (int i = 0; i < 8; ++i) surfaces.push_back(random_surface(random, 0.3));
@@ -151,11 +164,13 @@ TEST(Evaluate, GrazingLightIsAccurateAndNeverLeaksToTheBack) {
     for (const double angle : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
         for (const double sign : {1.0, -1.0}) {
             const Vec3d to_light{std::cos(angle), 0, sign * std::sin(angle)};
-            const std::vector<ShadeLight> lights = {light_at(surfaces[0].position + to_light * 2.0, 9, {1, 1, 1})};
+            const std::vector<ShadeLight> lights = {
+                light_at(surfaces[0].position + to_light * 2.0, 9, {1, 1, 1})};
             const Lighting lighting{lights, {}, 0, false, SHADING_LAMBERT};
             EXPECT_LE(worst_error(surfaces, lighting), 1e-6) << "angle " << sign * angle;
             if (sign < 0 && angle > 2e-7) {
-                EXPECT_EQ(probe_evaluate(surfaces, lighting).radiance[0].x, 0.0) << "angle " << angle;
+                EXPECT_EQ(probe_evaluate(surfaces, lighting).radiance[0].x, 0.0)
+                    << "angle " << angle;
             }
         }
     }
@@ -174,7 +189,8 @@ TEST(Evaluate, HugeIntensityInAMirrorStaysFinite) {
     }
 }
 
-// Surfaces in a row whose half vectors sweep away from the normal; eye and light both straight above.
+// Surfaces in a row whose half vectors sweep away from the normal; eye and light both straight
+// above.
 std::vector<SurfaceD> lobe_sweep(double roughness) {
     std::vector<SurfaceD> surfaces;
     for (int i = -500; i <= 500; ++i) {
@@ -195,17 +211,21 @@ void expect_lobe(int shading, double roughness, double tolerance) {
     const Lighting lighting{lights, {}, 0, false, shading};
     const ProbeResult found = probe_evaluate(lobe_sweep(roughness), lighting);
     double peak = 0;
-    for (const SurfaceD& s : found.surfaces) peak = std::max(peak, reference_radiance(s, lighting).value.x);
+    for (const SurfaceD& s : found.surfaces)
+        peak = std::max(peak, reference_radiance(s, lighting).value.x);
     for (std::size_t i = 0; i < found.radiance.size(); ++i) {
         const double expected = reference_radiance(found.surfaces[i], lighting).value.x;
-        ASSERT_NEAR(found.radiance[i].x / peak, expected / peak, tolerance) << "roughness " << roughness << ", sample " << i;
+        ASSERT_NEAR(found.radiance[i].x / peak, expected / peak, tolerance)
+            << "roughness " << roughness << ", sample " << i;
     }
 }
 
 TEST(Evaluate, SpecularPeaksKeepTheirShape) {
     // Roughness 0 is clamped to 0.045, alpha 0.002. Exponents: 0.119 gives 1e4.
-    for (const double roughness : {0.0, 0.045, 0.06, 0.1, 0.3, 0.6, 1.0}) expect_lobe(SHADING_PBR, roughness, 5e-5);
-    for (const double roughness : {0.119, 0.2, 0.5, 1.0}) expect_lobe(SHADING_BLINN_PHONG, roughness, 1e-5);
+    for (const double roughness : {0.0, 0.045, 0.06, 0.1, 0.3, 0.6, 1.0})
+        expect_lobe(SHADING_PBR, roughness, 5e-5);
+    for (const double roughness : {0.119, 0.2, 0.5, 1.0})
+        expect_lobe(SHADING_BLINN_PHONG, roughness, 1e-5);
 }
 
 TEST(Evaluate, PowersOfOneMinusAreAccurateAtAnyExponent) {
@@ -226,10 +246,12 @@ TEST(Evaluate, PowersOfOneMinusAreAccurateAtAnyExponent) {
     for (const int lanes : {1, 8}) {
         const std::vector<float> found = probe_pow_one_minus(h, n, lanes);
         for (std::size_t i = 0; i < h.size(); ++i) {
-            const long double expected = n[i] == 0.0f ? 1.0L : std::pow(1.0L - h[i], static_cast<long double>(n[i]));
+            const long double expected =
+                n[i] == 0.0f ? 1.0L : std::pow(1.0L - h[i], static_cast<long double>(n[i]));
             // At h = 1 the power is 0 but for tiny exponents, where 1 - h is clamped to 1e-30.
             if (h[i] == 1.0f && n[i] < 1.0f) continue;
-            ASSERT_NEAR(found[i], static_cast<double>(expected), 2e-7) << "h = " << h[i] << ", n = " << n[i];
+            ASSERT_NEAR(found[i], static_cast<double>(expected), 2e-7)
+                << "h = " << h[i] << ", n = " << n[i];
             ASSERT_LE(found[i], 1.0f + 2e-7f);
             ASSERT_GE(found[i], 0.0f);
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kernel once on a small odd image: what runs under oclgrind, and the least that any device must do.
+// Every kernel once on a small odd image: what runs under oclgrind, and the least that any device
+// must do.
 #include <gtest/gtest.h>
 
 #include "host/stages/count_lights.h"
@@ -16,7 +17,7 @@ namespace {
 
 struct Variant {
     int lanes = 4;
-    int group = 1;        // of refine_lights and prefix_sum
+    int group = 1;  // of refine_lights and prefix_sum
     int cull_group = 1;
     int shade_stage = 0;
     int light_index_bits = 16;
@@ -47,6 +48,23 @@ KernelFeatures features_of(const Variant& v) {
     return features;
 }
 
+// Radiance by lists, after it was found to have the bits of that by all lights.
+Radiance shade_both_ways(const Gpu& gpu, Shade& shade, const GBuffer& gbuffer,
+                         const DeviceLists& lists, const ClusterGrid& grid) {
+    StageTimer timer;
+    const std::size_t size = std::size_t{3} * gbuffer.view.stride * gbuffer.view.height;
+    const Radiance radiance =
+        shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    const auto listed = download<float>(gpu, radiance.planes, size);
+    const auto all =
+        download<float>(gpu, shade.enqueue_all_lights(gbuffer, lists.lights, timer).planes, size);
+    for (std::size_t i = 0; i < size; ++i) {
+        EXPECT_EQ(listed[i], all[i]) << "value " << i << " of planes of " << size / 3;
+        if (listed[i] != all[i]) break;
+    }
+    return radiance;
+}
+
 void run_every_kernel(const Variant& v) {
     const Gpu gpu = test_gpu(v.lanes);
     const Tuning tuning = tuning_of(gpu, v);
@@ -60,22 +78,19 @@ void run_every_kernel(const Variant& v) {
     mix.range_max = 30;
     mix.spots = 0.3;
     // Padded, since half positions stray from their pixel by up to 0.03 m here.
-    const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f, 0.1f}, view.width, view.height);
-    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.6, 8)));
-    const LightInput lights = upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
+    const ClusterGrid grid =
+        make_cluster_grid({2, 2, 1, 1.0f, 30.0f, 0.1f}, view.width, view.height);
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.6, 8)));
+    const LightInput lights =
+        upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
     ListStages stages(gpu, tuning, features);
     const DeviceLists lists = stages.run(lights, gbuffer, grid);
     StageTimer timer;
     CullLights oracle(gpu, tuning, features);
     oracle.brute_force(lists.lights, lists.boxes, timer);
     Shade shade(gpu, tuning, features);
-    const std::size_t size = std::size_t{3} * view.stride * view.height;
-    const Radiance radiance = shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
-    const auto listed = download<float>(gpu, radiance.planes, size);
-    const auto all = download<float>(gpu, shade.enqueue_all_lights(gbuffer, lists.lights, timer).planes, size);
-    for (std::size_t i = 0; i < size; ++i) {
-        ASSERT_EQ(listed[i], all[i]) << "value " << i << " of planes of " << size / 3;
-    }
+    const Radiance radiance = shade_both_ways(gpu, shade, gbuffer, lists, grid);
     Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
     tonemap.enqueue(radiance, 0.0f, timer);
     CountLights count(gpu, tuning, features);
@@ -85,7 +100,9 @@ void run_every_kernel(const Variant& v) {
     EXPECT_GT(download_lists(gpu, features, grid, lists).refined.size(), 100u);
 }
 
-TEST(EveryKernel, OneItemAGroup) { run_every_kernel({}); }
+TEST(EveryKernel, OneItemAGroup) {
+    run_every_kernel({});
+}
 
 TEST(EveryKernel, LargeGroupsAndSeveralBatches) {
     run_every_kernel({1, 64, 4, 16, 32, GBUFFER_FULL, SHADING_LAMBERT, 150});

@@ -21,8 +21,8 @@ inline std::uint16_t half_bits(double value) {
 inline double half_value(std::uint16_t bits) {
     const int exponent = (bits >> 10) & 31;
     const int mantissa = bits & 1023;
-    const double magnitude = exponent == 0 ? std::ldexp(mantissa, -24)
-                                           : std::ldexp(1024 + mantissa, exponent - 25);
+    const double magnitude =
+        exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
     return (bits & 0x8000) != 0 ? -magnitude : magnitude;
 }
 

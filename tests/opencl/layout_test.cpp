@@ -19,10 +19,14 @@ struct Measure {
     std::size_t expected;
 };
 
-#define SIZE_OF(Type) \
-    Measure { "sizeof(" #Type ")", sizeof(Type) }
-#define OFFSET_OF(Type, member) \
-    Measure { "OFFSET_OF(" #Type ", " #member ")", offsetof(Type, member) }
+#define SIZE_OF(Type)                     \
+    Measure {                             \
+        "sizeof(" #Type ")", sizeof(Type) \
+    }
+#define OFFSET_OF(Type, member)                                     \
+    Measure {                                                       \
+        "OFFSET_OF(" #Type ", " #member ")", offsetof(Type, member) \
+    }
 
 std::vector<Measure> light_measures() {
     return {SIZE_OF(Light),
@@ -85,9 +89,9 @@ std::vector<Measure> cluster_measures() {
             OFFSET_OF(ActiveCluster, list_count)};
 }
 
-constexpr std::string_view kHeaders[] = {
-    "kernels/shared/cluster_grid.h", "kernels/shared/clusters.h", "kernels/shared/gbuffer.h",
-    "kernels/shared/light.h", "kernels/shared/view.h"};
+constexpr std::string_view kHeaders[] = {"kernels/shared/cluster_grid.h",
+                                         "kernels/shared/clusters.h", "kernels/shared/gbuffer.h",
+                                         "kernels/shared/light.h", "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {
     Gpu gpu = test_gpu();
@@ -107,18 +111,25 @@ void expect_equal(const std::vector<Measure>& measures) {
     }
 }
 
-TEST(Layout, LightsAgreeWithTheDevice) { expect_equal(light_measures()); }
+TEST(Layout, LightsAgreeWithTheDevice) {
+    expect_equal(light_measures());
+}
 
-TEST(Layout, ViewAndGBufferAgreeWithTheDevice) { expect_equal(view_measures()); }
+TEST(Layout, ViewAndGBufferAgreeWithTheDevice) {
+    expect_equal(view_measures());
+}
 
-TEST(Layout, ClustersAgreeWithTheDevice) { expect_equal(cluster_measures()); }
+TEST(Layout, ClustersAgreeWithTheDevice) {
+    expect_equal(cluster_measures());
+}
 
 TEST(Layout, StructsPassedByValueArriveWhole) {
     Gpu gpu = test_gpu();
-    const cl::Program program = build_probe(gpu, kHeaders,
-                                            "kernel void echo(View view, ClusterGrid grid, GBufferLayout layout, global View* v,\n"
-                                            "                 global ClusterGrid* g, global GBufferLayout* l) {\n"
-                                            "    *v = view;\n    *g = grid;\n    *l = layout;\n}\n");
+    const cl::Program program = build_probe(
+        gpu, kHeaders,
+        "kernel void echo(View view, ClusterGrid grid, GBufferLayout layout, global View* v,\n"
+        "                 global ClusterGrid* g, global GBufferLayout* l) {\n"
+        "    *v = view;\n    *g = grid;\n    *l = layout;\n}\n");
     const auto fill = [](auto value, uint first) {
         auto* words = reinterpret_cast<uint*>(&value);
         for (uint i = 0; i < sizeof(value) / 4; ++i) words[i] = 0x3f800000u + first + i;

@@ -52,8 +52,8 @@ std::vector<Light> random_lights(const View& view, const LightMix& mix) {
 
 LightInput upload_lights(const Gpu& gpu, const std::vector<Light>& lights,
                          const std::vector<DirectionalLight>& directional) {
-    return {new_buffer(gpu, lights), static_cast<uint>(lights.size()),
-            new_buffer(gpu, directional), static_cast<uint>(directional.size())};
+    return {new_buffer(gpu, lights), static_cast<uint>(lights.size()), new_buffer(gpu, directional),
+            static_cast<uint>(directional.size())};
 }
 
 }  // namespace kilolux

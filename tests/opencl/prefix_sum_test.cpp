@@ -57,11 +57,12 @@ TEST(PrefixSum, AgreesWithTheSumAtEveryBlockSizeAndLength) {
     for (const auto& [group, per_item] : {std::pair{1, 4096}, {1, 1}, {4, 3}, {64, 8}, {256, 1}}) {
         PrefixSum stage(test_gpu(), tuning_of(group, per_item));
         const auto block = static_cast<std::size_t>(group * per_item);
-        for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{2}, block - 1, block,
-                                    block + 1, 2 * block, 3 * block + 5, std::size_t{5001}}) {
+        for (const std::size_t n :
+             {std::size_t{0}, std::size_t{1}, std::size_t{2}, block - 1, block, block + 1,
+              2 * block, 3 * block + 5, std::size_t{5001}}) {
             expect_sums(stage, random_counts(n, 1000),
-                        std::to_string(group) + " x " + std::to_string(per_item) + ", n = " +
-                            std::to_string(n));
+                        std::to_string(group) + " x " + std::to_string(per_item) +
+                            ", n = " + std::to_string(n));
         }
     }
 }

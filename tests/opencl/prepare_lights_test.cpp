@@ -21,7 +21,8 @@ struct Prepared {
     std::vector<DirectionalLight> directional;
 };
 
-Prepared prepare(int lanes, int group, const LightInput& input, const View& view, const ClusterGrid& grid) {
+Prepared prepare(int lanes, int group, const LightInput& input, const View& view,
+                 const ClusterGrid& grid) {
     const Gpu gpu = test_gpu(lanes);
     Tuning tuning = default_tuning(gpu.info);
     tuning.light_group = group;
@@ -29,21 +30,26 @@ Prepared prepare(int lanes, int group, const LightInput& input, const View& view
     StageTimer timer;
     const PreparedLights out = stage.enqueue(input, view, grid, timer);
     EXPECT_EQ(out.count, input.count);
-    return {download<ShadeLight>(gpu, out.lights, out.count), download<float4>(gpu, out.bounds, out.count),
+    return {download<ShadeLight>(gpu, out.lights, out.count),
+            download<float4>(gpu, out.bounds, out.count),
             download<LightExtent>(gpu, out.extents, out.count),
             download<DirectionalLight>(gpu, out.directional, out.directional_count)};
 }
 
-Vec3d vec(float4 v) { return {v.x, v.y, v.z}; }
+Vec3d vec(float4 v) {
+    return {v.x, v.y, v.z};
+}
 
 void expect_rotated(const View& view, const std::vector<Light>& lights, const Prepared& found) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const ShadeLight& light = found.lights[i];
         const Vec3d p = view_from_world(view, vec(lights[i].position_range));
         const double range = lights[i].position_range.w;
-        ASSERT_LE(length(vec(light.position_inv_range2) - p), kRotationTolerance * length(p)) << "light " << i;
+        ASSERT_LE(length(vec(light.position_inv_range2) - p), kRotationTolerance * length(p))
+            << "light " << i;
         ASSERT_NEAR(light.position_inv_range2.w * range * range, 1.0, 4e-7) << "light " << i;
-        ASSERT_LE(length(vec(light.axis_cos) - view_from_world(view, vec(lights[i].axis_cos))), kRotationTolerance);
+        ASSERT_LE(length(vec(light.axis_cos) - view_from_world(view, vec(lights[i].axis_cos))),
+                  kRotationTolerance);
         ASSERT_EQ(light.axis_cos.w, lights[i].axis_cos.w);
         ASSERT_EQ(length(vec(light.color_scale) - vec(lights[i].color_scale)), 0.0);
         ASSERT_EQ(light.color_scale.w, lights[i].color_scale.w);
@@ -52,15 +58,19 @@ void expect_rotated(const View& view, const std::vector<Light>& lights, const Pr
     }
 }
 
-bool within(uint packed, uint value) { return (packed & 0xffffu) <= value && value <= packed >> 16; }
+bool within(uint packed, uint value) {
+    return (packed & 0xffffu) <= value && value <= packed >> 16;
+}
 
 // Points of the sphere that lie in the image lie in the extent.
-void expect_extents_cover(const View& view, const ClusterGrid& grid, const std::vector<Light>& lights, const Prepared& found) {
+void expect_extents_cover(const View& view, const ClusterGrid& grid,
+                          const std::vector<Light>& lights, const Prepared& found) {
     Random random(31);
     std::size_t inside = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         for (int sample = 0; sample < 50; ++sample) {
-            const double radius = lights[i].position_range.w * (sample % 2 == 0 ? 1.0 : random.unit());
+            const double radius =
+                lights[i].position_range.w * (sample % 2 == 0 ? 1.0 : random.unit());
             const Vec3d p = vec(found.bounds[i]) + random.direction() * radius;
             const double z = -p.z;
             if (view.orthographic == 0 && z <= 0) continue;
@@ -69,8 +79,10 @@ void expect_extents_cover(const View& view, const ClusterGrid& grid, const std::
             const double py = (p.y / s - view.ray.w) / view.ray.z;
             if (px < 0 || py < 0 || px >= view.width || py >= view.height) continue;
             ++inside;
-            ASSERT_TRUE(within(found.extents[i].columns, static_cast<uint>(px) / grid.tile_width)) << "light " << i;
-            ASSERT_TRUE(within(found.extents[i].rows, static_cast<uint>(py) / grid.tile_height)) << "light " << i;
+            ASSERT_TRUE(within(found.extents[i].columns, static_cast<uint>(px) / grid.tile_width))
+                << "light " << i;
+            ASSERT_TRUE(within(found.extents[i].rows, static_cast<uint>(py) / grid.tile_height))
+                << "light " << i;
             ASSERT_TRUE(within(found.extents[i].slices, slice_by_search(grid, z))) << "light " << i;
         }
     }
@@ -84,7 +96,8 @@ TEST(PrepareLights, ViewSpaceAndExtentsAgreeWithDouble) {
     shapes[2].half_x = 20;
     for (const ViewShape& shape : shapes) {
         const View view = make_view(shape);
-        const ClusterGrid grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
+        const ClusterGrid grid =
+            make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
         LightMix mix;
         mix.count = 3001;
         mix.spots = 0.3;
@@ -105,7 +118,8 @@ TEST(PrepareLights, AnyCountLaneWidthAndGroupGivesTheSame) {
     mix.count = 257;
     const std::vector<Light> lights = random_lights(view, mix);
     for (const std::size_t count : {0u, 1u, 7u, 8u, 17u, 255u, 256u, 257u}) {
-        const std::vector<Light> some(lights.begin(), lights.begin() + static_cast<std::ptrdiff_t>(count));
+        const std::vector<Light> some(lights.begin(),
+                                      lights.begin() + static_cast<std::ptrdiff_t>(count));
         const LightInput input = upload_lights(test_gpu(), some);
         const Prepared expected = prepare(1, 1, input, view, grid);
         expect_rotated(view, some, expected);
@@ -115,7 +129,8 @@ TEST(PrepareLights, AnyCountLaneWidthAndGroupGivesTheSame) {
                 ASSERT_EQ(found.extents[i].slices, expected.extents[i].slices) << "light " << i;
                 ASSERT_EQ(found.extents[i].columns, expected.extents[i].columns) << "light " << i;
                 ASSERT_EQ(found.extents[i].rows, expected.extents[i].rows) << "light " << i;
-                ASSERT_EQ(std::memcmp(&found.lights[i], &expected.lights[i], sizeof(ShadeLight)), 0) << "light " << i;
+                ASSERT_EQ(std::memcmp(&found.lights[i], &expected.lights[i], sizeof(ShadeLight)), 0)
+                    << "light " << i;
             }
         }
     }
@@ -123,9 +138,14 @@ TEST(PrepareLights, AnyCountLaneWidthAndGroupGivesTheSame) {
 
 TEST(PrepareLights, LightsOutsideTheImageTouchNothing) {
     const View view = make_view({});
-    const ClusterGrid grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
-    const auto at = [&](Vec3d p, double range) { return point_light(world_from_view(view, p), range); };
-    const std::vector<Light> lights = {at({0, 0, 5}, 4.9), at({30, 0, -10}, 1), at({-30, 0, -10}, 1), at({0, 30, -10}, 1), at({0, -30, -10}, 1)};
+    const ClusterGrid grid =
+        make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
+    const auto at = [&](Vec3d p, double range) {
+        return point_light(world_from_view(view, p), range);
+    };
+    const std::vector<Light> lights = {at({0, 0, 5}, 4.9), at({30, 0, -10}, 1),
+                                       at({-30, 0, -10}, 1), at({0, 30, -10}, 1),
+                                       at({0, -30, -10}, 1)};
     const Prepared found = prepare(0, 16, upload_lights(test_gpu(), lights), view, grid);
     const auto is_empty = [](uint packed) { return (packed & 0xffffu) > packed >> 16; };
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -139,12 +159,14 @@ TEST(PrepareLights, SmallLightsTouchFewTiles) {
     shape.width = 1600;
     shape.height = 900;
     const View view = make_view(shape);
-    const ClusterGrid grid = make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
+    const ClusterGrid grid =
+        make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
     LightMix mix;
     mix.count = 500;
     mix.range_min = mix.range_max = 1e-3;
     mix.z_near = 1;
-    const Prepared found = prepare(0, 16, upload_lights(test_gpu(), random_lights(view, mix)), view, grid);
+    const Prepared found =
+        prepare(0, 16, upload_lights(test_gpu(), random_lights(view, mix)), view, grid);
     for (const LightExtent& e : found.extents) {
         EXPECT_LE(static_cast<int>(e.columns >> 16) - static_cast<int>(e.columns & 0xffffu), 1);
         EXPECT_LE(static_cast<int>(e.rows >> 16) - static_cast<int>(e.rows & 0xffffu), 1);
@@ -154,11 +176,15 @@ TEST(PrepareLights, SmallLightsTouchFewTiles) {
 
 TEST(PrepareLights, DirectionalLightsAreRotated) {
     const View view = make_view({});
-    const std::vector<DirectionalLight> sun = {{{0.48f, 0.6f, 0.64f, 0.0f}, {1, 2, 3, 0}}, {{0, 0, 1, 0}, {4, 5, 6, 0}}};
-    const Prepared found = prepare(0, 16, upload_lights(test_gpu(), {}, sun), view, make_cluster_grid({}, 64, 48));
+    const std::vector<DirectionalLight> sun = {{{0.48f, 0.6f, 0.64f, 0.0f}, {1, 2, 3, 0}},
+                                               {{0, 0, 1, 0}, {4, 5, 6, 0}}};
+    const Prepared found =
+        prepare(0, 16, upload_lights(test_gpu(), {}, sun), view, make_cluster_grid({}, 64, 48));
     ASSERT_EQ(found.directional.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_LE(length(vec(found.directional[i].to_light) - view_from_world(view, vec(sun[i].to_light))), kRotationTolerance);
+        EXPECT_LE(length(vec(found.directional[i].to_light) -
+                         view_from_world(view, vec(sun[i].to_light))),
+                  kRotationTolerance);
         EXPECT_EQ(length(vec(found.directional[i].color) - vec(sun[i].color)), 0.0);
     }
 }

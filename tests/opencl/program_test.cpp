@@ -32,7 +32,8 @@ void expect_contains(const std::string& message, const std::string& part) {
 
 TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
     const Gpu gpu = test_gpu();
-    const std::string message = error_of([&] { build_program(gpu, "tonemap", BuildOptions().define("fv", "no_such_function")); });
+    const std::string message = error_of(
+        [&] { build_program(gpu, "tonemap", BuildOptions().define("fv", "no_such_function")); });
     expect_contains(message, "kernels/tonemap.cl: build failed with CL_BUILD_PROGRAM_FAILURE");
     expect_contains(message, gpu.info.name);
     expect_contains(message, "-Dfv=no_such_function");
@@ -55,7 +56,8 @@ TEST(Program, CompilerMessagesNameTheFileAndLineOfAnInclude) {
 }
 
 TEST(Program, UnknownStageIsAnError) {
-    expect_contains(error_of([] { build_program(test_gpu(), "no_such_stage"); }), "kernels/no_such_stage.cl");
+    expect_contains(error_of([] { build_program(test_gpu(), "no_such_stage"); }),
+                    "kernels/no_such_stage.cl");
 }
 
 TEST(Program, SameTextAndOptionsAreBuiltOnce) {
@@ -100,7 +102,8 @@ TEST(GrowingBuffer, MoreThanTheDeviceAllocatesIsAnErrorAndKeepsWhatThereIs) {
     const std::size_t limit = gpu.info.max_allocation_bytes;
     const std::string message = error_of([&] { buffer.reserve(limit + 1); });
     expect_contains(message, "cull_lights: needs a buffer of ");
-    expect_contains(message, gpu.info.name + " allocates at most " + std::to_string(limit >> 20) + " MiB");
+    expect_contains(message,
+                    gpu.info.name + " allocates at most " + std::to_string(limit >> 20) + " MiB");
     EXPECT_EQ(buffer.bytes(), 64u);
     EXPECT_EQ(buffer.get().getInfo<CL_MEM_SIZE>(), 64u);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refined lists: the coarse list of each active cluster, less the lights that its pixels' box is out of
-// reach of. That none is missing is cull_lights_test.cpp's subject.
+// Refined lists: the coarse list of each active cluster, less the lights that its pixels' box is
+// out of reach of. That none is missing is cull_lights_test.cpp's subject.
 #include "host/stages/refine_lights.h"
 
 #include <gtest/gtest.h>
@@ -17,19 +17,24 @@ namespace {
 const GridRequest kRequest{2, 2, 1, 0.5f, 50.0f, 0.0f};
 
 double box_distance(const ActiveCluster& c, float4 p) {
-    const auto axis = [](double v, double lo, double hi) { return std::max({lo - v, v - hi, 0.0}); };
-    return length(Vec3d{axis(p.x, c.min_x, c.max_x), axis(p.y, c.min_y, c.max_y), axis(p.z, c.min_z, c.max_z)});
+    const auto axis = [](double v, double lo, double hi) {
+        return std::max({lo - v, v - hi, 0.0});
+    };
+    return length(Vec3d{axis(p.x, c.min_x, c.max_x), axis(p.y, c.min_y, c.max_y),
+                        axis(p.z, c.min_z, c.max_z)});
 }
 
 uint coarse_cluster(const View& view, const ClusterGrid& grid, uint tile, uint slice) {
     const uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
-    return cluster_index(grid, tile % tiles_x * FINE_TILE / grid.tile_width, tile / tiles_x * FINE_TILE / grid.tile_height,
+    return cluster_index(grid, tile % tiles_x * FINE_TILE / grid.tile_width,
+                         tile / tiles_x * FINE_TILE / grid.tile_height,
                          slice >> grid.fine_slice_bits);
 }
 
 // A list in double: lights nearer to the box than their range, where rounding does not decide.
-void expect_list(const ActiveCluster& box, std::span<const uint> found, std::span<const uint> coarse,
-                 const std::vector<float4>& bounds, const std::vector<Light>& lights) {
+void expect_list(const ActiveCluster& box, std::span<const uint> found,
+                 std::span<const uint> coarse, const std::vector<float4>& bounds,
+                 const std::vector<Light>& lights) {
     std::size_t next = 0;
     for (const uint light : coarse) {
         const double ratio = box_distance(box, bounds[light]) / lights[light].position_range.w;
@@ -51,7 +56,8 @@ void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_co
     LightMix mix;
     mix.count = light_count;
     const std::vector<Light> lights = random_lights(view, mix);
-    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, {}, slanted_depth(0.4, 60.0, 97)));
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, {}, slanted_depth(0.4, 60.0, 97)));
     ListStages stages(gpu, tuning, {});
     const DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
     const HostLists lists = download_lists(gpu, {}, grid, device);
@@ -59,7 +65,9 @@ void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_co
     for (uint tile = 0; tile + 1 < lists.cluster_offsets.size(); ++tile) {
         for (uint i = lists.cluster_offsets[tile]; i < lists.cluster_offsets[tile + 1]; ++i) {
             const ActiveCluster& box = lists.clusters[i];
-            expect_list(box, lists.refined_of(box), lists.coarse_of(coarse_cluster(view, grid, tile, box.slice)), bounds, lights);
+            expect_list(box, lists.refined_of(box),
+                        lists.coarse_of(coarse_cluster(view, grid, tile, box.slice)), bounds,
+                        lights);
             if (testing::Test::HasFatalFailure()) return;
         }
     }
@@ -69,7 +77,8 @@ TEST(RefineLights, AgreesWithDoubleForAnyCountAndGroup) {
     const Gpu gpu = test_gpu();
     for (const int group : {1, 3, 64}) {
         for (const std::uint32_t count : {0u, 1u, 7u, 8u, 9u, 511u, 512u, 513u, 2500u}) {
-            SCOPED_TRACE("group " + std::to_string(group) + ", " + std::to_string(count) + " lights");
+            SCOPED_TRACE("group " + std::to_string(group) + ", " + std::to_string(count) +
+                         " lights");
             Tuning tuning = default_tuning(gpu.info);
             tuning.refine_group = group;
             expect_refined(gpu, tuning, count);
@@ -81,22 +90,27 @@ TEST(RefineLights, LacksRoomOnceThenGrows) {
     const Gpu gpu = test_gpu();
     const Tuning tuning = default_tuning(gpu.info);
     const View view = make_view({});
-    const ClusterGrid grid = make_cluster_grid({1, 1, 1, 0.5f, 0.5f, 0.0f}, view.width, view.height);
+    const ClusterGrid grid =
+        make_cluster_grid({1, 1, 1, 0.5f, 0.5f, 0.0f}, view.width, view.height);
     // 12 tiles of one cluster each: more entries than the first room of 2^20.
     const std::vector<Light> lights(100000, point_light({}, 1e6));
     KernelFeatures features;
     features.light_index_bits = 32;
-    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(1, 2, 64)));
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(1, 2, 64)));
     ListStages stages(gpu, tuning, features);
     DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
     RefineLights refine(gpu, tuning, features);
     StageTimer timer;
-    device.refined = refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
+    device.refined =
+        refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
     ASSERT_LT(device.refined.capacity, 12u * lights.size()) << "the case does not overflow";
     HostLists cut = download_lists(gpu, features, grid, device);
-    for (const ActiveCluster& c : cut.clusters) EXPECT_LE(c.list_begin + c.list_count, device.refined.capacity);
+    for (const ActiveCluster& c : cut.clusters)
+        EXPECT_LE(c.list_begin + c.list_count, device.refined.capacity);
     EXPECT_FALSE(refine.fits());
-    device.refined = refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
+    device.refined =
+        refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
     EXPECT_TRUE(refine.fits());
     const HostLists lists = download_lists(gpu, features, grid, device);
     ASSERT_EQ(lists.clusters.size(), 12u);
@@ -115,12 +129,15 @@ TEST(RefineLights, SpotsThatShineAwayAreLeftOut) {
     const ClusterGrid grid = make_cluster_grid(kRequest, view.width, view.height);
     KernelFeatures features;
     features.spot_lights = true;
-    const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(9, 9.5, 64)));
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(9, 9.5, 64)));
     const Light point = point_light({0, 0, -5}, 100);
-    const std::vector<Light> lights = {spot_light(point, {0, 0, 1}, 0.2, 0.3), spot_light(point, {0, 0, -1}, 0.2, 1.5),
+    const std::vector<Light> lights = {spot_light(point, {0, 0, 1}, 0.2, 0.3),
+                                       spot_light(point, {0, 0, -1}, 0.2, 1.5),
                                        spot_light(point, {0, 1, 0}, 0.2, 0.3), point};
     ListStages stages(gpu, default_tuning(gpu.info), features);
-    const HostLists lists = download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
+    const HostLists lists =
+        download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
     ASSERT_FALSE(lists.clusters.empty());
     for (const ActiveCluster& c : lists.clusters) {
         const auto list = lists.refined_of(c);

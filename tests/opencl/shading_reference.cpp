@@ -11,14 +11,18 @@ namespace kilolux {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kNearest = 0.01;         // [m] light sources have a size
-constexpr double kSmoothest = 0.045;      // perceptual roughness
+constexpr double kNearest = 0.01;     // [m] light sources have a size
+constexpr double kSmoothest = 0.045;  // perceptual roughness
 constexpr double kSmallestNdotV = 1e-4;
 constexpr double kDielectricF0 = 0.04;
 
-Vec3d vec(float4 v) { return {v.x, v.y, v.z}; }
+Vec3d vec(float4 v) {
+    return {v.x, v.y, v.z};
+}
 
-double clamp01(double x) { return std::clamp(x, 0.0, 1.0); }
+double clamp01(double x) {
+    return std::clamp(x, 0.0, 1.0);
+}
 
 double alpha_of(double roughness) {
     const double r = std::max(roughness, kSmoothest);
@@ -80,7 +84,8 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
         if (nl <= 0 || strength.x + strength.y + strength.z == 0) return;
         sum.value = sum.value + brdf(lighting.shading, s, n, eye, l) * strength * nl;
     };
-    for (const DirectionalLight& light : lighting.directional) add(vec(light.to_light), vec(light.color));
+    for (const DirectionalLight& light : lighting.directional)
+        add(vec(light.to_light), vec(light.color));
     for (const ShadeLight& light : lighting.lights) {
         const Vec3d offset = vec(light.position_inv_range2) - s.position;
         const double d2 = dot(offset, offset);

@@ -28,14 +28,16 @@ struct Lighting {
 
 struct ReferenceRadiance {
     Vec3d value;
-    double scale = 0;  // sum over lights of intensity * falloff, of the strongest channel: what rounding is relative to
+    double scale = 0;  // sum over lights of intensity * falloff, of the strongest channel: what
+                       // rounding is relative to
 };
 
 /// Radiance in double, from the published formulas: windowed inverse square; Lambert, Blinn-Phong
 /// (Walter et al. 2007), or glTF 2.0 appendix B (GGX, height-correlated Smith, Schlick).
 ReferenceRadiance reference_radiance(const SurfaceD& surface, const Lighting& lighting);
 
-/// |found - expected| relative to the larger of the expected value and the scale; NaN counts as infinite.
+/// |found - expected| relative to the larger of the expected value and the scale; NaN counts as
+/// infinite.
 double relative_error(Vec3d found, const ReferenceRadiance& expected);
 
 }  // namespace kilolux

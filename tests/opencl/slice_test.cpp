@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slices of depths: the device at every lane width, the host's copy of the formula, and the definition.
+// Slices of depths: the device at every lane width, the host's copy of the formula, and the
+// definition.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -23,9 +24,9 @@ kernel void slices(ClusterGrid grid, global const float* z, global uint* out) {
 )";
 
 std::vector<GridRequest> requests() {
-    return {{16, 9, 4, 0.1f, 100.0f, 0.0f},  {16, 9, 1, 1.0f, 1024.0f, 0.0f},
-            {4, 4, 64, 0.3f, 1e7f, 0.0f},    {8, 8, 4, 1e-3f, 1e4f, 0.0f},
-            {1, 1, 8, 5.0f, 5.0f, 0.0f},     {1, 1, 2, 1e-35f, 1e35f, 0.0f},
+    return {{16, 9, 4, 0.1f, 100.0f, 0.0f},    {16, 9, 1, 1.0f, 1024.0f, 0.0f},
+            {4, 4, 64, 0.3f, 1e7f, 0.0f},      {8, 8, 4, 1e-3f, 1e4f, 0.0f},
+            {1, 1, 8, 5.0f, 5.0f, 0.0f},       {1, 1, 2, 1e-35f, 1e35f, 0.0f},
             {1, 1, 16, 0x1.8p-3f, 70.0f, 0.0f}};
 }
 
@@ -56,8 +57,16 @@ std::vector<float> depths_at_boundaries(const ClusterGrid& grid) {
 
 std::vector<float> odd_depths() {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    return {0.0f,   -0.0f,       -1.0f,      -1e30f,    -kInfinity,
-            1e-40f, -1e-40f,     1e-38f,     kInfinity, std::numeric_limits<float>::max(),
+    return {0.0f,
+            -0.0f,
+            -1.0f,
+            -1e30f,
+            -kInfinity,
+            1e-40f,
+            -1e-40f,
+            1e-38f,
+            kInfinity,
+            std::numeric_limits<float>::max(),
             std::numeric_limits<float>::denorm_min()};
 }
 
@@ -108,7 +117,8 @@ TEST(Slice, DepthsDoubleEveryOctaveAndGrowInBetween) {
     for (const GridRequest& request : requests()) {
         const ClusterGrid grid = make_cluster_grid(request, 640, 480);
         const uint per_octave = 1u << (23u - grid.slice_shift);
-        ASSERT_EQ(depth_of_slice(grid, 0), request.z_first < 0x1p-100f ? 0x1p-100f : request.z_first);
+        ASSERT_EQ(depth_of_slice(grid, 0),
+                  request.z_first < 0x1p-100f ? 0x1p-100f : request.z_first);
         for (uint slice = 0; slice < grid.slices; ++slice) {
             const double begin = depth_of_slice(grid, slice);
             ASSERT_LT(begin, depth_of_slice(grid, slice + 1));

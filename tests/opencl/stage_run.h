@@ -27,12 +27,12 @@ struct DeviceLists {
 
 /// The list stages in their order, each repeated until its room suffices.
 class ListStages {
-   public:
+ public:
     ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
     DeviceLists run(const LightInput& lights, const GBuffer& gbuffer, const ClusterGrid& grid);
     CullLights& cull() { return cull_; }
 
-   private:
+ private:
     PrepareLights prepare_;
     BuildClusters build_;
     CullLights cull_;

@@ -99,9 +99,9 @@ View make_view(const ViewShape& s) {
     view.height = s.height;
     view.stride = (s.width + 15) / 16 * 16;
     view.orthographic = s.orthographic ? 1 : 0;
-    view.ray = {static_cast<float>(2 * s.half_x / s.width), static_cast<float>(s.shift_x - s.half_x),
-                static_cast<float>(-2 * s.half_y / s.height),
-                static_cast<float>(s.shift_y + s.half_y)};
+    view.ray = {
+        static_cast<float>(2 * s.half_x / s.width), static_cast<float>(s.shift_x - s.half_x),
+        static_cast<float>(-2 * s.half_y / s.height), static_cast<float>(s.shift_y + s.half_y)};
     view.depth = {static_cast<float>(s.orthographic ? s.near - s.far : 1 / s.near),
                   static_cast<float>(s.oblique_x / s.width),
                   static_cast<float>(s.oblique_y / s.height),
@@ -146,7 +146,8 @@ DepthOf checkerboard_depth(double near, double far) {
 }
 
 DepthOf slanted_depth(double near, double far, uint width) {
-    return [=](uint x, uint y) { return near + (far - near) * (x + 0.37 * (y % 8)) / (width + 3.0); };
+    return
+        [=](uint x, uint y) { return near + (far - near) * (x + 0.37 * (y % 8)) / (width + 3.0); };
 }
 
 DepthOf no_depth() {

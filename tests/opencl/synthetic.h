@@ -15,12 +15,12 @@ namespace kilolux {
 struct ViewShape {
     uint width = 64;
     uint height = 48;
-    double half_x = 0.8;   // half the image at z = 1; orthographic: [m]
+    double half_x = 0.8;  // half the image at z = 1; orthographic: [m]
     double half_y = 0.6;
     double shift_x = 0.0;  // of the image's centre, likewise
     double shift_y = 0.0;
-    double near = 0.1;     // [m]
-    double far = 100.0;    // [m], orthographic only: perspective depth reaches to infinity
+    double near = 0.1;       // [m]
+    double far = 100.0;      // [m], orthographic only: perspective depth reaches to infinity
     double oblique_x = 0.0;  // 1/z grows by this over the image's width
     double oblique_y = 0.0;
     bool orthographic = false;

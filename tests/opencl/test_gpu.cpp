@@ -27,8 +27,8 @@ cl::Program build_probe(const Gpu& gpu, std::span<const std::string_view> header
     std::string source(kKernelPrologue);
     for (const std::string_view header : headers) source += splice_source(header, false).text;
     source += "#line 1 \"probe\"\n" + std::string(text);
-    const std::string all_options = "-cl-std=CL1.2 -Werror -DVW=" +
-                                    std::to_string(gpu.info.lane_width) + " " + options.text();
+    const std::string all_options =
+        "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) + " " + options.text();
     static std::map<std::string, cl::Program> programs;
     const auto [place, is_new] = programs.try_emplace(all_options + source, gpu.context, source);
     if (!is_new) return place->second;

@@ -11,8 +11,8 @@
 
 namespace kilolux {
 
-/// The device under test with kernels of `lane_width` lanes (0: the device's own). KILOLUX_TEST_DEVICE
-/// chooses it as --device does; all lane widths share one context and queue.
+/// The device under test with kernels of `lane_width` lanes (0: the device's own).
+/// KILOLUX_TEST_DEVICE chooses it as --device does; all lane widths share one context and queue.
 Gpu test_gpu(int lane_width = 0);
 
 /// A program of `headers` (embedded, spliced) followed by `text`, built as the stages' are.

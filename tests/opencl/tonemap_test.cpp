@@ -21,7 +21,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 // IEC 61966-2-1, rounded to the nearest code.
 int code_of(long double linear) {
     const long double v = std::clamp(linear, 0.0L, 1.0L);
-    const long double encoded = v <= 0.0031308L ? 12.92L * v : 1.055L * std::pow(v, 1 / 2.4L) - 0.055L;
+    const long double encoded =
+        v <= 0.0031308L ? 12.92L * v : 1.055L * std::pow(v, 1 / 2.4L) - 0.055L;
     return static_cast<int>(std::lround(255 * encoded));
 }
 
@@ -50,23 +51,30 @@ std::vector<uint> display_of(int lanes, int curve, const Colors& colors, float e
     }
     Tonemap stage(gpu, default_tuning(gpu.info), curve);
     StageTimer timer;
-    return download<uint>(gpu, stage.enqueue({new_buffer(gpu, planes), view}, exposure_ev, timer), view.width);
+    return download<uint>(gpu, stage.enqueue({new_buffer(gpu, planes), view}, exposure_ev, timer),
+                          view.width);
 }
 
-int channel(uint display, int index) { return static_cast<int>(display >> (8 * index) & 255u); }
+int channel(uint display, int index) {
+    return static_cast<int>(display >> (8 * index) & 255u);
+}
 
-// Every boundary between two codes and the floats beside it; each value comes in all three channels.
+// Every boundary between two codes and the floats beside it; each value comes in all three
+// channels.
 std::vector<float> boundary_values() {
-    std::vector<float> values = {0.0f, -0.0f, 1.0f, 0.5f, 2.0f, 1e30f, -1e-6f, -1.0f, -1e30f, 1e-40f, 0x1p-13f, 0x1p-14f};
+    std::vector<float> values = {0.0f,   -0.0f, 1.0f,   0.5f,   2.0f,     1e30f,
+                                 -1e-6f, -1.0f, -1e30f, 1e-40f, 0x1p-13f, 0x1p-14f};
     for (int code = 0; code < 255; ++code) {
         const long double v = (code + 0.5L) / 255;
-        const long double linear = v <= 0.04045L ? v / 12.92L : std::pow((v + 0.055L) / 1.055L, 2.4L);
+        const long double linear =
+            v <= 0.04045L ? v / 12.92L : std::pow((v + 0.055L) / 1.055L, 2.4L);
         float f = static_cast<float>(linear);
         for (int i = 0; i < 3; ++i) f = std::nextafter(f, -kInfinity);
         for (int i = 0; i < 7; ++i, f = std::nextafter(f, kInfinity)) values.push_back(f);
     }
     Random random(1);
-    for (int i = 0; i < 20000; ++i) values.push_back(static_cast<float>(random.log_uniform(1e-5, 1.2)));
+    for (int i = 0; i < 20000; ++i)
+        values.push_back(static_cast<float>(random.log_uniform(1e-5, 1.2)));
     return values;
 }
 
@@ -77,7 +85,8 @@ TEST(Tonemap, RoundsToTheNearestCodeAtEveryBoundary) {
             Colors colors;
             const std::size_t n = values.size();
             for (std::size_t i = 0; i < n; ++i) {
-                colors.add(std::ldexp(values[i], static_cast<int>(-ev)), std::ldexp(values[(i + 1) % n], static_cast<int>(-ev)),
+                colors.add(std::ldexp(values[i], static_cast<int>(-ev)),
+                           std::ldexp(values[(i + 1) % n], static_cast<int>(-ev)),
                            std::ldexp(values[(i + 2) % n], static_cast<int>(-ev)));
             }
             const auto display = display_of(lanes, TONE_CURVE_NONE, colors, ev);
@@ -85,7 +94,8 @@ TEST(Tonemap, RoundsToTheNearestCodeAtEveryBoundary) {
                 ASSERT_EQ(display[i] >> 24, 255u);
                 for (int c = 0; c < 3; ++c) {
                     const float value = values[(i + static_cast<std::size_t>(c)) % n];
-                    ASSERT_EQ(channel(display[i], c), code_of(value)) << "linear " << std::hexfloat << value << ", channel " << c;
+                    ASSERT_EQ(channel(display[i], c), code_of(value))
+                        << "linear " << std::hexfloat << value << ", channel " << c;
                 }
             }
         }
@@ -108,7 +118,9 @@ Vec3d neutral(Vec3d c) {
 
 // S. Hill's fit of the ACES reference rendering and sRGB output transforms.
 Vec3d aces(Vec3d c) {
-    const auto fit = [](double v) { return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081); };
+    const auto fit = [](double v) {
+        return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    };
     const double r = fit(0.59719 * c.x + 0.35458 * c.y + 0.04823 * c.z);
     const double g = fit(0.07600 * c.x + 0.90834 * c.y + 0.01566 * c.z);
     const double b = fit(0.02840 * c.x + 0.13383 * c.y + 0.83777 * c.z);
@@ -121,13 +133,16 @@ TEST(Tonemap, CurvesAgreeWithDouble) {
     Colors colors;
     for (int i = 0; i < 20000; ++i) {
         const double size = random.log_uniform(1e-4, 1e4);
-        colors.add(static_cast<float>(size * random.unit()), static_cast<float>(size * random.unit()), static_cast<float>(size * random.unit()));
+        colors.add(static_cast<float>(size * random.unit()),
+                   static_cast<float>(size * random.unit()),
+                   static_cast<float>(size * random.unit()));
     }
     for (const int curve : {TONE_CURVE_NEUTRAL, TONE_CURVE_ACES}) {
         const auto display = display_of(0, curve, colors);
         int different = 0;
         for (std::size_t i = 0; i < display.size(); ++i) {
-            const Vec3d expected = curve == TONE_CURVE_NEUTRAL ? neutral(colors.at(i)) : aces(colors.at(i));
+            const Vec3d expected =
+                curve == TONE_CURVE_NEUTRAL ? neutral(colors.at(i)) : aces(colors.at(i));
             const double values[] = {expected.x, expected.y, expected.z};
             for (int c = 0; c < 3; ++c) {
                 const int off = std::abs(channel(display[i], c) - code_of(values[c]));
@@ -148,8 +163,10 @@ TEST(Tonemap, NotANumberAndNegativeAreBlackAndInfiniteIsWhite) {
             for (const float v : {kNan, -kNan, -1.0f, -1e30f, -kInfinity}) colors.add(v, v, v);
             for (const float v : {kInfinity, 1e30f}) colors.add(v, v, v);
             const auto display = display_of(lanes, curve, colors);
-            for (int i = 0; i < 5; ++i) EXPECT_EQ(display[static_cast<std::size_t>(i)], 0xff000000u) << "color " << i;
-            for (int i = 5; i < 7; ++i) EXPECT_EQ(display[static_cast<std::size_t>(i)], 0xffffffffu) << "color " << i;
+            for (int i = 0; i < 5; ++i)
+                EXPECT_EQ(display[static_cast<std::size_t>(i)], 0xff000000u) << "color " << i;
+            for (int i = 5; i < 7; ++i)
+                EXPECT_EQ(display[static_cast<std::size_t>(i)], 0xffffffffu) << "color " << i;
         }
     }
 }
@@ -157,9 +174,11 @@ TEST(Tonemap, NotANumberAndNegativeAreBlackAndInfiniteIsWhite) {
 TEST(Tonemap, ImagesOfAnySize) {
     for (const std::size_t pixels : {1u, 15u, 16u, 17u, 4099u}) {
         Colors colors;
-        for (std::size_t i = 0; i < pixels; ++i) colors.add(static_cast<float>(i % 256) / 255.0f, 0.25f, 0.0f);
+        for (std::size_t i = 0; i < pixels; ++i)
+            colors.add(static_cast<float>(i % 256) / 255.0f, 0.25f, 0.0f);
         const auto display = display_of(0, TONE_CURVE_NONE, colors);
-        for (std::size_t i = 0; i < pixels; ++i) ASSERT_EQ(channel(display[i], 0), code_of(colors.red[i]));
+        for (std::size_t i = 0; i < pixels; ++i)
+            ASSERT_EQ(channel(display[i], 0), code_of(colors.red[i]));
     }
 }
 
