@@ -178,10 +178,13 @@ kernel void cull_lights_fill(global const ShadeLight* restrict lights,
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, true);
 }
 
+static inline bool holds(uint interval, uint i) { return (interval & 0xffffu) <= i && i <= (interval >> 16); }
+
 // The oracle: every light against every cluster. One work-item a cluster. With `lists` null it counts,
 // else it fills at `offsets`. Ships for tests and as the benchmark's baseline.
 kernel void cull_lights_brute_force(global const ShadeLight* restrict lights,
                                     global const float4* restrict bounds,
+                                    global const LightExtent* restrict extents,
                                     uint count,
                                     ClusterGrid grid,
                                     global const float2* restrict columns,
@@ -207,6 +210,9 @@ kernel void cull_lights_brute_force(global const ShadeLight* restrict lights,
 #if HAS_SPOT_LIGHTS
         reaches = reaches && cone_reaches(lights[light], (float3)(x.x, y.x, -z.y), (float3)(x.y, y.y, -z.x));
 #endif
+        // A box reaches beyond its cluster's part of the view: there the light's extent decides.
+        LightExtent e = extents[light];
+        reaches = reaches && holds(e.columns, column) && holds(e.rows, row) && holds(e.slices, slice);
         if (!reaches) continue;
         if (fill) lists[offsets[cluster] + found] = (LIGHT_INDEX)light;
         ++found;

@@ -87,8 +87,7 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, g
         barrier(CLK_LOCAL_MEM_FENCE);  // the batch before is used up
         stage_batch(staged, lights, list, first, end);
         barrier(CLK_LOCAL_MEM_FENCE);  // the batch is complete
-        if (!wanted) continue;
-        for (uint i = 0; i < end - first; ++i) {
+        for (uint i = 0; wanted && i < end - first; ++i) {
             sum = enter_block(sum, staged.indices[i]);
             sum.block = evaluate(sum.block, p, staged.lights[i]);
         }

@@ -59,12 +59,12 @@ CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterB
     return in_stage("cull_lights_brute_force", [&] {
         const ClusterGrid& grid = boxes.grid;
         CoarseLists out = make_lists(grid);
-        cl::KernelFunctor<cl::Buffer, cl::Buffer, uint, ClusterGrid, cl::Buffer, cl::Buffer, cl::Buffer, uint, cl::Buffer, cl::Buffer, cl::Buffer>
+        cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, uint, ClusterGrid, cl::Buffer, cl::Buffer, cl::Buffer, uint, cl::Buffer, cl::Buffer, cl::Buffer>
             kernel(program_, "cull_lights_brute_force");
         const auto group = static_cast<std::size_t>(tuning_.light_group);
         const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(grid.cluster_count, group)), cl::NDRange(group));
         const auto run = [&](uint fill) {
-            timer.record("cull_lights_brute_force", kernel(items, lights.lights, lights.bounds, lights.count, grid, boxes.columns, boxes.rows,
+            timer.record("cull_lights_brute_force", kernel(items, lights.lights, lights.bounds, lights.extents, lights.count, grid, boxes.columns, boxes.rows,
                                                            boxes.depths, fill, counts_.get(), out.offsets, out.lists));
         };
         run(0);

@@ -67,7 +67,7 @@ std::vector<SharedStruct> shared_structs() {
           MEMBER(ClusterGrid, slice_shift), MEMBER(ClusterGrid, tile_width),
           MEMBER(ClusterGrid, tile_height), MEMBER(ClusterGrid, z_first_bits),
           MEMBER(ClusterGrid, cluster_count), MEMBER(ClusterGrid, position_pad),
-          MEMBER(ClusterGrid, unused0), MEMBER(ClusterGrid, unused1), MEMBER(ClusterGrid, unused2)},
+          MEMBER(ClusterGrid, unused0), MEMBER(ClusterGrid, unused1), MEMBER(ClusterGrid, fine_slice_bits)},
          "cluster_count"},
         {"MaterialRow",
          "raster/shaders/draw_rows.h",
