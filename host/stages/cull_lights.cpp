@@ -76,7 +76,7 @@ CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterB
 }
 
 bool CullLights::fits() {
-    const uint entries = checked_list_size(pairs(), kStage);
+    const std::uint64_t entries = std::uint64_t{checked_list_size(pairs(), kStage)};
     if (entries * index_bytes_ <= lists_.bytes()) return true;
     // An eighth more, so that moving lights do not grow it frame by frame.
     lists_.reserve((entries + entries / 8) * index_bytes_);
