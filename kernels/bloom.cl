@@ -58,8 +58,28 @@ kernel void bloom_down(global const float* restrict fine,  // [3][height][stride
     store_lanes(sum, coarse + (plane * coarse_size.y + y) * coarse_size.z + x);
 }
 
+// Half as many lanes.
+#if VW == 2
+#define HALF_LOAD(p) (*(p))
+#elif VW == 4
+#define HALF_LOAD(p) vload2(0, p)
+#elif VW == 8
+#define HALF_LOAD(p) vload4(0, p)
+#elif VW == 16
+#define HALF_LOAD(p) vload8(0, p)
+#endif
+
 // The coarse row doubled at pixels x .. x + VW - 1.
 static inline FV doubled_row(global const float* row, uint width, uint x) {
+#if VW > 1
+    if (x > 0u && x / 2u + VW / 2u < width) {  // not at a border: whole loads
+        FV near, far;
+        near.even = near.odd = HALF_LOAD(row + x / 2u);
+        far.even = HALF_LOAD(row + x / 2u - 1u);
+        far.odd = HALF_LOAD(row + x / 2u + 1u);
+        return fma(near, fv(0.75f), far * 0.25f);
+    }
+#endif
 #define NEAR(i) row[clamped((int)((x + i) / 2u), width)]
 #define FAR(i) row[clamped((int)((x + i) / 2u) + ((x + i) % 2u != 0u ? 1 : -1), width)]
     return fma(LANES(FV, NEAR), fv(0.75f), LANES(FV, FAR) * 0.25f);
