@@ -6,7 +6,7 @@
 //   falloff(d) = window(d / range) / max(d, LIGHT_D_MIN)^2,  window(x) = clamp(1 - x^4, 0, 1)
 //
 // The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
-// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC: what the scene does not need is not
+// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, FAST_RSQRT: what the scene does not need is not
 // in the code.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
@@ -28,6 +28,11 @@
 // the branch costs more than it saves.
 #ifndef EARLY_OUT
 #define EARLY_OUT (SHADING != SHADING_LAMBERT)
+#endif
+
+// Whether rsqrt is one instruction (GPUs) rather than a root and a division (CPUs).
+#ifndef FAST_RSQRT
+#define FAST_RSQRT 0
 #endif
 
 // Nearer than this the inverse square stops growing: light sources have a size [m].
@@ -196,7 +201,7 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
 #endif
     FV e2 = max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN));
     FV n_dot_v = max(dot3(p.normal, v), fv(0.0f));  // n.l times the distance
-#if SHADING == SHADING_LAMBERT
+#if SHADING == SHADING_LAMBERT && !FAST_RSQRT
     // One root and one division, and no product more than they need.
     FV distance = sqrt(e2);
 #if HAS_SPOT_LIGHTS

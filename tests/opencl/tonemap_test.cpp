@@ -146,7 +146,10 @@ TEST(Tonemap, CurvesAgreeWithDouble) {
             const double values[] = {expected.x, expected.y, expected.z};
             for (int c = 0; c < 3; ++c) {
                 const int off = std::abs(channel(display[i], c) - code_of(values[c]));
-                ASSERT_LE(off, 1) << "curve " << curve << ", color " << i;
+                ASSERT_LE(off, 1) << "curve " << curve << ", color " << i << " (" << colors.red[i]
+                                  << ", " << colors.green[i] << ", " << colors.blue[i]
+                                  << "), channel " << c << ": " << channel(display[i], c)
+                                  << ", expected " << code_of(values[c]);
                 different += off;
             }
         }
