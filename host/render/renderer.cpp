@@ -226,7 +226,7 @@ Frame Renderer::Parts::render(const Camera& camera, double time,
 }
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
-    : parts_(std::make_unique<Parts>(scene, settings, gl)) {}
+    : parts_(in_stage("renderer", [&] { return std::make_unique<Parts>(scene, settings, gl); })) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
