@@ -106,7 +106,8 @@ TEST(OpenClFaults, EveryCallOfTheStartMayFail) {
     std::mt19937 random(7);
     // The first ones make context and queue; the others are a sample.
     std::vector<int> chosen = {1, 2, 3, 4, 5, 6, 7, 8};
-    for (int i = 0; i < 24; ++i) chosen.push_back(9 + static_cast<int>(random() % static_cast<unsigned>(calls - 8)));
+    for (int i = 0; i < 24; ++i)
+        chosen.push_back(9 + static_cast<int>(random() % static_cast<unsigned>(calls - 8)));
     for (const int call : chosen) {
         SCOPED_TRACE("call " + std::to_string(call) + " of " + std::to_string(calls));
         layer.arm(call, CL_OUT_OF_RESOURCES);
