@@ -16,12 +16,23 @@ static inline FV bloomable(FV v) {
     return fmin(fmax(v, fv(0.0f)), fv(1e36f));
 }
 
-// p[0], p[2], p[4] ...
+// p[0], p[2], p[4] ... Elements by name, since oclgrind 21.10 crashes on vectors joined of halves
+// such as (a.even, b.even); compilers make the same shuffles of both.
 static inline FV every_second(global const float* p) {
 #if VW == 1
     return p[0];
 #else
-    return (FV)(load_lanes(p).even, load_lanes(p + VW).even);
+    FV a = load_lanes(p), b = load_lanes(p + VW);
+#if VW == 2
+    return (FV)(a.s0, b.s0);
+#elif VW == 4
+    return (FV)(a.s0, a.s2, b.s0, b.s2);
+#elif VW == 8
+    return (FV)(a.s0, a.s2, a.s4, a.s6, b.s0, b.s2, b.s4, b.s6);
+#else
+    return (FV)(a.s0, a.s2, a.s4, a.s6, a.s8, a.sa, a.sc, a.se,  //
+                b.s0, b.s2, b.s4, b.s6, b.s8, b.sa, b.sc, b.se);
+#endif
 #endif
 }
 

@@ -3,9 +3,12 @@
 
 #include <CL/opencl.hpp>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "host/gpu/memory_budget.h"
 
 namespace kilolux {
 
@@ -45,6 +48,7 @@ struct Gpu {
     cl::Context context;
     cl::CommandQueue queue;
     DeviceInfo info;
+    std::shared_ptr<MemoryBudget> budget;  // of GrowingBuffers; none: what the device has
 };
 
 }  // namespace kilolux

@@ -6,8 +6,10 @@
 
 #include "host/render/deferred_path.h"
 #include "host/render/forward_path.h"
+#include "host/render/frame_bands.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/light_source.h"
+#include "host/render/memory_plan.h"
 #include "host/render/radiance_sum.h"
 #include "host/render/sample_pattern.h"
 #include "host/render/views.h"
@@ -42,6 +44,12 @@ RenderSettings reference_of(RenderSettings settings) {
     return settings;
 }
 
+// Holds the buffers of everything that gets the device from now on within the plan.
+MemoryPlan limit_buffers(Gpu& gpu, const MemoryPlan& plan) {
+    gpu.budget = std::make_shared<MemoryBudget>(MemoryBudget{plan.device_bytes, 0});
+    return plan;
+}
+
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
@@ -52,15 +60,23 @@ std::vector<DeviceInfo> list_devices() {
 
 struct Renderer::Parts {
     Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
-    Frame render(const Camera& camera, double time);
+    Frame render(const Camera& camera, double time, const std::function<void()>& between);
     Radiance light(const SampleInput& sample, FrameStats& stats);
-    Radiance light_samples(const Camera& camera, const LightRows& rows, FrameStats& stats);
+    Radiance light_samples(const SampleInput& band, FrameStats& stats);
+    void render_band(const SampleInput& band, Frame& frame, DecodedSurfaces& surfaces);
+    void finish_pixels(const Radiance& radiance, Frame& frame);
     void take_stage_times(FrameStats& stats);
-    void add_pixels(const Camera& camera, double time, Frame& frame);
+    std::size_t pixel_count() const {
+        return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+    }
+    void bloom_whole(const View& view, Frame& frame);
+    void show_view(const Camera& camera, double time, const DecodedSurfaces& surfaces,
+                   Frame& frame);
 
     RenderSettings settings;
     ScenePlan plan;
     Gpu gpu;
+    MemoryPlan memory;
     Tuning tuning;
     std::optional<GlContext> gl_context;
     GpuScene gpu_scene;
@@ -80,6 +96,7 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
     : settings(the_settings),
       plan(make_scene_plan(the_scene, settings, settings.lights.count + the_scene.lights.size())),
       gpu(open_device(settings)),
+      memory(limit_buffers(gpu, plan_memory(the_scene, settings, plan, gpu.info))),
       tuning(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       gl_context(context_from(gl)),
       gpu_scene(the_scene),
@@ -107,15 +124,13 @@ Radiance Renderer::Parts::light(const SampleInput& sample, FrameStats& stats) {
 
 // The mean of the jittered samples. Sample 0, through the pixels' centres, comes last: counts, AOVs
 // and views are its, since depths, ids and unit vectors have no mean.
-Radiance Renderer::Parts::light_samples(const Camera& camera, const LightRows& rows,
-                                        FrameStats& stats) {
-    const LightInput input = lights.upload(rows);
-    if (settings.samples <= 1) return light({camera, rows, input}, stats);
+Radiance Renderer::Parts::light_samples(const SampleInput& band, FrameStats& stats) {
+    if (settings.samples <= 1) return light(band, stats);
     sum.clear();
     for (int i = settings.samples - 1; i >= 0; --i) {
-        Camera jittered = camera;
+        Camera jittered = band.camera;
         jittered.jitter += sample_offset(static_cast<std::uint32_t>(i));
-        sum.add(light({jittered, rows, input}, stats));
+        sum.add(light({jittered, band.rows, band.lights, band.band, true}, stats));
         take_stage_times(stats);
     }
     return sum.mean();
@@ -128,22 +143,65 @@ void Renderer::Parts::take_stage_times(FrameStats& stats) {
     }
 }
 
-// AOVs, and the view in place of the lit picture.
-void Renderer::Parts::add_pixels(const Camera& camera, double time, Frame& frame) {
+// Appends a band's pixels as they leave the device.
+void Renderer::Parts::finish_pixels(const Radiance& radiance, Frame& frame) {
+    const cl::Buffer display = tonemap.enqueue(radiance, settings.exposure, timer);
+    const View& view = radiance.view;
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    append_rows(frame.radiance,
+                tight_radiance(download<float>(gpu, radiance.planes, 3 * plane), view),
+                3 * pixel_count());
+    append_rows(frame.display, tight_display(download<uint>(gpu, display, plane), view),
+                4 * pixel_count());
+}
+
+void Renderer::Parts::render_band(const SampleInput& band, Frame& frame,
+                                  DecodedSurfaces& surfaces) {
+    const Clock::time_point start = Clock::now();
+    FrameStats stats;
+    const Radiance radiance = light_samples(band, stats);
+    const bool whole = band.band.rows == settings.height;
+    finish_pixels(whole && bloom ? bloom->enqueue(radiance, settings.bloom, timer) : radiance,
+                  frame);
+    take_stage_times(stats);
+    add_band(frame.stats, stats);
+    frame.stats.frame_ms += ms_since(start);
     if (!wants_pixels(settings)) return;
-    const DecodedSurfaces pixels = deferred ? deferred->pixels() : forward->pixels(camera);
+    DecodedSurfaces pixels = deferred ? deferred->pixels() : forward->pixels(band.camera);
+    std::vector<Layer> layers;
     for (const std::string& name : settings.aovs) {
-        frame.aovs.push_back(make_aov(name, pixels, camera));
+        layers.push_back(make_aov(name, pixels, band.camera));
     }
-    if (settings.show == "lit") return;
+    append_layers(frame.aovs, std::move(layers), pixel_count());
+    if (settings.show != "lit") place_surfaces(surfaces, std::move(pixels), settings.height);
+}
+
+// Light spreads over the whole picture: after the last band.
+void Renderer::Parts::bloom_whole(const View& view, Frame& frame) {
+    const Clock::time_point start = Clock::now();
+    GrowingBuffer planes(gpu, "bloom");
+    const Radiance radiance{
+        planes.reserve(std::size_t{3} * sizeof(float) * view.stride * view.height), view};
+    upload<float>(gpu, radiance.planes, radiance_planes(frame.radiance, view));
+    frame.radiance.clear();
+    frame.display.clear();
+    finish_pixels(bloom->enqueue(radiance, settings.bloom, timer), frame);
+    take_stage_times(frame.stats);
+    frame.stats.frame_ms += ms_since(start);
+}
+
+// The view in place of the lit picture.
+void Renderer::Parts::show_view(const Camera& camera, double time, const DecodedSurfaces& surfaces,
+                                Frame& frame) {
     std::vector<float> fragments, reference_radiance;
     if (overdraw) fragments = overdraw->count(camera, settings.width, settings.height);
     if (reference) reference_radiance = reference->render(camera, time).radiance;
-    frame.display = make_view(settings.show, {pixels, camera, context.box, fragments,
+    frame.display = make_view(settings.show, {surfaces, camera, context.box, fragments,
                                               frame.radiance, reference_radiance});
 }
 
-Frame Renderer::Parts::render(const Camera& camera, double time) {
+Frame Renderer::Parts::render(const Camera& camera, double time,
+                              const std::function<void()>& between) {
     if (gl_context) gl_context->make_current();
     const Clock::time_point start = Clock::now();
     Frame frame;
@@ -151,29 +209,30 @@ Frame Renderer::Parts::render(const Camera& camera, double time) {
     frame.height = settings.height;
     const LightRows rows = lights.at(time, camera.position, frame.stats);
     add_stage_time(frame.stats.stages, "light_input", ms_since(start));
-
-    const Radiance radiance = light_samples(camera, rows, frame.stats);
-    const Radiance glowing = bloom ? bloom->enqueue(radiance, settings.bloom, timer) : radiance;
-    const cl::Buffer display = tonemap.enqueue(glowing, settings.exposure, timer);
-
-    const View& view = radiance.view;
-    const std::size_t plane = std::size_t{view.stride} * view.height;
-    frame.radiance = tight_radiance(download<float>(gpu, radiance.planes, 3 * plane), view);
-    frame.display = tight_display(download<uint>(gpu, display, plane), view);
+    const LightInput input = lights.upload(rows);
     frame.stats.frame_ms = ms_since(start);
-    take_stage_times(frame.stats);
-    add_pixels(camera, time, frame);
+    const std::vector<Band> bands = make_bands(settings.height, memory.band_rows);
+    DecodedSurfaces surfaces;
+    for (const Band& band : bands) {
+        if (between) between();
+        const bool redraw = raster_tile(settings.height, band.first_row).first_row == band.first_row;
+        render_band({camera, rows, input, band, redraw}, frame, surfaces);
+    }
+    if (bloom && bands.size() > 1) {
+        bloom_whole(view_of(camera, settings.width, settings.height), frame);
+    }
+    if (settings.show != "lit") show_view(camera, time, surfaces, frame);
     return frame;
 }
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
-    : parts_(std::make_unique<Parts>(scene, settings, gl)) {}
+    : parts_(in_stage("renderer", [&] { return std::make_unique<Parts>(scene, settings, gl); })) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-Frame Renderer::render(const Camera& camera, double time) {
-    return in_stage("render", [&] { return parts_->render(camera, time); });
+Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
+    return in_stage("render", [&] { return parts_->render(camera, time, between); });
 }
 
 const DeviceInfo& Renderer::device() const {
@@ -181,6 +240,9 @@ const DeviceInfo& Renderer::device() const {
 }
 const ScenePlan& Renderer::plan() const {
     return parts_->plan;
+}
+const MemoryPlan& Renderer::memory() const {
+    return parts_->memory;
 }
 
 }  // namespace kilolux

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "host/gpu/device.h"
 #include "host/render/frame.h"
+#include "host/render/memory_plan.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
@@ -34,12 +36,14 @@ class Renderer {
 
     /// The picture at `time` [s]: the mean of settings.samples jittered samples (sample_pattern.h).
     /// AOVs, views and counts are those of the sample through the pixels' centres; stage times are
-    /// sums over the samples. Blocks until it is on the host. The same arguments give the same bits
-    /// on every call.
-    Frame render(const Camera& camera, double time);
+    /// sums over the samples and bands. Blocks until it is on the host. The same arguments give the
+    /// same bits on every call and with any memory. `between` is called before every band, and what
+    /// it throws comes out.
+    Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
 
     const DeviceInfo& device() const;
     const ScenePlan& plan() const;
+    const MemoryPlan& memory() const;
 
  private:
     struct Parts;
