@@ -87,7 +87,7 @@ Json costs_json(const InfoOptions& options, const Scene& scene) {
 }
 
 Json info_json(const InfoOptions& options) {
-    const Scene scene = open_scene(options.shared.scene, options.shared.time);
+    const Scene scene = open_scene(options.shared);
     const Renderer renderer(scene, options.shared.settings);
     const ScenePlan& plan = renderer.plan();
     Json out;

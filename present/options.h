@@ -17,6 +17,7 @@ namespace kilolux {
 /// What every subcommand knows: which picture of which scene, by which device.
 struct SharedOptions {
     std::string scene = "atrium";  // a generated scene's name, or a .gltf or .glb file
+    bool allow_outside_paths = false;  // the file may name buffers and images outside its folder
     RenderSettings settings;
     CameraChoice camera;
     double time = 0.0;  // [s]

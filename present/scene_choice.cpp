@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-Scene open_scene(const std::string& name_or_file, double time) {
+Scene open_scene(const std::string& name_or_file, double time, bool allow_outside_paths) {
     if (is_generated_scene(name_or_file)) return make_generated_scene(name_or_file);
     const std::filesystem::path file(name_or_file);
     if (std::filesystem::is_directory(file)) {
@@ -25,7 +25,12 @@ Scene open_scene(const std::string& name_or_file, double time) {
     if (!std::filesystem::exists(file)) throw Error(name_or_file + ": no such scene file");
     LoadOptions options;
     options.time = time;
+    options.allow_outside_paths = allow_outside_paths;
     return load_scene(file, options);
+}
+
+Scene open_scene(const SharedOptions& options) {
+    return open_scene(options.scene, options.time, options.allow_outside_paths);
 }
 
 }  // namespace kilolux
