@@ -92,8 +92,7 @@ void MaterialWriter::add_texture(Json& to, const char* name, const TextureUse& u
 }
 
 Json MaterialWriter::metallic_roughness(const Material& m) {
-    Json out{
-        {"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}};
+    Json out{{"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}};
     add_texture(out, "baseColorTexture", m.base_color_texture);
     out["metallicFactor"] = m.metallic;
     out["roughnessFactor"] = m.roughness;

@@ -72,8 +72,8 @@ int add_placed(Json& nodes, const glm::dmat4& world_from_node, Json node) {
     node["matrix"] = matrix_json(with_axes(glm::transpose(rotation), origin));
     nodes.push_back(std::move(node));
     const int child = static_cast<int>(nodes.size()) - 1;
-    nodes.push_back({{"children", {child}},
-                     {"matrix", matrix_json(with_axes(axes, world_from_node[3]))}});
+    nodes.push_back(
+        {{"children", {child}}, {"matrix", matrix_json(with_axes(axes, world_from_node[3]))}});
     return child + 1;
 }
 
@@ -137,8 +137,8 @@ void add_light(ExportedNodes& out, const SceneLight& light) {
     if (light.type == LightType::point) {
         node["translation"] = {light.position.x, light.position.y, light.position.z};
     } else {
-        node["matrix"] = matrix_json(
-            with_axes(axes_along(light.direction), glm::dvec4(light.position, 1.0)));
+        node["matrix"] =
+            matrix_json(with_axes(axes_along(light.direction), glm::dvec4(light.position, 1.0)));
     }
     out.roots.push_back(out.nodes.size());
     out.nodes.push_back(std::move(node));

@@ -187,8 +187,8 @@ Bytes Writer::glb() const {
     for (const char c : {'g', 'l', 'T', 'F'}) out.push_back(static_cast<unsigned char>(c));
     append_word(out, 2);
     append_word(out, 0);
-    append_chunk(out, "JSON",
-                 {reinterpret_cast<const unsigned char*>(json.data()), json.size()}, ' ');
+    append_chunk(out, "JSON", {reinterpret_cast<const unsigned char*>(json.data()), json.size()},
+                 ' ');
     if (!buffer_.bytes().empty()) append_chunk(out, "BIN\0", buffer_.bytes(), 0);
     Bytes size;
     append_word(size, out.size());
