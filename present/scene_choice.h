@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/scene/scene.h"
+#include "host/scene/animated_scene.h"
 #include "present/options.h"
 
 namespace kilolux {
@@ -14,5 +14,8 @@ Scene open_scene(const std::string& name_or_file, double time, bool allow_outsid
 
 /// The scene of the options, at their time.
 Scene open_scene(const SharedOptions& options);
+
+/// The scene of the options at `time` [s], to be put to other times.
+AnimatedScene open_animated_scene(const SharedOptions& options, double time);
 
 }  // namespace kilolux

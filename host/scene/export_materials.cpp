@@ -139,6 +139,8 @@ void MaterialWriter::add_reflectance(Json& out, const Material& m) {
         specular["specularColorFactor"] = {m.specular_color.x, m.specular_color.y,
                                            m.specular_color.z};
     }
+    add_texture(specular, "specularTexture", m.specular_texture);
+    add_texture(specular, "specularColorTexture", m.specular_color_texture);
     if (!specular.empty()) extension(out, "KHR_materials_specular") = std::move(specular);
 }
 

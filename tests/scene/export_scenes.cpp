@@ -39,6 +39,8 @@ Material everything_material() {
     m.ior = 1.33f;
     m.specular = 0.5f;
     m.specular_color = {1.0f, 0.9f, 0.2f};
+    m.specular_texture = {1, 1, glm::mat3(1.0f)};
+    m.specular_color_texture = {0, 0, glm::mat3(1.0f)};
     return m;
 }
 
@@ -159,6 +161,9 @@ struct Materials {
         if (!same_use(m.normal_texture, n.normal_texture)) return "normal map";
         if (!same_use(m.occlusion_texture, n.occlusion_texture)) return "occlusion texture";
         if (!same_use(m.emissive_texture, n.emissive_texture)) return "emissive texture";
+        if (!same_use(m.specular_texture, n.specular_texture)) return "specular texture";
+        if (!same_use(m.specular_color_texture, n.specular_color_texture))
+            return "specular colour texture";
         return "";
     }
 };
