@@ -93,8 +93,9 @@ TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
     EXPECT_TRUE(saw);
     EXPECT_EQ(Json::parse(stats.out).at("left_out"), left_out(after));
     for (const Json& entry : left_out(after)) {
-        if (entry.at("name") == "spot-lights") EXPECT_TRUE(entry.at("ms").is_number()) << entry;
-        if (entry.at("name") == "specular") EXPECT_EQ(entry.at("bytes_per_pixel"), 4) << entry;
+        const std::string name = entry.at("name");
+        EXPECT_TRUE(name != "spot-lights" || entry.at("ms").is_number()) << entry;
+        EXPECT_TRUE(name != "specular" || entry.at("bytes_per_pixel") == 4) << entry;
     }
 }
 
