@@ -94,8 +94,10 @@ LaneWork gloss_work(const KernelFeatures& kernels) {
         // n.v 4, Smith 3 and a root 1; lobe 1, channels 3 * 2 beside the diffuse term.
         work = work + LaneWork{15.0, 0.0, 1.0};
     }
-    // Decoding 3, dielectric share 1, base 3, F0 4; Fresnel sums 6 and specular 3.
-    if (kernels.metallic) work = work + LaneWork{kernels.shading == SHADING_PBR ? 20.0 : 14.0};
+    // Decoding 3, dielectric share 1, base 3, F0 4, by channel 3.
+    if (kernels.metallic) work = work + LaneWork{14.0};
+    // Codes 3 * 4 and 3, the strongest 2, grazing angles 3 and a division 1, their mean 2.
+    if (kernels.specular) work = work + LaneWork{22.0, 0.0, 0.0, 1.0};
     return work;
 }
 
