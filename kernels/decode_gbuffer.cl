@@ -8,7 +8,7 @@ kernel void decode_gbuffer(global const uchar* restrict gbuffer,
                            GBufferLayout layout,
                            View view,
                            global const float* restrict srgb,  // [256]
-                           global float* restrict planes) {    // out [SURFACE_PLANES][height][stride]; 0 for background
+                           global float* restrict planes) {    // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for background
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     if (y >= view.height) return;
@@ -17,12 +17,19 @@ kernel void decode_gbuffer(global const uchar* restrict gbuffer,
     MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
     FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y), select_fv(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, x, y, z);
-    FV values[SURFACE_PLANES] = {z, s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
+#if HAS_SPECULAR
+#define PLANES SURFACE_PLANES_WITH_SPECULAR
+#define SPECULAR , s.specular.x, s.specular.y, s.specular.z, s.specular_f90
+#else
+#define PLANES SURFACE_PLANES
+#define SPECULAR
+#endif
+    FV values[PLANES] = {z, s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
                                  s.albedo.x, s.albedo.y, s.albedo.z, s.roughness, s.metallic,
-                                 s.emissive.x, s.emissive.y, s.emissive.z, s.occlusion};
+                                 s.emissive.x, s.emissive.y, s.emissive.z, s.occlusion SPECULAR};
     uint pixel = y * view.stride + x;
     uint plane = view.stride * view.height;
-    for (uint i = 0; i < SURFACE_PLANES; ++i) {
+    for (uint i = 0; i < PLANES; ++i) {
         store_lanes(select_fv(drawn, values[i], fv(0.0f)), planes + i * plane + pixel);
     }
 }

@@ -110,7 +110,6 @@ static inline FV3 select3(MASK mask, FV3 a, FV3 b) {
 static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
     a.diffuse = select3(mask, a.diffuse, b.diffuse);
     a.specular = select3(mask, a.specular, b.specular);
-    a.fresnel = select3(mask, a.fresnel, b.fresnel);
     return a;
 }
 

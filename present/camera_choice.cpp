@@ -55,7 +55,7 @@ glm::dvec3 up_vector(const CameraChoice& choice, const glm::dvec3& direction) {
 }  // namespace
 
 Camera choose_camera(const CameraChoice& choice, const Scene& scene) {
-    const Box box = bounds(scene);
+    const Box box = resting_bounds(scene);
     Camera camera = start_camera(choice, scene, box);
     const double radius = box.empty() ? 1.0 : 0.5 * glm::length(box.size());
     const glm::dvec3 middle = box.empty() ? glm::dvec3(0.0) : box.center();

@@ -31,7 +31,7 @@ DeviceLimits limits_of(const RenderSettings& settings) {
 // What the modes begin with.
 struct Bench {
     explicit Bench(const BenchOptions& options)
-        : scene(open_scene(options.shared.scene, options.shared.time)),
+        : scene(open_scene(options.shared)),
           camera(choose_camera(options.shared.camera, scene)),
           settings(single_settings(options)),
           context(bench_context(options, scene, camera, describe(choose_device(settings.device)))) {

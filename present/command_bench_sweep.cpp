@@ -138,7 +138,7 @@ void run_sweep(const BenchOptions& options) {
     sweep.points = bench_points(options);
     std::optional<BenchLog> log;
     if (!options.output.empty()) log.emplace(options.output / "bench.csv", options.resume);
-    const Scene scene = open_scene(options.shared.scene, options.shared.time);
+    const Scene scene = open_scene(options.shared);
     const Camera camera = choose_camera(options.shared.camera, scene);
     const DeviceInfo device = describe(choose_device(options.shared.settings.device));
     const Json context = bench_context(options, scene, camera, device);

@@ -4,7 +4,7 @@
 
 #include "host/base/log.h"
 #include "host/measure/device_limits.h"
-#include "host/measure/feature_cost.h"
+#include "host/measure/known_costs.h"
 #include "host/render/renderer.h"
 #include "present/command_bench.h"
 #include "present/commands.h"
@@ -50,44 +50,30 @@ Json light_counts(const Scene& scene, const LightOptions& generated) {
 }
 
 Json scene_json(const Scene& scene, const LightOptions& generated) {
-    return {{"name", scene.name},
-            {"triangles", triangle_count(scene)},
-            {"meshes", scene.meshes.size()},
-            {"instances", scene.instances.size()},
-            {"materials", scene.materials.size()},
-            {"textures", scene.textures.size()},
-            {"images", scene.images.size()},
-            {"cameras", scene.cameras.size()},
-            {"lights", light_counts(scene, generated)},
-            {"bounds", box_json(bounds(scene))},
-            {"light_box", box_json(scene.light_box.empty() ? bounds(scene) : scene.light_box)}};
+    return {
+        {"name", scene.name},
+        {"triangles", triangle_count(scene)},
+        {"meshes", scene.meshes.size()},
+        {"instances", scene.instances.size()},
+        {"materials", scene.materials.size()},
+        {"textures", scene.textures.size()},
+        {"images", scene.images.size()},
+        {"cameras", scene.cameras.size()},
+        {"lights", light_counts(scene, generated)},
+        {"bounds", box_json(bounds(scene))},
+        {"light_box", box_json(scene.light_box.empty() ? resting_bounds(scene) : scene.light_box)}};
 }
 
-Json cost_json(const FeatureCost& cost) {
-    Json out = {{"name", cost.feature}};
-    if (!cost.measured) {
-        out["ms"] = nullptr;
-        out["why"] = cost.why;
-        return out;
-    }
-    out["ms"] = cost.ms;
-    out["noise_ms"] = cost.noise_ms;
-    out["percent"] = cost.percent;
-    out["bytes_per_pixel"] = cost.bytes_per_pixel;
-    return out;
-}
-
-// What each feature that the scene does without would cost on this picture.
-Json costs_json(const InfoOptions& options, const Scene& scene) {
+// Measures what each feature that the scene does without would cost on this picture, and keeps it.
+void measure_costs(const InfoOptions& options, const Scene& scene, const DeviceInfo& device) {
+    const RenderSettings& settings = options.shared.settings;
     const Camera camera = choose_camera(options.shared.camera, scene);
-    LightingBench bench(scene, options.shared.settings, camera, options.shared.time);
-    Json out = Json::array();
-    for (const FeatureCost& cost : measure_feature_costs(bench)) out.push_back(cost_json(cost));
-    return out;
+    LightingBench bench(scene, settings, camera, options.shared.time);
+    keep_feature_costs(device, scene, settings, measure_feature_costs(bench));
 }
 
 Json info_json(const InfoOptions& options) {
-    const Scene scene = open_scene(options.shared.scene, options.shared.time);
+    const Scene scene = open_scene(options.shared);
     const Renderer renderer(scene, options.shared.settings);
     const ScenePlan& plan = renderer.plan();
     Json out;
@@ -96,11 +82,15 @@ Json info_json(const InfoOptions& options) {
     for (const DeviceInfo& device : list_devices()) out["devices"].push_back(device_json(device));
     out["scene"] = scene_json(scene, options.shared.settings.lights);
     out["plan"] = plan.features;
-    out["left_out"] = plan.left_out;
+    if (options.costs) measure_costs(options, scene, renderer.device());
+    out["left_out"] = Json::array();
+    for (const FeatureCost& cost :
+         known_feature_costs(renderer.device(), scene, options.shared.settings)) {
+        out["left_out"].push_back(cost_json(cost));
+    }
     out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
     out["limits"] =
         limits_json(cached_device_limits(Gpu(choose_device(options.shared.settings.device))));
-    if (options.costs) out["costs"] = costs_json(options, scene);
     return out;
 }
 
@@ -112,11 +102,14 @@ std::string text_of(const Json& value) {
 std::string object_line(const Json& entry) {
     std::string line = text_of(entry["name"]);
     if (!entry.contains("ms")) return line;
-    if (entry["ms"].is_null()) return line + ": nothing, " + text_of(entry["why"]);
     char text[128];
-    std::snprintf(text, sizeof text, ": %+.3f ms (%+.1f %%, noise %.3f ms), %+d bytes per pixel",
+    std::snprintf(text, sizeof text, ": %+d bytes per pixel, ",
+                  entry["bytes_per_pixel"].get<int>());
+    line += text;
+    if (entry["ms"].is_null()) return line + text_of(entry["why"]);
+    std::snprintf(text, sizeof text, "%+.3f ms (%+.1f %%, noise %.3f ms)",
                   entry["ms"].get<double>(), entry["percent"].get<double>(),
-                  entry["noise_ms"].get<double>(), entry["bytes_per_pixel"].get<int>());
+                  entry["noise_ms"].get<double>());
     return line + text;
 }
 
@@ -154,6 +147,7 @@ void run_info(const InfoOptions& options) {
 constexpr const char* kExamples =
     "  kilolux info\n"
     "  kilolux info town.glb --json\n"
+    "  kilolux info atrium --costs\n"
     "  kilolux info --list-devices\n"
     "  kilolux info --device 1 --gbuffer full";
 
@@ -168,7 +162,8 @@ void add_info_command(Program& program) {
     Registrar(command, "Output")
         .flag("--json", options->json, "JSON instead of text")
         .flag("--costs", options->costs,
-              "Measure what each feature that the scene does without would cost; takes a while")
+              "Measure what each feature that the scene does without would cost on this picture, "
+              "and keep it for the next time")
         .text({"--stats", "FILE", "", "Write the JSON to a file; - for standard output"},
               options->stats);
 }

@@ -5,6 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/measure/known_costs.h"
 #include "host/render/renderer.h"
 #include "present/commands.h"
 #include "present/comparison.h"
@@ -51,6 +52,10 @@ std::vector<Task> tasks_of(const RenderOptions& options) {
     return tasks;
 }
 
+bool wants_own_display(const RenderOptions& options) {
+    return options.output.bits == 16 || uses_ocio(options.output.ocio);
+}
+
 ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, const Camera& camera,
                     const Task& task, const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, renderer.device(), record.stats);
@@ -60,6 +65,19 @@ ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, cons
     }
     notes.camera = camera;
     return notes;
+}
+
+// The display picture is made anew where the renderer's, of 8 bits and by our tone curves, is not
+// what was asked for.
+ImageOptions image_options(const RenderOptions& options, const Frame& frame, const Task& task) {
+    const OutputOptions& out = options.output;
+    ImageOptions image;
+    image.half_colour = out.half_colour;
+    image.bits = out.bits;
+    if (image_meaning(task.file) == ImageMeaning::display && wants_own_display(options)) {
+        image.display = display_colours(frame, options.shared.settings, out.ocio);
+    }
+    return image;
 }
 
 FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const Camera& camera,
@@ -72,16 +90,18 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
     FrameRecord record{task.frame, task.time, task.file.string(), frame.stats, std::nullopt};
     if (reference) record.comparison = reference->compare(frame, out.metric, out.threshold);
     write_image(task.file, frame, notes_of(options, renderer, camera, task, record),
-                {.half_colour = out.half_colour});
+                image_options(options, frame, task));
     return record;
 }
 
-std::vector<FrameRecord> render_tasks(const RenderOptions& options, Renderer& renderer,
-                                      const Camera& camera, const std::vector<Task>& tasks) {
+std::vector<FrameRecord> render_tasks(const RenderOptions& options, AnimatedScene& scene,
+                                      Renderer& renderer, const std::vector<Task>& tasks) {
     std::vector<FrameRecord> records;
     Progress progress("rendering", tasks.size(), !options.shared.quiet);
     for (const Task& task : tasks) {
         check_interrupt();
+        scene.set_time(task.time);
+        const Camera camera = choose_camera(options.shared.camera, scene.scene());
         records.push_back(render_task(options, renderer, camera, task));
         progress.advance();
     }
@@ -113,6 +133,7 @@ void require_passed(const std::vector<FrameRecord>& records) {
 RenderSettings settings_of(const RenderOptions& options) {
     RenderSettings settings = options.shared.settings;
     const auto& aovs = settings.aovs;
+    settings.keep_bloomed = wants_own_display(options);
     settings.count_useful = !options.output.stats.empty() ||
                             std::find(aovs.begin(), aovs.end(), "light-count") != aovs.end();
     return settings;
@@ -126,17 +147,19 @@ void run_render(const RenderOptions& options) {
     if (tasks.empty()) return note("nothing to render: every file is there");
     check_files(options, tasks);
     check_light_memory(options.shared.settings);
-    const Scene scene = open_scene(options.shared.scene, tasks.front().time);
-    const Camera camera = choose_camera(options.shared.camera, scene);
+    AnimatedScene scene = open_animated_scene(options.shared, tasks.front().time);
+    choose_camera(options.shared.camera, scene.scene());  // refuses before the work
     check_interrupt();
-    Renderer renderer(scene, settings_of(options));
+    Renderer renderer(scene.scene(), settings_of(options));
     check_interrupt();
-    const auto records = render_tasks(options, renderer, camera, tasks);
+    const auto records = render_tasks(options, scene, renderer, tasks);
     if (!out.stats.empty()) {
         write_json(out.stats,
-                   stats_json(renderer.device(), renderer.plan(), records, out.frames.has_value()));
+                   stats_json(renderer.device(), renderer.plan(), records, out.frames.has_value(),
+                              known_feature_costs(renderer.device(), scene.scene(),
+                                                  options.shared.settings)));
     }
-    note(frame_summary(scene, renderer.device(), records));
+    note(frame_summary(scene.scene(), renderer.device(), records));
     require_passed(records);
 }
 

@@ -9,5 +9,6 @@ namespace kilolux {
 void add_render_command(Program& program);
 void add_bench_command(Program& program);
 void add_info_command(Program& program);
+void add_export_command(Program& program);
 
 }  // namespace kilolux

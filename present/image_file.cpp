@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstring>
+#include <limits>
 
 #include "host/base/error.h"
 #include "present/image_encode.h"
@@ -66,7 +68,8 @@ std::vector<unsigned char> encode(const std::filesystem::path& file, const OIIO:
 // Display codes as RGB: JPEG has no alpha, and ours is opaque.
 OIIO::ImageSpec display_spec(const std::filesystem::path& file, const Frame& frame,
                              const ImageOptions& options) {
-    OIIO::ImageSpec spec(frame.width, frame.height, 3, OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec(frame.width, frame.height, 3,
+                         options.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
     if (std::string_view(format_of(file).plugin) == "tiff") {
         spec.attribute("Compression", "zip");
         // Exif's way to say unknown; OpenImageIO would write the hour. Saying sRGB, which a TIFF
@@ -81,10 +84,35 @@ OIIO::ImageSpec display_spec(const std::filesystem::path& file, const Frame& fra
     return spec;
 }
 
+// Codes of 0..1, correctly rounded.
+template <typename Code>
+std::vector<unsigned char> codes_of(const std::vector<float>& colours) {
+    constexpr double kLargest = std::numeric_limits<Code>::max();
+    std::vector<unsigned char> bytes(colours.size() * sizeof(Code));
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        const auto code = static_cast<Code>(static_cast<double>(colours[i]) * kLargest + 0.5);
+        std::memcpy(&bytes[i * sizeof(Code)], &code, sizeof(Code));
+    }
+    return bytes;
+}
+
+std::vector<unsigned char> encode_display(const std::filesystem::path& file,
+                                          const OIIO::ImageSpec& spec, const Frame& frame,
+                                          const ImageOptions& options) {
+    if (options.display.empty()) return encode(file, spec, frame.display, 4);
+    if (options.bits == 16) return encode(file, spec, codes_of<std::uint16_t>(options.display), 6);
+    return encode(file, spec, codes_of<std::uint8_t>(options.display), 3);
+}
+
 }  // namespace
 
 ImageMeaning image_meaning(const std::filesystem::path& file) {
     return format_of(file).meaning;
+}
+
+bool holds_16_bits(const std::filesystem::path& file) {
+    const std::string_view plugin = format_of(file).plugin;
+    return plugin == "png" || plugin == "tiff";
 }
 
 bool holds_layers(const std::filesystem::path& file) {
@@ -100,7 +128,7 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
                              : OIIO::ImageSpec(frame.width, frame.height, 3, OIIO::TypeDesc::FLOAT);
     spec.attribute("Software", "kilolux " + version());
     for (const auto& [name, text] : notes.strings) spec.attribute("kilolux:" + name, text);
-    if (display) return encode(file, spec, frame.display, 4);
+    if (display) return encode_display(file, spec, frame, options);
     if (holds_layers(file)) {
         return encode(file, spec, exr_pixels(frame, spec), spec.pixel_bytes(true));
     }

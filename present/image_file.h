@@ -20,6 +20,9 @@ enum class ImageMeaning { display, linear };
 /// By the extension; throws UsageError that lists the known ones.
 ImageMeaning image_meaning(const std::filesystem::path& file);
 
+/// Whether the format can hold 16 bits a channel for the eye: PNG and TIFF.
+bool holds_16_bits(const std::filesystem::path& file);
+
 /// Whether the format keeps named channels beside the colour: EXR.
 bool holds_layers(const std::filesystem::path& file);
 
@@ -31,13 +34,15 @@ struct ImageNotes {
 };
 
 struct ImageOptions {
-    bool half_colour = false;  // EXR: R, G, B in half
-    int jpeg_quality = 95;     // 1..100
+    bool half_colour = false;    // EXR: R, G, B in half
+    int jpeg_quality = 95;       // 1..100
+    int bits = 8;                // PNG, TIFF: a channel, 8 or 16
+    std::vector<float> display;  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
 };
 
 /// A frame as file bytes in the format of the extension. The same frame gives the same bytes. PNG,
-/// JPEG and TIFF hold Frame::display; HDR Frame::radiance; EXR Frame::radiance and every layer as
-/// channels of one part, ids as UINT. Throws Error with OpenImageIO's reason.
+/// JPEG and TIFF hold Frame::display, or the options'; HDR Frame::radiance; EXR Frame::radiance and
+/// every layer as channels of one part, ids as UINT. Throws Error with OpenImageIO's reason.
 std::vector<unsigned char> encode_image(const std::filesystem::path& file, const Frame& frame,
                                         const ImageNotes& notes, const ImageOptions& options);
 

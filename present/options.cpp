@@ -22,7 +22,9 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
         .text({"SCENE", "", "atrium",
                "A generated scene (" + joined(generated_scene_names()) +
                    ") or a glTF 2.0 file, .gltf or .glb"},
-              o.scene);
+              o.scene)
+        .flag("--allow-outside-paths", o.allow_outside_paths,
+              "Let the file name buffers and images outside its folder");
 }
 
 void add_picture_options(CLI::App& command, SharedOptions& o) {

@@ -10,13 +10,15 @@
 
 #include "host/render/settings.h"
 #include "present/camera_choice.h"
+#include "present/display_picture.h"
 #include "present/sequence.h"
 
 namespace kilolux {
 
 /// What every subcommand knows: which picture of which scene, by which device.
 struct SharedOptions {
-    std::string scene = "atrium";  // a generated scene's name, or a .gltf or .glb file
+    std::string scene = "atrium";      // a generated scene's name, or a .gltf or .glb file
+    bool allow_outside_paths = false;  // the file may name buffers and images outside its folder
     RenderSettings settings;
     CameraChoice camera;
     double time = 0.0;  // [s]
@@ -28,6 +30,8 @@ struct SharedOptions {
 struct OutputOptions {
     std::filesystem::path output;
     bool half_colour = false;
+    int bits = 8;  // a channel, of PNG and TIFF
+    OcioOptions ocio;
     std::optional<FrameRange> frames;
     double frames_per_second = 24.0;
     Shard shard;

@@ -8,6 +8,23 @@
 namespace kilolux {
 namespace {
 
+void add_encoding_options(CLI::App& command, OutputOptions& o) {
+    const auto bits = [&o](const std::string& name, const std::string& text) {
+        o.bits = parse_name(name, text, {"8", "16"}) == 0 ? 8 : 16;
+    };
+    Registrar(command, "Output")
+        .flag("--exr-half", o.half_colour, "EXR colour in half precision")
+        .value({"--bits", "8|16", "8", "Bits a channel of PNG and TIFF"}, bits)
+        .text({"--ocio-view", "NAME|none", "the display's",
+               "OpenColorIO view of pictures for the eye in place of --tonemap, where the "
+               "environment's OCIO names a configuration; none leaves it out"},
+              o.ocio.view)
+        .text({"--ocio-display", "NAME", "the configuration's", "Its display"}, o.ocio.display)
+        .text({"--ocio-input", "NAME", "linear Rec. 709, else scene_linear",
+               "Its colour space that our light is in"},
+              o.ocio.input);
+}
+
 void add_sequence_options(CLI::App& command, OutputOptions& o) {
     const auto frames = [&o](const std::string& name, const std::string& text) {
         o.frames = parse_frames(name, text);
@@ -42,9 +59,9 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
                 "Picture: .exr and .hdr linear, .png .jpg .jpeg .tif .tiff for the eye; a sequence "
                 "has #### for the frame number"},
                output)
-        .flag("--exr-half", options.half_colour, "EXR colour in half precision")
         .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"},
               options.stats);
+    add_encoding_options(command, options);
     add_sequence_options(command, options);
     add_comparison_options(command, options);
 }
@@ -67,6 +84,11 @@ void check_output_options(const SharedOptions& shared, const OutputOptions& opti
     if (options.half_colour && !holds_layers(options.output)) {
         throw UsageError("--exr-half: '" + options.output.string() + "' is not an EXR file");
     }
+    if (options.bits == 16 && !holds_16_bits(options.output)) {
+        throw UsageError("--bits: '" + options.output.string() +
+                         "' cannot hold 16 bits a channel; use .png or .tif, or .exr for light");
+    }
+    if (image_meaning(options.output) == ImageMeaning::display) uses_ocio(options.ocio);
     if (shared.quiet && shared.verbose)
         throw UsageError("--quiet and --verbose exclude each other");
 }

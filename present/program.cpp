@@ -55,6 +55,7 @@ Program::Program() : app_(kMeaning, "kilolux") {
     add_render_command(*this);
     add_bench_command(*this);
     add_info_command(*this);
+    add_export_command(*this);
 }
 
 CLI::App& Program::add_command(const std::string& name, const std::string& meaning,

@@ -47,11 +47,28 @@ void add_frame(Json& out, const FrameRecord& record) {
 
 }  // namespace
 
+Json cost_json(const FeatureCost& cost) {
+    Json out = {{"name", cost.feature}, {"bytes_per_pixel", cost.bytes_per_pixel}};
+    if (!cost.measured) {
+        out["ms"] = nullptr;
+        out["why"] = cost.why;
+        return out;
+    }
+    out["ms"] = cost.ms;
+    out["noise_ms"] = cost.noise_ms;
+    out["percent"] = cost.percent;
+    return out;
+}
+
 Json stats_json(const DeviceInfo& device, const ScenePlan& plan,
-                const std::vector<FrameRecord>& frames, bool sequence) {
+                const std::vector<FrameRecord>& frames, bool sequence,
+                const std::vector<FeatureCost>& costs) {
     Json out;
     out["device"] = device_json(device);
     out["plan"] = plan.features;
+    out["left_out"] = Json::array();
+    for (const FeatureCost& cost : costs) out["left_out"].push_back(cost_json(cost));
+    out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
     if (!frames.empty()) add_frame(out, frames.back());
     if (!sequence) return out;
     out["frames"] = Json::array();

@@ -64,6 +64,12 @@ bool outside(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip) {
     return std::find(count.begin(), count.end(), 8) != count.end();
 }
 
+Box box_of_vertices(const Mesh& mesh) {
+    Box box;
+    for (const glm::vec3& position : mesh.positions) box.add(position);
+    return box;
+}
+
 void sort_draws(std::vector<Draw>& draws, DrawOrder order) {
     if (order == DrawOrder::scene) return;
     std::stable_sort(draws.begin(), draws.end(), [&](const Draw& a, const Draw& b) {
@@ -76,12 +82,23 @@ void sort_draws(std::vector<Draw>& draws, DrawOrder order) {
 DrawList::DrawList(const Scene& scene) : scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
         MeshBox& out = boxes_.emplace_back();
-        for (const glm::vec3& position : mesh.positions) out.box.add(position);
+        out.box = box_of_vertices(mesh);
+        out.revision = mesh.revision;
         if (mesh.material >= 0) {
             const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
             out.blended = material.alpha_mode == AlphaMode::blend;
         }
     }
+}
+
+const DrawList::MeshBox& DrawList::box_of(int index) const {
+    const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(index)];
+    MeshBox& out = boxes_[static_cast<std::size_t>(index)];
+    if (out.revision != mesh.revision) {
+        out.box = box_of_vertices(mesh);
+        out.revision = mesh.revision;
+    }
+    return out;
 }
 
 std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height, bool blended,
@@ -90,7 +107,7 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
     std::vector<Draw> draws;
     for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
         const Instance& instance = scene_.instances[i];
-        const MeshBox& mesh = boxes_[static_cast<std::size_t>(instance.mesh)];
+        const MeshBox& mesh = box_of(instance.mesh);
         if (mesh.blended != blended || mesh.box.empty()) continue;
         const glm::dmat4 transform = view_from_object(camera, instance.world_from_object);
         const std::array<glm::dvec4, 8> corners = corners_of(mesh.box, transform);

@@ -31,7 +31,7 @@ enum class DrawOrder { front_to_back, back_to_front, scene };
 /// Finds a scene's visible instances.
 class DrawList {
  public:
-    /// The scene must outlive this; its instances may move, its meshes may not change.
+    /// The scene must outlive this; its instances may move, its meshes must stay as many.
     explicit DrawList(const Scene& scene);
 
     /// Instances whose box touches the camera's frustum (conservative), of materials that blend or
@@ -43,9 +43,12 @@ class DrawList {
     struct MeshBox {
         Box box;  // object space
         bool blended = false;
+        std::uint32_t revision = 0;  // of the mesh when the box was taken
     };
+    const MeshBox& box_of(int mesh) const;
+
     const Scene& scene_;
-    std::vector<MeshBox> boxes_;  // by mesh
+    mutable std::vector<MeshBox> boxes_;  // by mesh; follow their revisions
 };
 
 /// view_from_object in double: world positions meet the camera before they become float.

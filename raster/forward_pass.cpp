@@ -16,7 +16,9 @@ constexpr const char* kDepth = "raster/shaders/depth.frag";
 Defines defines_of(const ForwardFeatures& features) {
     Defines defines = {{"SHADING", std::to_string(features.shading)},
                        {"HAS_SPOT_LIGHTS", features.spot_lights ? "1" : "0"},
-                       {"HAS_METALLIC", features.metallic ? "1" : "0"}};
+                       {"HAS_METALLIC", features.metallic ? "1" : "0"},
+                       {"HAS_SPECULAR", features.specular ? "1" : "0"},
+                       {"HAS_UNLIT", features.unlit ? "1" : "0"}};
     if (features.directional_lights) defines.emplace_back("HAS_DIRECTIONAL_LIGHTS", "1");
     if (features.clustered) defines.emplace_back("CLUSTERED", "1");
     return defines;

@@ -76,6 +76,11 @@ void attach_optional(Planner& planner, const GBufferNeeds& needs) {
             "OCCLUSION_LOCATION",
             planner.attach_plane(PLANE_OCCLUSION, GL_R8, GL_RED, GL_UNSIGNED_BYTE));
     }
+    if (needs.specular) {
+        planner.define_location(
+            "SPECULAR_LOCATION",
+            planner.attach_plane(PLANE_SPECULAR, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE));
+    }
 }
 
 void plan_packed(Planner& planner, const GBufferNeeds& needs) {
@@ -114,6 +119,12 @@ void plan_full(Planner& planner, const GBufferNeeds& needs) {
         planner.define_location("MATERIAL_LOCATION",
                                 planner.attach_vector(PLANE_EMISSIVE_R, GL_RGBA32F, GL_FLOAT));
     }
+    if (needs.specular) {
+        planner.define_location("SPECULAR_LOCATION",
+                                planner.attach_vector(PLANE_SPECULAR_R, GL_RGBA32F, GL_FLOAT));
+        planner.define_location("GRAZING_LOCATION",
+                                planner.attach_plane(PLANE_SPECULAR_F90, GL_R32F, GL_RED, GL_FLOAT));
+    }
 }
 
 GlTexture make_target(GLenum format, int width, int height) {
@@ -128,6 +139,8 @@ GlTexture make_target(GLenum format, int width, int height) {
 
 TargetPlan plan_targets(const GBufferNeeds& needs) {
     Planner planner(needs.layout);
+    if (needs.specular) planner.define("HAS_SPECULAR");
+    if (needs.unlit) planner.define("HAS_UNLIT");
     switch (needs.layout) {
         case GBUFFER_FULL:
             plan_full(planner, needs);

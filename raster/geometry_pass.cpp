@@ -16,6 +16,9 @@ uint feature_mask(const GBufferNeeds& needs) {
     uint mask = ~0u;
     if (!needs.material) mask = without_texture(mask, USE_EMISSIVE);
     if (!needs.occlusion) mask = without_texture(mask, USE_OCCLUSION);
+    if (!needs.specular) {
+        mask = without_texture(without_texture(mask, USE_SPECULAR), USE_SPECULAR_COLOR);
+    }
     return mask;
 }
 

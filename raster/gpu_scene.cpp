@@ -25,6 +25,8 @@ MaterialRow row_of(const Material& material) {
     row.emissive_cutoff = {emissive.x, emissive.y, emissive.z, material.alpha_cutoff};
     row.factors = {material.metallic, material.roughness, material.normal_scale,
                    material.occlusion_strength};
+    const glm::vec3 f0 = dielectric_reflectance(material);
+    row.specular = {f0.x, f0.y, f0.z, material.specular};
     for (int use = 0; use < USE_COUNT; ++use) {
         const glm::mat3& m = texture_use(material, use).uv_from_texcoord;
         row.uv_x[use] = {m[0].x, m[1].x, m[2].x, 0.0f};
@@ -61,8 +63,23 @@ GpuScene::GpuScene(const Scene& scene, float anisotropy)
         GpuMesh& uploaded = meshes_.emplace_back(upload_mesh(mesh, features));
         uploaded.material = row;
         uploaded.features = features;
+        uploaded.revision = mesh.revision;
     }
     check_gl_errors("upload of scene '" + scene.name + "'");
+}
+
+void GpuScene::refresh() {
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+        const Mesh& mesh = scene_.meshes[i];
+        GpuMesh& old = meshes_[i];
+        if (old.revision == mesh.revision) continue;
+        GpuMesh uploaded = upload_mesh(mesh, old.features);
+        uploaded.material = old.material;
+        uploaded.features = old.features;
+        uploaded.revision = mesh.revision;
+        old = std::move(uploaded);
+    }
+    check_gl_errors("new vertices of scene '" + scene_.name + "'");
 }
 
 const Material& GpuScene::material(int row) const {

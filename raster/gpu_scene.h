@@ -18,15 +18,19 @@ struct GpuMesh {
     GLsizei index_count = 0;
     int material = 0;   // index of the material's row
     uint features = 0;  // of the mesh with its material
+    std::uint32_t revision = 0;  // of the vertices that were uploaded
 };
 
 /// A scene's meshes, materials and textures in the current context. Only the attributes and
 /// textures that the materials read are there.
 class GpuScene {
  public:
-    /// The scene must outlive this; its meshes, materials and textures must stay as they are, its
-    /// instances may move. `anisotropy`: 0 chooses 8, or 1 where the CPU does the filtering.
+    /// The scene must outlive this; its materials and textures must stay as they are and its meshes
+    /// as many, its instances may move, and vertices may change before a refresh(). `anisotropy`: 0 chooses 8, or 1 where the CPU does the filtering.
     explicit GpuScene(const Scene& scene, float anisotropy = 0.0f);
+
+    /// Uploads meshes anew whose revision says that their vertices changed.
+    void refresh();
 
     const Scene& scene() const { return scene_; }
     const GpuMesh& mesh(int mesh) const { return meshes_[static_cast<std::size_t>(mesh)]; }

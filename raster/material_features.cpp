@@ -8,7 +8,8 @@ namespace kilolux {
 namespace {
 
 constexpr std::array<const char*, USE_COUNT> kUvNames = {
-    "BASE_COLOR_UV", "METALLIC_ROUGHNESS_UV", "NORMAL_UV", "OCCLUSION_UV", "EMISSIVE_UV"};
+    "BASE_COLOR_UV", "METALLIC_ROUGHNESS_UV", "NORMAL_UV", "OCCLUSION_UV", "EMISSIVE_UV",
+    "SPECULAR_UV", "SPECULAR_COLOR_UV"};
 
 bool same_lookup(const TextureUse& a, const TextureUse& b) {
     return a.texture == b.texture && a.uv_set == b.uv_set &&
@@ -35,14 +36,18 @@ const TextureUse& texture_use(const Material& material, int use) {
             return material.normal_texture;
         case USE_OCCLUSION:
             return material.occlusion_texture;
-        default:
-            assert(use == USE_EMISSIVE);
+        case USE_EMISSIVE:
             return material.emissive_texture;
+        case USE_SPECULAR:
+            return material.specular_texture;
+        default:
+            assert(use == USE_SPECULAR_COLOR);
+            return material.specular_color_texture;
     }
 }
 
 bool is_srgb_use(int use) {
-    return use == USE_BASE_COLOR || use == USE_EMISSIVE;
+    return use == USE_BASE_COLOR || use == USE_EMISSIVE || use == USE_SPECULAR_COLOR;
 }
 
 uint features_of(const Mesh& mesh, const Material& material) {

@@ -11,14 +11,14 @@ namespace kilolux {
 /// What drawing a mesh with its material takes, as bits: a shader variant's key. Texture uses
 /// (USE_*) have three bits each: present, second uv set, transformed.
 enum Feature : uint {
-    kFeatureTexture = 1u << 0,     // << use
-    kFeatureTexcoord1 = 1u << 5,   // << use
-    kFeatureTransform = 1u << 10,  // << use
-    kFeatureVertexColor = 1u << 15,
-    kFeatureAlphaMask = 1u << 16,
-    kFeatureDoubleSided = 1u << 17,
-    kFeatureUnlit = 1u << 18,
-    kFeatureSharedOcclusion = 1u << 19,  // occlusion is the red of the metallic-roughness texture
+    kFeatureTexture = 1u << 0,                  // << use
+    kFeatureTexcoord1 = 1u << USE_COUNT,        // << use
+    kFeatureTransform = 1u << (2 * USE_COUNT),  // << use
+    kFeatureVertexColor = 1u << (3 * USE_COUNT),
+    kFeatureAlphaMask = 2u << (3 * USE_COUNT),
+    kFeatureDoubleSided = 4u << (3 * USE_COUNT),
+    kFeatureUnlit = 8u << (3 * USE_COUNT),
+    kFeatureSharedOcclusion = 16u << (3 * USE_COUNT),  // occlusion is the red of the metallic-roughness texture
 };
 
 /// The use of a material's texture slot USE_*.

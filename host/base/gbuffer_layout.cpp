@@ -16,20 +16,26 @@ bool is_material_plane(uint plane) {
 
 bool is_occlusion_plane(uint plane) { return plane == PLANE_OCCLUSION || plane == PLANE_OCCLUSION_F; }
 
+bool is_specular_plane(uint plane) {
+    return plane >= PLANE_SPECULAR && plane <= PLANE_SPECULAR_F90;
+}
+
 bool has_plane(const GBufferNeeds& needs, uint plane) {
     if (is_material_plane(plane) && !needs.material) return false;
     if (is_occlusion_plane(plane) && !needs.occlusion) return false;
+    if (is_specular_plane(plane) && !needs.specular) return false;
     return plane_element_bytes(needs.layout, plane) > 0;
 }
 
 // Bytes of the element of a plane of the float32 layout, by component.
 uint float_plane_bytes(uint plane) {
-    return plane >= PLANE_POSITION_X && plane <= PLANE_OCCLUSION_F ? 4 : 0;
+    const bool specular = plane >= PLANE_SPECULAR_R && plane <= PLANE_SPECULAR_F90;
+    return specular || (plane >= PLANE_POSITION_X && plane <= PLANE_OCCLUSION_F) ? 4 : 0;
 }
 
 uint packed_plane_bytes(uint plane) {
     if (plane == PLANE_OCCLUSION) return 1;
-    return plane <= PLANE_MATERIAL ? 4 : 0;
+    return plane <= PLANE_MATERIAL || plane == PLANE_SPECULAR ? 4 : 0;
 }
 
 // rgba16f position and normal; albedo and the optional planes as in `packed`.
@@ -41,7 +47,9 @@ uint half_plane_bytes(uint plane) {
 // Two rows of four floats; the optional planes as in `packed`.
 uint oct_2x4_plane_bytes(uint plane) {
     if (plane == PLANE_ROW_0 || plane == PLANE_ROW_1) return 16;
-    return plane == PLANE_MATERIAL || plane == PLANE_OCCLUSION ? packed_plane_bytes(plane) : 0;
+    const bool optional =
+        plane == PLANE_MATERIAL || plane == PLANE_OCCLUSION || plane == PLANE_SPECULAR;
+    return optional ? packed_plane_bytes(plane) : 0;
 }
 
 }  // namespace

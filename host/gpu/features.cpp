@@ -10,6 +10,8 @@ BuildOptions feature_options(const KernelFeatures& features) {
         .define("HAS_MATERIAL", features.material)
         .define("HAS_METALLIC", features.metallic)
         .define("HAS_OCCLUSION", features.occlusion)
+        .define("HAS_SPECULAR", features.specular)
+        .define("HAS_UNLIT", features.unlit)
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("HAS_DIRECTIONAL_LIGHTS", features.directional_lights)
         .define("LIGHT_INDEX", features.light_index_bits == 16 ? "ushort" : "uint");

@@ -13,6 +13,8 @@ struct KernelFeatures {
     bool material = false;       // the G-buffer has metallic and emissive
     bool metallic = false;       // any metal: tinted specular reflection
     bool occlusion = false;
+    bool specular = false;       // dielectrics that reflect otherwise than 4 %
+    bool unlit = false;          // unlit surfaces among glossy ones
     bool spot_lights = false;
     bool directional_lights = false;
     int light_index_bits = 16;   // 16 while every light's index fits

@@ -8,19 +8,6 @@
 namespace kilolux {
 namespace {
 
-// Left-out features, then the shading models beyond the plan's.
-std::vector<std::string> absent_features(const ScenePlan& plan) {
-    std::vector<std::string> names = plan.left_out;
-    if (plan.kernels.shading < SHADING_BLINN_PHONG) names.emplace_back("blinn-phong");
-    if (plan.kernels.shading < SHADING_PBR) names.emplace_back("pbr");
-    return names;
-}
-
-bool is_forceable(const std::string& feature) {
-    const std::vector<std::string>& names = forceable_features();
-    return std::find(names.begin(), names.end(), feature) != names.end();
-}
-
 ScenePlan plan_with(const LightingBench& bench, const std::string& feature) {
     RenderSettings settings = bench.settings();
     settings.force_features.push_back(feature);
@@ -56,17 +43,39 @@ FeatureCost measure_cost(LightingBench& bench, const std::string& feature, int r
 
 }  // namespace
 
+std::vector<std::string> absent_features(const ScenePlan& plan) {
+    std::vector<std::string> names = plan.left_out;
+    if (plan.kernels.shading < SHADING_BLINN_PHONG) names.emplace_back("blinn-phong");
+    if (plan.kernels.shading < SHADING_PBR) names.emplace_back("pbr");
+    return names;
+}
+
+bool is_forceable(const std::string& feature) {
+    const std::vector<std::string>& names = forceable_features();
+    return std::find(names.begin(), names.end(), feature) != names.end();
+}
+
+FeatureCost unmeasured_cost(const ScenePlan& plan, const std::string& feature) {
+    FeatureCost cost;
+    cost.feature = feature;
+    cost.bytes_per_pixel = added_bytes_per_pixel(plan, feature);
+    if (is_forceable(feature)) {
+        cost.why = "not measured yet: kilolux info --costs does";
+    } else if (feature == "point-lights") {
+        cost.why = "without lights the list stages run on empty lists";
+    } else {
+        cost.why = "compiled into the shaders of materials that use it only";
+    }
+    return cost;
+}
+
 std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs) {
     std::vector<FeatureCost> costs;
     for (const std::string& feature : absent_features(bench.request().plan)) {
         if (is_forceable(feature)) {
             costs.push_back(measure_cost(bench, feature, runs));
-        } else if (feature == "point-lights") {
-            costs.push_back({feature, false, 0.0, 0.0, 0.0, 0,
-                             "without lights the list stages run on empty lists"});
         } else {
-            costs.push_back({feature, false, 0.0, 0.0, 0.0, 0,
-                             "compiled into the shaders of materials that use it only"});
+            costs.push_back(unmeasured_cost(bench.request().plan, feature));
         }
     }
     return costs;

@@ -19,6 +19,15 @@ struct FeatureCost {
     std::string why;
 };
 
+/// The features that a plan leaves out, then the costlier shading models.
+std::vector<std::string> absent_features(const ScenePlan& plan);
+
+/// Whether a feature can be compiled in where the scene lacks it, and so measured.
+bool is_forceable(const std::string& feature);
+
+/// What is known of a left-out feature's cost without measuring: the bytes, and why there is no time.
+FeatureCost unmeasured_cost(const ScenePlan& plan, const std::string& feature);
+
 /// Compiles each left-out feature in, and each costlier shading model, and times the same frame
 /// with and without, in turns. The picture stays the same but for shading models.
 std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs = 5);

@@ -130,6 +130,17 @@ glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv) {
     return unit_or_zero(tangent * (map.x * scale) + bitangent * (map.y * scale) + normal * map.z);
 }
 
+void set_reflectance(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
+    const Material& m = material_of(hit);
+    const double root = (double{m.ior} - 1.0) / (double{m.ior} + 1.0);
+    const glm::dvec4 color =
+        hit.textures.sample(m.specular_color_texture, TextureEncoding::srgb, uv);
+    out.specular_f90 =
+        double{m.specular} * hit.textures.sample(m.specular_texture, TextureEncoding::linear, uv).w;
+    const glm::dvec3 f0 = root * root * glm::dvec3(m.specular_color) * glm::dvec3(color);
+    out.specular = glm::min(f0, glm::dvec3(1.0)) * out.specular_f90;
+}
+
 void apply_unlit(SurfaceSample& surface) {
     surface.kind = SurfaceKind::unlit;
     surface.emissive = surface.albedo;
@@ -169,6 +180,7 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     out.emissive =
         glm::dvec3(material.emissive) *
         glm::dvec3(hit.textures.sample(material.emissive_texture, TextureEncoding::srgb, uv));
+    set_reflectance(hit, uv, out);
     if (material.unlit) apply_unlit(out);
     return out;
 }

@@ -21,12 +21,15 @@ LaneWork blinn_phong_work() {
     return kHalfVector + LaneWork{11.0, 1.0} + kPowOneMinus + 2.0 * kAddScaled;
 }
 
-LaneWork pbr_work(bool metallic) {
+LaneWork pbr_work(const KernelFeatures& kernels) {
     // n x h 6, its square 3, GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a
     // division 1; Schlick 3, inverse root 1, 2 + 3, 1 - f 1.
     const LaneWork lobe = {31.0, 1.0, 1.0, 1.0};
-    // Diffuse weight 1; specular weight 2 (dielectric), or 1 and its untinted part's 1.
-    const LaneWork sums = (metallic ? 3.0 : 2.0) * kAddScaled + LaneWork{3.0};
+    // Diffuse weight 1; specular weight 2, or 2 a channel where reflectance varies; 2 more where it
+    // does so at grazing angles.
+    const bool varies = kernels.metallic || kernels.specular;
+    const LaneWork sums =
+        2.0 * kAddScaled + LaneWork{(varies ? 7.0 : 3.0) + (kernels.specular ? 2.0 : 0.0)};
     return kHalfVector + lobe + sums;
 }
 
@@ -35,7 +38,7 @@ LaneWork incident_work(const KernelFeatures& kernels) {
         case SHADING_BLINN_PHONG:
             return blinn_phong_work();
         case SHADING_PBR:
-            return pbr_work(kernels.metallic);
+            return pbr_work(kernels);
         default:
             return kAddScaled;
     }
@@ -91,8 +94,10 @@ LaneWork gloss_work(const KernelFeatures& kernels) {
         // n.v 4, Smith 3 and a root 1; lobe 1, channels 3 * 2 beside the diffuse term.
         work = work + LaneWork{15.0, 0.0, 1.0};
     }
-    // Decoding 3, dielectric share 1, base 3, F0 4; Fresnel sums 6 and specular 3.
-    if (kernels.metallic) work = work + LaneWork{kernels.shading == SHADING_PBR ? 20.0 : 14.0};
+    // Decoding 3, dielectric share 1, base 3, F0 4, by channel 3.
+    if (kernels.metallic) work = work + LaneWork{14.0};
+    // Codes 3 * 4 and 3, the strongest 2, grazing angles 3 and a division 1, their mean 2.
+    if (kernels.specular) work = work + LaneWork{22.0, 0.0, 0.0, 1.0};
     return work;
 }
 

@@ -12,7 +12,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kRoughnessMin = 0.045;  // Filament: narrower lobes are beyond float32
 constexpr double kNDotVMin = 1e-4;       // Filament: seen edge on
-constexpr double kDielectricF0 = 0.04;   // glTF 2.0, appendix B
 constexpr double kHalfMin = 1e-6;        // light straight behind the surface's view: no half vector
 
 double alpha2_of(const SurfaceSample& surface) {
@@ -25,7 +24,16 @@ glm::dvec3 diffuse_of(const SurfaceSample& surface) {
 }
 
 glm::dvec3 f0_of(const SurfaceSample& surface) {
-    return glm::mix(glm::dvec3(kDielectricF0), surface.albedo, surface.metallic);
+    return glm::mix(surface.specular, surface.albedo, surface.metallic);
+}
+
+// What diffuse light loses: with the strongest channel of the dielectric's reflectance for all three.
+glm::dvec3 diffuse_loss(const SurfaceSample& s, double schlick) {
+    const double most = std::max({s.specular.x, s.specular.y, s.specular.z});
+    const glm::dvec3 head_on = glm::mix(glm::dvec3(most), s.albedo, s.metallic);
+    // The dielectric's own 1 - F at grazing angles, relative to what it is head on.
+    const double grazing = std::min((1.0 - s.specular_f90) / std::max(1.0 - most, 1e-6), 1.0);
+    return 1.0 - (1.0 - head_on) * (1.0 - schlick + schlick * grazing);
 }
 
 glm::dvec3 half_vector(const glm::dvec3& to_eye, const glm::dvec3& to_light) {
@@ -69,11 +77,12 @@ glm::dvec3 pbr(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l)
     const double n_dot_v = std::max(glm::dot(s.normal, v), kNDotVMin);
     const glm::dvec3 f0 = f0_of(s);
     const double schlick = std::pow(std::max(1.0 - glm::dot(v, h), 0.0), 5.0);
-    const glm::dvec3 fresnel = f0 + (1.0 - f0) * schlick;
+    const double f90 = 1.0 - (1.0 - s.metallic) * (1.0 - s.specular_f90);
+    const glm::dvec3 fresnel = f0 + (f90 - f0) * schlick;
     const double lobe = ggx(sin2(s.normal, h), alpha2) * smith_visibility(n_dot_l, n_dot_v, alpha2);
     // Appendix B mixes whole BRDFs by metallic: the dielectric's diffuse part loses what its own
     // surface reflects. With F0 mixed first, as here and in the kernels, both share one F.
-    return diffuse_of(s) * (1.0 - fresnel) + fresnel * lobe;
+    return diffuse_of(s) * (1.0 - diffuse_loss(s, schlick)) + fresnel * lobe;
 }
 
 }  // namespace

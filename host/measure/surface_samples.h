@@ -23,6 +23,8 @@ struct SurfaceSample {
     double roughness = 1.0;            // perceptual
     double metallic = 0.0;
     double occlusion = 1.0;
+    glm::dvec3 specular{0.04};  // reflectance of the dielectric part head on
+    double specular_f90 = 1.0;  // and at grazing angles
     SurfaceKind kind = SurfaceKind::background;
 };
 

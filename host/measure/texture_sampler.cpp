@@ -71,6 +71,8 @@ TextureSampler::TextureSampler(const Scene& scene) : scene_(scene) {
         prepare(material.metallic_roughness_texture, TextureEncoding::linear);
         prepare(material.normal_texture, TextureEncoding::linear);
         prepare(material.occlusion_texture, TextureEncoding::linear);
+        prepare(material.specular_texture, TextureEncoding::linear);
+        prepare(material.specular_color_texture, TextureEncoding::srgb);
     }
 }
 

@@ -9,6 +9,8 @@ ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opa
     features.spot_lights = plan.kernels.spot_lights;
     features.directional_lights = plan.kernels.directional_lights;
     features.metallic = plan.kernels.metallic;
+    features.specular = plan.kernels.specular;
+    features.unlit = plan.kernels.unlit;
     features.clustered = clustered;
     features.opaque = opaque;
     return features;

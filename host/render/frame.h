@@ -49,6 +49,7 @@ struct Frame {
     int width = 0;
     int height = 0;
     std::vector<float> radiance;        // linear HDR Rec. 709, 3 * width * height
+    std::vector<float> bloomed;  // radiance with bloom, where settings.keep_bloomed asks and there is some
     std::vector<std::uint8_t> display;  // sRGB, 4 * width * height
     std::vector<Layer> aovs;
     FrameStats stats;

@@ -29,7 +29,7 @@ constexpr uint kBackground = ~0u;
 /// A decoded G-buffer on the host, with what is known of each pixel's lights.
 struct DecodedSurfaces {
     View view{};
-    std::vector<float> planes;    // [SURFACE_PLANES][height][stride]
+    std::vector<float> planes;    // [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]
     std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground
     std::vector<uint> covering;   // [height][stride] k*: those that reach it; empty if not counted
     ClusterGrid grid{};

@@ -27,6 +27,11 @@ LightSource::LightSource(const Gpu& gpu, const Scene& scene, const LightOptions&
       local_(gpu, "lights"),
       directional_(gpu, "lights") {}
 
+void LightSource::refresh() {
+    own_ = scene_.lights;
+    fill_missing_ranges(own_);
+}
+
 LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) const {
     std::vector<SceneLight> lights = own_;
     const std::vector<SceneLight> generated = generate_lights(generated_, scene_, time);

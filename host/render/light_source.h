@@ -18,6 +18,9 @@ class LightSource {
     /// Says so when it has to give lights of the scene a range. The scene must outlive this.
     LightSource(const Gpu& gpu, const Scene& scene, const LightOptions& generated);
 
+    /// Takes the scene's own lights anew, after they moved.
+    void refresh();
+
     /// Rows relative to the camera at `time` [s]; sets the counts of lights.
     LightRows at(double time, const glm::dvec3& camera_position, FrameStats& stats) const;
 

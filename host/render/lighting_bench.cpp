@@ -30,7 +30,7 @@ std::uint64_t hash_words(std::span<const uint> words) {
 
 bool same_planes(const GBufferNeeds& a, const GBufferNeeds& b) {
     return a.layout == b.layout && a.material == b.material && a.occlusion == b.occlusion &&
-           a.emissive_scale == b.emissive_scale;
+           a.emissive_scale == b.emissive_scale && a.specular == b.specular && a.unlit == b.unlit;
 }
 
 // The least time of each stage so far.

@@ -26,7 +26,7 @@ constexpr Bytes kBandPixel = 3 * (3 * sizeof(float) + 4);
 // Active clusters, their lists and the sums of both; about two clusters a fine tile.
 constexpr Bytes kListsPixel = 1;
 // Kernels count the elements of a picture's planes in 32 bits.
-constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES - 1;
+constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULAR - 1;
 // OpenCL drivers and images of the files leave a share of what is available unused.
 constexpr double kAvailableShare = 0.8;
 
@@ -80,7 +80,7 @@ Bytes layer_bytes(const RenderSettings& settings) {
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
     if (settings.bloom > 0.0f) bytes += 4 * 3 * sizeof(float);
-    if (settings.show != "lit") bytes += SURFACE_PLANES * sizeof(float) + 8;
+    if (settings.show != "lit") bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
     if (settings.show == "difference") bytes *= 2;
     return bytes;
 }
@@ -101,9 +101,11 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
     if (settings.samples > 1) need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
     if (decodes || settings.count_useful) need.band_pixel += 4 * sizeof(std::uint32_t);
-    if (decodes) need.band_pixel += 2 * SURFACE_PLANES * sizeof(float) + layer_bytes(settings);
+    if (decodes) {
+        need.band_pixel += 2 * SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + layer_bytes(settings);
+    }
     if (blends) need.band_pixel += 3 * 3 * sizeof(float);
-    need.largest_element = decodes ? SURFACE_PLANES * sizeof(float) : 3 * sizeof(float);
+    need.largest_element = decodes ? SURFACE_PLANES_WITH_SPECULAR * sizeof(float) : 3 * sizeof(float);
     need.largest_element =
         std::max(need.largest_element, static_cast<Bytes>(plan.gbuffer_bytes_per_pixel));
     return need;

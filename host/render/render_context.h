@@ -22,7 +22,7 @@ struct RenderContext {
     const Gpu& gpu;
     const Tuning& tuning;
     const GpuScene& gpu_scene;
-    Box box;  // of the scene, world space [m]
+    const Box& box;  // of the scene at the frame's time, world space [m]
 };
 
 /// One sample of a band of a frame to light: the lights on the host and, uploaded, on the device.

@@ -61,10 +61,12 @@ std::vector<DeviceInfo> list_devices() {
 struct Renderer::Parts {
     Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
     Frame render(const Camera& camera, double time, const std::function<void()>& between);
+    void take_up_changes();
     Radiance light(const SampleInput& sample, FrameStats& stats);
     Radiance light_samples(const SampleInput& band, FrameStats& stats);
     void render_band(const SampleInput& band, Frame& frame, DecodedSurfaces& surfaces);
-    void finish_pixels(const Radiance& radiance, Frame& frame);
+    void add_light(const Radiance& radiance, Frame& frame);
+    void add_display(const Radiance& glowing, Frame& frame);
     void take_stage_times(FrameStats& stats);
     std::size_t pixel_count() const {
         return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
@@ -73,6 +75,9 @@ struct Renderer::Parts {
     void show_view(const Camera& camera, double time, const DecodedSurfaces& surfaces,
                    Frame& frame);
 
+    const Scene& scene;
+    std::uint32_t revision;  // of the scene that was taken up
+    Box box;                 // of the scene then
     RenderSettings settings;
     ScenePlan plan;
     Gpu gpu;
@@ -94,7 +99,10 @@ struct Renderer::Parts {
 };
 
 Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl)
-    : settings(the_settings),
+    : scene(the_scene),
+      revision(the_scene.revision),
+      box(bounds(the_scene)),
+      settings(the_settings),
       plan(make_scene_plan(the_scene, settings, settings.lights.count + the_scene.lights.size())),
       gpu(open_device(settings)),
       memory(limit_buffers(gpu, plan_memory(the_scene, settings, plan, gpu.info))),
@@ -102,7 +110,7 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
       gl_context(context_from(gl)),
       gpu_scene(the_scene),
       lights(gpu, the_scene, settings.lights),
-      context{settings, plan, gpu, tuning, gpu_scene, bounds(the_scene)},
+      context{settings, plan, gpu, tuning, gpu_scene, box},
       zero_normals(zero_normal_count(the_scene)),
       sum(gpu),
       tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
@@ -117,6 +125,14 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
         reference =
             std::make_unique<Renderer>(the_scene, reference_of(settings), GlSource::current);
     }
+}
+
+void Renderer::Parts::take_up_changes() {
+    if (revision == scene.revision) return;
+    revision = scene.revision;
+    box = bounds(scene);
+    gpu_scene.refresh();
+    lights.refresh();
 }
 
 // From the lights to a sample's radiance, by the path that was asked for.
@@ -145,14 +161,23 @@ void Renderer::Parts::take_stage_times(FrameStats& stats) {
     }
 }
 
-// Appends a band's pixels as they leave the device.
-void Renderer::Parts::finish_pixels(const Radiance& radiance, Frame& frame) {
-    const cl::Buffer display = tonemap.enqueue(radiance, settings.exposure, timer);
+// Appends a band's light as it leaves the device: what files of linear light hold.
+void Renderer::Parts::add_light(const Radiance& radiance, Frame& frame) {
     const View& view = radiance.view;
     const std::size_t plane = std::size_t{view.stride} * view.height;
     append_rows(frame.radiance,
                 tight_radiance(download<float>(gpu, radiance.planes, 3 * plane), view),
                 3 * pixel_count());
+}
+
+// Appends what the eye sees of light that has bloomed.
+void Renderer::Parts::add_display(const Radiance& glowing, Frame& frame) {
+    const cl::Buffer display = tonemap.enqueue(glowing, settings.exposure, timer);
+    const View& view = glowing.view;
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    if (bloom && settings.keep_bloomed) {
+        frame.bloomed = tight_radiance(download<float>(gpu, glowing.planes, 3 * plane), view);
+    }
     append_rows(frame.display, tight_display(download<uint>(gpu, display, plane), view),
                 4 * pixel_count());
 }
@@ -162,9 +187,12 @@ void Renderer::Parts::render_band(const SampleInput& band, Frame& frame,
     const Clock::time_point start = Clock::now();
     FrameStats stats;
     const Radiance radiance = light_samples(band, stats);
-    const bool whole = band.band.rows == settings.height;
-    finish_pixels(whole && bloom ? bloom->enqueue(radiance, settings.bloom, timer) : radiance,
-                  frame);
+    if (!bloom) {
+        add_display(radiance, frame);
+    } else if (band.band.rows == settings.height) {
+        add_display(bloom->enqueue(radiance, settings.bloom, timer), frame);
+    }  // else light spreads over the whole picture: bloom_whole()
+    add_light(radiance, frame);
     take_stage_times(stats);
     add_band(frame.stats, stats);
     frame.stats.frame_ms += ms_since(start);
@@ -185,9 +213,7 @@ void Renderer::Parts::bloom_whole(const View& view, Frame& frame) {
     const Radiance radiance{
         planes.reserve(std::size_t{3} * sizeof(float) * view.stride * view.height), view};
     upload<float>(gpu, radiance.planes, radiance_planes(frame.radiance, view));
-    frame.radiance.clear();
-    frame.display.clear();
-    finish_pixels(bloom->enqueue(radiance, settings.bloom, timer), frame);
+    add_display(bloom->enqueue(radiance, settings.bloom, timer), frame);
     take_stage_times(frame.stats);
     frame.stats.frame_ms += ms_since(start);
 }
@@ -205,6 +231,7 @@ void Renderer::Parts::show_view(const Camera& camera, double time, const Decoded
 Frame Renderer::Parts::render(const Camera& camera, double time,
                               const std::function<void()>& between) {
     if (gl_context) gl_context->make_current();
+    take_up_changes();
     const Clock::time_point start = Clock::now();
     Frame frame;
     frame.width = settings.width;

@@ -24,7 +24,8 @@ enum class GlSource {
     current,   // the caller's, current now and at every render()
 };
 
-/// Renders one scene: the whole data flow, from meshes and lights to pixels.
+/// Renders one scene: the whole data flow, from meshes and lights to pixels. Between frames the scene
+/// may change as AnimatedScene changes it: what its revisions say is new is taken up.
 class Renderer {
  public:
     /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error

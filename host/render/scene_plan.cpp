@@ -32,6 +32,8 @@ float largest_emission(const Material& m) {
 
 bool is_metallic(const Material& m) { return !m.unlit && m.metallic > 0.0f; }
 
+bool reflects_otherwise(const Material& m) { return !m.unlit && has_own_reflectance(m); }
+
 bool has_gloss(const Material& m) {
     return !m.unlit && (m.metallic > 0.0f || m.roughness < 1.0f || m.metallic_roughness_texture.present());
 }
@@ -74,7 +76,7 @@ void check_forced(const std::vector<std::string>& names) {
 
 const std::vector<std::string>& forceable_features() {
     static const std::vector<std::string> names = {"spot-lights", "directional-lights", "metallic", "emissive",
-                                                   "occlusion",   "wide-light-index",   "blinn-phong", "pbr"};
+                                                   "occlusion",   "specular", "unlit",   "wide-light-index",   "blinn-phong", "pbr"};
     return names;
 }
 
@@ -102,6 +104,10 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
     plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
     plan.gbuffer.occlusion = (settings.ambient > 0.0f && any_material([](const Material& m) { return m.occlusion_texture.present(); })) ||
                              forced("occlusion");
+    plan.kernels.specular = (glossy && any_material(reflects_otherwise)) || forced("specular");
+    plan.kernels.unlit = (glossy && any_material([](const Material& m) { return m.unlit; })) || forced("unlit");
+    plan.gbuffer.specular = plan.kernels.specular;
+    plan.gbuffer.unlit = plan.kernels.unlit;
     plan.kernels.gbuffer = settings.gbuffer;
     plan.kernels.material = plan.gbuffer.material;
     plan.kernels.occlusion = plan.gbuffer.occlusion;
@@ -117,6 +123,8 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
         {"metallic", plan.kernels.metallic},
         {"emissive", emissive},
         {"occlusion", plan.gbuffer.occlusion},
+        {"specular", plan.kernels.specular},
+        {"unlit", any_material([](const Material& m) { return m.unlit; }) || plan.kernels.unlit},
         {"normal-maps", any_material([](const Material& m) { return m.normal_texture.present(); })},
         {"alpha-mask", any_material([](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
         {"alpha-blend", any_material([](const Material& m) { return m.alpha_mode == AlphaMode::blend; })},
@@ -124,6 +132,14 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
     };
     for (const Feature& feature : features) (feature.needed ? plan.features : plan.left_out).emplace_back(feature.name);
     return plan;
+}
+
+int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature) {
+    GBufferNeeds needs = plan.gbuffer;
+    if (feature == "metallic" || feature == "emissive") needs.material = true;
+    if (feature == "occlusion") needs.occlusion = true;
+    if (feature == "specular") needs.specular = true;
+    return static_cast<int>(make_gbuffer_layout(needs, 16, 1).bytes_per_pixel) - plan.gbuffer_bytes_per_pixel;
 }
 
 }  // namespace kilolux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/base/gbuffer_layout.h"
@@ -27,5 +28,8 @@ const std::vector<std::string>& forceable_features();
 /// The plan for a scene under these settings. `light_count`: point and spot lights at most. Throws Error
 /// when settings.force_features names something else.
 ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, std::uint64_t light_count);
+
+/// Bytes a pixel that the G-buffer would grow by with a feature that the plan leaves out.
+int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature);
 
 }  // namespace kilolux

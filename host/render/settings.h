@@ -47,6 +47,7 @@ struct RenderSettings {
     std::vector<std::string> aovs;
     GridSettings grid;
     KernelSettings kernels;
+    bool keep_bloomed = false;  // also Frame::bloomed, for whoever makes a display picture of their own
     bool count_useful = false;  // also count k*, at the price of one more pass
     std::vector<std::string> force_features;  // compiled in although the scene lacks them; see forceable_features()
     std::uint64_t max_memory_bytes = 0;  // that a renderer may take in all; 0: most of what is available

@@ -31,7 +31,7 @@ DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& g
     out.view = view;
     out.grid = grid;
     out.planes = download<float>(context_.gpu, decode_.enqueue(gbuffer, untimed),
-                                 std::size_t{SURFACE_PLANES} * view.stride * view.height);
+                                 std::size_t{decode_.plane_count()} * view.stride * view.height);
     return out;
 }
 

@@ -195,4 +195,22 @@ void apply_animations(const GltfDocument& document, std::vector<NodePose>& poses
     }
 }
 
+bool has_animations(const GltfDocument& document) {
+    const auto drives = [](const tinygltf::AnimationChannel& c) { return c.target_node >= 0; };
+    const auto& animations = document.model.animations;
+    return std::any_of(animations.begin(), animations.end(), [&](const tinygltf::Animation& a) {
+        return std::any_of(a.channels.begin(), a.channels.end(), drives);
+    });
+}
+
+std::set<int> nodes_with_driven_weights(const GltfDocument& document) {
+    std::set<int> nodes;
+    for (const tinygltf::Animation& animation : document.model.animations) {
+        for (const tinygltf::AnimationChannel& channel : animation.channels) {
+            if (channel.target_path == "weights") nodes.insert(channel.target_node);
+        }
+    }
+    return nodes;
+}
+
 }  // namespace kilolux

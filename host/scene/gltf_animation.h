@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
+
 #include "host/scene/gltf_nodes.h"
 
 namespace kilolux {
@@ -11,5 +13,11 @@ namespace kilolux {
 /// All animations play at once and hold their first and last key outside of their range; where two
 /// drive the same property, the first one in the file does.
 void apply_animations(const GltfDocument& document, std::vector<NodePose>& poses);
+
+/// Whether any animation of the file drives a node.
+bool has_animations(const GltfDocument& document);
+
+/// Nodes whose morph weights an animation drives.
+std::set<int> nodes_with_driven_weights(const GltfDocument& document);
 
 }  // namespace kilolux

@@ -25,6 +25,9 @@ class ByteBudget {
     /// Takes count * bytes_each; throws Error "<where>: needs ..." when that is more than is left.
     void charge(std::uint64_t count, std::uint64_t bytes_each, const std::string& where);
 
+    /// Gives back all that was taken: what is decoded from now on replaces what was decoded before.
+    void refill() { left_ = limit_; }
+
  private:
     std::uint64_t limit_;
     std::atomic<std::uint64_t> left_;

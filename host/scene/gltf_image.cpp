@@ -6,6 +6,7 @@
 #include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
+#include <mutex>
 
 #include "host/base/error.h"
 #include "host/scene/gltf_parallel.h"
@@ -176,11 +177,22 @@ Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
 
 }  // namespace
 
-std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images) {
+std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images,
+                                 const LoadProgress& progress) {
     std::vector<Image> out(images.size());
     ByteBudget memory(OIIO::Sysutil::physical_memory() / 2);
-    parallel_each(images.size(),
-                  [&](std::size_t i) { out[i] = decode(document, images[i], memory); });
+    std::mutex telling;
+    std::size_t done = 0;
+    const auto tell = [&](std::size_t more) {
+        if (!progress) return;
+        const std::lock_guard lock(telling);
+        progress(done += more, images.size());
+    };
+    if (!images.empty()) tell(0);
+    parallel_each(images.size(), [&](std::size_t i) {
+        out[i] = decode(document, images[i], memory);
+        tell(1);
+    });
     return out;
 }
 

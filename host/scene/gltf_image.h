@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/scene/gltf_document.h"
+#include "host/scene/load_progress.h"
 
 namespace kilolux {
 
@@ -10,6 +11,7 @@ namespace kilolux {
 /// Any format that OpenImageIO reads; what it is, its first bytes say. Throws Error that names the
 /// first image that is missing, broken or too large (16384 x 16384 pixels, half the machine's
 /// memory).
-std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images);
+std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images,
+                                 const LoadProgress& progress = {});
 
 }  // namespace kilolux

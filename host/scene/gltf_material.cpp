@@ -35,7 +35,42 @@ AlphaMode convert_alpha_mode(const std::string& mode) {
     return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-void read_extensions(Material& out, const tinygltf::Material& source) {
+// A texture of an extension, which tinygltf leaves as JSON and nobody has checked.
+TextureUse extension_texture(const GltfDocument& document, TextureTable& textures,
+                             const tinygltf::Value& extension, const std::string& name) {
+    if (!extension.Has(name)) return {};
+    const tinygltf::Value& info = extension.Get(name);
+    const auto count = static_cast<int>(document.model.textures.size());
+    FileTextureUse use;
+    use.texture = integer_member(info, "index", -1);
+    use.texcoord = integer_member(info, "texCoord", 0);
+    if (use.texture < 0 || use.texture >= count || use.texcoord < 0) {
+        document.fail(name, "index is " + std::to_string(use.texture) + " and texCoord " +
+                                std::to_string(use.texcoord) + ", must be 0 to " +
+                                std::to_string(count - 1) + " and at least 0");
+    }
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions") && info.Get("extensions").IsObject()) {
+        extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
+    }
+    use.extensions = &extensions;
+    return textures.convert(use);
+}
+
+void read_specular(const GltfDocument& document, Material& out, const tinygltf::Value& specular,
+                   TextureTable& textures) {
+    out.specular = unit(number_member(specular, "specularFactor", 1.0));
+    const auto color = numbers_member(specular, "specularColorFactor");
+    if (color.size() == 3) {
+        out.specular_color = {positive(color[0]), positive(color[1]), positive(color[2])};
+    }
+    out.specular_texture = extension_texture(document, textures, specular, "specularTexture");
+    out.specular_color_texture =
+        extension_texture(document, textures, specular, "specularColorTexture");
+}
+
+void read_extensions(const GltfDocument& document, Material& out, const tinygltf::Material& source,
+                     TextureTable& textures) {
     if (const auto* strength =
             find_extension(source.extensions, "KHR_materials_emissive_strength")) {
         const double scale = number_member(*strength, "emissiveStrength", 1.0);
@@ -48,18 +83,12 @@ void read_extensions(Material& out, const tinygltf::Material& source) {
         out.ior = value == 0.0 ? 0.0f : std::max(positive(value), 1.0f);
     }
     if (const auto* specular = find_extension(source.extensions, "KHR_materials_specular")) {
-        out.specular = unit(number_member(*specular, "specularFactor", 1.0));
-        const auto color = numbers_member(*specular, "specularColorFactor");
-        if (!color.empty()) {
-            out.specular_color = {positive(color[0]), positive(color[1]), positive(color[2])};
-        }
-        if (specular->Has("specularTexture") || specular->Has("specularColorTexture")) {
-            warn("material '" + source.name + "': textures of KHR_materials_specular are left out");
-        }
+        read_specular(document, out, *specular, textures);
     }
 }
 
-Material convert_material(const tinygltf::Material& source, TextureTable& textures) {
+Material convert_material(const GltfDocument& document, const tinygltf::Material& source,
+                          TextureTable& textures) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     Material out;
     out.name = source.name;
@@ -81,16 +110,18 @@ Material convert_material(const tinygltf::Material& source, TextureTable& textur
     out.alpha_mode = convert_alpha_mode(source.alphaMode);
     out.alpha_cutoff = positive(source.alphaCutoff);
     out.double_sided = source.doubleSided;
-    read_extensions(out, source);
+    read_extensions(document, out, source, textures);
     return out;
 }
 
 // Renames the TEXCOORD_n that a material uses to 0 and 1; returns which ones they are. Its textures
 // beyond the second set are left out.
 std::array<int, 2> pack_texcoord_sets(Material& material) {
-    const std::array<TextureUse*, 5> uses = {
-        &material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.occlusion_texture, &material.emissive_texture};
+    const std::array<TextureUse*, 7> uses = {
+        &material.base_color_texture,    &material.metallic_roughness_texture,
+        &material.normal_texture,        &material.occlusion_texture,
+        &material.emissive_texture,      &material.specular_texture,
+        &material.specular_color_texture};
     std::array<int, 2> sets = {0, 1};
     std::set<int> used;
     for (const TextureUse* use : uses) {
@@ -119,7 +150,7 @@ GltfMaterials convert_materials(const GltfDocument& document) {
     GltfMaterials out;
     TextureTable textures(document);
     for (const tinygltf::Material& source : document.model.materials) {
-        out.materials.push_back(convert_material(source, textures));
+        out.materials.push_back(convert_material(document, source, textures));
         out.texcoord_sets.push_back(pack_texcoord_sets(out.materials.back()));
     }
     out.textures = textures.textures();

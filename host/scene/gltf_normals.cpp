@@ -13,6 +13,7 @@ glm::vec3 unit_or(const glm::dvec3& v, const glm::vec3& otherwise) {
     // Scaled first, so that the square neither overflows nor vanishes.
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (!(largest > 0.0) || !std::isfinite(largest)) return otherwise;
+    if (is_unit(v)) return glm::vec3(v);
     return glm::vec3(glm::normalize(v / largest));
 }
 
@@ -23,6 +24,11 @@ bool is_usable(const glm::vec3& v) {
 }
 
 }  // namespace
+
+bool is_unit(const glm::dvec3& v) {
+    constexpr double kRounding = 1e-6;
+    return std::abs(glm::dot(v, v) - 1.0) <= kRounding;
+}
 
 glm::dvec3 triangle_cross(const Mesh& mesh, std::size_t triangle) {
     const glm::dvec3 a(mesh.positions[mesh.indices[3 * triangle]]);

@@ -29,7 +29,7 @@ enum Stream : std::uint64_t { kPhase = 0, kSpeed = 3, kHue = 6 };
 Box light_box(const LightOptions& options, const Scene& scene) {
     if (!options.box.empty()) return options.box;
     if (!scene.light_box.empty()) return scene.light_box;
-    const Box all = bounds(scene);
+    const Box all = resting_bounds(scene);
     return all.empty() ? Box{glm::dvec3(-1.0), glm::dvec3(1.0)} : all;
 }
 

@@ -5,6 +5,20 @@
 
 namespace kilolux {
 
+glm::vec3 dielectric_reflectance(const Material& material) {
+    // Exactly the constant of kernels/shared/evaluate.h where nothing says otherwise.
+    const float root = (material.ior - 1.0f) / (material.ior + 1.0f);
+    const float f0 = material.ior == Material{}.ior ? 0.04f : root * root;
+    return f0 * material.specular_color;
+}
+
+bool has_own_reflectance(const Material& material) {
+    const Material standard;
+    return material.ior != standard.ior || material.specular != standard.specular ||
+           material.specular_color != standard.specular_color ||
+           material.specular_texture.present() || material.specular_color_texture.present();
+}
+
 Box bounds(const Scene& scene) {
     Box box;
     for (const Instance& instance : scene.instances) {
@@ -24,6 +38,10 @@ std::size_t zero_normal_count(const Scene& scene) {
         }
     }
     return count;
+}
+
+Box resting_bounds(const Scene& scene) {
+    return scene.still_box.empty() ? bounds(scene) : scene.still_box;
 }
 
 std::size_t triangle_count(const Scene& scene) {

@@ -65,8 +65,18 @@ struct Material {
     bool unlit = false;           // KHR_materials_unlit
     float ior = 1.5f;             // KHR_materials_ior
     float specular = 1.0f;        // KHR_materials_specular
+    TextureUse specular_texture;  // linear; A
     glm::vec3 specular_color{1.0f};
+    TextureUse specular_color_texture;  // sRGB
 };
+
+/// Reflectance head on of the material's dielectric part, before the colour's and weight's textures
+/// and before it is limited to 1: ((ior - 1) / (ior + 1))^2 * specular_color, 0.04 for the default
+/// material (KHR_materials_specular).
+glm::vec3 dielectric_reflectance(const Material& material);
+
+/// Whether the dielectric part reflects otherwise than glTF's default one, which needs no storing.
+bool has_own_reflectance(const Material& material);
 
 /// A triangle list. Optional arrays are empty or as long as `positions`.
 struct Mesh {
@@ -78,6 +88,7 @@ struct Mesh {
     std::vector<glm::vec4> colors;       // linear, multiplies base_color
     std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()
     int material = -1;  // index into Scene::materials, -1 for the default material
+    std::uint32_t revision = 0;  // grows whenever the vertices change
 };
 
 /// A mesh put into the world. Transforms stay double until they meet the camera.
@@ -133,7 +144,9 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<SceneLight> lights;
     std::vector<SceneCamera> cameras;
-    Box light_box;  // where generated lights go; empty: bounds(scene)
+    Box light_box;  // where generated lights go; empty: resting_bounds(scene)
+    Box still_box;  // of an animated scene at time 0; empty: it does not move
+    std::uint32_t revision = 0;  // grows whenever instances, lights, cameras or vertices change
 };
 
 /// Box of all instances' vertices in world space.
@@ -141,6 +154,10 @@ Box bounds(const Scene& scene);
 
 /// Vertex normals without a direction (zero, or not finite): they are drawn as +Z of the view.
 std::size_t zero_normal_count(const Scene& scene);
+
+/// The box that does not move with the scene's animation: where generated lights go and what a camera
+/// that nobody placed frames.
+Box resting_bounds(const Scene& scene);
 
 /// Triangles that one frame draws: those of every instance.
 std::size_t triangle_count(const Scene& scene);

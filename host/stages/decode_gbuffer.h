@@ -13,12 +13,16 @@ class DecodeGBuffer {
    public:
     DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Returns float[SURFACE_PLANES][height][stride], see kernels/shared/surface_planes.h. Enqueues only.
+    /// Returns float[plane_count()][height][stride], see kernels/shared/surface_planes.h. Enqueues only.
     cl::Buffer enqueue(const GBuffer& gbuffer, StageTimer& timer);
+
+    /// SURFACE_PLANES, or SURFACE_PLANES_WITH_SPECULAR where the features have it.
+    uint plane_count() const { return plane_count_; }
 
    private:
     Gpu gpu_;
     Tuning tuning_;
+    uint plane_count_;
     cl::Program program_;
     GrowingBuffer srgb_, planes_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes VW neighbouring pixels of a G-buffer. GBUFFER, HAS_MATERIAL and HAS_OCCLUSION say what it holds.
+// Decodes VW neighbouring pixels of a G-buffer. GBUFFER, HAS_MATERIAL, HAS_OCCLUSION and
+// HAS_SPECULAR say what it holds.
 #ifndef KILOLUX_DEVICE_GBUFFER_H
 #define KILOLUX_DEVICE_GBUFFER_H
 #include "kernels/device/lanes.h"
@@ -149,7 +150,17 @@ static inline Surface load_float_material(GBuffer g, uint pixel, Surface s) {
 #if HAS_OCCLUSION
     s.occlusion = load_float(g, PLANE_OCCLUSION_F, pixel);
 #endif
+#if HAS_SPECULAR
+    s.specular = load_float3(g, PLANE_SPECULAR_R, pixel);
+    s.specular_f90 = load_float(g, PLANE_SPECULAR_F90, pixel);
+#endif
     return s;
+}
+
+// Reflectance of a code, the square root in 255ths: 51 is DIELECTRIC_F0 exactly.
+static inline FV reflectance_of(UV code) {
+    FV root = to_float_lanes(code);
+    return root * root * (1.0f / 65025.0f);
 }
 
 static inline FV3 unorm8_color(UV rgba) {
@@ -170,6 +181,12 @@ static inline Surface load_optional_planes(GBuffer g, uint pixel, Surface s) {
     UV code = KX_CONCAT(convert_, UV)(load_lanes(g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION] + pixel));
 #endif
     s.occlusion = unorm8(code);
+#endif
+#if HAS_SPECULAR
+    UV specular = load_uint_plane(g, PLANE_SPECULAR, pixel);
+    s.specular = fv3(reflectance_of(specular & 255u), reflectance_of((specular >> 8) & 255u),
+                     reflectance_of((specular >> 16) & 255u));
+    s.specular_f90 = unorm8(specular >> 24);
 #endif
     return s;
 }

@@ -7,8 +7,9 @@
 //   (KHR_lights_punctual, "Range Property")
 //
 // The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
-// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, FAST_RSQRT: what the scene does not need is not
-// in the code.
+// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
+// KHR_materials_specular), HAS_UNLIT, FAST_RSQRT: what the scene does not need is not in the code, and
+// is worth the same bits where it is.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -25,6 +26,14 @@
 #ifndef HAS_METALLIC
 #define HAS_METALLIC 0
 #endif
+#ifndef HAS_SPECULAR
+#define HAS_SPECULAR 0
+#endif
+// Surfaces of roughness 0 are unlit; lit ones have at least 1/255, which is as narrow a lobe.
+#ifndef HAS_UNLIT
+#define HAS_UNLIT 0
+#endif
+#define F0_VARIES (HAS_METALLIC || HAS_SPECULAR)
 // Leave a light whose window is 0 in all lanes before its costly part: pays for all but lambert, where
 // the branch costs more than it saves.
 #ifndef EARLY_OUT
@@ -64,6 +73,10 @@ SHARED_PLAIN_STRUCT(Surface) {
     FV roughness;  // perceptual
     FV metallic;
     FV occlusion;
+#if HAS_SPECULAR
+    FV3 specular;     // reflectance of the dielectric part head on
+    FV specular_f90;  // and at grazing angles
+#endif
 };
 
 // What of a surface is the same for all lights.
@@ -77,13 +90,19 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV ggx_floor;    // pbr: alpha
     FV smith_v;      // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
     FV exponent;     // blinn-phong
+#if F0_VARIES
+    FV3 f0;  // pbr: reflectance head on
+#endif
+#if HAS_SPECULAR
+    FV f90;            // pbr: reflectance at grazing angles
+    FV diffuse_rises;  // pbr: what diffuse light keeps at grazing angles, relative to head on
+#endif
 };
 
 // Sums over lights of intensity * falloff * n.l, weighted as each term of the BRDF needs.
 SHARED_PLAIN_STRUCT(LightSum) {
     FV3 diffuse;
     FV3 specular;
-    FV3 fresnel;  // pbr with metals only: the part of the specular sum that F0 does not tint
 };
 
 SHARED_FN FV3 zero3() { return fv3(fv(0.0f), fv(0.0f), fv(0.0f)); }
@@ -92,7 +111,6 @@ SHARED_FN LightSum zero_sum() {
     LightSum sum;
     sum.diffuse = zero3();
     sum.specular = zero3();
-    sum.fresnel = zero3();
     return sum;
 }
 
@@ -100,9 +118,6 @@ SHARED_FN LightSum add_sums(LightSum a, LightSum b) {
     a.diffuse = add3(a.diffuse, b.diffuse);
 #if SHADING != SHADING_LAMBERT
     a.specular = add3(a.specular, b.specular);
-#endif
-#if SHADING == SHADING_PBR && HAS_METALLIC
-    a.fresnel = add3(a.fresnel, b.fresnel);
 #endif
     return a;
 }
@@ -114,6 +129,33 @@ SHARED_FN FV3 add_scaled(FV3 sum, FV weight, float4 color) {
 SHARED_FN FV clamped_alpha(FV roughness) {
     FV r = max(roughness, fv(ROUGHNESS_MIN));
     return r * r;
+}
+
+// Reflectance head on of a surface whose dielectric part has `dielectric`.
+SHARED_FN FV3 mixed_f0(Surface s, FV3 dielectric) {
+#if HAS_METALLIC
+    FV rest = fv(1.0f) - s.metallic;
+    return fv3(fma(s.albedo.x, s.metallic, rest * dielectric.x), fma(s.albedo.y, s.metallic, rest * dielectric.y),
+               fma(s.albedo.z, s.metallic, rest * dielectric.z));
+#else
+    return dielectric;
+#endif
+}
+
+SHARED_FN FV3 dielectric_f0(Surface s) {
+#if HAS_SPECULAR
+    return s.specular;
+#else
+    return fv3(fv(DIELECTRIC_F0), fv(DIELECTRIC_F0), fv(DIELECTRIC_F0));
+#endif
+}
+
+// What diffuse light loses head on: the strongest channel's reflectance, so that a tinted one does not
+// colour the rest (KHR_materials_specular, implementation).
+SHARED_FN FV3 diffuse_f0(Surface s) {
+    FV3 f0 = dielectric_f0(s);
+    FV most = max(max(f0.x, f0.y), f0.z);
+    return mixed_f0(s, fv3(most, most, most));
 }
 
 SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
@@ -141,6 +183,15 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     p.n_dot_v = max(dot3(s.normal, p.to_eye), fv(N_DOT_V_MIN));
     p.smith_v = sqrt(fma(p.n_dot_v * p.n_dot_v, fv(1.0f) - p.alpha2, p.alpha2));
     p.exponent = fv(2.0f) / p.alpha2 - fv(2.0f);
+#endif
+#if F0_VARIES
+    p.f0 = mixed_f0(s, dielectric_f0(s));
+#endif
+#if HAS_SPECULAR
+    FV lost = fv(1.0f) - s.specular_f90;
+    p.f90 = fma(s.metallic - fv(1.0f), lost, fv(1.0f));
+    FV most = max(max(s.specular.x, s.specular.y), s.specular.z);
+    p.diffuse_rises = min(lost / max(fv(1.0f) - most, fv(1e-6f)), fv(1.0f));
 #endif
     return p;
 }
@@ -177,10 +228,16 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;
     FV g = fv(1.0f) - f;
+#if HAS_SPECULAR
+    sum.diffuse = add_scaled(sum.diffuse, lit * fma(f, p.diffuse_rises, g), color);
+    f = f * p.f90;
+#else
     sum.diffuse = add_scaled(sum.diffuse, lit * g, color);
-#if HAS_METALLIC
-    sum.specular = add_scaled(sum.specular, lobe * g, color);
-    sum.fresnel = add_scaled(sum.fresnel, lobe * f, color);
+#endif
+#if F0_VARIES
+    sum.specular = fv3(fma(lobe * fma(g, p.f0.x, f), fv(color.x), sum.specular.x),
+                       fma(lobe * fma(g, p.f0.y, f), fv(color.y), sum.specular.y),
+                       fma(lobe * fma(g, p.f0.z, f), fv(color.z), sum.specular.z));
 #else
     sum.specular = add_scaled(sum.specular, lobe * fma(g, fv(DIELECTRIC_F0), f), color);
 #endif
@@ -242,15 +299,12 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
     out_radiance = fv3(albedo.x * k * sum.diffuse.x, albedo.y * k * sum.diffuse.y, albedo.z * k * sum.diffuse.z);
 #else
     FV3 base = albedo;
-    FV3 f0 = fv3(fv(DIELECTRIC_F0), fv(DIELECTRIC_F0), fv(DIELECTRIC_F0));
 #if HAS_METALLIC
-    FV dielectric = fv(1.0f) - s.metallic;
-    base = scale3(albedo, dielectric);
-    f0 = fv3(fma(albedo.x, s.metallic, dielectric * f0.x), fma(albedo.y, s.metallic, dielectric * f0.y),
-             fma(albedo.z, s.metallic, dielectric * f0.z));
+    base = scale3(albedo, fv(1.0f) - s.metallic);
 #endif
 #endif
 #if SHADING == SHADING_BLINN_PHONG
+    FV3 f0 = mixed_f0(s, dielectric_f0(s));
     FV alpha = clamped_alpha(s.roughness);
     // (n + 2) / (8 pi) with n = 2 / alpha2 - 2: Walter et al. 2007's match of exponent and roughness.
     FV lobe = fv(0.25f * INV_PI) / (alpha * alpha);
@@ -260,14 +314,15 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
 #endif
 #if SHADING == SHADING_PBR
     FV lobe = fv(0.5f * INV_PI);
-    FV3 specular = sum.specular;
-#if HAS_METALLIC
-    specular = fv3(fma(f0.x, sum.specular.x, sum.fresnel.x), fma(f0.y, sum.specular.y, sum.fresnel.y),
-                   fma(f0.z, sum.specular.z, sum.fresnel.z));
+    FV3 f0 = diffuse_f0(s);
+    out_radiance = fv3(fma(base.x * k * (fv(1.0f) - f0.x), sum.diffuse.x, lobe * sum.specular.x),
+                       fma(base.y * k * (fv(1.0f) - f0.y), sum.diffuse.y, lobe * sum.specular.y),
+                       fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * sum.specular.z));
 #endif
-    out_radiance = fv3(fma(base.x * k * (fv(1.0f) - f0.x), sum.diffuse.x, lobe * specular.x),
-                       fma(base.y * k * (fv(1.0f) - f0.y), sum.diffuse.y, lobe * specular.y),
-                       fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * specular.z));
+#if HAS_UNLIT
+    MASK lit = s.roughness > fv(0.0f);
+    out_radiance = fv3(select_fv(lit, out_radiance.x, fv(0.0f)), select_fv(lit, out_radiance.y, fv(0.0f)),
+                       select_fv(lit, out_radiance.z, fv(0.0f)));
 #endif
     FV a = s.occlusion * fv(ambient);
     return fv3(fma(a, albedo.x, out_radiance.x) + s.emissive.x, fma(a, albedo.y, out_radiance.y) + s.emissive.y,

@@ -38,7 +38,12 @@ namespace kilolux {
 #define PLANE_OCCLUSION_F 19   // full, optional: float
 #define PLANE_ROW_0 20         // oct-2x4: float4, view-space position [m]; linear albedo: 8 bits a channel, red lowest, as the float's value
 #define PLANE_ROW_1 21         // oct-2x4: float4, octahedral view-space normal in [-1, 1]^2, roughness, metallic
-#define PLANE_COUNT 22
+#define PLANE_SPECULAR 22      // all but full, optional: uchar4, square roots of the dielectric's reflectance head on; grazing in the 4th
+#define PLANE_SPECULAR_R 23    // full, optional: float, the reflectance head on
+#define PLANE_SPECULAR_G 24
+#define PLANE_SPECULAR_B 25
+#define PLANE_SPECULAR_F90 26  // full, optional: float, the reflectance at grazing angles
+#define PLANE_COUNT 27
 #define PLANE_ABSENT 0xffffffffu
 
 #if !defined(GL_core_profile)  // GLSL writes attachments, and `layout` is a word of its own
@@ -47,9 +52,9 @@ SHARED_STRUCT(GBufferLayout) {
     uint layout;                     // GBUFFER_*
     float emissive_scale;            // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative to it
     uint bytes_per_pixel;
-    uint unused0, unused1, unused2;
+    uint unused0, unused1;
 };
-SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 112);
+SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 128);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient

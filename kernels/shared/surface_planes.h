@@ -11,4 +11,8 @@
 #define SURFACE_EMISSIVE 12  // 3: radiance
 #define SURFACE_OCCLUSION 15
 #define SURFACE_PLANES 16
+// Only of scenes whose dielectrics differ (HAS_SPECULAR), after the others.
+#define SURFACE_SPECULAR 16      // 3: reflectance head on
+#define SURFACE_SPECULAR_F90 19  // reflectance at grazing angles
+#define SURFACE_PLANES_WITH_SPECULAR 20
 #endif

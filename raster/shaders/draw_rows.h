@@ -15,16 +15,19 @@ namespace kilolux {
 #define USE_NORMAL 2
 #define USE_OCCLUSION 3
 #define USE_EMISSIVE 4
-#define USE_COUNT 5
+#define USE_SPECULAR 5
+#define USE_SPECULAR_COLOR 6
+#define USE_COUNT 7
 
 SHARED_STRUCT(MaterialRow) {
     float4 base_color;       // linear Rec. 709, alpha
     float4 emissive_cutoff;  // xyz: linear radiance; w: alpha cutoff
     float4 factors;          // metallic, roughness, normal scale, occlusion strength
+    float4 specular;         // xyz: reflectance head on times the colour factor; w: specular factor
     float4 uv_x[USE_COUNT];  // xyz: u = dot(xyz, (texcoord, 1))
     float4 uv_y[USE_COUNT];  // xyz: v likewise
 };
-SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 208);
+SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 288);
 
 // What forward shading needs beside materials and lights.
 SHARED_STRUCT(ForwardRow) {

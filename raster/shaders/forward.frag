@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
-// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC as in evaluate.h; HAS_DIRECTIONAL_LIGHTS.
+// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_UNLIT as in evaluate.h; HAS_DIRECTIONAL_LIGHTS.
 #include "kernels/shared/evaluate.h"
 #include "raster/shaders/material.glsl"
 
@@ -38,6 +38,10 @@ Surface surface_of(MaterialSample m, float z) {
     s.roughness = m.roughness;
     s.metallic = m.metallic;
     s.occlusion = m.occlusion;
+#if HAS_SPECULAR
+    s.specular = fv3(m.specular.r, m.specular.g, m.specular.b);
+    s.specular_f90 = m.specular.a;
+#endif
     return s;
 }
 

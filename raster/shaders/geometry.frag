@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A fragment's material to the G-buffer. GBUFFER_LAYOUT names the layout; MATERIAL_LOCATION and
-// OCCLUSION_LOCATION are defined where the optional attachments exist (host: gbuffer_targets.cpp).
+// A fragment's material to the G-buffer. GBUFFER_LAYOUT names the layout; MATERIAL_LOCATION,
+// OCCLUSION_LOCATION and, with HAS_SPECULAR, SPECULAR_LOCATION are defined where the optional attachments exist (host: gbuffer_targets.cpp).
 #include "kernels/shared/gbuffer.h"
 #include "raster/shaders/material.glsl"
 
@@ -47,6 +47,12 @@ layout(location = MATERIAL_LOCATION) out vec4 out_material;  // emissive, metall
 #ifdef OCCLUSION_LOCATION
 layout(location = OCCLUSION_LOCATION) out float out_occlusion;
 #endif
+#ifdef SPECULAR_LOCATION
+layout(location = SPECULAR_LOCATION) out vec4 out_specular;
+#if GBUFFER_LAYOUT == GBUFFER_FULL
+layout(location = GRAZING_LOCATION) out float out_grazing;
+#endif
+#endif
 
 void main() {
     MaterialSample s = sample_material();
@@ -77,6 +83,14 @@ void main() {
     out_material = vec4(s.emissive, 0.0);
 #else
     out_material = vec4(s.emissive * emissive_scale_inv, s.metallic);
+#endif
+#endif
+#ifdef SPECULAR_LOCATION
+#if GBUFFER_LAYOUT == GBUFFER_FULL
+    out_specular = vec4(s.specular.rgb, 0.0);
+    out_grazing = s.specular.a;
+#else
+    out_specular = vec4(sqrt(s.specular.rgb), s.specular.a);
 #endif
 #endif
 #ifdef OCCLUSION_LOCATION

@@ -12,6 +12,16 @@ layout(binding = USE_NORMAL) uniform sampler2D normal_texture;
 layout(binding = USE_OCCLUSION) uniform sampler2D occlusion_texture;
 layout(binding = USE_EMISSIVE) uniform sampler2D emissive_texture;
 
+layout(binding = USE_SPECULAR) uniform sampler2D specular_texture;
+layout(binding = USE_SPECULAR_COLOR) uniform sampler2D specular_color_texture;
+
+#ifndef HAS_SPECULAR
+#define HAS_SPECULAR 0
+#endif
+#ifndef HAS_UNLIT
+#define HAS_UNLIT 0
+#endif
+
 #ifdef POSITION
 layout(location = 0) in vec3 v_position;
 #endif
@@ -38,6 +48,7 @@ struct MaterialSample {
     float metallic;
     float roughness;  // perceptual
     float occlusion;
+    vec4 specular;  // the dielectric's reflectance head on, and at grazing angles
 };
 
 vec2 transformed(int use, vec2 texcoord) {
@@ -54,6 +65,19 @@ vec4 sample_base_color() {
     color *= v_color;
 #endif
     return color;
+}
+
+// KHR_materials_specular: min(f0 * colour, 1) * weight, and the weight.
+vec4 sample_specular() {
+    vec3 f0 = material.specular.xyz;
+    float weight = material.specular.w;
+#ifdef SPECULAR_COLOR_UV
+    f0 *= texture(specular_color_texture, SPECULAR_COLOR_UV).rgb;
+#endif
+#ifdef SPECULAR_UV
+    weight *= texture(specular_texture, SPECULAR_UV).a;
+#endif
+    return vec4(min(f0, vec3(1.0)) * weight, weight);
 }
 
 #ifndef NO_SURFACE
@@ -97,12 +121,18 @@ MaterialSample sample_material() {
 #ifdef EMISSIVE_UV
     s.emissive *= texture(emissive_texture, EMISSIVE_UV).rgb;
 #endif
+#if HAS_SPECULAR
+    s.specular = sample_specular();
+#endif
+#if HAS_UNLIT
+    s.roughness = max(s.roughness, 1.0 / 255.0);  // 0 says unlit
+#endif
 #ifdef UNLIT
     // KHR_materials_unlit: the base colour is what leaves the surface, whatever the lights.
     s.emissive = s.base_color.rgb;
     s.base_color.rgb = vec3(0.0);
     s.metallic = 0.0;
-    s.roughness = 1.0;
+    s.roughness = 1.0 - float(HAS_UNLIT);
 #endif
 #ifdef ALPHA_MASK
     if (s.base_color.a < material.emissive_cutoff.w) discard;

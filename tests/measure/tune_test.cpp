@@ -169,7 +169,8 @@ TEST(FeatureCosts, NameEveryLeftOutFeature) {
         EXPECT_EQ(costs[i].feature, plan.left_out[i]);
     for (const FeatureCost& cost : costs) {
         EXPECT_NE(cost.measured, !cost.why.empty()) << cost.feature;
-        const bool plane = cost.feature == "emissive" || cost.feature == "metallic";
+        const bool plane = cost.feature == "emissive" || cost.feature == "metallic" ||
+                           cost.feature == "specular";
         EXPECT_EQ(cost.bytes_per_pixel, plane                         ? 4
                                         : cost.feature == "occlusion" ? 1
                                                                       : 0)

@@ -20,7 +20,7 @@ constexpr double kPositionTolerance = 5e-7;
 KernelFeatures features_of(uint layout) {
     KernelFeatures features;
     features.gbuffer = layout;
-    features.material = features.metallic = features.occlusion = true;
+    features.material = features.metallic = features.occlusion = features.specular = true;
     return features;
 }
 
@@ -117,6 +117,14 @@ void expect_packed_attributes(Synthetic& image, const Planes& planes, uint x, ui
     ASSERT_NEAR(planes.at(SURFACE_METALLIC, x, y), (material >> 24) / 255.0, 1e-7);
     ASSERT_NEAR(planes.at(SURFACE_OCCLUSION, x, y),
                 image.plane<unsigned char>(PLANE_OCCLUSION)[i] / 255.0, 1e-7);
+    const uint specular = image.plane<uint>(PLANE_SPECULAR)[i];
+    const auto reflectance = [specular](uint shift) {
+        const double root = (specular >> shift & 255u) / 255.0;
+        return root * root;
+    };
+    const Vec3d expected{reflectance(0), reflectance(8), reflectance(16)};
+    ASSERT_LE(length(planes.vector(SURFACE_SPECULAR, x, y) - expected), 3e-7);
+    ASSERT_NEAR(planes.at(SURFACE_SPECULAR_F90, x, y), (specular >> 24) / 255.0, 1e-7);
 }
 
 TEST(DecodeGBuffer, PackedAttributesAtEveryLaneWidth) {
@@ -167,7 +175,8 @@ TEST(DecodeGBuffer, FullLayoutIsReadAsItIs) {
         {SURFACE_POSITION, PLANE_POSITION_X},  {SURFACE_NORMAL, PLANE_NORMAL_X},
         {SURFACE_ALBEDO, PLANE_ALBEDO_R},      {SURFACE_ROUGHNESS, PLANE_ROUGHNESS},
         {SURFACE_METALLIC, PLANE_METALLIC},    {SURFACE_EMISSIVE, PLANE_EMISSIVE_R},
-        {SURFACE_OCCLUSION, PLANE_OCCLUSION_F}};
+        {SURFACE_OCCLUSION, PLANE_OCCLUSION_F}, {SURFACE_SPECULAR, PLANE_SPECULAR_R},
+        {SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90}};
     for_drawn(image, [&](uint x, uint y) {
         for (const auto& [surface, plane] : pairs) {
             EXPECT_EQ(planes.at(surface, x, y),

@@ -22,6 +22,10 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
     s.roughness = VALUE(12);
     s.metallic = VALUE(13);
     s.occlusion = VALUE(14);
+#if HAS_SPECULAR
+    s.specular = fv3(VALUE(15), VALUE(16), VALUE(17));
+    s.specular_f90 = VALUE(18);
+#endif
     ShadingPoint p = make_shading_point(s, orthographic != 0);
     LightSum sum = zero_sum();
     for (uint k = 0; k < directional_count; ++k) sum = evaluate_directional(sum, p, directional[k]);
@@ -46,7 +50,8 @@ kernel void probe(global const float* h, global const float* n, global float* ou
 std::vector<float> rows_of(const SurfaceD& s) {
     const double values[] = {s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y,
                              s.normal.z,   s.albedo.x,   s.albedo.y,   s.albedo.z, s.emissive.x,
-                             s.emissive.y, s.emissive.z, s.roughness,  s.metallic, s.occlusion};
+                             s.emissive.y, s.emissive.z, s.roughness,  s.metallic, s.occlusion,
+                             s.specular.x, s.specular.y, s.specular.z, s.specular_f90};
     std::vector<float> rows;
     for (const double value : values) rows.push_back(static_cast<float>(value));
     return rows;
@@ -59,7 +64,9 @@ SurfaceD surface_of(const std::vector<float>& r) {
             {r[9], r[10], r[11]},
             r[12],
             r[13],
-            r[14]};
+            r[14],
+            {r[15], r[16], r[17]},
+            r[18]};
 }
 
 template <typename T>
@@ -74,7 +81,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
     Gpu gpu = test_gpu(lanes);
     const std::size_t count = round_up(surfaces.size(), 16);
     ProbeResult result;
-    std::vector<float> in(15 * count, 0.5f);
+    std::vector<float> in(19 * count, 0.5f);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
         const std::vector<float> rows = rows_of(surfaces[i]);
         for (std::size_t row = 0; row < rows.size(); ++row) in[row * count + i] = rows[row];
@@ -84,6 +91,7 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
                                             BuildOptions()
                                                 .define("SHADING", lighting.shading)
                                                 .define("HAS_METALLIC", 1)
+                                                .define("HAS_SPECULAR", 1)
                                                 .define("HAS_SPOT_LIGHTS", 1));
     const cl::Buffer out = new_buffer(gpu, std::vector<float>(3 * count));
     const cl::NDRange items(count / static_cast<std::size_t>(gpu.info.lane_width));

@@ -59,6 +59,10 @@ SurfaceD random_surface(Random& random, double roughness_min) {
     s.roughness = random.uniform(roughness_min, 1);
     s.metallic = random.below(3) * 0.5;
     s.occlusion = random.unit();
+    if (random.below(2) == 0) return s;
+    // As KHR_materials_specular and KHR_materials_ior can make it: tinted, weighted, up to a mirror.
+    s.specular_f90 = random.below(4) * (1.0 / 3.0);
+    s.specular = Vec3d{random.unit(), random.unit(), random.unit()} * s.specular_f90;
     return s;
 }
 

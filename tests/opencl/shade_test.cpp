@@ -75,7 +75,7 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
 KernelFeatures full_features(int shading) {
     KernelFeatures features;
     features.shading = shading;
-    features.material = features.metallic = features.occlusion = true;
+    features.material = features.metallic = features.occlusion = features.specular = true;
     features.spot_lights = features.directional_lights = true;
     return features;
 }
@@ -100,6 +100,8 @@ SurfaceD surface_at(const Planes& planes, uint x, uint y) {
     s.emissive = planes.vector(SURFACE_EMISSIVE, x, y);
     s.roughness = planes.at(SURFACE_ROUGHNESS, x, y);
     s.metallic = planes.at(SURFACE_METALLIC, x, y);
+    s.specular = planes.vector(SURFACE_SPECULAR, x, y);
+    s.specular_f90 = planes.at(SURFACE_SPECULAR_F90, x, y);
     s.occlusion = planes.at(SURFACE_OCCLUSION, x, y);
     return s;
 }

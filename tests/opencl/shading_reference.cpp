@@ -14,7 +14,6 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNearest = 0.01;     // [m] light sources have a size
 constexpr double kSmoothest = 0.045;  // perceptual roughness
 constexpr double kSmallestNdotV = 1e-4;
-constexpr double kDielectricF0 = 0.04;
 
 Vec3d vec(float4 v) {
     return {v.x, v.y, v.z};
@@ -41,23 +40,32 @@ Vec3d gltf_brdf(const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {
     const double visibility =
         0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
     const double schlick = std::pow(std::max(1 - dot(v, h), 0.0), 5);
-    const auto channel = [&](double albedo) {
-        const double f0 = kDielectricF0 + (albedo - kDielectricF0) * s.metallic;
-        const double f = f0 + (1 - f0) * schlick;
-        return (1 - f) * albedo * (1 - s.metallic) / kPi + f * distribution * visibility;
+    // KHR_materials_specular: diffuse light loses the strongest channel of the dielectric's Fresnel
+    // term; that share of what is lost head on is the metal's as well.
+    const double most = std::max({s.specular.x, s.specular.y, s.specular.z});
+    const double rises = std::min((1 - s.specular_f90) / std::max(1 - most, 1e-6), 1.0);
+    const double to_diffuse = 1 - schlick + schlick * rises;
+    const double f90 = s.specular_f90 + (1 - s.specular_f90) * s.metallic;
+    const auto channel = [&](double albedo, double specular) {
+        const double f0 = specular + (albedo - specular) * s.metallic;
+        const double f = f0 + (f90 - f0) * schlick;
+        const double kept = (1 - (most + (albedo - most) * s.metallic)) * to_diffuse;
+        return kept * albedo * (1 - s.metallic) / kPi + f * distribution * visibility;
     };
-    return {channel(s.albedo.x), channel(s.albedo.y), channel(s.albedo.z)};
+    return {channel(s.albedo.x, s.specular.x), channel(s.albedo.y, s.specular.y),
+            channel(s.albedo.z, s.specular.z)};
 }
 
 Vec3d blinn_phong_brdf(const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {
     const double exponent = 2 / std::pow(alpha_of(s.roughness), 2) - 2;
     const double nh = std::max(dot(n, normalized(l + v)), 0.0);
     const double lobe = (exponent + 2) / (8 * kPi) * std::pow(nh, exponent);
-    const auto channel = [&](double albedo) {
-        const double f0 = kDielectricF0 + (albedo - kDielectricF0) * s.metallic;
+    const auto channel = [&](double albedo, double specular) {
+        const double f0 = specular + (albedo - specular) * s.metallic;
         return albedo * (1 - s.metallic) / kPi + f0 * lobe;
     };
-    return {channel(s.albedo.x), channel(s.albedo.y), channel(s.albedo.z)};
+    return {channel(s.albedo.x, s.specular.x), channel(s.albedo.y, s.specular.y),
+            channel(s.albedo.z, s.specular.z)};
 }
 
 Vec3d brdf(int shading, const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {

@@ -15,6 +15,8 @@ struct SurfaceD {
     Vec3d albedo{0.5, 0.5, 0.5};
     Vec3d emissive;
     double roughness = 1, metallic = 0, occlusion = 1;
+    Vec3d specular{0.04, 0.04, 0.04};  // reflectance of the dielectric part head on
+    double specular_f90 = 1;           // and at grazing angles
 };
 
 /// How the scene is lit and looked at.

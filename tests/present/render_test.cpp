@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "child.h"
 #include "messages.h"
@@ -111,6 +112,65 @@ TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
     const ChildResult nothing = shard("0/2");
     EXPECT_EQ(nothing.code, 0);
     EXPECT_TRUE(contains(nothing.err, "nothing to render")) << nothing.err;
+}
+
+// A glTF file with a light, a camera, and a triangle that moves.
+void write_moving_scene(const fs::path& file) {
+    const char* text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+"extensionsUsed":["KHR_lights_punctual"],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":40,"range":9}]}},
+"nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[0,0,2]},
+{"camera":0,"translation":[0,0,4]}],
+"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"animations":[{"samplers":[{"input":1,"output":2}],"channels":[
+{"sampler":0,"target":{"node":0,"path":"translation"}}]}],
+"buffers":[{"byteLength":68,"uri":"data:application/octet-stream;base64,)"
+                       "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"  // three corners
+                       "AAAAAAAAgEAAAIA/AACAPwAAgD8AAABAAACAPwAAgD8="      // key times, places
+                       R"("}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":8},
+{"buffer":0,"byteOffset":44,"byteLength":24}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+"min":[-1,-1,0],"max":[1,1,0]},{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR",
+"min":[0],"max":[4]},{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}]})";
+    write_text(file, text);
+}
+
+TEST(Render, FourShardsAreOneSequenceOfAnAnimatedScene) {
+    const TemporaryFolder folder;
+    write_moving_scene(folder / "m.gltf");
+    const auto render = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> words = {
+            "render", (folder / "m.gltf").string(), "-q", "--resolution", "48,32", "--lights", "20",
+            "-o",     (folder / name).string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_kilolux(words);
+    };
+    const std::vector<std::string> frames = {"--frames", "0:5", "--fps", "2"};
+    ASSERT_EQ(render("one.#.exr", frames).code, 0) << render("one.#.exr", frames).err;
+    std::vector<ChildResult> results(4);
+    std::vector<std::jthread> shards;
+    for (int i = 0; i < 4; ++i) {
+        shards.emplace_back([&, i] {
+            results[static_cast<std::size_t>(i)] =
+                render("four.#.exr",
+                       {"--frames", "0:5", "--fps", "2", "--shard", std::to_string(i) + "/4"});
+        });
+    }
+    shards.clear();
+    for (const ChildResult& result : results) EXPECT_EQ(result.code, 0) << result.err;
+    for (int frame = 0; frame <= 5; ++frame) {
+        const std::string number = std::to_string(frame);
+        const std::string one = text_of_file(folder / ("one." + number + ".exr"));
+        EXPECT_EQ(one, text_of_file(folder / ("four." + number + ".exr"))) << frame;
+        ASSERT_EQ(render("alone.exr", {"--time", std::to_string(frame / 2.0)}).code, 0);
+        EXPECT_EQ(read_image(folder / "alone.exr").values,
+                  read_image(folder / ("one." + number + ".exr")).values);
+        if (frame == 0) continue;
+        EXPECT_NE(read_image(folder / "one.0.exr").values,
+                  read_image(folder / ("one." + number + ".exr")).values);
+    }
 }
 
 // Waits until the program has written its first frame, for two minutes at most.

@@ -60,7 +60,7 @@ void for_each_pixel(Check check) {
 TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
     for (uint layout = 0; layout <= GBUFFER_OCT_2X4; ++layout) {
         for (const bool optional : {false, true}) {
-            const GBufferNeeds needs{layout, optional, optional, 1.0f};
+            const GBufferNeeds needs{layout, optional, optional, 1.0f, optional, optional};
             const GBufferLayout planes = make_gbuffer_layout(needs, 16, 1);
             const TargetPlan plan = plan_targets(needs);
             std::vector<uint> expected;

@@ -89,7 +89,7 @@ Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbu
     const cl::Buffer planes = stage.enqueue(gbuffer, timer);
     const View& view = gbuffer.view;
     return {view,
-            download<float>(gpu, planes, std::size_t{SURFACE_PLANES} * view.stride * view.height)};
+            download<float>(gpu, planes, std::size_t{stage.plane_count()} * view.stride * view.height)};
 }
 
 ClusterGrid fine_grid(ClusterGrid grid) {

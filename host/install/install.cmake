@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# cmake --install: the OpenCL half as Kilolux::kilolux and by pkg-config, and the program if there is one.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set_target_properties(kilolux_cl PROPERTIES EXPORT_NAME kilolux OUTPUT_NAME kilolux)
+target_compile_features(kilolux_cl PUBLIC cxx_std_20)
+# Headers keep their paths below include/kilolux, as they name each other; kilolux.h stands beside.
+target_include_directories(kilolux_cl PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/kilolux>)
+install(TARGETS kilolux_cl EXPORT KiloluxTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(room host/base host/gpu host/stages kernels/shared)
+  install(DIRECTORY ${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kilolux/${room}
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(FILES host/install/kilolux.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kilolux)
+
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Kilolux)
+configure_package_config_file(host/install/KiloluxConfig.cmake.in ${CMAKE_BINARY_DIR}/KiloluxConfig.cmake
+  INSTALL_DESTINATION ${config_folder})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/KiloluxConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/KiloluxConfig.cmake ${CMAKE_BINARY_DIR}/KiloluxConfigVersion.cmake
+  DESTINATION ${config_folder})
+install(EXPORT KiloluxTargets NAMESPACE Kilolux:: DESTINATION ${config_folder})
+
+# Relative to its own place, so that a prefix may be moved.
+file(RELATIVE_PATH PC_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+get_target_property(definitions kilolux_cl INTERFACE_COMPILE_DEFINITIONS)
+list(TRANSFORM definitions PREPEND -D)
+list(JOIN definitions " " PC_DEFINITIONS)
+configure_file(host/install/kilolux.pc.in ${CMAKE_BINARY_DIR}/kilolux.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/kilolux.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+if(KILOLUX_PROGRAM)
+  install(TARGETS kilolux RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The OpenCL half of Kilolux: everything that lights a G-buffer with many lights.
+//
+// A program brings a cl::Context with a queue (or lets Gpu make them), a G-buffer in one cl::Buffer
+// and lights in another, and runs the stages in this order; host/example/light_gbuffer.cpp is the
+// whole of it:
+//
+//   PrepareLights -> BuildClusters -> CullLights -> BinPixels -> RefineLights -> Shade (-> Bloom,
+//   Tonemap)
+//
+// Every stage compiles in its constructor, its enqueue() does not block, and its results stay valid
+// until its next enqueue(). CullLights, BinPixels and RefineLights work with the room that the last
+// frame needed: where their fits() says false, the frame is enqueued again. What must match between
+// stages is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid a
+// frame.
+//
+// The stable part is what this header brings in: names, the layouts of kernels/shared (rows of 16
+// bytes, checked on the device) and the order of the stages. Include it as <kilolux/kilolux.h>.
+#pragma once
+
+// IWYU pragma: begin_exports
+#include "host/base/error.h"           // Error: what every function throws
+#include "host/base/gbuffer_layout.h"  // where a G-buffer's planes lie
+#include "host/base/log.h"             // who hears notes and warnings
+#include "host/gpu/buffer.h"           // GrowingBuffer, upload, download
+#include "host/gpu/device.h"           // choose_device, Gpu
+#include "host/gpu/features.h"         // KernelFeatures, Tuning
+#include "host/gpu/flow.h"             // what passes between stages
+#include "host/gpu/program.h"          // in_stage: OpenCL's errors with the stage's name
+#include "host/gpu/stage_timer.h"      // times by stage
+#include "host/gpu/tuning_store.h"     // the best work sizes measured on a device
+#include "host/stages/bin_pixels.h"
+#include "host/stages/bloom.h"
+#include "host/stages/build_clusters.h"
+#include "host/stages/count_lights.h"
+#include "host/stages/cull_lights.h"
+#include "host/stages/decode_gbuffer.h"
+#include "host/stages/prepare_lights.h"
+#include "host/stages/refine_lights.h"
+#include "host/stages/shade.h"
+#include "host/stages/tonemap.h"
+#include "kernels/shared/evaluate_modes.h"  // SHADING_*
+#include "kernels/shared/gbuffer.h"         // planes, octahedral_encode
+#include "kernels/shared/tone_curve.h"      // TONE_CURVE_*
+// IWYU pragma: end_exports

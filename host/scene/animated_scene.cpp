@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/animated_scene.h"
+
+#include "host/scene/gltf_animation.h"
+#include "host/scene/gltf_image.h"
+#include "host/scene/gltf_lights_cameras.h"
+#include "host/scene/gltf_parallel.h"
+#include "host/scene/gltf_shapes.h"
+
+namespace kilolux {
+
+// What of a file its scene is made from again at another time.
+struct AnimatedScene::File {
+    GltfDocument document;
+    GltfMaterials materials;
+    std::vector<PrimitiveJob> jobs;
+    std::vector<int> mesh_of_job;  // index into Scene::meshes; -1: has no triangles
+    bool built = false;
+    double time = 0.0;  // [s] that the scene stands at
+};
+
+namespace {
+
+// Instances of each placement's meshes, in the file's order.
+std::vector<Instance> place_instances(const GltfDocument& document, const ShapePlan& plan,
+                                      const std::vector<std::vector<int>>& meshes_of_shape) {
+    std::size_t count = 0;
+    for (const Placement& placement : plan.placements) {
+        count += meshes_of_shape[placement.shape].size();
+    }
+    document.budget->charge(count, sizeof(Instance), document.base.file + ": nodes");
+    std::vector<Instance> instances;
+    instances.reserve(count);
+    for (const Placement& placement : plan.placements) {
+        for (const int mesh : meshes_of_shape[placement.shape]) {
+            instances.push_back({mesh, placement.world_from_object});
+        }
+    }
+    return instances;
+}
+
+}  // namespace
+
+AnimatedScene::AnimatedScene(Scene scene) : scene_(std::move(scene)) {}
+
+AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOptions& options,
+                             const LoadProgress& progress)
+    : file_(std::make_unique<File>()) {
+    File& file = *file_;
+    file.document = load_gltf_document(path, options);
+    const bool moves = has_animations(file.document);
+    if (moves) file.document.options.time = 0.0;
+    file.materials = convert_materials(file.document);
+    scene_.name = path.stem().string();
+    place();
+    scene_.images = decode_images(file.document, file.materials.images, progress);
+    scene_.textures = file.materials.textures;
+    scene_.materials = file.materials.materials;
+    if (!moves) {
+        file_ = nullptr;
+        return;
+    }
+    scene_.still_box = bounds(scene_);
+    set_time(options.time);
+}
+
+AnimatedScene::~AnimatedScene() = default;
+
+void AnimatedScene::set_time(double time) {
+    if (!file_ || file_->time == time) return;
+    file_->time = file_->document.options.time = time;
+    file_->document.budget->refill();
+    place();
+    ++scene_.revision;
+}
+
+// Makes the scene of the document at its options' time: all of it, or what can have moved.
+void AnimatedScene::place() {
+    File& file = *file_;
+    const PlacedNodes nodes = place_nodes(file.document);
+    const ShapePlan plan = plan_shapes(file.document, nodes);
+    scene_.lights = convert_lights(file.document, nodes);
+    scene_.cameras = convert_cameras(file.document, nodes);
+    if (!file.built) file.jobs = list_primitives(file.document, plan);
+    std::vector<Mesh> meshes(file.jobs.size());
+    parallel_each(file.jobs.size(), [&](std::size_t j) {
+        const MeshShape& shape = plan.shapes[file.jobs[j].shape];
+        if (file.built && !shape.moves) return;
+        meshes[j] = build_primitive(file.document, file.materials, shape, file.jobs[j].primitive);
+    });
+    std::vector<std::vector<int>> meshes_of_shape(plan.shapes.size());
+    if (!file.built) file.mesh_of_job.assign(file.jobs.size(), -1);
+    for (std::size_t j = 0; j < file.jobs.size(); ++j) {
+        int& index = file.mesh_of_job[j];
+        if (!file.built && !meshes[j].indices.empty()) {
+            index = static_cast<int>(scene_.meshes.size());
+            scene_.meshes.push_back(std::move(meshes[j]));
+        } else if (file.built && index >= 0 && plan.shapes[file.jobs[j].shape].moves) {
+            Mesh& mesh = scene_.meshes[static_cast<std::size_t>(index)];
+            meshes[j].revision = mesh.revision + 1;
+            mesh = std::move(meshes[j]);
+        }
+        if (index >= 0) meshes_of_shape[file.jobs[j].shape].push_back(index);
+    }
+    file.built = true;
+    scene_.instances = place_instances(file.document, plan, meshes_of_shape);
+}
+
+Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    return AnimatedScene(file, options).take();
+}
+
+}  // namespace kilolux

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "host/scene/load_progress.h"
+#include "host/scene/load_scene.h"
+
+namespace kilolux {
+
+/// A scene that can be put to any time: what moves is evaluated again, what does not stays.
+///
+/// The scene at a time is what load_scene() gives for that time, bit for bit, whatever times came
+/// before. It stays where it is, so that renderers may refer to it; its revision says that it
+/// changed.
+class AnimatedScene {
+ public:
+    /// A scene that stands still.
+    explicit AnimatedScene(Scene scene);
+
+    /// A glTF file at options.time; throws as load_scene() does.
+    AnimatedScene(const std::filesystem::path& file, const LoadOptions& options,
+                  const LoadProgress& progress = {});
+
+    ~AnimatedScene();
+    AnimatedScene(const AnimatedScene&) = delete;
+    AnimatedScene& operator=(const AnimatedScene&) = delete;
+
+    const Scene& scene() const { return scene_; }
+
+    /// Whether the file has animations of nodes.
+    bool moves() const { return file_ != nullptr; }
+
+    /// Evaluates the animations at `time` [s]: transforms, lights, cameras, and the vertices of
+    /// meshes with a skin or with morph weights that are driven. Throws Error as loading does.
+    void set_time(double time);
+
+    /// Gives the scene away.
+    Scene take() && { return std::move(scene_); }
+
+ private:
+    struct File;
+    void place();
+
+    Scene scene_;
+    std::unique_ptr<File> file_;  // none: stands still
+};
+
+}  // namespace kilolux

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+# Installs the library alone into a prefix, and builds and runs host/example against it, by CMake and
+# by pkg-config.
+#   cmake -DROOT=<source> -DWORK=<folder> -DGENERATOR=Ninja -DCXX=g++ -P tests/install/install_test.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT code EQUAL 0)
+    string(JOIN " " words ${ARGN})
+    message(FATAL_ERROR "${words}\nends with ${code}:\n${out}${err}")
+  endif()
+  set(out "${out}" PARENT_SCOPE)
+endfunction()
+
+# An installed prefix knows nothing of the build that made it: it is moved before it is used.
+file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/moved ${WORK}/example)
+set(configure ${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX})
+# The packages of the other half: asking for one of them fails.
+foreach(package OpenImageIO TinyGLTF glfw3 meshoptimizer draco)
+  list(APPEND without -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+run(${configure} -S ${ROOT} -B ${WORK}/library -DKILOLUX_PROGRAM=OFF -DKILOLUX_TESTS=OFF ${without}
+  -DCMAKE_INSTALL_PREFIX=${WORK}/prefix)
+run(${CMAKE_COMMAND} --build ${WORK}/library)
+run(${CMAKE_COMMAND} --install ${WORK}/library)
+file(RENAME ${WORK}/prefix ${WORK}/moved)
+
+file(COPY ${ROOT}/host/example DESTINATION ${WORK})
+run(${configure} -S ${WORK}/example -B ${WORK}/example/build -DCMAKE_PREFIX_PATH=${WORK}/moved
+  "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wshadow -Wconversion -Werror")
+run(${CMAKE_COMMAND} --build ${WORK}/example/build)
+run(${WORK}/example/build/light_gbuffer ${WORK}/by_cmake.ppm)
+
+# Every installed header stands alone.
+file(GLOB_RECURSE headers RELATIVE ${WORK}/moved/include ${WORK}/moved/include/*.h)
+list(LENGTH headers count)
+if(count LESS 30)
+  message(FATAL_ERROR "only ${count} headers are installed")
+endif()
+set(all "")
+foreach(header IN LISTS headers)
+  string(APPEND all "#include <${header}>\n")
+endforeach()
+file(WRITE ${WORK}/all_headers.cpp "${all}")
+
+file(GLOB_RECURSE pc ${WORK}/moved/kilolux.pc)
+get_filename_component(pc_folder ${pc} DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+run(pkg-config --cflags --libs kilolux)
+separate_arguments(flags UNIX_COMMAND "${out}")
+run(${CXX} -std=c++20 -fsyntax-only ${WORK}/all_headers.cpp ${flags})
+run(${CXX} -std=c++20 -O2 ${WORK}/example/light_gbuffer.cpp ${flags} -o ${WORK}/by_pkg_config)
+run(${WORK}/by_pkg_config ${WORK}/by_pkg_config.ppm)
+
+# The same picture both ways, and one that is neither black nor white.
+foreach(way by_cmake by_pkg_config)
+  file(SHA256 ${WORK}/${way}.ppm hash_${way})
+endforeach()
+if(NOT hash_by_cmake STREQUAL hash_by_pkg_config)
+  message(FATAL_ERROR "the two builds give different pictures")
+endif()
+file(READ ${WORK}/by_cmake.ppm pixels OFFSET 460000 LIMIT 3000 HEX)
+string(REGEX MATCHALL ".." bytes "${pixels}")
+list(REMOVE_DUPLICATES bytes)
+list(LENGTH bytes different)
+if(different LESS 20)
+  message(FATAL_ERROR "the floor has only ${different} different bytes: ${bytes}")
+endif()
+
+# Neither OpenGL nor OpenImageIO is in the process.
+run(ldd ${WORK}/example/build/light_gbuffer)
+if(out MATCHES "libGL|libEGL|libepoxy|libglfw|libOpenImageIO")
+  message(FATAL_ERROR "the library brings more than OpenCL:\n${out}")
+endif()

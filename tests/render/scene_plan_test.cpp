@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// "Model only what a scene needs": a scene without a feature compiles kernels without it, and its
+// picture is the one that kernels with it make, bit for bit.
+#include "host/render/scene_plan.h"
+
+#include "host/base/error.h"
+#include "kernels/shared/evaluate_modes.h"
+#include "raster/material_features.h"
+#include "tests/render/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+// What switches each feature in the kernels' build options.
+struct Switch {
+    const char* feature;
+    const char* without;
+    const char* with;
+};
+constexpr Switch kSwitches[] = {
+    {"spot-lights", "HAS_SPOT_LIGHTS=0", "HAS_SPOT_LIGHTS=1"},
+    {"directional-lights", "HAS_DIRECTIONAL_LIGHTS=0", "HAS_DIRECTIONAL_LIGHTS=1"},
+    {"metallic", "HAS_METALLIC=0", "HAS_METALLIC=1"},
+    {"emissive", "HAS_MATERIAL=0", "HAS_MATERIAL=1"},
+    {"occlusion", "HAS_OCCLUSION=0", "HAS_OCCLUSION=1"},
+    {"specular", "HAS_SPECULAR=0", "HAS_SPECULAR=1"},
+    {"unlit", "HAS_UNLIT=0", "HAS_UNLIT=1"},
+    {"wide-light-index", "LIGHT_INDEX=ushort", "LIGHT_INDEX=uint"}};
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string options_of(const ScenePlan& plan) {
+    return feature_options(plan.kernels).text();
+}
+
+ScenePlan plan_of(const Scene& scene, const RenderSettings& settings) {
+    return make_scene_plan(scene, settings, settings.lights.count + scene.lights.size());
+}
+
+// A scene that needs one feature only, made from one that needs none.
+Scene scene_with(const std::string& feature) {
+    Scene scene = make_generated_scene("plain");
+    Material& material = scene.materials.front();
+    SceneLight light;
+    light.range = 5.0f;
+    if (feature == "spot-lights") light.type = LightType::spot;
+    if (feature == "directional-lights") light.type = LightType::directional;
+    if (light.type != LightType::point) scene.lights.push_back(light);
+    if (feature == "metallic") material.metallic = 0.5f;
+    if (feature == "emissive") material.emissive = glm::vec3(0.5f);
+    if (feature == "specular") material.ior = 1.33f;
+    if (feature == "unlit") material.unlit = true;
+    if (feature == "occlusion") {
+        scene.images.push_back({"white", 1, 1, {255, 255, 255, 255}});
+        scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});
+        material.occlusion_texture.texture = static_cast<int>(scene.textures.size()) - 1;
+    }
+    return scene;
+}
+
+RenderSettings settings_for(Shading shading) {
+    RenderSettings settings = small_settings(80, 45, 200);
+    settings.shading = shading;
+    return settings;
+}
+
+TEST(ScenePlan, KernelsHoldAFeatureWhereTheSceneNeedsItAndNowhereElse) {
+    const RenderSettings settings = settings_for(Shading::pbr);
+    const std::string none = options_of(plan_of(make_generated_scene("plain"), settings));
+    for (const Switch& s : kSwitches) {
+        EXPECT_NE(none.find(s.without), std::string::npos) << s.feature << ": " << none;
+        RenderSettings needing = settings;
+        if (std::string(s.feature) == "wide-light-index") needing.lights.count = 65537;
+        const ScenePlan plan = plan_of(scene_with(s.feature), needing);
+        EXPECT_NE(options_of(plan).find(s.with), std::string::npos) << s.feature;
+        EXPECT_TRUE(has(plan.features, s.feature)) << s.feature;
+        EXPECT_FALSE(has(plan.left_out, s.feature)) << s.feature;
+        for (const Switch& other : kSwitches) {
+            // Metal and what an unlit surface emits are kept in the plane of emission.
+            const bool shares =
+                std::string(other.feature) == "emissive" &&
+                (std::string(s.feature) == "metallic" || std::string(s.feature) == "unlit");
+            if (&other == &s || shares) continue;
+            EXPECT_NE(options_of(plan).find(other.without), std::string::npos)
+                << s.feature << " brings " << other.feature;
+        }
+    }
+}
+
+TEST(ScenePlan, CompilingAFeatureInChangesNoBit) {
+    const Scene scene = make_generated_scene("plain");
+    for (const Shading shading : {Shading::blinn_phong, Shading::pbr}) {
+        RenderSettings settings = settings_for(shading);
+        const Frame without = render_once(scene, settings);
+        for (const Switch& s : kSwitches) {
+            settings.force_features = {s.feature};
+            EXPECT_NE(options_of(plan_of(scene, settings)).find(s.with), std::string::npos);
+            const Frame with = render_once(scene, settings);
+            EXPECT_EQ(with.radiance, without.radiance)
+                << s.feature << ", shading " << static_cast<int>(shading);
+            EXPECT_EQ(with.display, without.display) << s.feature;
+        }
+    }
+}
+
+// A GLSL compiler may order operations as it likes: here features change last bits at most.
+TEST(ScenePlan, ForwardShadersRoundAlikeWithAFeature) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = settings_for(Shading::pbr);
+    settings.renderer = RendererKind::forward_plus;
+    const Frame without = render_once(scene, settings);
+    for (const char* feature :
+         {"spot-lights", "directional-lights", "metallic", "specular", "unlit"}) {
+        settings.force_features = {feature};
+        const Frame with = render_once(scene, settings);
+        for (std::size_t i = 0; i < with.radiance.size(); ++i) {
+            ASSERT_NEAR(with.radiance[i], without.radiance[i], 1e-5f * (without.radiance[i] + 0.1f))
+                << feature;
+        }
+    }
+}
+
+TEST(ScenePlan, AddedBytesAreThoseOfThePlanWithTheFeature) {
+    const Scene scene = make_generated_scene("plain");
+    for (const uint layout : {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_OCT_2X4}) {
+        RenderSettings settings = settings_for(Shading::pbr);
+        settings.gbuffer = layout;
+        const ScenePlan plan = plan_of(scene, settings);
+        for (const Switch& s : kSwitches) {
+            settings.force_features = {s.feature};
+            EXPECT_EQ(plan_of(scene, settings).gbuffer_bytes_per_pixel,
+                      plan.gbuffer_bytes_per_pixel + added_bytes_per_pixel(plan, s.feature))
+                << s.feature;
+        }
+    }
+    EXPECT_EQ(plan_of(scene, settings_for(Shading::pbr)).gbuffer_bytes_per_pixel, 12);
+}
+
+// Features of the raster shaders: each material's variant has its own.
+TEST(ScenePlan, ShaderVariantsHoldWhatTheirMaterialNeeds) {
+    const auto names_of = [](const Material& material, bool tangents) {
+        Mesh mesh;
+        mesh.positions.resize(1);
+        if (tangents) mesh.tangents.resize(1);
+        std::vector<std::string> names;
+        for (const auto& define : feature_defines(features_of(mesh, material))) {
+            names.push_back(define.first);
+        }
+        return names;
+    };
+    const Material plain;
+    EXPECT_TRUE(names_of(plain, true).empty()) << names_of(plain, true).front();
+    Material m;
+    m.normal_texture.texture = 0;
+    EXPECT_TRUE(has(names_of(m, true), "TANGENT") && has(names_of(m, true), "NORMAL_UV"));
+    EXPECT_FALSE(has(names_of(m, false), "TANGENT")) << "a mesh without tangents";
+    m = {};
+    m.alpha_mode = AlphaMode::mask;
+    EXPECT_EQ(names_of(m, false), std::vector<std::string>{"ALPHA_MASK"});
+    m = {};
+    m.unlit = true;
+    EXPECT_EQ(names_of(m, false), std::vector<std::string>{"UNLIT"});
+    m = {};
+    m.specular_color_texture.texture = 0;
+    EXPECT_EQ(names_of(m, false), (std::vector<std::string>{"SPECULAR_COLOR_UV", "TEXCOORD0"}));
+}
+
+TEST(ScenePlan, RefusesToForceWhatCostsNothingWhereItIsAbsent) {
+    RenderSettings settings = settings_for(Shading::pbr);
+    settings.force_features = {"normal-maps"};
+    EXPECT_THROW(plan_of(make_generated_scene("plain"), settings), Error);
+}
+
+}  // namespace
+}  // namespace kilolux

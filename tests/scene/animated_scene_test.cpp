@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene put from time to time is the one that loading at each time gives.
+#include "host/scene/animated_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "host/scene/generated_scenes.h"
+#include "tests/scene/export_scenes.h"
+#include "tests/scene/gltf_builder.h"
+
+namespace kilolux {
+namespace {
+
+using nlohmann::json;
+
+json channel(int sampler, int node, const char* path) {
+    return {{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}};
+}
+
+// Node 0: a triangle with a skin whose second joint moves; 3: a triangle that morphs; 4: one that
+// stands still, placed twice; 5 carries a light and a camera along.
+GltfBuilder moving_file() {
+    GltfBuilder file = triangle_file();
+    json still = file.root["meshes"][0];
+    json morphing = still;
+    morphing["primitives"][0]["targets"] = {
+        {{"POSITION", file.add_floats("VEC3", {0, 0, 8, 0, 0, 8, 0, 0, 8})}}};
+    const Blob joints = {0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
+    json& skinned = file.primitive()["attributes"];
+    skinned["JOINTS_0"] = file.add_accessor(joints, {kUnsignedByte, "VEC4", 3, false, 0});
+    skinned["WEIGHTS_0"] = file.add_floats("VEC4", {1, 0, 0, 0, 2, 2, 0, 0, 1, 0, 0, 0});
+    file.add("skins", {{"joints", {1, 2}}});
+    file.root["nodes"][0] = {{"mesh", 0}, {"skin", 0}};
+    file.add_node({{"translation", {0, 0, 0}}});
+    file.add_node({{"translation", {0, 0, 3}}});
+    file.add("meshes", morphing);
+    file.add("meshes", still);
+    file.add_node({{"mesh", 1}});
+    file.add_node({{"mesh", 2}});
+    file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+    file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    file.add_node({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.add_node({{"mesh", 2}, {"translation", {5, 0, 0}}});
+    const int input = file.add_floats("SCALAR", {0, 1, 4});
+    const int path = file.add_floats("VEC3", {0, 0, 0, 2, 1, 0, 2, 9, 0});
+    const int weights = file.add_floats("SCALAR", {0, 1, 0.25f});
+    file.add(
+        "animations",
+        {{"samplers",
+          {{{"input", input}, {"output", path}}, {{"input", input}, {"output", weights}}}},
+         {"channels",
+          {channel(0, 2, "translation"), channel(1, 3, "weights"), channel(0, 5, "translation")}}});
+    return file;
+}
+
+TEST(AnimatedScene, IsWhatLoadingAtEachTimeGives) {
+    const TempFolder folder;
+    const auto path = folder.path() / "moving.gltf";
+    write_file(path, moving_file().gltf());
+    AnimatedScene scene(path, {0.5});
+    EXPECT_TRUE(scene.moves());
+    for (const double time : {0.5, 0.0, 1.0, 3.5, 0.25, 99.0, 0.0}) {
+        scene.set_time(time);
+        EXPECT_EQ(scene_defect(scene.scene()), "") << time;
+        EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {time})), "") << time;
+    }
+    EXPECT_NE(scene_difference(load_scene(path, {0.5}), load_scene(path, {1.0})), "");
+}
+
+TEST(AnimatedScene, RevisionsSayWhatChanged) {
+    const TempFolder folder;
+    write_file(folder.path() / "m.glb", moving_file().glb());
+    AnimatedScene scene(folder.path() / "m.glb", {});
+    ASSERT_EQ(scene.scene().meshes.size(), 3u);
+    const std::uint32_t before = scene.scene().revision;
+    scene.set_time(0.0);
+    EXPECT_EQ(scene.scene().revision, before) << "the time is the same";
+    scene.set_time(2.0);
+    EXPECT_NE(scene.scene().revision, before);
+    EXPECT_EQ(scene.scene().meshes[0].revision, 1u) << "skinned";
+    EXPECT_EQ(scene.scene().meshes[1].revision, 1u) << "morphed";
+    EXPECT_EQ(scene.scene().meshes[2].revision, 0u) << "stands still";
+}
+
+TEST(AnimatedScene, TheStillBoxIsThatOfTimeZeroAtAnyTime) {
+    const TempFolder folder;
+    const auto path = folder.path() / "m.gltf";
+    write_file(path, moving_file().gltf());
+    const Box at_zero = bounds(load_scene(path, {0.0}));
+    const Scene later = load_scene(path, {4.0});
+    EXPECT_NE(bounds(later).max, at_zero.max);
+    EXPECT_EQ(resting_bounds(later).min, at_zero.min);
+    EXPECT_EQ(resting_bounds(later).max, at_zero.max);
+}
+
+TEST(AnimatedScene, ThousandsOfTimesDoNotUseUpWhatAFileMayDecodeTo) {
+    const TempFolder folder;
+    const auto path = folder.path() / "m.glb";
+    write_file(path, moving_file().glb());
+    AnimatedScene scene(path, {});
+    for (int i = 1; i < 3000; ++i) scene.set_time(i / 1000.0);
+    EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {2.999})), "");
+}
+
+TEST(AnimatedScene, StandsStillWithoutAnimations) {
+    const TempFolder folder;
+    write_file(folder.path() / "t.glb", triangle_file().glb());
+    AnimatedScene file(folder.path() / "t.glb", {});
+    AnimatedScene generated(make_generated_scene("plain"));
+    for (AnimatedScene* scene : {&file, &generated}) {
+        EXPECT_FALSE(scene->moves());
+        scene->set_time(7.0);
+        EXPECT_EQ(scene->scene().revision, 0u);
+        EXPECT_TRUE(scene->scene().still_box.empty());
+    }
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/export_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "host/scene/generated_scenes.h"
+#include "host/scene/light_generator.h"
+#include "tests/scene/export_scenes.h"
+#include "tests/scene/gltf_builder.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scene round_trip(const Scene& scene, const std::string& name) {
+    const TempFolder folder;
+    write_export(export_scene(scene, folder.path() / name), folder.path());
+    return load_scene(folder.path() / name);
+}
+
+TEST(ExportScene, KeepsEveryBitInBothForms) {
+    const Scene scene = scene_of_everything();
+    for (const char* name : {"all.glb", "all.gltf", "a b%20\xc3\xa4.gltf", "LOUD.GLB"}) {
+        EXPECT_EQ(scene_difference(scene, round_trip(scene, name)), "") << name;
+    }
+}
+
+TEST(ExportScene, KeepsGeneratedScenesWithTheirLightsAtATime) {
+    for (const char* name : {"grid", "plain", "corridor"}) {
+        Scene scene = make_generated_scene(name);
+        LightOptions lights;
+        lights.count = 100;
+        scene.lights = generate_lights(lights, scene, 1.25);
+        EXPECT_EQ(scene_difference(scene, round_trip(scene, "x.glb")), "") << name;
+    }
+}
+
+TEST(ExportScene, KeepsRealScenes) {
+    const fs::path scenes = fs::path(KILOLUX_ROOT) / ".." / "shared" / "scenes";
+    if (!fs::exists(scenes)) GTEST_SKIP() << scenes << " is not there";
+    for (const char* name : {"helmet/DamagedHelmet.glb", "small/BoxMeshopt.glb",
+                             "small/BoxVertexColors.glb", "small/ShapeCollection.glb"}) {
+        const Scene scene = load_scene(scenes / name);
+        EXPECT_EQ(scene_difference(scene, round_trip(scene, "x.glb")), "") << name;
+    }
+}
+
+TEST(ExportScene, SplitsAShearThatNoNodeHolds) {
+    Scene scene = scene_of_everything();
+    glm::dmat4 shear = glm::scale(glm::dmat4(1.0), {2.0, 0.1, -3.0});
+    shear[1].x = 0.9;
+    shear[2].y = -1.7;
+    shear[3] = {4.0, 5.0, 6.0, 1.0};
+    scene.instances = {{0, shear}};
+    const Scene back = round_trip(scene, "x.glb");
+    ASSERT_EQ(back.instances.size(), 1u);
+    for (int i = 0; i < 16; ++i) {
+        EXPECT_NEAR(back.instances[0].world_from_object[i / 4][i % 4], shear[i / 4][i % 4], 1e-14);
+    }
+}
+
+TEST(ExportScene, KeepsATurnedTextureTransformWithinItsRounding) {
+    Scene scene = scene_of_everything();
+    const float c = std::cos(0.7f), s = std::sin(0.7f);
+    const glm::mat3 turned(glm::vec3(2.0f * c, -2.0f * s, 0.0f),
+                           glm::vec3(-0.5f * s, -0.5f * c, 0.0f), glm::vec3(0.1f, 0.2f, 1.0f));
+    scene.materials[0].base_color_texture.uv_from_texcoord = turned;
+    const Scene back = round_trip(scene, "x.gltf");
+    const glm::mat3& m = back.materials[0].base_color_texture.uv_from_texcoord;
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(m[i / 3][i % 3], turned[i / 3][i % 3], 3e-7f) << i;
+}
+
+TEST(ExportScene, StepsAParallelCameraBackThatSeesBehindItself) {
+    Scene scene = scene_of_everything();
+    SceneCamera& camera = scene.cameras[1];
+    camera.z_near = -2.5;
+    const Scene back = round_trip(scene, "x.glb");
+    const SceneCamera& moved = back.cameras[1];
+    EXPECT_EQ(moved.z_near, 0.0);
+    EXPECT_EQ(moved.z_far, 12.5);
+    const glm::dvec4 step = moved.world_from_camera[3] - camera.world_from_camera[3];
+    EXPECT_NEAR(glm::distance(step, 2.5 * camera.world_from_camera[2]), 0.0, 1e-14);
+}
+
+TEST(ExportScene, CountsLightsThatCannotBeSaid) {
+    Scene scene = scene_of_everything();
+    const std::size_t good = scene.lights.size();
+    SceneLight bad = scene.lights[0];
+    bad.intensity.x = -1.0f;
+    scene.lights.push_back(bad);
+    bad = scene.lights[0];
+    bad.position.y = std::numeric_limits<double>::infinity();
+    scene.lights.insert(scene.lights.begin(), bad);
+    const ExportedScene exported = export_scene(scene, "x.glb");
+    EXPECT_EQ(exported.lights, good);
+    EXPECT_EQ(exported.unusable_lights, 2u);
+}
+
+TEST(ExportScene, AnEmptySceneIsAFileToo) {
+    const Scene back = round_trip({}, "x.glb");
+    EXPECT_TRUE(back.meshes.empty());
+    EXPECT_TRUE(back.lights.empty());
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// What we write is valid by the Khronos validator, which npm brings.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "host/scene/generated_scenes.h"
+#include "host/scene/light_generator.h"
+#include "tests/scene/export_scenes.h"
+#include "tests/scene/gltf_builder.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Output {
+    int status = 0;
+    std::string text;
+};
+
+Output run(const std::string& command) {
+    Output out;
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return {-1, "cannot run " + command};
+    std::array<char, 4096> part;
+    while (const std::size_t count = fread(part.data(), 1, part.size(), pipe)) {
+        out.text.append(part.data(), count);
+    }
+    out.status = pclose(pipe);
+    return out;
+}
+
+// Where the validator is installed; empty, with the reason in `why`, where it cannot be had.
+fs::path install_validator(std::string& why) {
+    const fs::path source = fs::path(KILOLUX_ROOT) / "tests" / "gltf_validator";
+    const fs::path folder = fs::path(KILOLUX_PROGRAM).parent_path() / "gltf_validator";
+    if (fs::exists(folder / "node_modules" / "gltf-validator" / "index.js")) return folder;
+    fs::create_directories(folder);
+    for (const char* name : {"package.json", "package-lock.json"}) {
+        fs::copy_file(source / name, folder / name, fs::copy_options::overwrite_existing);
+    }
+    const Output npm =
+        run("npm ci --ignore-scripts --no-audit --no-fund --prefix '" + folder.string() + "'");
+    if (npm.status == 0) return folder;
+    why = "npm cannot install gltf-validator: " + npm.text;
+    return {};
+}
+
+Scene sheared_scene() {
+    Scene scene = scene_of_everything();
+    glm::dmat4 shear(1.0);
+    shear[1].x = 0.9;
+    scene.instances.push_back({0, shear});
+    const float c = std::cos(0.7f), s = std::sin(0.7f);
+    scene.materials[0].base_color_texture.uv_from_texcoord =
+        glm::mat3(glm::vec3(c, -s, 0.0f), glm::vec3(s, c, 0.0f), glm::vec3(0.1f, 0.2f, 1.0f));
+    scene.cameras[1].z_near = -1.0;
+    return scene;
+}
+
+Scene lit(const std::string& name) {
+    Scene scene = make_generated_scene(name);
+    LightOptions lights;
+    lights.count = 64;
+    scene.lights = generate_lights(lights, scene, 0.5);
+    return scene;
+}
+
+TEST(ExportSceneValidator, FindsNoErrorAndNoWarning) {
+    std::string why;
+    const fs::path validator = install_validator(why);
+    if (validator.empty()) GTEST_SKIP() << why;
+    const TempFolder folder;
+    std::string files;
+    int count = 0;
+    const auto add = [&](const Scene& scene, const std::string& name) {
+        write_export(export_scene(scene, folder.path() / name), folder.path());
+        files += " '" + (folder.path() / name).string() + "'";
+        ++count;
+    };
+    add(scene_of_everything(), "everything.glb");
+    add(scene_of_everything(), "every thing.gltf");
+    add(sheared_scene(), "sheared.gltf");
+    add(lit("corridor"), "corridor.glb");
+    add(lit("atrium"), "atrium.glb");
+    add({}, "empty.glb");
+    const fs::path script = fs::path(KILOLUX_ROOT) / "tests" / "gltf_validator" / "validate.js";
+    const Output out = run("node '" + script.string() + "' '" + validator.string() + "'" + files);
+    ASSERT_EQ(out.status, 0) << out.text;
+    int validated = 0;
+    std::istringstream lines(out.text);
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_FALSE(line.starts_with("0 ") || line.starts_with("1 ")) << line;
+        if (line.starts_with("validated ")) ++validated;
+    }
+    EXPECT_EQ(validated, count) << out.text;
+}
+
+}  // namespace
+}  // namespace kilolux
