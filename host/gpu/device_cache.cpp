@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/device_cache.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,8 +11,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -61,14 +60,36 @@ std::string head_lines(const DeviceInfo& device, CacheKind kind) {
            std::to_string(kind.version) + "\n" + device_lines(device);
 }
 
+// A file that only this user could have written: nobody else's numbers decide how kernels are
+// built.
+bool is_ours(int descriptor) {
+    struct stat status = {};
+    return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+           status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0 &&
+           status.st_size <= static_cast<off_t>(kLargestEntry);
+}
+
+std::string read_all(int descriptor) {
+    std::string text(kLargestEntry, '\0');
+    std::size_t size = 0;
+    while (size < text.size()) {
+        const ssize_t count = ::read(descriptor, text.data() + size, text.size() - size);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        size += static_cast<std::size_t>(count);
+    }
+    text.resize(size);
+    return text;
+}
+
 // The whole file; empty when there is none or it is no entry of ours.
 std::string read_entry(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > kLargestEntry) return {};
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return in ? text.str() : std::string();
+    // Neither through a link nor waiting for a pipe's other end.
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0) return {};
+    std::string text = is_ours(descriptor) ? read_all(descriptor) : std::string();
+    ::close(descriptor);
+    return text;
 }
 
 // What stands before a right checksum line at the end; none if it is wrong or missing.

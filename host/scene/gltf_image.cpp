@@ -91,7 +91,7 @@ std::string format_of(std::span<const unsigned char> bytes, const std::string& u
 }
 
 std::string reason(std::string text) {
-    text = text.substr(0, text.find('\n'));
+    text.resize(std::min(text.size(), text.find('\n')));
     return text.empty() ? "is broken" : text;
 }
 
