@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "tests/opencl/stage_run.h"
-#include "tests/opencl/synthetic.h"
+#include "host/measure/synthetic/stage_run.h"
+#include "host/measure/synthetic/synthetic.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {

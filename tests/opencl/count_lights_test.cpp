@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/opencl/light_sets.h"
-#include "tests/opencl/stage_run.h"
+#include "host/measure/synthetic/light_sets.h"
+#include "host/measure/synthetic/stage_run.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {
@@ -48,7 +48,7 @@ Counted count_lights(int lanes, std::uint32_t light_count) {
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, {}, noise_depth(0.3, 60, 0.2, 8)));
     const Tuning tuning = default_tuning(gpu.info);
-    ListStages stages(gpu, tuning, {});
+    StageRun stages(gpu, tuning, {});
     const DeviceLists device = stages.run(upload_lights(gpu, out.lights), gbuffer, out.grid);
     out.lists = download_lists(gpu, {}, out.grid, device);
     CountLights stage(gpu, tuning, {});

@@ -10,7 +10,7 @@
 #include <map>
 #include <numeric>
 
-#include "tests/opencl/cull_scenarios.h"
+#include "host/measure/synthetic/cull_scenarios.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {
@@ -127,7 +127,7 @@ TEST(CullLights, NoLightIsMissingByFloat64AndFewAreListedInVain) {
     for (const CullScenario& scenario : cull_scenarios()) {
         SCOPED_TRACE(scenario.name);
         const CullCase c = make_cull_case(gpu, scenario);
-        ListStages stages(gpu, default_tuning(gpu.info), c.features);
+        StageRun stages(gpu, default_tuning(gpu.info), c.features);
         const DeviceLists device = stages.run(upload_lights(gpu, c.lights), c.gbuffer, c.grid);
         const HostLists lists = download_lists(gpu, c.features, c.grid, device);
         const ReachTest test = reach_test_of(gpu, c, device.lights);
@@ -148,7 +148,7 @@ TEST(CullLights, NoLightIsMissingByFloat64AndFewAreListedInVain) {
 }
 
 std::string lists_of(const Gpu& gpu, const CullCase& c, const Tuning& tuning) {
-    ListStages stages(gpu, tuning, c.features);
+    StageRun stages(gpu, tuning, c.features);
     const DeviceLists device = stages.run(upload_lights(gpu, c.lights), c.gbuffer, c.grid);
     return fingerprint(download_lists(gpu, c.features, c.grid, device));
 }
@@ -199,7 +199,7 @@ void expect_all_listed(uint count) {
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 3.0, 0, 1)));
     const std::vector<Light> lights(count, point_light({}, 100.0));
-    ListStages stages(gpu, default_tuning(gpu.info), features);
+    StageRun stages(gpu, default_tuning(gpu.info), features);
     const HostLists lists =
         download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
     ASSERT_EQ(lists.clusters.size(), 1u);

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "host/base/gbuffer_layout.h"
-#include "tests/opencl/half_float.h"
-#include "tests/opencl/stage_run.h"
-#include "tests/opencl/synthetic.h"
+#include "host/measure/synthetic/half_float.h"
+#include "host/measure/synthetic/stage_run.h"
+#include "host/measure/synthetic/synthetic.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {

@@ -3,14 +3,14 @@
 // must do.
 #include <gtest/gtest.h>
 
+#include "host/measure/synthetic/light_sets.h"
+#include "host/measure/synthetic/stage_run.h"
 #include "host/stages/bloom.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/tone_curve.h"
-#include "tests/opencl/light_sets.h"
-#include "tests/opencl/stage_run.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {
@@ -85,7 +85,7 @@ void run_every_kernel(const Variant& v) {
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.6, 8)));
     const LightInput lights =
         upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
-    ListStages stages(gpu, tuning, features);
+    StageRun stages(gpu, tuning, features);
     const DeviceLists lists = stages.run(lights, gbuffer, grid);
     StageTimer timer;
     CullLights oracle(gpu, tuning, features);

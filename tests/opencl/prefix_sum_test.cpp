@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "host/measure/synthetic/vec3d.h"
 #include "tests/opencl/test_gpu.h"
-#include "tests/opencl/vec3d.h"
 
 namespace kilolux {
 namespace {

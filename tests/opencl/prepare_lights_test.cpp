@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/opencl/light_sets.h"
-#include "tests/opencl/stage_run.h"
+#include "host/measure/synthetic/light_sets.h"
+#include "host/measure/synthetic/stage_run.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "tests/opencl/light_sets.h"
-#include "tests/opencl/stage_run.h"
+#include "host/measure/synthetic/light_sets.h"
+#include "host/measure/synthetic/stage_run.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {
@@ -58,7 +58,7 @@ void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_co
     const std::vector<Light> lights = random_lights(view, mix);
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, {}, slanted_depth(0.4, 60.0, 97)));
-    ListStages stages(gpu, tuning, {});
+    StageRun stages(gpu, tuning, {});
     const DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
     const HostLists lists = download_lists(gpu, {}, grid, device);
     const auto bounds = download<float4>(gpu, device.lights.bounds, lights.size());
@@ -98,7 +98,7 @@ TEST(RefineLights, LacksRoomOnceThenGrows) {
     features.light_index_bits = 32;
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(1, 2, 64)));
-    ListStages stages(gpu, tuning, features);
+    StageRun stages(gpu, tuning, features);
     DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
     RefineLights refine(gpu, tuning, features);
     StageTimer timer;
@@ -135,7 +135,7 @@ TEST(RefineLights, SpotsThatShineAwayAreLeftOut) {
     const std::vector<Light> lights = {spot_light(point, {0, 0, 1}, 0.2, 0.3),
                                        spot_light(point, {0, 0, -1}, 0.2, 1.5),
                                        spot_light(point, {0, 1, 0}, 0.2, 0.3), point};
-    ListStages stages(gpu, default_tuning(gpu.info), features);
+    StageRun stages(gpu, default_tuning(gpu.info), features);
     const HostLists lists =
         download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
     ASSERT_FALSE(lists.clusters.empty());

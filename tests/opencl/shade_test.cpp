@@ -9,10 +9,10 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/measure/synthetic/light_sets.h"
+#include "host/measure/synthetic/stage_run.h"
 #include "kernels/shared/evaluate_modes.h"
-#include "tests/opencl/light_sets.h"
 #include "tests/opencl/shading_reference.h"
-#include "tests/opencl/stage_run.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {
@@ -49,7 +49,7 @@ Frame shade_frame(const Gpu& gpu, const FrameInput& in, const Tuning& tuning) {
     const View view = make_view(in.shape);
     const ClusterGrid grid = make_cluster_grid(in.request, view.width, view.height);
     const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, in.features, in.depth));
-    ListStages stages(gpu, tuning, in.features);
+    StageRun stages(gpu, tuning, in.features);
     Shade shade(gpu, tuning, in.features);
     shade.set_ambient(kAmbient);
     const DeviceLists lists = stages.run(upload_lights(gpu, in.lights, sun()), gbuffer, grid);

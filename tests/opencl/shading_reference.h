@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "host/measure/synthetic/vec3d.h"
 #include "kernels/shared/light.h"
-#include "tests/opencl/vec3d.h"
 
 namespace kilolux {
 

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "host/gpu/buffer.h"
+#include "host/measure/synthetic/stage_run.h"
 #include "host/stages/build_clusters.h"
-#include "tests/opencl/stage_run.h"
 #include "tests/opencl/test_gpu.h"
 
 namespace kilolux {

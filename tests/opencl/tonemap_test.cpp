@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "host/measure/synthetic/vec3d.h"
 #include "kernels/shared/tone_curve.h"
 #include "tests/opencl/test_gpu.h"
-#include "tests/opencl/vec3d.h"
 
 namespace kilolux {
 namespace {

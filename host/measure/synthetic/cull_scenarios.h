@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "tests/opencl/light_sets.h"
-#include "tests/opencl/stage_run.h"
-#include "tests/opencl/synthetic.h"
+#include "host/measure/synthetic/light_sets.h"
+#include "host/measure/synthetic/stage_run.h"
+#include "host/measure/synthetic/synthetic.h"
 
 namespace kilolux {
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/opencl/stage_run.h"
+#include "host/measure/synthetic/stage_run.h"
 
 #include <string>
 
 namespace kilolux {
 
-ListStages::ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+StageRun::StageRun(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : prepare_(gpu, tuning),
       build_(gpu),
       cull_(gpu, tuning, features),
       bin_(gpu, tuning, features),
       refine_(gpu, tuning, features) {}
 
-DeviceLists ListStages::run(const LightInput& lights, const GBuffer& gbuffer,
-                            const ClusterGrid& grid) {
+DeviceLists StageRun::run(const LightInput& lights, const GBuffer& gbuffer,
+                          const ClusterGrid& grid) {
     StageTimer timer;
     DeviceLists out;
     out.lights = prepare_.enqueue(lights, gbuffer.view, grid, timer);

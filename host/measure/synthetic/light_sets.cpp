@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/opencl/light_sets.h"
+#include "host/measure/synthetic/light_sets.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/opencl/test_gpu.h"
+#include "host/measure/synthetic/probe.h"
 
 namespace kilolux {
 namespace {

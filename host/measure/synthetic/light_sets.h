@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "host/gpu/flow.h"
-#include "tests/opencl/synthetic.h"
-#include "tests/opencl/vec3d.h"
+#include "host/measure/synthetic/synthetic.h"
+#include "host/measure/synthetic/vec3d.h"
 
 namespace kilolux {
 

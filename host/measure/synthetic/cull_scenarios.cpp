@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/opencl/cull_scenarios.h"
+#include "host/measure/synthetic/cull_scenarios.h"
 
 #include <bit>
 #include <cmath>
 
-#include "tests/opencl/test_gpu.h"
+#include "host/measure/synthetic/probe.h"
 
 namespace kilolux {
 namespace {

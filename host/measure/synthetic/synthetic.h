@@ -7,7 +7,7 @@
 
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "tests/opencl/vec3d.h"
+#include "host/measure/synthetic/vec3d.h"
 
 namespace kilolux {
 

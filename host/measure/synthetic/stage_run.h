@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/measure/synthetic/vec3d.h"
 #include "host/stages/bin_pixels.h"
 #include "host/stages/build_clusters.h"
 #include "host/stages/cull_lights.h"
@@ -12,7 +13,6 @@
 #include "host/stages/prepare_lights.h"
 #include "host/stages/refine_lights.h"
 #include "kernels/shared/surface_planes.h"
-#include "tests/opencl/vec3d.h"
 
 namespace kilolux {
 
@@ -26,9 +26,9 @@ struct DeviceLists {
 };
 
 /// The list stages in their order, each repeated until its room suffices.
-class ListStages {
+class StageRun {
  public:
-    ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+    StageRun(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
     DeviceLists run(const LightInput& lights, const GBuffer& gbuffer, const ClusterGrid& grid);
     CullLights& cull() { return cull_; }
 

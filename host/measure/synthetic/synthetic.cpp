@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/opencl/synthetic.h"
+#include "host/measure/synthetic/synthetic.h"
 
 #include <cmath>
 #include <limits>
 
 #include "host/base/gbuffer_layout.h"
-#include "tests/opencl/half_float.h"
-#include "tests/opencl/test_gpu.h"
+#include "host/measure/synthetic/half_float.h"
+#include "host/measure/synthetic/probe.h"
 
 namespace kilolux {
 namespace {
