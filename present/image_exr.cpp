@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/half.h>
-
 #include <cstring>
 #include <span>
 
 #include "host/base/error.h"
+#include "host/base/half.h"
 #include "present/image_encode.h"
 
 namespace kilolux {
@@ -46,7 +45,7 @@ void place_channel(std::vector<unsigned char>& pixels, std::size_t offset, std::
             const auto id = static_cast<std::uint32_t>(values[i]);
             std::memcpy(out, &id, sizeof id);
         } else if (format == OIIO::TypeDesc::HALF) {
-            const half narrow(values[i]);
+            const std::uint16_t narrow = half_bits_clamped(values[i]);
             std::memcpy(out, &narrow, sizeof narrow);
         } else {
             std::memcpy(out, &values[i], sizeof values[i]);

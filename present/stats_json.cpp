@@ -28,6 +28,7 @@ void add_frame(Json& out, const FrameRecord& record) {
                      {"used", s.lights_used},
                      {"rejected", s.lights_rejected},
                      {"dropped", s.lights_dropped}};
+    out["normals"] = {{"zero", s.zero_normals}};
     out["clusters"] = {{"grid", {s.grid[0], s.grid[1], s.grid[2]}},
                        {"coarse_pairs", s.coarse_pairs},
                        {"active", s.active_clusters},

@@ -29,6 +29,7 @@ struct FrameStats {
     std::uint64_t lights_rejected = 0;  // unusable: not finite, no range, no intensity
     std::uint64_t lights_dropped = 0;
     std::uint64_t directional_lights = 0;  // of those used
+    std::uint64_t zero_normals = 0;  // vertices of the scene whose normal has no direction: drawn as +Z of the view
     std::uint32_t grid[3] = {0, 0, 0};  // tiles x, tiles y, slices
     std::uint64_t coarse_pairs = 0;
     std::uint64_t active_clusters = 0;

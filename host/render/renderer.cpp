@@ -86,6 +86,7 @@ struct Renderer::Parts {
     std::optional<ForwardPath> forward;    // or this
     std::unique_ptr<Renderer> reference;   // for the view of differences from it
     std::optional<OverdrawPass> overdraw;  // for its view
+    std::size_t zero_normals;
     RadianceSum sum;
     std::optional<Bloom> bloom;  // none at a share of 0
     Tonemap tonemap;
@@ -102,6 +103,7 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
       gpu_scene(the_scene),
       lights(gpu, the_scene, settings.lights),
       context{settings, plan, gpu, tuning, gpu_scene, bounds(the_scene)},
+      zero_normals(zero_normal_count(the_scene)),
       sum(gpu),
       tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
     if (is_forward(settings.renderer)) {
@@ -207,6 +209,7 @@ Frame Renderer::Parts::render(const Camera& camera, double time,
     Frame frame;
     frame.width = settings.width;
     frame.height = settings.height;
+    frame.stats.zero_normals = zero_normals;
     const LightRows rows = lights.at(time, camera.position, frame.stats);
     add_stage_time(frame.stats.stages, "light_input", ms_since(start));
     const LightInput input = lights.upload(rows);

@@ -25,8 +25,11 @@ double range_of_light(double intensity_max_cd, double error_budget) {
 std::size_t fill_missing_ranges(std::vector<SceneLight>& lights, double error_budget) {
     std::size_t filled = 0;
     for (SceneLight& light : lights) {
-        if (light.type == LightType::directional || light.range > 0.0f) continue;
+        // Only 0 says "not given". A range or intensity that is no number, or negative, stays as it
+        // is: make_light_rows() rejects that light and counts it.
+        if (light.type == LightType::directional || light.range != 0.0f) continue;
         const glm::vec3& i = light.intensity;
+        if (!std::isfinite(i.x + i.y + i.z) || std::min({i.x, i.y, i.z}) < 0.0f) continue;
         light.range = static_cast<float>(range_of_light(std::max({i.x, i.y, i.z}), error_budget));
         ++filled;
     }

@@ -26,7 +26,8 @@ inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 /// not finite, the intensity is negative or the budget is not positive.
 double range_of_light(double intensity_max_cd, double error_budget = kDefaultRangeBudget);
 
-/// Gives every point and spot light of `lights` without a range (<= 0) the one of range_of_light().
+/// Gives every point and spot light of `lights` without a range (0) the one of range_of_light().
+/// Leaves lights alone whose range or intensity is negative or not finite: they are unusable.
 /// Returns how many there were, so that the program can say so. Directional lights have none.
 std::size_t fill_missing_ranges(std::vector<SceneLight>& lights,
                                 double error_budget = kDefaultRangeBudget);

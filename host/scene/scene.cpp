@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene.h"
 
+#include <cmath>
+
 namespace kilolux {
 
 Box bounds(const Scene& scene) {
@@ -11,6 +13,17 @@ Box bounds(const Scene& scene) {
         }
     }
     return box;
+}
+
+std::size_t zero_normal_count(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        for (const glm::vec3& n : mesh.normals) {
+            const float size = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+            if (!(size > 0.0f && std::isfinite(size))) ++count;
+        }
+    }
+    return count;
 }
 
 std::size_t triangle_count(const Scene& scene) {

@@ -93,7 +93,7 @@ struct SceneLight {
     glm::dvec3 position{0.0};          // [m], world
     glm::dvec3 direction{0, 0, -1};    // unit, the way the light travels (spot, directional)
     glm::vec3 intensity{1.0f};         // linear Rec. 709; [cd], directional [lx]
-    float range = 0.0f;                // [m]; <= 0: not given, see light_ranges.h
+    float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
     float inner_cone = 0.0f;           // half angle [rad]
     float outer_cone = 0.7853981634f;  // half angle [rad]
 };
@@ -138,6 +138,9 @@ struct Scene {
 
 /// Box of all instances' vertices in world space.
 Box bounds(const Scene& scene);
+
+/// Vertex normals without a direction (zero, or not finite): they are drawn as +Z of the view.
+std::size_t zero_normal_count(const Scene& scene);
 
 /// Triangles that one frame draws: those of every instance.
 std::size_t triangle_count(const Scene& scene);

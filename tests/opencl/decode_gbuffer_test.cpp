@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/gbuffer_layout.h"
-#include "host/measure/synthetic/half_float.h"
+#include "host/base/half.h"
 #include "host/measure/synthetic/stage_run.h"
 #include "host/measure/synthetic/synthetic.h"
 #include "tests/opencl/test_gpu.h"

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <random>
 
-#include "compute.h"
 #include "gl_fixture.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/view.h"
+#include "raster/compute_probe.h"
 #include "raster/shaders/draw_rows.h"
 
 namespace kilolux {

@@ -45,12 +45,24 @@ TEST(LightRanges, FillsOnlyWhatIsMissing) {
     lights[1].range = 5.0f;
     lights[2].type = LightType::directional;
     lights[3].type = LightType::spot;
-    lights[3].range = -1.0f;
     EXPECT_EQ(fill_missing_ranges(lights), 2u);
     EXPECT_FLOAT_EQ(lights[0].range, static_cast<float>(range_of_light(20.0)));
     EXPECT_EQ(lights[1].range, 5.0f);
     EXPECT_EQ(lights[2].range, 0.0f);
     EXPECT_FLOAT_EQ(lights[3].range, static_cast<float>(range_of_light(1.0)));
+}
+
+TEST(LightRanges, LeavesUnusableLightsToBeRejected) {
+    std::vector<SceneLight> lights(4);
+    lights[0].range = -1.0f;
+    lights[1].range = std::nanf("");
+    lights[2].intensity.y = std::nanf("");
+    lights[3].intensity.z = -1.0f;
+    EXPECT_EQ(fill_missing_ranges(lights), 0u);
+    EXPECT_EQ(lights[0].range, -1.0f);
+    EXPECT_TRUE(std::isnan(lights[1].range));
+    EXPECT_EQ(lights[2].range, 0.0f);
+    EXPECT_EQ(lights[3].range, 0.0f);
 }
 
 TEST(LightRanges, RefusesNonsense) {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "host/base/gbuffer_layout.h"
-#include "host/measure/synthetic/half_float.h"
+#include "host/base/half.h"
 #include "host/measure/synthetic/probe.h"
 
 namespace kilolux {
@@ -54,9 +54,9 @@ void fill_position(Synthetic& image, uint pixel, Vec3d p) {
     }
     const float4 camera = image.view.camera_position;
     const Vec3d world = world_from_view(image.view, p) + Vec3d{camera.x, camera.y, camera.z};
-    image.plane<std::uint16_t>(PLANE_POSITION_X)[pixel] = half_bits(world.x);
-    image.plane<std::uint16_t>(PLANE_POSITION_Y)[pixel] = half_bits(world.y);
-    image.plane<std::uint16_t>(PLANE_POSITION_Z)[pixel] = half_bits(world.z);
+    image.plane<std::uint16_t>(PLANE_POSITION_X)[pixel] = half_bits_clamped(world.x);
+    image.plane<std::uint16_t>(PLANE_POSITION_Y)[pixel] = half_bits_clamped(world.y);
+    image.plane<std::uint16_t>(PLANE_POSITION_Z)[pixel] = half_bits_clamped(world.z);
 }
 
 void fill_normal(Synthetic& image, uint pixel, Vec3d n) {
@@ -65,7 +65,7 @@ void fill_normal(Synthetic& image, uint pixel, Vec3d n) {
         if (image.layout.layout == GBUFFER_FULL) {
             image.plane<float>(PLANE_NORMAL_X + axis)[pixel] = static_cast<float>(value);
         } else {
-            image.plane<std::uint16_t>(PLANE_NORMAL_X + axis)[pixel] = half_bits(value);
+            image.plane<std::uint16_t>(PLANE_NORMAL_X + axis)[pixel] = half_bits_clamped(value);
         }
     }
 }

@@ -10,10 +10,11 @@
 
 namespace kilolux {
 
-/// A compute program of a test: shared headers, then `body`.
+/// A compute program of shared headers, then `body`: for asking OpenGL what a shared function
+/// gives.
 inline GlProgram compute_program(const std::vector<std::string>& headers, const std::string& body) {
     ShaderText text{GL_COMPUTE_SHADER, {}};
-    text.source.files = {"test"};
+    text.source.files = {"probe"};
     text.source.text = "#version 450 core\n";
     for (const std::string& header : headers) {
         text.source.text += splice_source(header, true).text;
@@ -40,7 +41,7 @@ std::vector<Out> run_compute(const GlProgram& program, const std::vector<In>& in
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(output.name(), 0, static_cast<GLsizeiptr>(out.size() * sizeof(Out)),
                             out.data());
-    check_gl_errors("compute test");
+    check_gl_errors("compute probe");
     return out;
 }
 

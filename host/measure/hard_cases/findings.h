@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kilolux {
+
+/// The largest of the errors it is shown, and where it was.
+struct Worst {
+    double value = 0.0;  // NaN counts as infinite
+    std::uint64_t checked = 0;
+    std::string where;
+
+    /// `place()` makes the text; called only for a new worst.
+    template <typename Place>
+    void see(double error, Place&& place) {
+        ++checked;
+        if (error <= value) return;
+        value = std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+        where = place();
+    }
+};
+
+/// One thing that a case measured, and what it may be at most.
+struct Finding {
+    std::string what;  // "missed lights", "|d|/max(r,E)"
+    double worst = 0.0;
+    double limit = 0.0;         // infinite: reported, not judged
+    std::uint64_t checked = 0;  // values compared
+    std::string where;          // of the worst
+    bool passed() const { return worst <= limit; }
+};
+
+/// Everything that a case found. The same `what` seen again keeps its worst.
+class Findings {
+ public:
+    void at_most(std::string_view what, const Worst& worst, double limit);
+    void at_most(std::string_view what, double value, double limit, std::string_view where = {});
+    /// None of `count` may be.
+    void none(std::string_view what, std::uint64_t count, std::uint64_t of,
+              std::string_view where = {});
+    /// A condition without a number.
+    void require(std::string_view what, bool holds, std::string_view where = {});
+    /// Reported without a limit.
+    void report(std::string_view what, double value);
+    /// Guards against a case that tries nothing: `count` things were tried, and must be `least`.
+    void tried(std::string_view what, std::uint64_t count, std::uint64_t least);
+
+    const std::vector<Finding>& all() const { return findings_; }
+    bool passed() const;
+
+ private:
+    std::vector<Finding> findings_;
+};
+
+}  // namespace kilolux
