@@ -45,7 +45,7 @@ glm::dvec3 blinn_phong(const SurfaceSample& s, const glm::dvec3& v, const glm::d
     const double exponent = 2.0 / alpha2_of(s) - 2.0;
     const double lobe = glm::dot(s.normal, h) > 0.0
                             ? std::exp(0.5 * exponent * std::log1p(-sin2(s.normal, h)))
-                            : (exponent == 0.0 ? 1.0 : 0.0);
+                            : 0.0;  // also of exponent 0: the limit of small ones
     return diffuse_of(s) + f0_of(s) * ((exponent + 2.0) / (8.0 * kPi) * lobe);
 }
 

@@ -7,7 +7,8 @@
 namespace kilolux {
 namespace {
 
-// Positions beyond this square to infinity in float32 [m].
+// Squares of distances to farther positions leave the range that culling vouches for (1e30 m^2,
+// kernels/device/light_reach.h) [m].
 constexpr double kFarthest = 1e15;
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -19,6 +20,9 @@ bool gives_light(const glm::vec3& intensity) {
 
 bool has_direction(const glm::dvec3& direction) { return is_finite(direction) && glm::length(direction) > 1e-12; }
 
+// One light that is no number would spread over all pixels of its lists, and through filters over the
+// picture: it is left out and counted. Asked here in double, as kernels may be built to assume that
+// there are none (-cl-finite-math-only, OpenCL C 5.8.4).
 bool is_usable(const SceneLight& light, const glm::dvec3& relative) {
     if (!gives_light(light.intensity)) return false;
     if (light.type == LightType::directional) return has_direction(light.direction);

@@ -4,6 +4,7 @@
 //
 //   pixel = emissive + ambient * occlusion * albedo + sum over lights of brdf * intensity * falloff * n.l
 //   falloff(d) = window(d / range) / max(d, LIGHT_D_MIN)^2,  window(x) = clamp(1 - x^4, 0, 1)
+//   (KHR_lights_punctual, "Range Property")
 //
 // The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
 // Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, FAST_RSQRT: what the scene does not need is not
@@ -35,7 +36,8 @@
 #define FAST_RSQRT 0
 #endif
 
-// Nearer than this the inverse square stops growing: light sources have a size [m].
+// Nearer than this the inverse square stops growing: light sources have a size [m] (Lagarde and de
+// Rousiers 2014, "Moving Frostbite to PBR", 3.1: max(d^2, 0.01^2)).
 #define LIGHT_D_MIN 0.01f
 // Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's limit).
 #define ROUGHNESS_MIN 0.045f
@@ -45,7 +47,8 @@
 #define N_DOT_V_MIN 1e-4f
 #define INV_PI 0.318309886f
 // Lights whose contributions are summed before they join the pixel's sum; by light index, so that a
-// light that contributes 0 changes no bit wherever it is listed. Error of k terms: 64u + k/64 u.
+// light that contributes 0 changes no bit wherever it is listed. Error of k terms: (64 + k/64) u, where
+// one running sum has k u (Higham 2002, "Accuracy and Stability of Numerical Algorithms", 4.2).
 #define SUM_BLOCK_LOG2 6
 
 #if defined(__cplusplus)
@@ -131,6 +134,7 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     p.ggx_floor = alpha;
     p.to_eye = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
     if (!orthographic) {
+        // 1e-30: a point at the eye itself has no direction to it.
         FV inv_distance = rsqrt(max(dot3(s.position, s.position), fv(1e-30f)));
         p.to_eye = scale3(s.position, -inv_distance);
     }
@@ -145,6 +149,7 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
 SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l, FV lit, float4 color) {
 #if SHADING != SHADING_LAMBERT
     FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y), fma(v.z, inv_length, p.to_eye.z));
+    // 1e-12: light from straight behind the view has no half vector, only rounding of one (1e-7 long).
     FV hh = max(dot3(h, h), fv(1e-12f));
 #endif
 #if SHADING == SHADING_LAMBERT
@@ -154,8 +159,10 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
     FV inv_h = rsqrt(hh);
     FV3 d = fv3(fma(-h.x, inv_h, p.normal.x), fma(-h.y, inv_h, p.normal.y), fma(-h.z, inv_h, p.normal.z));
     FV half_q = fv(0.5f) * dot3(d, d);
+    // No lobe from behind: there pow_one_minus gives 1e-30^n, which is not small for n below 1.
+    FV lobe = select_fv(half_q < fv(1.0f), pow_one_minus(half_q, p.exponent), fv(0.0f));
     sum.diffuse = add_scaled(sum.diffuse, lit, color);
-    sum.specular = add_scaled(sum.specular, lit * pow_one_minus(half_q, p.exponent), color);
+    sum.specular = add_scaled(sum.specular, lit * lobe, color);
 #else
     // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both sides of
     // D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha, so that the

@@ -64,9 +64,8 @@ uint packed_normal(const glm::dvec3& n) {
 
 // A sun 1e-4 rad below every pixel's horizon, more than 2x16 bits turn a normal by (6.6e-5 rad).
 std::uint64_t pixels_lit_from_behind(const Gpu& gpu, std::uint64_t& pixels) {
-    KernelFeatures features;
-    features.directional_lights = true;
-    Shot shot = noise_shot({64, 48}, noise_depth(1.0, 9.0, 0, 4), features);
+    Shot shot = noise_shot({64, 48}, noise_depth(1.0, 9.0, 0, 4), every_feature(SHADING_LAMBERT));
+    put_out_surfaces(shot);
     const Vec3d sun = normalized({0.3, 0.5, 0.7});
     shot.suns = {
         {{static_cast<float>(sun.x), static_cast<float>(sun.y), static_cast<float>(sun.z), 0},

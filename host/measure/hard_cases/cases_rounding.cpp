@@ -356,19 +356,22 @@ void try_srgb_rounding(const Gpu& gpu, Findings& findings) {
     const GlContext context = GlContext::headless();
     const std::vector<int> opengl = codes_of_opengl(values.linear);
     std::uint64_t wrong = 0;
-    std::uint64_t different = 0;
     Worst off;
+    Worst from_exact;
     for (std::size_t i = 0; i < own.size(); ++i) {
         wrong += own[i] != code_of(values.linear[i]) ? 1 : 0;
-        off.see(std::abs(own[i] - opengl[i]),
-                [&] { return std::to_string(values.linear[i]); });
-        different += i >= values.boundary_count && own[i] != opengl[i] ? 1 : 0;
+        off.see(std::abs(own[i] - opengl[i]), [&] { return std::to_string(values.linear[i]); });
+        const double exact = 255.0 * linear_to_srgb(std::clamp(double{values.linear[i]}, 0.0, 1.0));
+        from_exact.see(std::abs(exact - opengl[i]),
+                       [&] { return std::to_string(values.linear[i]); });
     }
     findings.none("own codes wrong", wrong, own.size());
     findings.at_most("OpenGL's codes off by", off, 1.0);
-    const std::uint64_t others = own.size() - values.boundary_count;
-    findings.at_most("share of codes that differ from OpenGL's",
-                     static_cast<double>(different) / static_cast<double>(others), 0.001);
+    // "99.9 % equal" would ask of drivers what OpenGL does not (it bounds no conversion): one that
+    // is off by e codes before it rounds puts a share of 2 e of all values on a boundary's other
+    // side, 20 % at the 0.1 code that Direct3D allows; 99.9 % needs e = 0.0005. llvmpipe's e is
+    // 0.15. What must hold is that each value gets one of the two codes beside it.
+    findings.at_most("OpenGL's codes from the exact value", from_exact, 1.0);
     std::uint64_t trips = 0;
     for (std::size_t code = 0; code < 256; ++code) {
         const std::size_t i = values.boundary_count + code;
@@ -397,13 +400,17 @@ void try_octahedral_wrap(const Gpu& gpu, Findings& findings) {
         const bool axis = std::abs(n.x) + std::abs(n.y) + std::abs(n.z) == 1.0;
         if (i < kSpecialDirections && axis) axes.see(angle, place);
         for (int c = 0; c < 3; ++c) {
-            apart.see(std::abs(xyz(device[i])[c] - xyz(glsl[i])[c]) / 0x1p-23, place);
+            apart.see(std::abs(xyz(device[i])[c] - xyz(glsl[i])[c]) / 0x1p-24, place);
         }
     }
     findings.at_most("degrees off after 2x16 bits", degrees, 0.0038);
     findings.at_most("axes off [rad]", axes, 1e-4);
     findings.tried("axes", axes.checked, 12);
-    findings.at_most("GLSL against OpenCL [ulp of 1]", apart, 2.0);
+    // Two ulp are less than GLSL 4.50 (4.7.1) allows a driver: its fma need not be one operation,
+    // which moves x and y by u each, and the face's slope sqrt(3) makes 2.5 ulp of that; its
+    // division is good to 2.5 ulp, and sqrt inherits 2 + 2.5. Ulp are those of a component in [1/2,
+    // 1).
+    findings.at_most("GLSL against OpenCL [ulp]", apart, 2.5 + 2.5 + 4.5);
 }
 
 }  // namespace kilolux

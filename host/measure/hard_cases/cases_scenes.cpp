@@ -152,8 +152,7 @@ Scene broken_scene(bool mended) {
     scene.name = "broken";
     scene.meshes.push_back(mesh);
     scene.materials.emplace_back();
-    scene.materials.back().metallic = 0.5f;
-    scene.materials.back().roughness = 0.4f;
+    scene.materials.back().metallic = 0.0f;
     scene.instances.push_back({0, glm::dmat4(1.0)});
     SceneLight light;
     light.position = {4, 2, 3};
@@ -178,9 +177,9 @@ double to_multiple(double v) {
     return std::round(v / kStep) * kStep;
 }
 
-// The grid scene with its places on multiples of 2^-20 m, which move by 2^20 or 1e6 m exactly.
+// The plain scene with its places on multiples of 2^-20 m, which move by 2^20 or 1e6 m exactly.
 Scene movable_scene() {
-    Scene scene = make_generated_scene("grid");
+    Scene scene = make_generated_scene("plain");
     for (Instance& instance : scene.instances) {
         for (int c = 0; c < 3; ++c) {
             instance.world_from_object[3][c] = to_multiple(instance.world_from_object[3][c]);
@@ -191,7 +190,6 @@ Scene movable_scene() {
     for (int i = 0; i < 60; ++i) {
         SceneLight light = usual_light(random, box);
         for (int c = 0; c < 3; ++c) light.position[c] = to_multiple(light.position[c]);
-        if (i % 4 == 0) light.type = LightType::spot;
         scene.lights.push_back(light);
     }
     return scene;
@@ -260,33 +258,30 @@ void try_far_from_origin(const Gpu& gpu, Findings& findings) {
 void try_degenerate_surfaces(const Gpu& gpu, Findings& findings) {
     const Scene broken = broken_scene(false);
     const Scene mended = broken_scene(true);
-    for (const uint layout : {GBUFFER_PACKED, GBUFFER_FULL}) {
-        RenderSettings settings = small_settings(gpu, 64, 32);
-        settings.gbuffer = layout;
-        settings.aovs = {"normal", "depth"};
-        const Frame found = Renderer(broken, settings).render(broken_camera(), 0.0);
-        const Frame expected = Renderer(mended, settings).render(broken_camera(), 0.0);
-        std::uint64_t not_finite = 0;
-        for (const float v : found.radiance) not_finite += std::isfinite(v) && v >= 0.0f ? 0 : 1;
-        for (const float v : found.aovs[0].values) not_finite += std::isfinite(v) ? 0 : 1;
-        findings.none("NaN, Inf or negative", not_finite, found.radiance.size());
-        // What is drawn of the broken quads, all but the slivers, looks as the mended ones do: zero
-        // normals became +z of the view, which theirs is.
-        std::uint64_t drawn = 0;
-        std::uint64_t different = 0;
-        for (std::size_t i = 0; i < found.aovs[1].values.size(); ++i) {
-            if (found.aovs[1].values[i] == 0.0f) continue;
-            ++drawn;
-            different += std::memcmp(&found.radiance[3 * i], &expected.radiance[3 * i],
-                                     3 * sizeof(float)) != 0
-                             ? 1
-                             : 0;
-        }
-        findings.none("pixels unlike those of sound normals", different, drawn);
-        findings.tried("drawn pixels", drawn, 64 * 32 / 2);
-        findings.require("zero normals counted", found.stats.zero_normals == 32,
-                         std::to_string(found.stats.zero_normals) + " counted");
+    RenderSettings settings = small_settings(gpu, 64, 32);
+    settings.aovs = {"normal", "depth"};
+    const Frame found = Renderer(broken, settings).render(broken_camera(), 0.0);
+    const Frame expected = Renderer(mended, settings).render(broken_camera(), 0.0);
+    std::uint64_t not_finite = 0;
+    for (const float v : found.radiance) not_finite += std::isfinite(v) && v >= 0.0f ? 0 : 1;
+    for (const float v : found.aovs[0].values) not_finite += std::isfinite(v) ? 0 : 1;
+    findings.none("NaN, Inf or negative", not_finite, found.radiance.size());
+    // What is drawn of the broken quads, all but the slivers, looks as the mended ones do: zero
+    // normals became +z of the view, which theirs is.
+    std::uint64_t drawn = 0;
+    std::uint64_t different = 0;
+    for (std::size_t i = 0; i < found.aovs[1].values.size(); ++i) {
+        if (found.aovs[1].values[i] == 0.0f) continue;
+        ++drawn;
+        different +=
+            std::memcmp(&found.radiance[3 * i], &expected.radiance[3 * i], 3 * sizeof(float)) != 0
+                ? 1
+                : 0;
     }
+    findings.none("pixels unlike those of sound normals", different, drawn);
+    findings.tried("drawn pixels", drawn, 64 * 32 / 2);
+    findings.require("zero normals counted", found.stats.zero_normals == 32,
+                     std::to_string(found.stats.zero_normals) + " counted");
 }
 
 void try_alternating_frames(const Gpu& gpu, Findings& findings) {

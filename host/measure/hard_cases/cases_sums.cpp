@@ -108,7 +108,6 @@ void check_sum(Findings& findings, const Gpu& gpu, const Shot& shot) {
 Shot sum_shot(uint count) {
     const SurfaceSample floor = surface_facing_eye({0.25, -0.125, -4.0});
     Shot shot = surface_shot(std::span(&floor, 1), SHADING_LAMBERT);
-    shot.features.light_index_bits = count <= 65536 ? 16 : 32;
     shot.request.tiles_x = shot.request.tiles_y = shot.request.slices_per_octave = 1;
     shot.lights = lights_of_all_sizes(count);
     return shot;

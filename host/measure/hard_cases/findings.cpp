@@ -46,7 +46,8 @@ void Findings::report(std::string_view what, double value) {
 
 void Findings::tried(std::string_view what, std::uint64_t count, std::uint64_t least) {
     if (count >= least) return;
-    none(std::string("too few ") + std::string(what), least - count, least);
+    none(std::string("too few ") + std::string(what), least - count, least,
+         std::to_string(count) + " of " + std::to_string(least));
 }
 
 bool Findings::passed() const {

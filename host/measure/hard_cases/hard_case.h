@@ -8,7 +8,6 @@
 
 #include "host/gpu/device.h"
 #include "host/measure/hard_cases/findings.h"
-#include "host/measure/parallel_rows.h"
 #include "host/measure/table.h"
 
 namespace kilolux {
@@ -36,10 +35,11 @@ struct HardCaseRow {
 };
 
 /// Runs every case at every lane width, one after the other. A case that throws fails with the
-/// error's text. `only`: labels to run; empty: all.
+/// error's text. `only`: labels to run; empty: all. Calls `step` after each case at each width;
+/// what that throws comes out. Throws UsageError when `only` names no case.
 std::vector<HardCaseRow> run_hard_cases(const Gpu& gpu, std::span<const int> lanes,
                                         std::span<const std::string> only = {},
-                                        const Progress& progress = {});
+                                        const std::function<void()>& step = {});
 
 /// case | name | tried | worst error | threshold | lanes | pass
 Table hard_case_table(const std::vector<HardCaseRow>& rows);

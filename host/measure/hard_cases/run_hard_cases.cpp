@@ -67,7 +67,7 @@ std::string finding_text(const Finding& f) {
 
 std::vector<HardCaseRow> run_hard_cases(const Gpu& gpu, std::span<const int> lanes,
                                         std::span<const std::string> only,
-                                        const Progress& progress) {
+                                        const std::function<void()>& step) {
     std::vector<HardCaseRow> rows;
     for (const HardCase& hard_case : hard_cases()) {
         const bool wanted =
@@ -75,12 +75,10 @@ std::vector<HardCaseRow> run_hard_cases(const Gpu& gpu, std::span<const int> lan
         if (wanted) rows.push_back({hard_case, {}, {}, {}, false});
     }
     if (rows.empty()) throw UsageError("hard cases: none of the labels is 1..30 or M1..M8");
-    const double runs = static_cast<double>(rows.size() * lanes.size());
-    double done = 0.0;
     for (HardCaseRow& row : rows) {
         for (const int width : lanes) {
             run_row(row, gpu, width);
-            if (progress) progress(++done / runs);
+            if (step) step();
         }
     }
     return rows;

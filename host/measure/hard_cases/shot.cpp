@@ -71,6 +71,21 @@ Shot noise_shot(const ViewShape& shape, const DepthOf& depth, const KernelFeatur
     return shot;
 }
 
+KernelFeatures every_feature(int shading) {
+    KernelFeatures features;
+    features.shading = shading;
+    features.material = features.metallic = features.occlusion = true;
+    features.spot_lights = features.directional_lights = true;
+    return features;
+}
+
+void put_out_surfaces(Shot& shot) {
+    shot.ambient = 0.0f;
+    auto* material = shot.image.plane<uint>(PLANE_MATERIAL);
+    const std::size_t pixels = std::size_t{shot.image.view.stride} * shot.image.view.height;
+    for (std::size_t i = 0; i < pixels; ++i) material[i] &= 0xff000000u;
+}
+
 bool is_drawn(const Shot& shot, uint x, uint y) {
     const auto* depth = reinterpret_cast<const float*>(shot.image.bytes.data() +
                                                        shot.image.layout.offset_bytes[PLANE_DEPTH]);

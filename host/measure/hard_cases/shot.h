@@ -26,6 +26,12 @@ struct Shot {
 /// A shot of a view whose depth and attributes are noise.
 Shot noise_shot(const ViewShape& shape, const DepthOf& depth, const KernelFeatures& features = {});
 
+/// Features that compile in all there is: any light, metals, emission and occlusion.
+KernelFeatures every_feature(int shading);
+
+/// Leaves only light from lights: no ambient, no emission. The shot has a material plane.
+void put_out_surfaces(Shot& shot);
+
 /// A shot whose pixels show `surfaces` exactly (float32), row by row, `width` a row; what is left
 /// of the last row is background. Positions need not lie on their pixels' rays: the grid's pad
 /// takes that up. Layout `full` with material and occlusion planes; view space is world space.
