@@ -12,10 +12,17 @@ BuildOptions options_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatur
     return feature_options(features).define("STAGE", tuning.shade_stage).define("FAST_RSQRT", !gpu.info.is_cpu);
 }
 
+// PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes make,
+// and reads through a wild pointer (hard case 17). A CPU has no local memory to gain by staging anyway.
+Tuning usable(Tuning tuning, const DeviceInfo& device) {
+    if (device.is_cpu && device.lane_width >= FINE_TILE) tuning.shade_stage = 0;
+    return tuning;
+}
+
 }  // namespace
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : gpu_(gpu), tuning_(tuning), features_(features), program_(build_program(gpu, kStage, options_of(gpu, tuning, features))),
+    : gpu_(gpu), tuning_(usable(tuning, gpu.info)), features_(features), program_(build_program(gpu, kStage, options_of(gpu, tuning_, features))),
       srgb_(gpu, kStage), radiance_(gpu, kStage), empty_(gpu, kStage) {
     const auto table = srgb_to_linear_table();
     upload<float>(gpu_, srgb_.reserve(table.size() * sizeof(float)), table);

@@ -139,11 +139,11 @@ Scene broken_scene(bool mended) {
             mended || kind < Quad::sliver ? 1.0f : (kind == Quad::sliver ? 1e-6f : 0.0f);
         for (const glm::vec2 corner : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
             mesh.positions.push_back(p + glm::vec3(corner.x * width, corner.y, 0.0f));
-            float length = 1.0f;
-            if (kind == Quad::zero_normal && !mended) length = 0.0f;
-            if (kind == Quad::short_normal && !mended) length = 1e-20f;
-            if (kind == Quad::long_normal && !mended) length = 1e20f;
-            mesh.normals.emplace_back(0.0f, 0.0f, length);
+            glm::vec3 normal(0.6f, 0.0f, 0.8f);
+            if (kind == Quad::zero_normal) normal = glm::vec3(0.0f, 0.0f, mended ? 1.0f : 0.0f);
+            if (kind == Quad::short_normal && !mended) normal *= 1e-20f;
+            if (kind == Quad::long_normal && !mended) normal *= 1e20f;
+            mesh.normals.push_back(normal);
         }
         for (const std::uint32_t c : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + c);
     }
