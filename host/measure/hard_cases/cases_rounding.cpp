@@ -12,6 +12,10 @@
 // The model of the copy that is compiled for the host: the one with long tails.
 #include "kernels/shared/evaluate_modes.h"
 #define SHADING SHADING_BLINN_PHONG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // of other models
+#include "kernels/shared/evaluate.h"
+#pragma GCC diagnostic pop
 
 #include "host/base/gbuffer_layout.h"
 #include "host/base/srgb.h"
@@ -21,7 +25,6 @@
 #include "host/measure/synthetic/probe.h"
 #include "host/render/light_input.h"
 #include "host/stages/tonemap.h"
-#include "kernels/shared/evaluate.h"
 #include "kernels/shared/tone_curve.h"
 #include "raster/compute_probe.h"
 #include "raster/geometry_pass.h"
