@@ -3,6 +3,8 @@
 // must do.
 #include <gtest/gtest.h>
 
+#include "host/measure/synthetic/light_sets.h"
+#include "host/measure/synthetic/stage_run.h"
 #include "host/stages/bloom.h"
 #include "host/measure/synthetic/light_sets.h"
 #include "host/measure/synthetic/stage_run.h"
