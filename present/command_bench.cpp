@@ -29,7 +29,7 @@ void check(const BenchOptions& o) {
 void run_bench(const BenchOptions& options) {
     check(options);
     set_verbosity(verbosity_of(options.shared));
-    make_output_folder(options);
+    make_output_folder(options.output);
     if (options.culling) return run_culling(options);
     if (options.shading) return run_shading(options);
     if (options.tune) return run_tuning(options);
@@ -68,12 +68,12 @@ Json table_json(const Table& table) {
     return rows;
 }
 
-void make_output_folder(const BenchOptions& options) {
-    if (options.output.empty()) return;
+void make_output_folder(const std::filesystem::path& folder) {
+    if (folder.empty()) return;
     std::error_code error;
-    std::filesystem::create_directories(options.output, error);
-    if (error || !std::filesystem::is_directory(options.output)) {
-        throw Error(options.output.string() + ": cannot make this folder: " +
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder)) {
+        throw Error(folder.string() + ": cannot make this folder: " +
                     (error ? error.message() : "a file has its name"));
     }
 }

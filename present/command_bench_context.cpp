@@ -41,17 +41,16 @@ Json settings_json(const SharedOptions& shared) {
 
 }  // namespace
 
-Json bench_context(const BenchOptions& options, const Scene& scene, const Camera& camera,
-                   const DeviceInfo& device) {
-    const BenchFrames frames = bench_frames(options);
+Json bench_context(const SharedOptions& shared, const BenchFrames& frames, const Scene& scene,
+                   const Camera& camera, const DeviceInfo& device) {
     return {{"program", {{"version", version()}, {"commit", KILOLUX_COMMIT}}},
             {"device", device_json(device)},
             {"scene",
-             {{"name", options.shared.scene},
+             {{"name", shared.scene},
               {"triangles", triangle_count(scene)},
               {"lights", scene.lights.size()}}},
             {"camera", camera_json(camera)},
-            {"settings", settings_json(options.shared)},
+            {"settings", settings_json(shared)},
             {"frames", {{"warm_up", frames.warm_up}, {"measured", frames.measured}}}};
 }
 

@@ -141,7 +141,7 @@ void run_sweep(const BenchOptions& options) {
     const Scene scene = open_scene(options.shared.scene, options.shared.time);
     const Camera camera = choose_camera(options.shared.camera, scene);
     const DeviceInfo device = describe(choose_device(options.shared.settings.device));
-    const Json context = bench_context(options, scene, camera, device);
+    const Json context = bench_context(options.shared, bench_frames(options), scene, camera, device);
     sweep.key = context_key(context);
     BenchRun run(scene, options.shared.settings, camera, options.shared.time);
     measure_points(options, run, sweep, log);

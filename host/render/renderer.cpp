@@ -100,7 +100,7 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
       tuning(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       gl_context(context_from(gl)),
       gpu_scene(the_scene),
-      lights(gpu, the_scene, settings.lights),
+      lights(gpu, the_scene, settings),
       context{settings, plan, gpu, tuning, gpu_scene, bounds(the_scene)},
       sum(gpu),
       tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
@@ -233,6 +233,13 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
     return in_stage("render", [&] { return parts_->render(camera, time, between); });
+}
+
+LitSurfaces Renderer::lit_surfaces() {
+    if (!parts_->deferred) {
+        throw Error("renderer: the forward renderers keep no G-buffer to look at");
+    }
+    return in_stage("lit surfaces", [&] { return parts_->deferred->lit_surfaces(); });
 }
 
 const DeviceInfo& Renderer::device() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/scene/light_generator.h"
+#include "host/scene/light_ranges.h"
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
@@ -36,6 +37,7 @@ struct RenderSettings {
     int width = 1920;   // [pixel]
     int height = 1080;  // [pixel]
     LightOptions lights;
+    double range_budget = kDefaultRangeBudget;  // for the scene's lights without a range, see range_of_light()
     uint gbuffer = GBUFFER_PACKED;
     Shading shading = Shading::automatic;
     float ambient = 0.02f;  // radiance that falls in from everywhere

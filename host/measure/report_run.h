@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/measure/bench_run.h"
+#include "host/measure/report_references.h"
+#include "host/measure/report_setting.h"
+#include "host/measure/statistics.h"
+
+namespace kilolux {
+
+/// Time of a stage in the frames of a setting.
+struct ReportStage {
+    std::string name;
+    Statistics ms;
+};
+
+/// A setting's speed. Times are medians over frames, the whole frame's by the host's clock.
+struct ReportSpeed {
+    bool scaled = false;  // too slow to time at full size: by the pixels, from the comparison's
+    std::vector<ReportStage> stages;  // in the frame's order
+    Statistics frame_ms;
+    double noise = 0.0;              // of the frame's median, relative, as frames scatter
+    double k = -1.0;                 // lights evaluated a drawn pixel; < 0: not counted
+    double useful_k = -1.0;          // k*: of them in range
+    double evaluations_per_s = 0.0;  // of the stage that shades
+};
+
+/// A row of a report: what a setting costs and how wrong its picture is.
+struct ReportRow {
+    ReportSetting setting;
+    double cut_off = 0.0;  // radiance that its lights' ranges take; 0: no generated lights
+    ReportSpeed speed;
+    PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
+    std::optional<std::uint64_t> missed_lights;
+    RgbImage picture;                   // linear, at the size of the comparison
+    std::vector<std::uint8_t> display;  // its sRGB codes
+    bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
+    bool unbounded_front = false;  // in that of time and R3's RMSE
+};
+
+/// Measures the settings of a report over one view of a scene.
+class ReportRun {
+ public:
+    /// `base`: the settings asked for, at full size.
+    ReportRun(const ReportView& view, const RenderSettings& base);
+
+    /// Called often, also from worker threads while a reference is made; may throw to stop.
+    void on_step(std::function<void()> call);
+    /// Called when another of steps() is done.
+    void on_progress(std::function<void()> call) { on_progress_ = std::move(call); }
+    static std::size_t steps(std::size_t settings) { return settings * (kRounds + 1); }
+
+    /// Errors of all settings, then their times in two rounds, so that a machine that slows down
+    /// does so for all; then the Pareto sets.
+    std::vector<ReportRow> measure(const std::vector<ReportSetting>& settings,
+                                   const BenchFrames& frames);
+
+    /// The references, as far as measure() needed them.
+    ReportReferences& references() { return references_; }
+    /// Size of the comparison: at most 320 pixels wide, a few seconds of float64 [pixel].
+    std::array<int, 2> error_size() const { return error_size_; }
+    /// The settings as they are compared: at that size and without bloom, which is display's.
+    RenderSettings at_error_size(RenderSettings settings) const;
+
+ private:
+    static constexpr int kRounds = 2;
+    struct Timing;
+
+    ReportRow compare(const ReportSetting& setting, Timing& timing);
+    void time_frames(const ReportRow& row, int round, const BenchFrames& frames, Timing& timing);
+    void count(ReportRow& row, const Timing& timing);
+    ReportSpeed speed_of(const ReportRow& row, const Timing& timing);
+
+    ReportView view_;
+    RenderSettings base_;
+    std::array<int, 2> error_size_;
+    ReportReferences references_;
+    std::function<void()> on_step_ = [] {};
+    std::function<void()> on_progress_ = [] {};
+    std::map<std::string, FrameStats> coverages_;
+};
+
+/// Marks the rows of both Pareto sets.
+void mark_fronts(std::vector<ReportRow>& rows);
+
+}  // namespace kilolux
