@@ -29,6 +29,6 @@ std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
                                     std::span<const double> noises);
 
 inline constexpr double kCostResolution = 0.03;   // relative; bench --tune calls less noise, too
-inline constexpr double kErrorResolution = 0.01;  // relative
+inline constexpr double kErrorResolution = 0.06;  // relative: 0.5 dB of PSNR
 
 }  // namespace kilolux

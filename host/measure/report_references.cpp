@@ -106,6 +106,13 @@ const ComparedReference& ReportReferences::surfaces(const RenderSettings& settin
     return found->second;
 }
 
+const ComparedReference& ReportReferences::drawn(const RenderSettings& settings) {
+    RenderSettings full = settings;
+    full.gbuffer = GBUFFER_FULL;
+    full.shading = asked_.shading;
+    return kernels(full);
+}
+
 const ComparedReference& ReportReferences::unbounded() {
     if (!unbounded_) {
         unbounded_ = compared_reference(

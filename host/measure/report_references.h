@@ -40,6 +40,10 @@ class ReportReferences {
     const ComparedReference& surfaces(const RenderSettings& settings);  // R2, for its ranges
     const ComparedReference& unbounded();                               // R3
 
+    /// The picture asked for, from what the rasteriser drew: R1 of the layout `full` and the
+    /// shading model asked for. What is off from it but not R2 is the rasteriser's own.
+    const ComparedReference& drawn(const RenderSettings& settings);
+
     struct All {
         const ComparedReference &kernels, &surfaces, &unbounded;
     };

@@ -14,7 +14,6 @@ constexpr double kErrorWidth = 320.0;      // [pixel]
 constexpr double kErrorEvaluations = 3e8;  // of float64: seconds of a small CPU for a reference
 constexpr double kSettingMs = 10000.0;     // that the frames of a setting may take in a round
 constexpr double kSlowFrameMs = 20000.0;   // beyond which a frame is not timed at full size
-constexpr int kFewestFrames = 2;
 
 bool is_forward(RendererKind renderer) {
     return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
@@ -83,7 +82,7 @@ std::vector<std::size_t> front(const std::vector<const ReportRow*>& rows,
     std::vector<CostAndError> points;
     std::vector<double> noises;
     for (const ReportRow* row : rows) {
-        points.push_back({row->speed.frame_ms.median, (row->*errors).hdr.rmse});
+        points.push_back({row->speed.relative, (row->*errors).hdr.rmse});
         noises.push_back(row->speed.noise);
     }
     return pareto_set(points, noises);
@@ -98,15 +97,14 @@ struct ReportRun::Timing {
     FrameStats stats;  // of the last frame
     std::vector<StageTime> stages;
     std::vector<double> frames;
+    std::vector<double> relative;  // to the default's frames beside them
 };
 
 ReportRun::ReportRun(const ReportView& view, const RenderSettings& base)
     : view_(view),
       base_(base),
       error_size_(size_for_errors(base, view.scene.lights.size())),
-      references_(view, at_error_size(base)) {
-    base_.aovs.clear();
-}
+      references_(view, at_error_size(base)) {}
 
 void ReportRun::on_step(std::function<void()> call) {
     references_.on_step(call);
@@ -128,14 +126,20 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
         rows.push_back(compare(settings[i], timings[i]));
         on_progress_();
     }
+    if (!timings.front().scaled) standard_.emplace(view_.scene, settings.front().settings);
     for (int round = 0; round < kRounds; ++round) {
         for (std::size_t i = 0; i < settings.size(); ++i) {
-            time_frames(rows[i], round, frames, timings[i]);
+            time_frames(settings[i], frames, timings[i], i > 0 ? &timings.front() : nullptr);
             on_progress_();
         }
     }
+    standard_.reset();
     for (std::size_t i = 0; i < settings.size(); ++i) {
         rows[i].speed = speed_of(rows[i], timings[i]);
+        if (timings[i].relative.empty()) {
+            rows[i].speed.relative =
+                rows[i].speed.frame_ms.median / rows.front().speed.frame_ms.median;
+        }
         count(rows[i], timings[i]);
     }
     mark_fronts(rows);
@@ -159,6 +163,8 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     row.unbounded = picture_errors(frame, references_.unbounded());
     row.picture = rgb_image_of(frame.width, frame.height, frame.radiance);
     row.display = frame.display;
+    const ReferencePicture& drawn = references_.drawn(settings).picture;
+    row.drawn = compare_hdr(row.picture, drawn.radiance, {.scale = &drawn.scale});
     timing.stats = frame.stats;
     timing.expected_ms = frame.stats.frame_ms * pixels(setting.settings) / pixels(settings);
     timing.scaled = timing.expected_ms > kSlowFrameMs;
@@ -169,26 +175,40 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     return row;
 }
 
-void ReportRun::time_frames(const ReportRow& row, int round, const BenchFrames& frames,
-                            Timing& timing) {
-    if (timing.scaled) return;
-    const int in_round = (frames.measured + round) / kRounds;
-    const int affordable = static_cast<int>(kSettingMs / std::max(timing.expected_ms, 1e-3));
-    const int measured = std::clamp(in_round, 1, std::max(kFewestFrames, affordable));
-    const int warm_up = std::min(frames.warm_up, std::max(1, affordable));
-    Renderer renderer(view_.scene, row.setting.settings);
-    for (int i = 0; i < warm_up + measured; ++i) {
-        on_step_();
-        const Frame frame = renderer.render(view_.camera, view_.time);
-        timing.expected_ms = frame.stats.frame_ms;
-        if (i < warm_up) continue;
-        timing.stats = frame.stats;
-        timing.frames.push_back(frame.stats.frame_ms);
-        append(timing.stages, frame.stats.stages);
-    }
+void ReportRun::render_into(Renderer& renderer, Timing& timing) {
+    on_step_();
+    const Frame frame = renderer.render(view_.camera, view_.time);
+    timing.stats = frame.stats;
+    timing.frames.push_back(frame.stats.frame_ms);
+    append(timing.stages, frame.stats.stages);
 }
 
-ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) {
+// A round's frames of a setting, each beside one of the default's, which goes first every other
+// time.
+void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
+                            Timing* standard) {
+    if (timing.scaled) return;
+    const int affordable = static_cast<int>(kSettingMs / std::max(timing.expected_ms, 1e-3));
+    const int measured =
+        std::clamp((frames.measured + kRounds - 1) / kRounds, 1, std::max(1, affordable));
+    std::optional<Renderer> other;
+    if (standard || !standard_) other.emplace(view_.scene, setting.settings);
+    Renderer& renderer = other ? *other : *standard_;
+    for (int i = 0; i < std::min(frames.warm_up, affordable); ++i) {
+        on_step_();
+        renderer.render(view_.camera, view_.time);
+    }
+    for (int i = 0; i < measured; ++i) {
+        const bool paired = standard && standard_;
+        if (paired && i % 2 == 0) render_into(*standard_, *standard);
+        render_into(renderer, timing);
+        if (paired && i % 2 == 1) render_into(*standard_, *standard);
+        if (paired) timing.relative.push_back(timing.frames.back() / standard->frames.back());
+    }
+    timing.expected_ms = timing.frames.back();
+}
+
+ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) const {
     const RenderSettings& settings = row.setting.settings;
     ReportSpeed out;
     out.scaled = timing.scaled;
@@ -196,7 +216,10 @@ ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) {
     std::vector<double> times = timing.frames;
     for (double& ms : times) ms *= scale;
     out.frame_ms = statistics(times);
-    out.noise = noise_of(times);
+    if (!timing.relative.empty()) {
+        out.relative = statistics(timing.relative).median;
+        out.noise = noise_of(timing.relative);
+    }
     out.stages = stages_of(timing.stages, scale);
     return out;
 }
@@ -228,15 +251,21 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
 
 void mark_fronts(std::vector<ReportRow>& rows) {
     if (rows.empty()) return;
-    std::vector<const ReportRow*> all, alike;
+    std::vector<const ReportRow*> alike, cut_offs;
     for (const ReportRow& row : rows) {
-        all.push_back(&row);
-        if (same_ranges(row.setting.settings, rows.front().setting.settings)) alike.push_back(&row);
+        const bool is_default = &row == &rows.front();
+        if (is_default || row.setting.trade == Trade::cut_off) cut_offs.push_back(&row);
+        if (row.setting.trade != Trade::cut_off) alike.push_back(&row);
     }
+    const auto row_at = [&](const ReportRow* row) -> ReportRow& {
+        return rows[static_cast<std::size_t>(row - rows.data())];
+    };
     for (const std::size_t i : front(alike, &ReportRow::surfaces)) {
-        rows[static_cast<std::size_t>(alike[i] - rows.data())].surfaces_front = true;
+        row_at(alike[i]).surfaces_front = true;
     }
-    for (const std::size_t i : front(all, &ReportRow::unbounded)) rows[i].unbounded_front = true;
+    for (const std::size_t i : front(cut_offs, &ReportRow::unbounded)) {
+        row_at(cut_offs[i]).unbounded_front = true;
+    }
 }
 
 }  // namespace kilolux

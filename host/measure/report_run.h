@@ -13,6 +13,7 @@
 #include "host/measure/report_references.h"
 #include "host/measure/report_setting.h"
 #include "host/measure/statistics.h"
+#include "host/render/renderer.h"
 
 namespace kilolux {
 
@@ -27,9 +28,10 @@ struct ReportSpeed {
     bool scaled = false;  // too slow to time at full size: by the pixels, from the comparison's
     std::vector<ReportStage> stages;  // in the frame's order
     Statistics frame_ms;
-    double noise = 0.0;              // of the frame's median, relative, as frames scatter
-    double k = -1.0;                 // lights evaluated a drawn pixel; < 0: not counted
-    double useful_k = -1.0;          // k*: of them in range
+    double relative = 1.0;   // to the default's frame: the median over frames rendered in turn
+    double noise = 0.0;      // of that median, relative, as the pairs scatter
+    double k = -1.0;         // lights evaluated a drawn pixel; < 0: not counted
+    double useful_k = -1.0;  // k*: of them in range
     double evaluations_per_s = 0.0;  // of the stage that shades
 };
 
@@ -39,11 +41,12 @@ struct ReportRow {
     double cut_off = 0.0;  // radiance that its lights' ranges take; 0: no generated lights
     ReportSpeed speed;
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
+    HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
     RgbImage picture;                   // linear, at the size of the comparison
     std::vector<std::uint8_t> display;  // its sRGB codes
     bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
-    bool unbounded_front = false;  // in that of time and R3's RMSE
+    bool unbounded_front = false;  // in that of time and R3's RMSE, among the cut-offs
 };
 
 /// Measures the settings of a report over one view of a scene.
@@ -58,8 +61,9 @@ class ReportRun {
     void on_progress(std::function<void()> call) { on_progress_ = std::move(call); }
     static std::size_t steps(std::size_t settings) { return settings * (kRounds + 1); }
 
-    /// Errors of all settings, then their times in two rounds, so that a machine that slows down
-    /// does so for all; then the Pareto sets.
+    /// Errors of all settings, then their times, then the Pareto sets. The first setting is the
+    /// default. Each frame of another is timed together with one of the default's, in two rounds
+    /// over all settings, so that what slows the machine slows both.
     std::vector<ReportRow> measure(const std::vector<ReportSetting>& settings,
                                    const BenchFrames& frames);
 
@@ -75,9 +79,11 @@ class ReportRun {
     struct Timing;
 
     ReportRow compare(const ReportSetting& setting, Timing& timing);
-    void time_frames(const ReportRow& row, int round, const BenchFrames& frames, Timing& timing);
+    void time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
+                     Timing* standard);
+    void render_into(Renderer& renderer, Timing& timing);
     void count(ReportRow& row, const Timing& timing);
-    ReportSpeed speed_of(const ReportRow& row, const Timing& timing);
+    ReportSpeed speed_of(const ReportRow& row, const Timing& timing) const;
 
     ReportView view_;
     RenderSettings base_;
@@ -86,6 +92,7 @@ class ReportRun {
     std::function<void()> on_step_ = [] {};
     std::function<void()> on_progress_ = [] {};
     std::map<std::string, FrameStats> coverages_;
+    std::optional<Renderer> standard_;  // of the default setting, while frames are timed
 };
 
 /// Marks the rows of both Pareto sets.

@@ -88,7 +88,8 @@ void add_grids(Variants& v) {
 void add_renderers(Variants& v) {
     for (const RendererKind renderer : {RendererKind::deferred, RendererKind::deferred_all,
                                         RendererKind::forward_plus, RendererKind::forward}) {
-        if (renderer == v.base().renderer) continue;
+        const bool too_slow = v.quick() && renderer == RendererKind::forward;
+        if (renderer == v.base().renderer || too_slow) continue;
         v.add(Trade::renderer, "renderer " + renderer_name(renderer),
               [&](RenderSettings& s) { s.renderer = renderer; });
     }
@@ -159,11 +160,6 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
     add_shadings(variants, scene);
     add_cut_offs(variants, scene);
     return variants.take();
-}
-
-bool same_ranges(const RenderSettings& a, const RenderSettings& b) {
-    return a.range_budget == b.range_budget && a.lights.radius == b.lights.radius &&
-           a.lights.intensity == b.lights.intensity;
 }
 
 double cut_off_of(const Scene& scene, const RenderSettings& settings) {

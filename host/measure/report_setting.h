@@ -26,12 +26,9 @@ struct ReportSetting {
 ///
 /// Cut-offs are radiances on a white surface (range_of_light()) that decide the range of every
 /// light whose file gives none, and of the generated ones. `quick`: fewer grids, lanes and
-/// cut-offs.
+/// cut-offs, and not `forward`.
 std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSettings& base,
                                            const DeviceInfo& device, bool quick);
-
-/// Whether lights reach as far in both: only then have two settings the same picture in the limit.
-bool same_ranges(const RenderSettings& a, const RenderSettings& b);
 
 /// The radiance that the range of the generated lights takes from a white surface, as
 /// range_of_light() counts; 0 without them.

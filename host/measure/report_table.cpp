@@ -101,14 +101,14 @@ std::string front_text(const ReportRow& row) {
 Plot time_plot(const char* title, const char* y_label) {
     Plot plot;
     plot.title = title;
-    plot.x_label = "frame [ms], median";
+    plot.x_label = "frame [ms]: median of pairs with the default's, times its median";
     plot.y_label = y_label;
     plot.log_x = plot.log_y = true;
     plot.pareto_front = true;
     return plot;
 }
 
-void add_point(Plot& plot, const ReportRow& row, double error) {
+void add_point(Plot& plot, const ReportRow& row, double standard_ms, double error) {
     const std::string name = trade_name(row.setting.trade);
     auto found = std::find_if(plot.series.begin(), plot.series.end(),
                               [&](const PlotSeries& s) { return s.name == name; });
@@ -118,7 +118,7 @@ void add_point(Plot& plot, const ReportRow& row, double error) {
     }
     const std::string& label = row.setting.name;
     const std::size_t space = label.find(' ');
-    found->points.push_back({row.speed.frame_ms.median, error,
+    found->points.push_back({row.speed.relative * standard_ms, error,
                              space == std::string::npos ? label : label.substr(space + 1)});
 }
 
@@ -135,7 +135,8 @@ Table report_table(const std::vector<ReportRow>& rows) {
             .add("options", row.setting.options)
             .add("pareto", front_text(row))
             .add("frame [ms]", s.frame_ms.median)
-            .add("frame noise", s.noise)
+            .add("times default", s.relative)
+            .add("noise", s.noise)
             .whole("frames", s.frame_ms.count)
             .add("scaled", std::string(s.scaled ? "by pixels" : ""));
         for (const std::string& stage : stages) line.add(stage + " [ms]", stage_cell(s, stage));
@@ -149,6 +150,9 @@ Table report_table(const std::vector<ReportRow>& rows) {
         add_errors(line, "R1", row.kernels);
         add_errors(line, "R2", row.surfaces);
         add_errors(line, "R3", row.unbounded);
+        line.add("drawn rmse", row.drawn.rmse)
+            .add("drawn 99.9 % rel", row.drawn.relative.percentile_99_9)
+            .add("drawn max rel", row.drawn.relative.max);
     }
     return table;
 }
@@ -162,6 +166,7 @@ Table report_summary(const std::vector<ReportRow>& rows) {
         line.add("setting", row.setting.name)
             .add("Pareto", front_text(row))
             .add("frame [ms]", s.frame_ms.median)
+            .add("x default", s.relative)
             .add("draw", sum_of(s, {"geometry", "gbuffer_bridge"}))
             .add("lists", sum_of(s, {"prepare_lights", "build_clusters", "cull_lights",
                                      "bin_pixels", "refine_lights"}))
@@ -171,6 +176,7 @@ Table report_summary(const std::vector<ReportRow>& rows) {
             .add("G eval/s", 1e-9 * s.evaluations_per_s)
             .add("R1 max rel", row.kernels.hdr.relative.max)
             .add("R1 RMSE", row.kernels.hdr.rmse)
+            .add("drawn RMSE", row.drawn.rmse)
             .add("R2 RMSE", e.hdr.rmse)
             .add("R2 PSNR [dB]", e.hdr.psnr_db)
             .add("R2 SSIM", optional_cell(e.ssim))
@@ -185,9 +191,8 @@ Plot surfaces_plot(const std::vector<ReportRow>& rows) {
     Plot plot = time_plot("Speed against error: the picture asked for, in float64 (R2)",
                           "RMSE against R2 [radiance]");
     for (const ReportRow& row : rows) {
-        if (same_ranges(row.setting.settings, rows.front().setting.settings)) {
-            add_point(plot, row, row.surfaces.hdr.rmse);
-        }
+        if (row.setting.trade == Trade::cut_off) continue;
+        add_point(plot, row, rows.front().speed.frame_ms.median, row.surfaces.hdr.rmse);
     }
     return plot;
 }
@@ -195,7 +200,10 @@ Plot surfaces_plot(const std::vector<ReportRow>& rows) {
 Plot unbounded_plot(const std::vector<ReportRow>& rows) {
     Plot plot = time_plot("Speed against error: lights without a range, in float64 (R3)",
                           "RMSE against R3 [radiance]");
-    for (const ReportRow& row : rows) add_point(plot, row, row.unbounded.hdr.rmse);
+    for (const ReportRow& row : rows) {
+        if (row.setting.trade != Trade::cut_off && &row != &rows.front()) continue;
+        add_point(plot, row, rows.front().speed.frame_ms.median, row.unbounded.hdr.rmse);
+    }
     return plot;
 }
 

@@ -15,8 +15,8 @@ Table report_table(const std::vector<ReportRow>& rows);
 /// For reading: one line a setting with the columns that matter.
 Table report_summary(const std::vector<ReportRow>& rows);
 
-/// Frame time against an error's RMSE with the Pareto front of the measured points: against R2 for
-/// the settings with the lights' ranges asked for, or against R3 for all.
+/// Frame time against an error's RMSE with the Pareto front of the points: against R2 for the
+/// settings with the lights' ranges asked for; against R3 for the cut-offs.
 Plot surfaces_plot(const std::vector<ReportRow>& rows);
 Plot unbounded_plot(const std::vector<ReportRow>& rows);
 
