@@ -20,6 +20,9 @@ void check(const BenchOptions& o) {
     if (o.culling + o.shading + o.tune + o.quick > 1) {
         throw UsageError("--quick, --culling, --shade and --tune exclude each other");
     }
+    if (o.budget.max_error && (o.culling || o.shading || o.tune)) {
+        throw UsageError("--max-error: goes with sweeps, not with --culling, --shade or --tune");
+    }
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
     if (o.shared.quiet && o.shared.verbose) {
         throw UsageError("--quiet and --verbose exclude each other");

@@ -12,6 +12,7 @@
 #include "host/measure/bench_run.h"
 #include "host/measure/sweep.h"
 #include "host/measure/table.h"
+#include "present/error_budget_options.h"
 #include "present/options.h"
 
 namespace kilolux {
@@ -39,6 +40,7 @@ struct BenchOptions {
     bool culling = false;
     bool shading = false;  // --shade
     bool tune = false;
+    BudgetOptions budget;
 };
 
 /// Registers the shared options, of which those that a sweep varies take lists, and the bench's

@@ -8,6 +8,7 @@
 #include "host/render/renderer.h"
 #include "present/commands.h"
 #include "present/comparison.h"
+#include "present/error_budget_options.h"
 #include "present/frame_summary.h"
 #include "present/image_file.h"
 #include "present/interrupt.h"
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 struct RenderOptions {
     SharedOptions shared;
     OutputOptions output;
+    BudgetOptions budget;
 };
 
 // One picture to make: a frame of the sequence, or the only one.
@@ -110,8 +112,8 @@ void require_passed(const std::vector<FrameRecord>& records) {
 }
 
 // Counting useful evaluations costs a pass of its own: only for those who read the counts.
-RenderSettings settings_of(const RenderOptions& options) {
-    RenderSettings settings = options.shared.settings;
+RenderSettings settings_of(const RenderOptions& options, const ReportView& view) {
+    RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
     const auto& aovs = settings.aovs;
     settings.count_useful = !options.output.stats.empty() ||
                             std::find(aovs.begin(), aovs.end(), "light-count") != aovs.end();
@@ -129,7 +131,7 @@ void run_render(const RenderOptions& options) {
     const Scene scene = open_scene(options.shared.scene, tasks.front().time);
     const Camera camera = choose_camera(options.shared.camera, scene);
     check_interrupt();
-    Renderer renderer(scene, settings_of(options));
+    Renderer renderer(scene, settings_of(options, {scene, camera, tasks.front().time}));
     check_interrupt();
     const auto records = render_tasks(options, renderer, camera, tasks);
     if (!out.stats.empty()) {
@@ -157,6 +159,7 @@ void add_render_command(Program& program) {
                             kExamples, [options] { run_render(*options); });
     add_shared_options(command, options->shared);
     add_output_options(command, options->output);
+    add_budget_options(command, options->budget);
 }
 
 }  // namespace kilolux

@@ -65,7 +65,8 @@ void run_report(const ReportOptions& options) {
     report.context = bench_context(shared, report_frames(options), scene, camera, device);
     report.context["lights"] = shared.settings.lights.count;
     report.context["resolution"] = {shared.settings.width, shared.settings.height};
-    ReportRun run({scene, camera, shared.time}, shared.settings);
+    const ReportView view{scene, camera, shared.time};
+    ReportRun run(view, shared.settings);
     report.context["error_resolution"] = run.error_size();
     report.rows = measure(options, run, chosen_settings(options, scene));
     if (options.json) {
@@ -74,6 +75,7 @@ void run_report(const ReportOptions& options) {
         std::fputs(to_markdown(report_summary(report.rows), 3).c_str(), stdout);
     }
     if (!options.output.empty()) write_report(options, report, run);
+    choose_from_rows(shared, options.budget, view, report.rows);
 }
 
 // What --quick means, unless the command line says otherwise.

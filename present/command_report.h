@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/measure/report_run.h"
+#include "present/error_budget_options.h"
 #include "present/options.h"
 
 namespace kilolux {
@@ -21,6 +22,7 @@ struct ReportOptions {
     std::vector<std::string> trades;  // words of report_trade_names(); empty: all
     bool json = false;
     bool quick = false;
+    BudgetOptions budget;
 };
 
 /// Registers the shared options and the report's own.

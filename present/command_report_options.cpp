@@ -6,7 +6,7 @@
 namespace kilolux {
 
 std::vector<std::string> report_trade_names() {
-    return {"gbuffer", "lanes", "grid", "renderer", "shading", "cut-off"};
+    return {"gbuffer", "lanes", "math", "grid", "renderer", "shading", "cut-off"};
 }
 
 void add_report_options(CLI::App& command, ReportOptions& options) {
@@ -31,6 +31,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
         .value({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
                [&options](Text, Text text) { options.output = text; })
         .flag("--json", options.json, "JSON instead of a table on standard output");
+    add_budget_options(command, options.budget);
 }
 
 }  // namespace kilolux

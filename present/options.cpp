@@ -137,7 +137,11 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
                grid)
         .value({"--lanes", "auto|1|2|4|8|16", "auto",
                 "Pixels or lights a work-item treats at once; changes no bit of a picture"},
-               lanes);
+               lanes)
+        .choice({"--math", "", "exact", "How shading kernels compute: faster ones err a little"},
+                s.kernels.math, math_names())
+        .choice({"--light-colors", "", "float", "What shading kernels store lights' colours in"},
+                s.kernels.light_colors, light_color_names());
 }
 
 }  // namespace

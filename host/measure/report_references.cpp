@@ -75,7 +75,7 @@ const ComparedReference& ReportReferences::kernels(const RenderSettings& setting
     if (!is_new) return found->second;
     on_step_();
     RenderSettings exact = decoded;
-    exact.kernels = asked_.kernels;
+    exact.kernels = {};
     Renderer renderer(view_.scene, exact);
     renderer.render(view_.camera, view_.time);
     const LitSurfaces lit = renderer.lit_surfaces();

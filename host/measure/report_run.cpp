@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/measure/pareto.h"
 #include "host/render/renderer.h"
@@ -129,13 +130,19 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
     if (!timings.front().scaled) standard_.emplace(view_.scene, settings.front().settings);
     for (int round = 0; round < kRounds; ++round) {
         for (std::size_t i = 0; i < settings.size(); ++i) {
-            time_frames(settings[i], frames, timings[i], i > 0 ? &timings.front() : nullptr);
+            if (i == 0 || time_only_(rows[i])) {
+                time_frames(settings[i], frames, timings[i], i > 0 ? &timings.front() : nullptr);
+            }
             on_progress_();
         }
     }
     standard_.reset();
     for (std::size_t i = 0; i < settings.size(); ++i) {
         rows[i].speed = speed_of(rows[i], timings[i]);
+        if (timings[i].frames.empty()) {
+            rows[i].speed.relative = std::numeric_limits<double>::infinity();
+            continue;
+        }
         if (timings[i].relative.empty()) {
             rows[i].speed.relative =
                 rows[i].speed.frame_ms.median / rows.front().speed.frame_ms.median;

@@ -59,6 +59,9 @@ class ReportRun {
     void on_step(std::function<void()> call);
     /// Called when another of steps() is done.
     void on_progress(std::function<void()> call) { on_progress_ = std::move(call); }
+    /// Only rows of which `wanted` is true get times; the others' are 0, with `relative` infinite.
+    /// The first is always timed.
+    void time_only(std::function<bool(const ReportRow&)> wanted) { time_only_ = std::move(wanted); }
     static std::size_t steps(std::size_t settings) { return settings * (kRounds + 1); }
 
     /// Errors of all settings, then their times, then the Pareto sets. The first setting is the
@@ -91,6 +94,7 @@ class ReportRun {
     ReportReferences references_;
     std::function<void()> on_step_ = [] {};
     std::function<void()> on_progress_ = [] {};
+    std::function<bool(const ReportRow&)> time_only_ = [](const ReportRow&) { return true; };
     std::map<std::string, FrameStats> coverages_;
     std::optional<Renderer> standard_;  // of the default setting, while frames are timed
 };

@@ -67,6 +67,21 @@ void add_lanes(Variants& v, const DeviceInfo& device) {
     }
 }
 
+void add_math(Variants& v) {
+    constexpr std::pair<MathMode, const char*> kModes[] = {
+        {MathMode::exact, "math exact"},
+        {MathMode::fast_relaxed, "math fast-relaxed"},
+        {MathMode::native, "math native"}};
+    for (const auto& [math, name] : kModes) {
+        if (math == v.base().kernels.math) continue;
+        v.add(Trade::math, name, [mode = math](RenderSettings& s) { s.kernels.math = mode; });
+    }
+    const bool half = v.base().kernels.light_colors == LightColors::half;
+    v.add(Trade::math, half ? "light-colors float" : "light-colors half", [&](RenderSettings& s) {
+        s.kernels.light_colors = half ? LightColors::single : LightColors::half;
+    });
+}
+
 void add_grids(Variants& v) {
     constexpr std::array<std::array<int, 3>, 6> kGrids = {
         {{4, 4, 1}, {30, 17, 16}, {8, 5, 2}, {16, 9, 1}, {16, 9, 16}, {60, 34, 4}}};
@@ -145,17 +160,20 @@ void add_cut_offs(Variants& v, const Scene& scene) {
 }  // namespace
 
 const char* trade_name(Trade trade) {
-    constexpr const char* kNames[] = {"default",  "G-buffer", "lanes",  "grid",
-                                      "renderer", "shading",  "cut-off"};
+    constexpr const char* kNames[] = {"default", "G-buffer", "lanes",   "math",
+                                      "grid",    "renderer", "shading", "cut-off"};
     return kNames[static_cast<std::size_t>(trade)];
 }
 
 std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSettings& base,
                                            const DeviceInfo& device, bool quick) {
     Variants variants(base, quick);
-    add_gbuffers(variants);
-    add_lanes(variants, device);
-    add_grids(variants);
+    const bool deferred =
+        base.renderer == RendererKind::deferred || base.renderer == RendererKind::deferred_all;
+    if (deferred) add_gbuffers(variants);
+    if (deferred) add_lanes(variants, device);
+    if (deferred) add_math(variants);
+    if (base.renderer != RendererKind::forward) add_grids(variants);
     add_renderers(variants);
     add_shadings(variants, scene);
     add_cut_offs(variants, scene);

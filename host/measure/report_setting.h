@@ -11,7 +11,7 @@
 namespace kilolux {
 
 /// What a setting of a report changes against the one asked for.
-enum class Trade { none, gbuffer, lanes, grid, renderer, shading, cut_off };
+enum class Trade { none, gbuffer, lanes, math, grid, renderer, shading, cut_off };
 const char* trade_name(Trade trade);
 
 /// One way to render the picture that was asked for, faster or more exactly.
