@@ -172,7 +172,6 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
     // D * V without its constant 1 / (2 pi), which finish_shading multiplies in.
     FV lobe = DIVIDE(lit * (hh * hh), ggx * ggx * smith);
     FV schlick = max(fma(-dot3(p.to_eye, h), rsqrt(hh), fv(1.0f)), fv(0.0f));
-    FV schlick = max(fma(-dot3(p.to_eye, h), inv_h, fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;
     FV g = fv(1.0f) - f;
