@@ -63,9 +63,10 @@ void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when
          " times the default's frame time; " + when);
 }
 
+// The short list: of grids and lanes the rest are `bench --tune`'s to choose.
 std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const ReportView& view,
                                          const ErrorBudget& budget, const DeviceInfo& device) {
-    auto settings = report_settings(view.scene, shared.settings, device, false);
+    auto settings = report_settings(view.scene, shared.settings, device, true);
     std::erase_if(settings,
                   [&](const ReportSetting& setting) { return !is_candidate(setting, budget); });
     return settings;

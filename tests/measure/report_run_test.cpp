@@ -17,20 +17,31 @@
 namespace kilolux {
 namespace {
 
-// What a frame must move for a pixel [byte]: its G-buffer, and each light that it evaluates.
+// What a frame must move for a pixel [byte]: its G-buffer, and each light that it evaluates. Lanes
+// and the ways to compute are alike in this.
 double work_of(const Scene& scene, const ReportRow& row) {
     const ScenePlan plan = make_scene_plan(scene, row.setting.settings, 0);
-    const double light = plan.kernels.half_light_colors ? 32.0 : 48.0;
-    return plan.gbuffer_bytes_per_pixel + light * std::max(row.speed.k, 0.0);
+    return plan.gbuffer_bytes_per_pixel + sizeof(ShadeLight) * std::max(row.speed.k, 0.0);
 }
 
-// One report for all tests of this file.
+// What the tests look at; each setting costs building its kernels several times.
+bool is_looked_at(const ReportSetting& setting) {
+    const std::set<std::string> names = {
+        "default",      "gbuffer full",  "gbuffer half",      "gbuffer normal-xy",
+        "lanes 1",      "grid 4,4,1",    "shading lambert",   "renderer deferred-all",
+        "cut-off 1/16", "cut-off 1/256", "light-colors half", "renderer forward-plus"};
+    return names.count(setting.name) > 0;
+}
+
+// One report for all checks of a test.
 struct SmallReport {
-    SmallReport() : scene(make_generated_scene("grid")), settings(small_settings(128, 72, 200)) {
+    SmallReport() : scene(make_generated_scene("grid")), settings(small_settings(64, 36, 100)) {
         const ReportView view{scene, first_camera(scene), 0.0};
         const DeviceInfo device = describe(choose_device(settings.device));
         run.emplace(view, settings);
-        rows = run->measure(report_settings(scene, settings, device, true), {0, 1});
+        auto looked_at = report_settings(scene, settings, device, true);
+        std::erase_if(looked_at, [](const ReportSetting& s) { return !is_looked_at(s); });
+        rows = run->measure(looked_at, {0, 1});
     }
     const ReportRow& row(const std::string& name) const {
         for (const ReportRow& r : rows) {
@@ -49,7 +60,7 @@ SmallReport& report() {
     return small;
 }
 
-TEST(ReportRun, KernelsAreRightAndNoLightIsMissed) {
+void expect_right_kernels() {
     for (const ReportRow& row : report().rows) {
         const bool forward = row.setting.name.find("forward") != std::string::npos;
         const bool approximate = row.setting.trade == Trade::math;
@@ -65,15 +76,15 @@ TEST(ReportRun, KernelsAreRightAndNoLightIsMissed) {
     EXPECT_GE(report().row("default").kernels.hdr.psnr_db, 110.0);
 }
 
-TEST(ReportRun, LanesGridsAndListsChangeNoError) {
+void expect_equal_pictures() {
     const ReportRow& expected = report().row("default");
-    for (const char* name : {"lanes 1", "grid 4,4,1", "grid 30,17,16", "renderer deferred-all"}) {
+    for (const char* name : {"lanes 1", "grid 4,4,1", "renderer deferred-all"}) {
         EXPECT_EQ(report().row(name).picture.rgb, expected.picture.rgb) << name;
         EXPECT_EQ(report().row(name).surfaces.hdr.rmse, expected.surfaces.hdr.rmse) << name;
     }
 }
 
-TEST(ReportRun, ReferencesIsolateTheirCause) {
+void expect_isolated_causes() {
     const auto& r = report();
     const ReportRow& standard = r.row("default");
     // `full` quantises nothing: its error against what was drawn is that of the kernels.
@@ -93,7 +104,7 @@ TEST(ReportRun, ReferencesIsolateTheirCause) {
     EXPECT_NEAR(coarse.cut_off, 1.0 / 16, 1e-12);
 }
 
-TEST(ReportRun, DefaultIsOnTheParetoSet) {
+void expect_default_on_front() {
     std::vector<ReportRow> rows = report().rows;
     const double standard = work_of(report().scene, rows.front());
     for (ReportRow& row : rows) {
@@ -113,24 +124,7 @@ TEST(ReportRun, DefaultIsOnTheParetoSet) {
     }
 }
 
-TEST(ReportRun, DisplayCodesAreTheDevices) {
-    RenderSettings settings = report().settings;
-    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces}) {
-        settings.tone_curve = curve;
-        settings.exposure = 0.5f;
-        const Frame frame = render_once(report().scene, settings);
-        const auto codes = display_codes(rgb_image_of(frame.width, frame.height, frame.radiance),
-                                         settings.exposure, curve);
-        ASSERT_EQ(codes.size(), frame.display.size());
-        int worst = 0;
-        for (std::size_t i = 0; i < codes.size(); ++i) {
-            worst = std::max(worst, std::abs(codes[i] - frame.display[i]));
-        }
-        EXPECT_LE(worst, curve == ToneCurve::none ? 0 : 1) << static_cast<int>(curve);
-    }
-}
-
-TEST(ReportRun, TablesHoldEveryRowAndPlotsTheirs) {
+void expect_whole_tables() {
     const auto& rows = report().rows;
     const Table table = report_table(rows);
     EXPECT_EQ(table.rows.size(), rows.size());
@@ -146,7 +140,7 @@ TEST(ReportRun, TablesHoldEveryRowAndPlotsTheirs) {
     EXPECT_EQ(points, rows.size() + 1) << "the default is in both";
 }
 
-TEST(ReportRun, WorstPixelsStandInTheMiddleOfTheirPanels) {
+void expect_worst_pixels_in_the_middle() {
     auto& r = report();
     const ReportRow& row = r.rows.front();
     const RenderSettings settings = r.run->at_error_size(row.setting.settings);
@@ -158,6 +152,34 @@ TEST(ReportRun, WorstPixelsStandInTheMiddleOfTheirPanels) {
         static_cast<std::size_t>(4 * ((22 + 16 * 6 + 3) * sheet.width + 6 + 16 * 6 + 3));
     const auto code = static_cast<std::size_t>(4 * (worst.y * row.picture.width + worst.x));
     for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(sheet.rgba[at + c], row.display[code + c]);
+}
+
+// One test, as each test is a process of its own and would measure again.
+TEST(ReportRun, MeasuresWhatEachSettingCostsAndErrs) {
+    expect_right_kernels();
+    expect_equal_pictures();
+    expect_isolated_causes();
+    expect_default_on_front();
+    expect_whole_tables();
+    expect_worst_pixels_in_the_middle();
+}
+
+TEST(ReportRun, DisplayCodesAreTheDevices) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings(64, 36, 100);
+    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces}) {
+        settings.tone_curve = curve;
+        settings.exposure = 0.5f;
+        const Frame frame = render_once(scene, settings);
+        const auto codes = display_codes(rgb_image_of(frame.width, frame.height, frame.radiance),
+                                         settings.exposure, curve);
+        ASSERT_EQ(codes.size(), frame.display.size());
+        int worst = 0;
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            worst = std::max(worst, std::abs(codes[i] - frame.display[i]));
+        }
+        EXPECT_LE(worst, curve == ToneCurve::none ? 0 : 1) << static_cast<int>(curve);
+    }
 }
 
 }  // namespace
