@@ -4,6 +4,8 @@
 #include <chrono>
 #include <optional>
 
+#include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/render/deferred_path.h"
 #include "host/render/forward_path.h"
 #include "host/render/frame_bands.h"
@@ -60,6 +62,9 @@ std::vector<DeviceInfo> list_devices() {
 
 struct Renderer::Parts {
     Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
+    ~Parts();
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
     Frame render(const Camera& camera, double time, const std::function<void()>& between);
     Radiance light(const SampleInput& sample, FrameStats& stats);
     Radiance light_samples(const SampleInput& band, FrameStats& stats);
@@ -114,6 +119,15 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
     if (settings.show == "difference") {
         reference =
             std::make_unique<Renderer>(the_scene, reference_of(settings), GlSource::current);
+    }
+}
+
+// OpenGL's names are a context's own: in another renderer's they would delete its objects.
+Renderer::Parts::~Parts() {
+    try {
+        if (gl_context) gl_context->make_current();
+    } catch (const Error& error) {
+        detail(error.what());  // the context is lost, and the names with it
     }
 }
 
