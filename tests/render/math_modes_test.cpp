@@ -24,41 +24,34 @@ constexpr Mode kModes[] = {
     {"half", MathMode::exact, LightColors::half, 5e-4},
 };
 
-RenderSettings settings_of(const Mode& mode, Shading shading) {
-    RenderSettings settings = small_settings();
-    settings.shading = shading;
-    settings.kernels.math = mode.math;
-    settings.kernels.light_colors = mode.colors;
-    return settings;
-}
-
+// The model with a square root, a reciprocal one and a division a light.
 TEST(MathModes, ErrorsAreBoundedAndListsChangeNoBit) {
     const Scene scene = grid_with_every_light();
-    for (const Shading shading : {Shading::lambert, Shading::blinn_phong, Shading::pbr}) {
-        RenderSettings settings = small_settings();
-        settings.shading = shading;
-        const Frame exact = render_once(scene, settings);
-        for (const Mode& mode : kModes) {
-            settings = settings_of(mode, shading);
-            const Frame frame = render_once(scene, settings);
-            settings.renderer = RendererKind::deferred_all;
-            EXPECT_EQ(render_once(scene, settings).radiance, frame.radiance) << mode.name;
-            double worst = 0.0;
-            for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
-                const double x = frame.radiance[i], r = exact.radiance[i];
-                ASSERT_TRUE(std::isfinite(x)) << mode.name;
-                if (x != r) worst = std::max(worst, std::abs(x - r) / std::max(x, r));
-            }
-            EXPECT_LE(worst, mode.bound) << mode.name << " " << static_cast<int>(shading);
+    RenderSettings settings = small_settings(64, 36, 100);
+    settings.shading = Shading::pbr;
+    const Frame exact = render_once(scene, settings);
+    for (const Mode& mode : kModes) {
+        settings.kernels.math = mode.math;
+        settings.kernels.light_colors = mode.colors;
+        settings.renderer = RendererKind::deferred;
+        const Frame frame = render_once(scene, settings);
+        settings.renderer = RendererKind::deferred_all;
+        EXPECT_EQ(render_once(scene, settings).radiance, frame.radiance) << mode.name;
+        double worst = 0.0;
+        for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
+            const double x = frame.radiance[i], r = exact.radiance[i];
+            ASSERT_TRUE(std::isfinite(x)) << mode.name;
+            if (x != r) worst = std::max(worst, std::abs(x - r) / std::max(x, r));
         }
+        EXPECT_LE(worst, mode.bound) << mode.name;
     }
 }
 
 // 65504 is half's largest number: colours are stored over a power of two.
 TEST(MathModes, HalfColoursHoldAnyIntensity) {
     const Scene scene = make_generated_scene("grid");
-    for (const double intensity : {1e-20, 1.0, 1e9}) {
-        RenderSettings settings = small_settings();
+    for (const double intensity : {1e-20, 1e9}) {
+        RenderSettings settings = small_settings(64, 36, 100);
         settings.ambient = 0.0f;
         settings.lights.intensity = intensity;
         const Frame exact = render_once(scene, settings);
