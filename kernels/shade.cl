@@ -2,6 +2,14 @@
 // Radiance of every pixel: the sum of evaluate() over the lights of its active cluster, or, with
 // ALL_LIGHTS, over every light (the reference that lists must not change by a bit).
 // One work-item shades VW neighbouring pixels of a row; a work-group lies within one fine tile.
+// NATIVE_MATH: roots and quotients as the device's hardware makes them, of unstated accuracy.
+#if NATIVE_MATH
+#undef sqrt
+#undef rsqrt
+#define sqrt native_sqrt
+#define rsqrt native_rsqrt
+#define DIVIDE(a, b) ((a) * native_recip(b))
+#endif
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/light_index.h"
 #include "kernels/shared/cluster_grid.h"
@@ -23,6 +31,45 @@
 #else
 #define STAGED_PARAMETER
 #define STAGED_ARGUMENT
+#endif
+
+#if HALF_LIGHT_COLORS
+// A light with its colour in half precision over a power of two, so that no intensity overflows: 32
+// bytes instead of 48 without spot lights.
+typedef struct StoredLight {
+    float4 position_inv_range2;
+    uint4 color_scale;  // xy: half4 of the colour / z; z: that power of two; w: 1/(cos_in - cos_out)
+#if HAS_SPOT_LIGHTS
+    float4 axis_cos;
+#endif
+} StoredLight;
+
+static inline ShadeLight load_light(global const StoredLight* stored) {
+    ShadeLight light;
+    light.position_inv_range2 = stored->position_inv_range2;
+    light.color_scale = vload_half4(0, (global const half*)&stored->color_scale) * as_float(stored->color_scale.z);
+    light.color_scale.w = as_float(stored->color_scale.w);
+#if HAS_SPOT_LIGHTS
+    light.axis_cos = stored->axis_cos;
+#endif
+    return light;
+}
+#define LIGHT_AT(lights, i) load_light((lights) + (i))
+
+kernel void store_lights(global const ShadeLight* restrict lights, global StoredLight* restrict stored) {
+    uint i = get_global_id(0);
+    float4 c = lights[i].color_scale;
+    float unit = ldexp(1.0f, clamp(ilogb(max(c.x, max(c.y, c.z))), -126, 126));
+    stored[i].position_inv_range2 = lights[i].position_inv_range2;
+    stored[i].color_scale.zw = as_uint2((float2)(unit, c.w));
+    vstore_half4_rte((float4)(c.xyz / unit, 0.0f), 0, (global half*)&stored[i].color_scale);
+#if HAS_SPOT_LIGHTS
+    stored[i].axis_cos = lights[i].axis_cos;
+#endif
+}
+#else
+typedef ShadeLight StoredLight;
+#define LIGHT_AT(lights, i) (lights)[i]
 #endif
 
 // A sum over lights in progress: blocks by light index (SUM_BLOCK_LOG2) join the total one by one.
@@ -65,20 +112,20 @@ typedef struct Staged {
     local uint* indices;
 } Staged;
 
-static inline void stage_batch(Staged staged, global const ShadeLight* lights, global const LIGHT_INDEX* list, uint first, uint end) {
+static inline void stage_batch(Staged staged, global const StoredLight* lights, global const LIGHT_INDEX* list, uint first, uint end) {
     uint item = get_local_id(1) * get_local_size(0) + get_local_id(0);
     uint items = get_local_size(0) * get_local_size(1);
     for (uint i = item; first + i < end; i += items) {
         uint light = light_of_entry(list, first + i);
         staged.indices[i] = light;
-        staged.lights[i] = lights[light];
+        staged.lights[i] = LIGHT_AT(lights, light);
     }
 }
 #endif
 
 // Adds the lights of list[0..count), or lights 0..count with ALL_LIGHTS, where `wanted`. The whole
 // work-group calls this with the same list: it may stage the lights together.
-static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, global const ShadeLight* lights,
+static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, global const StoredLight* lights,
                                   global const LIGHT_INDEX* list, uint count STAGED_PARAMETER) {
     RunningSum sum = start_sum(total);
 #if STAGE > 0
@@ -97,7 +144,7 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, g
     for (uint i = 0; i < count; ++i) {
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
-        sum.block = evaluate(sum.block, p, lights[light]);
+        sum.block = evaluate(sum.block, p, LIGHT_AT(lights, light));
     }
 #endif
     return add_sums(sum.total, sum.block);
@@ -127,7 +174,7 @@ kernel void shade(global const uchar* restrict gbuffer,
                   global const float* restrict srgb,  // [256]
                   global const DirectionalLight* restrict directional_lights,  // [directional_count], view space
                   uint directional_count,
-                  global const ShadeLight* restrict lights,  // [light_count], view space
+                  global const StoredLight* restrict lights,  // [light_count], view space
                   uint light_count,
                   ClusterGrid grid,
                   global const uint* restrict cluster_offsets,    // [tiles + 1]

@@ -20,6 +20,9 @@ void check(const BenchOptions& o) {
     if (o.culling + o.shading + o.tune + o.quick > 1) {
         throw UsageError("--quick, --culling, --shade and --tune exclude each other");
     }
+    if (o.budget.max_error && (o.culling || o.shading || o.tune)) {
+        throw UsageError("--max-error: goes with sweeps, not with --culling, --shade or --tune");
+    }
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
     if (o.shared.quiet && o.shared.verbose) {
         throw UsageError("--quiet and --verbose exclude each other");
@@ -29,7 +32,7 @@ void check(const BenchOptions& o) {
 void run_bench(const BenchOptions& options) {
     check(options);
     set_verbosity(verbosity_of(options.shared));
-    make_output_folder(options);
+    make_output_folder(options.output);
     if (options.culling) return run_culling(options);
     if (options.shading) return run_shading(options);
     if (options.tune) return run_tuning(options);
@@ -68,12 +71,12 @@ Json table_json(const Table& table) {
     return rows;
 }
 
-void make_output_folder(const BenchOptions& options) {
-    if (options.output.empty()) return;
+void make_output_folder(const std::filesystem::path& folder) {
+    if (folder.empty()) return;
     std::error_code error;
-    std::filesystem::create_directories(options.output, error);
-    if (error || !std::filesystem::is_directory(options.output)) {
-        throw Error(options.output.string() + ": cannot make this folder: " +
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder)) {
+        throw Error(folder.string() + ": cannot make this folder: " +
                     (error ? error.message() : "a file has its name"));
     }
 }

@@ -12,6 +12,7 @@
 #include "host/measure/bench_run.h"
 #include "host/measure/sweep.h"
 #include "host/measure/table.h"
+#include "present/error_budget_options.h"
 #include "present/options.h"
 
 namespace kilolux {
@@ -39,6 +40,7 @@ struct BenchOptions {
     bool culling = false;
     bool shading = false;  // --shade
     bool tune = false;
+    BudgetOptions budget;
 };
 
 /// Registers the shared options, of which those that a sweep varies take lists, and the bench's
@@ -56,8 +58,9 @@ BenchFrames bench_frames(const BenchOptions& options);
 
 /// What results were measured with: program, device, scene, camera and everything else that stays
 /// the same over a run.
-nlohmann::ordered_json bench_context(const BenchOptions& options, const Scene& scene,
-                                     const Camera& camera, const DeviceInfo& device);
+nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFrames& frames,
+                                     const Scene& scene, const Camera& camera,
+                                     const DeviceInfo& device);
 
 /// A short hash of a context, to tell rows of one from another's.
 std::string context_key(const nlohmann::ordered_json& context);
@@ -67,8 +70,8 @@ nlohmann::ordered_json limits_json(const DeviceLimits& limits);
 /// A table as a list of objects; what was not measured is null.
 nlohmann::ordered_json table_json(const Table& table);
 
-/// Creates the folder of -o; throws Error.
-void make_output_folder(const BenchOptions& options);
+/// Creates the folder of -o, unless it is empty; throws Error.
+void make_output_folder(const std::filesystem::path& folder);
 
 /// Prints a table, or JSON with --json, and writes <name>.csv and <name>.json to the folder of -o.
 void put_table(const BenchOptions& options, const std::string& name, const Table& table,

@@ -24,34 +24,37 @@ Json camera_json(const Camera& camera) {
 
 Json settings_json(const SharedOptions& shared) {
     const RenderSettings& s = shared.settings;
-    return {{"light_seed", s.lights.seed},
-            {"light_radius_m", s.lights.radius},
-            {"light_intensity_cd", s.lights.intensity},
-            {"light_box", s.lights.box.empty()
-                              ? Json(nullptr)
-                              : Json{s.lights.box.min.x, s.lights.box.min.y, s.lights.box.min.z,
-                                     s.lights.box.max.x, s.lights.box.max.y, s.lights.box.max.z}},
-            {"shading", name_of(s.shading)},
-            {"ambient", s.ambient},
-            {"samples", s.samples},
-            {"bloom", s.bloom},
-            {"tonemap", name_of(s.tone_curve)},
-            {"time_s", shared.time}};
+    return {
+        {"light_seed", s.lights.seed},
+        {"light_radius_m", s.lights.radius},
+        {"light_intensity_cd", s.lights.intensity},
+        {"light_box", s.lights.box.empty()
+                          ? Json(nullptr)
+                          : Json{s.lights.box.min.x, s.lights.box.min.y, s.lights.box.min.z,
+                                 s.lights.box.max.x, s.lights.box.max.y, s.lights.box.max.z}},
+        {"shading", name_of(s.shading)},
+        {"ambient", s.ambient},
+        {"math", math_names().at(static_cast<std::size_t>(s.kernels.math))},
+        {"light_colors", light_color_names().at(static_cast<std::size_t>(s.kernels.light_colors))},
+        {"range_budget", s.range_budget},
+        {"samples", s.samples},
+        {"bloom", s.bloom},
+        {"tonemap", name_of(s.tone_curve)},
+        {"time_s", shared.time}};
 }
 
 }  // namespace
 
-Json bench_context(const BenchOptions& options, const Scene& scene, const Camera& camera,
-                   const DeviceInfo& device) {
-    const BenchFrames frames = bench_frames(options);
+Json bench_context(const SharedOptions& shared, const BenchFrames& frames, const Scene& scene,
+                   const Camera& camera, const DeviceInfo& device) {
     return {{"program", {{"version", version()}, {"commit", KILOLUX_COMMIT}}},
             {"device", device_json(device)},
             {"scene",
-             {{"name", options.shared.scene},
+             {{"name", shared.scene},
               {"triangles", triangle_count(scene)},
               {"lights", scene.lights.size()}}},
             {"camera", camera_json(camera)},
-            {"settings", settings_json(options.shared)},
+            {"settings", settings_json(shared)},
             {"frames", {{"warm_up", frames.warm_up}, {"measured", frames.measured}}}};
 }
 

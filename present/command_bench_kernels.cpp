@@ -34,7 +34,8 @@ struct Bench {
         : scene(open_scene(options.shared)),
           camera(choose_camera(options.shared.camera, scene)),
           settings(single_settings(options)),
-          context(bench_context(options, scene, camera, describe(choose_device(settings.device)))) {
+          context(bench_context(options.shared, bench_frames(options), scene, camera,
+                                describe(choose_device(settings.device)))) {
         context["resolution"] = {settings.width, settings.height};
     }
     Scene scene;

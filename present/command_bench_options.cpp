@@ -143,6 +143,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
         .flag("--resume", options.resume,
               "Go on with the CSV in the folder: leave out points measured in the same context")
         .flag("--json", options.json, "JSON instead of a table on standard output");
+    add_budget_options(command, options.budget);
 }
 
 }  // namespace kilolux

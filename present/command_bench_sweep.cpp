@@ -133,15 +133,34 @@ BenchFrames bench_frames(const BenchOptions& options) {
     return {options.warm_up.value_or(standard.warm_up), options.frames.value_or(standard.measured)};
 }
 
-void run_sweep(const BenchOptions& options) {
+// With --max-error the chosen setting takes the place of the one asked for, on every axis of which
+// the command line gives no values. It is chosen for the first point.
+BenchOptions with_budget(BenchOptions options, const Scene& scene, const Camera& camera) {
+    if (!options.budget.max_error) return options;
+    SharedOptions& shared = options.shared;
+    shared.settings = settings_at(shared.settings, bench_points(options).front());
+    const RenderSettings s =
+        settings_within_budget(shared, options.budget, {scene, camera, shared.time});
+    shared.settings = s;
+    BenchAxes& axes = options.axes;
+    if (!axes.renderers) axes.renderers = {s.renderer};
+    if (!axes.grids) axes.grids = {{s.grid.tiles_x, s.grid.tiles_y, s.grid.slices_per_octave}};
+    if (!axes.lanes) axes.lanes = {s.kernels.lanes};
+    if (!axes.gbuffers) axes.gbuffers = {s.gbuffer};
+    return options;
+}
+
+void run_sweep(const BenchOptions& asked) {
+    const Scene scene = open_scene(asked.shared);
+    const Camera camera = choose_camera(asked.shared.camera, scene);
+    const BenchOptions options = with_budget(asked, scene, camera);
     Sweep sweep;
     sweep.points = bench_points(options);
     std::optional<BenchLog> log;
     if (!options.output.empty()) log.emplace(options.output / "bench.csv", options.resume);
-    const Scene scene = open_scene(options.shared);
-    const Camera camera = choose_camera(options.shared.camera, scene);
     const DeviceInfo device = describe(choose_device(options.shared.settings.device));
-    const Json context = bench_context(options, scene, camera, device);
+    const Json context =
+        bench_context(options.shared, bench_frames(options), scene, camera, device);
     sweep.key = context_key(context);
     BenchRun run(scene, options.shared.settings, camera, options.shared.time);
     measure_points(options, run, sweep, log);

@@ -9,6 +9,7 @@
 #include "host/render/renderer.h"
 #include "present/commands.h"
 #include "present/comparison.h"
+#include "present/error_budget_options.h"
 #include "present/frame_summary.h"
 #include "present/image_file.h"
 #include "present/interrupt.h"
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 struct RenderOptions {
     SharedOptions shared;
     OutputOptions output;
+    BudgetOptions budget;
 };
 
 // One picture to make: a frame of the sequence, or the only one.
@@ -130,8 +132,8 @@ void require_passed(const std::vector<FrameRecord>& records) {
 }
 
 // Counting useful evaluations costs a pass of its own: only for those who read the counts.
-RenderSettings settings_of(const RenderOptions& options) {
-    RenderSettings settings = options.shared.settings;
+RenderSettings settings_of(const RenderOptions& options, const ReportView& view) {
+    RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
     const auto& aovs = settings.aovs;
     settings.keep_bloomed = wants_own_display(options);
     settings.count_useful = !options.output.stats.empty() ||
@@ -148,9 +150,10 @@ void run_render(const RenderOptions& options) {
     check_files(options, tasks);
     check_light_memory(options.shared.settings);
     AnimatedScene scene = open_animated_scene(options.shared, tasks.front().time);
-    choose_camera(options.shared.camera, scene.scene());  // refuses before the work
+    const Camera camera = choose_camera(options.shared.camera, scene.scene());
     check_interrupt();
-    Renderer renderer(scene.scene(), settings_of(options));
+    Renderer renderer(scene.scene(),
+                      settings_of(options, {scene.scene(), camera, tasks.front().time}));
     check_interrupt();
     const auto records = render_tasks(options, scene, renderer, tasks);
     if (!out.stats.empty()) {
@@ -180,6 +183,7 @@ void add_render_command(Program& program) {
                             kExamples, [options] { run_render(*options); });
     add_shared_options(command, options->shared);
     add_output_options(command, options->output);
+    add_budget_options(command, options->budget);
 }
 
 }  // namespace kilolux

@@ -18,6 +18,14 @@ std::vector<std::string> tone_curve_names() {
     return {"none", "neutral", "aces"};
 }
 
+std::vector<std::string> math_names() {
+    return {"exact", "fast-relaxed", "native"};
+}
+
+std::vector<std::string> light_color_names() {
+    return {"float", "half"};
+}
+
 std::vector<std::string> gbuffer_names() {
     std::vector<std::string> names;
     for (const uint layout :

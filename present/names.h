@@ -13,6 +13,8 @@ namespace kilolux {
 std::vector<std::string> renderer_names();
 std::vector<std::string> shading_names();
 std::vector<std::string> tone_curve_names();
+std::vector<std::string> math_names();
+std::vector<std::string> light_color_names();
 std::vector<std::string> gbuffer_names();
 
 /// Pictures of --show: what the renderer draws.

@@ -67,7 +67,8 @@ void add_display_options(CLI::App& command, RenderSettings& s) {
                 s.tone_curve, tone_curve_names());
 }
 
-void add_light_options(CLI::App& command, LightOptions& l) {
+void add_light_options(CLI::App& command, RenderSettings& s) {
+    LightOptions& l = s.lights;
     const auto box = [&l](const std::string& name, const std::string& text) {
         l.box = parse_box(name, text);
     };
@@ -82,7 +83,11 @@ void add_light_options(CLI::App& command, LightOptions& l) {
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZero)
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
-               box);
+               box)
+        .number({"--range-budget", "E", "0.00390625",
+                 "Radiance that a light of the file without a range may be wrong by; decides its "
+                 "range"},
+                s.range_budget, kAboveZero);
 }
 
 void add_camera_options(CLI::App& command, CameraChoice& c) {
@@ -134,7 +139,11 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
                grid)
         .value({"--lanes", "auto|1|2|4|8|16", "auto",
                 "Pixels or lights a work-item treats at once; changes no bit of a picture"},
-               lanes);
+               lanes)
+        .choice({"--math", "", "exact", "How shading kernels compute: faster ones err a little"},
+                s.kernels.math, math_names())
+        .choice({"--light-colors", "", "float", "What shading kernels store lights' colours in"},
+                s.kernels.light_colors, light_color_names());
 }
 
 }  // namespace
@@ -143,7 +152,7 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
     add_scene_option(command, options);
     add_picture_options(command, options);
     add_display_options(command, options.settings);
-    add_light_options(command, options.settings.lights);
+    add_light_options(command, options.settings);
     add_camera_options(command, options.camera);
     add_device_options(command, options);
     Registrar(command, "General")

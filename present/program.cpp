@@ -54,6 +54,7 @@ Program::Program() : app_(kMeaning, "kilolux") {
                 completion_shell_, completion_shells());
     add_render_command(*this);
     add_bench_command(*this);
+    add_report_command(*this);
     add_info_command(*this);
     add_export_command(*this);
 }

@@ -18,6 +18,10 @@ struct KernelFeatures {
     bool spot_lights = false;
     bool directional_lights = false;
     int light_index_bits = 16;   // 16 while every light's index fits
+    // Approximations, off unless asked for: how shading computes, and stores lights' colours.
+    bool fast_relaxed_math = false;  // -cl-fast-relaxed-math
+    bool native_math = false;        // native_sqrt, native_rsqrt, native_recip
+    bool half_light_colors = false;
     bool operator==(const KernelFeatures&) const = default;
 };
 

@@ -13,11 +13,11 @@ namespace {
 
 // What the threads of one call share.
 struct Rows {
-    Rows(int row_count, const std::function<void(int)>& row_body, const Progress& told)
+    Rows(int row_count, const std::function<void(int)>& row_body, const OnProgress& told)
         : count(row_count), body(row_body), progress(told) {}
     const int count;
     const std::function<void(int)>& body;
-    const Progress& progress;
+    const OnProgress& progress;
     std::atomic<int> next{0};
     std::atomic<bool> stop{false};
     std::mutex mutex;  // guards the two below and calls of `progress`
@@ -53,7 +53,7 @@ void work(Rows& rows) {
 
 }  // namespace
 
-void parallel_rows(int count, const std::function<void(int)>& body, const Progress& progress) {
+void parallel_rows(int count, const std::function<void(int)>& body, const OnProgress& progress) {
     Rows rows(count, body, progress);
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     {

@@ -8,11 +8,11 @@ namespace kilolux {
 /// Told the finished share of a long computation, 0..1, never decreasing. Called from worker
 /// threads, one at a time. What it throws stops the computation and comes out of the function that
 /// runs it.
-using Progress = std::function<void(double)>;
+using OnProgress = std::function<void(double)>;
 
 /// Calls `body(row)` once for every row in [0, count), on all cores, in no stated order.
 ///
 /// Rethrows the first exception of `body` or `progress` after all threads have stopped.
-void parallel_rows(int count, const std::function<void(int)>& body, const Progress& progress = {});
+void parallel_rows(int count, const std::function<void(int)>& body, const OnProgress& progress = {});
 
 }  // namespace kilolux

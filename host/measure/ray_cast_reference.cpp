@@ -38,7 +38,7 @@ RayCaster::RayCaster(const Scene& scene)
     : scene_(scene), bvh_(world_triangles(scene)), textures_(scene) {}
 
 SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
-                               const Progress& progress) const {
+                               const OnProgress& progress) const {
     SurfaceSamples out = make_surface_samples(width, height);
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     const auto cast_pixel = [&](int x, int y) {

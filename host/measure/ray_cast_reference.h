@@ -35,7 +35,7 @@ class RayCaster {
     /// Casts width * height rays, on all cores. Positions and normals are in the camera's view
     /// space.
     SurfaceSamples cast(const Camera& camera, int width, int height,
-                        const Progress& progress = {}) const;
+                        const OnProgress& progress = {}) const;
 
  private:
     const Scene& scene_;

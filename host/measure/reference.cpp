@@ -29,12 +29,14 @@ struct Pixel {
     ExactSum3 radiance;
     ExactSum3 scale;
     double lights = 0.0;
+    std::uint32_t reaching = 0;
 };
 
 // Where a light stands as seen from a surface.
 struct Incidence {
     glm::dvec3 to_light{0.0};
     double attenuation = 0.0;
+    bool reaches = false;  // by more than kReachMargin
 };
 
 double cone(const ReferenceLight& light, const glm::dvec3& to_light) {
@@ -50,7 +52,9 @@ Incidence incidence(const ReferenceLight& light, const glm::dvec3& position, boo
     if (x >= 1.0) return {};
     const double d = std::max(std::sqrt(d2), kDistanceMin);
     const glm::dvec3 to_light = v / d;
-    return {to_light, (1.0 - x) * (1.0 + x) / (d * d) * cone(light, to_light)};
+    const double edge = cone(light, to_light);
+    return {to_light, (1.0 - x) * (1.0 + x) / (d * d) * edge,
+            x < 1.0 - kReachMargin && edge > kReachMargin};
 }
 
 glm::dvec3 direction_to_eye(const glm::dvec3& position, bool orthographic) {
@@ -83,6 +87,7 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
         const Incidence in = incidence(light, surface.position, options.windowed);
         if (in.attenuation == 0.0) continue;
         pixel.lights += 1.0;
+        pixel.reaching += in.reaches;
         add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options);
     }
     return pixel;
@@ -107,6 +112,7 @@ RowCount shade_row(int y, const SurfaceSamples& surfaces, const ReferenceLights&
         const Pixel pixel = shade(surface, lights, options);
         store(out.radiance, surfaces.index(x, y), pixel.radiance.value());
         store(out.scale, surfaces.index(x, y), pixel.scale.value());
+        out.reaching[surfaces.index(x, y)] = pixel.reaching;
         count.lights += pixel.lights;
         count.pixels += 1.0;
     }
@@ -119,6 +125,7 @@ ReferencePicture shade_reference(const SurfaceSamples& surfaces, const Reference
                                  const ReferenceOptions& options) {
     ReferencePicture out{.radiance = make_rgb_image(surfaces.width, surfaces.height),
                          .scale = make_rgb_image(surfaces.width, surfaces.height)};
+    out.reaching.resize(surfaces.pixels.size());
     std::vector<RowCount> counts(static_cast<std::size_t>(surfaces.height));
     parallel_rows(
         surfaces.height,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "host/measure/parallel_rows.h"
 #include "host/measure/reference_lights.h"
 #include "host/measure/rgb_image.h"
@@ -9,13 +12,17 @@
 
 namespace kilolux {
 
+/// How far (d/range)^2 must be below 1 for a light to reach a pixel beyond doubt: 80 roundings of
+/// float32, of which the kernels make about ten on the way to it.
+inline constexpr double kReachMargin = 1e-5;
+
 /// The model of a reference picture.
 struct ReferenceOptions {
     Shading shading = Shading::lambert;  // not automatic
     double ambient = 0.0;                // radiance that falls in from everywhere
     bool orthographic = false;           // rays to the eye are parallel to +Z
     bool windowed = true;                // false: unbounded inverse square, no light has a range
-    Progress progress{};
+    OnProgress progress{};
 };
 
 struct ReferencePicture {
@@ -23,6 +30,9 @@ struct ReferencePicture {
     RgbImage
         scale;  // E = sum |intensity * attenuation| over the lights: what errors are relative to
     double lights_per_pixel = 0.0;  // k*: point and spot lights that reach it, mean over hit pixels
+    // Of each pixel, lights that no rounding takes out of reach: (d/range)^2 < 1 - kReachMargin,
+    // and within a spot's cone as clearly.
+    std::vector<std::uint32_t> reaching{};
 };
 
 /// Shades every pixel with every light in double: brute force, no culling.

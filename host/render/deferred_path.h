@@ -25,6 +25,9 @@ class DeferredPath {
     /// Surfaces and counts of the last light(), for AOVs and views. Blocks.
     DecodedSurfaces pixels();
 
+    /// What the last light() shaded, and with which lights. Blocks.
+    LitSurfaces lit_surfaces();
+
  private:
     Radiance light_from_lists(const SampleInput& sample, StageTimer& timer, FrameStats& stats);
     Radiance light_from_all(const SampleInput& sample, StageTimer& timer, FrameStats& stats);

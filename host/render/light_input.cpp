@@ -23,7 +23,7 @@ bool has_direction(const glm::dvec3& direction) { return is_finite(direction) &&
 // One light that is no number would spread over all pixels of its lists, and through filters over the
 // picture: it is left out and counted. Asked here in double, as kernels may be built to assume that
 // there are none (-cl-finite-math-only, OpenCL C 5.8.4).
-bool is_usable(const SceneLight& light, const glm::dvec3& relative) {
+bool is_usable_at(const SceneLight& light, const glm::dvec3& relative) {
     if (!gives_light(light.intensity)) return false;
     if (light.type == LightType::directional) return has_direction(light.direction);
     const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;
@@ -49,12 +49,16 @@ Light row_of(const SceneLight& light, const glm::dvec3& relative) {
 
 }  // namespace
 
+bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
+    return is_usable_at(light, light.position - camera_position);
+}
+
 LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& camera_position) {
     LightRows rows;
     rows.local.reserve(lights.size());
     for (const SceneLight& light : lights) {
         const glm::dvec3 relative = light.position - camera_position;
-        if (!is_usable(light, relative)) {
+        if (!is_usable_at(light, relative)) {
             ++rows.rejected;
         } else if (light.type == LightType::directional) {
             const glm::vec3 to_light(-glm::normalize(light.direction));

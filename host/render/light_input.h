@@ -19,6 +19,9 @@ struct LightRows {
     bool has_spot = false;
 };
 
+/// Whether a light can be used from this camera position: finite, with a range, and giving light.
+bool is_usable(const SceneLight& light, const glm::dvec3& camera_position);
+
 /// Positions meet the camera in double, so that a scene far from the origin keeps float32's accuracy
 /// about the camera: 1e6 m away, float32 world positions would be 6 cm apart. A light that cannot be
 /// used is left out and counted; the others are unaffected.

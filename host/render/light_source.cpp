@@ -7,23 +7,31 @@
 namespace kilolux {
 namespace {
 
-std::vector<SceneLight> lights_with_ranges(const Scene& scene) {
+std::vector<SceneLight> lights_with_ranges(const Scene& scene, double budget) {
     std::vector<SceneLight> lights = scene.lights;
-    if (const std::size_t filled = fill_missing_ranges(lights); filled > 0) {
+    if (const std::size_t filled = fill_missing_ranges(lights, budget); filled > 0) {
         note(scene.name + ": " + std::to_string(filled) +
              " lights without a range got one from their intensity, error at most " +
-             std::to_string(kDefaultRangeBudget) + " each");
+             std::to_string(budget) + " each");
     }
     return lights;
 }
 
 }  // namespace
 
-LightSource::LightSource(const Gpu& gpu, const Scene& scene, const LightOptions& generated)
+std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time) {
+    std::vector<SceneLight> lights = scene.lights;
+    fill_missing_ranges(lights, settings.range_budget);
+    const std::vector<SceneLight> generated = generate_lights(settings.lights, scene, time);
+    lights.insert(lights.end(), generated.begin(), generated.end());
+    return lights;
+}
+
+LightSource::LightSource(const Gpu& gpu, const Scene& scene, const RenderSettings& settings)
     : gpu_(gpu),
       scene_(scene),
-      generated_(generated),
-      own_(lights_with_ranges(scene)),
+      generated_(settings.lights),
+      own_(lights_with_ranges(scene, settings.range_budget)),
       local_(gpu, "lights"),
       directional_(gpu, "lights") {}
 

@@ -7,16 +7,20 @@
 #include "host/gpu/flow.h"
 #include "host/render/frame.h"
 #include "host/render/light_input.h"
-#include "host/scene/light_generator.h"
+#include "host/render/settings.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
 
+/// All lights of a scene at `time` [s], its own and then the generated ones, each with a range.
+std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time);
+
 /// All lights of a scene, its own and the generated ones, at any time.
 class LightSource {
  public:
-    /// Says so when it has to give lights of the scene a range. The scene must outlive this.
-    LightSource(const Gpu& gpu, const Scene& scene, const LightOptions& generated);
+    /// Lights of the scene without a range get one within settings.range_budget; says so. The scene
+    /// must outlive this.
+    LightSource(const Gpu& gpu, const Scene& scene, const RenderSettings& settings);
 
     /// Takes the scene's own lights anew, after they moved.
     void refresh();

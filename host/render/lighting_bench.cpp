@@ -11,7 +11,7 @@
 #include "host/render/kernel_choice.h"
 #include "host/render/light_input.h"
 #include "host/render/light_lists.h"
-#include "host/scene/light_ranges.h"
+#include "host/render/light_source.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
 #include "raster/geometry_pass.h"
@@ -102,10 +102,7 @@ LightingBench::Parts::Parts(const Scene& the_scene, const RenderSettings& the_se
 }
 
 void LightingBench::Parts::load_lights(double time) {
-    std::vector<SceneLight> all = scene.lights;
-    fill_missing_ranges(all);
-    const std::vector<SceneLight> generated = generate_lights(settings.lights, scene, time);
-    all.insert(all.end(), generated.begin(), generated.end());
+    const std::vector<SceneLight> all = lights_at(scene, settings, time);
     const LightRows rows = make_light_rows(all, camera.position);
     light_stats.lights_given = all.size();
     light_stats.lights_rejected = rows.rejected;

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <optional>
 
+#include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/render/deferred_path.h"
 #include "host/render/forward_path.h"
 #include "host/render/frame_bands.h"
@@ -60,6 +62,9 @@ std::vector<DeviceInfo> list_devices() {
 
 struct Renderer::Parts {
     Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
+    ~Parts();
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
     Frame render(const Camera& camera, double time, const std::function<void()>& between);
     void take_up_changes();
     Radiance light(const SampleInput& sample, FrameStats& stats);
@@ -109,7 +114,7 @@ Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_setting
       tuning(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       gl_context(context_from(gl)),
       gpu_scene(the_scene),
-      lights(gpu, the_scene, settings.lights),
+      lights(gpu, the_scene, settings),
       context{settings, plan, gpu, tuning, gpu_scene, box},
       zero_normals(zero_normal_count(the_scene)),
       sum(gpu),
@@ -133,6 +138,15 @@ void Renderer::Parts::take_up_changes() {
     box = bounds(scene);
     gpu_scene.refresh();
     lights.refresh();
+}
+
+// OpenGL's names are a context's own: in another renderer's they would delete its objects.
+Renderer::Parts::~Parts() {
+    try {
+        if (gl_context) gl_context->make_current();
+    } catch (const Error& error) {
+        detail(error.what());  // the context is lost, and the names with it
+    }
 }
 
 // From the lights to a sample's radiance, by the path that was asked for.
@@ -263,6 +277,13 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
     return in_stage("render", [&] { return parts_->render(camera, time, between); });
+}
+
+LitSurfaces Renderer::lit_surfaces() {
+    if (!parts_->deferred) {
+        throw Error("renderer: the forward renderers keep no G-buffer to look at");
+    }
+    return in_stage("lit surfaces", [&] { return parts_->deferred->lit_surfaces(); });
 }
 
 const DeviceInfo& Renderer::device() const {

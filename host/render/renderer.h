@@ -7,6 +7,7 @@
 
 #include "host/gpu/device.h"
 #include "host/render/frame.h"
+#include "host/render/frame_parts.h"
 #include "host/render/memory_plan.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
@@ -41,6 +42,11 @@ class Renderer {
     /// same bits on every call and with any memory. `between` is called before every band, and what
     /// it throws comes out.
     Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
+
+    /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a float64
+    /// reference of the kernels starts from. Throws Error for the forward renderers, which keep no
+    /// G-buffer.
+    LitSurfaces lit_surfaces();
 
     const DeviceInfo& device() const;
     const ScenePlan& plan() const;

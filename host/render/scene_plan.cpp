@@ -114,6 +114,9 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
     plan.kernels.spot_lights = any_light(LightType::spot) || forced("spot-lights");
     plan.kernels.directional_lights = any_light(LightType::directional) || forced("directional-lights");
     plan.kernels.light_index_bits = light_count <= 65536 && !forced("wide-light-index") ? 16 : 32;
+    plan.kernels.fast_relaxed_math = settings.kernels.math == MathMode::fast_relaxed;
+    plan.kernels.native_math = settings.kernels.math == MathMode::native;
+    plan.kernels.half_light_colors = settings.kernels.light_colors == LightColors::half;
     plan.gbuffer_bytes_per_pixel = static_cast<int>(make_gbuffer_layout(plan.gbuffer, 16, 1).bytes_per_pixel);
     plan.features.push_back(shading_name(plan.kernels.shading));
     const Feature features[] = {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/scene/light_generator.h"
+#include "host/scene/light_ranges.h"
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
@@ -23,11 +24,20 @@ struct GridSettings {
     int fine_per_octave = 16;   // of active clusters: slices_per_octave ... 64
 };
 
+/// How shading kernels compute: as OpenCL C demands it, with -cl-fast-relaxed-math, or with the
+/// device's native square roots and reciprocals.
+enum class MathMode { exact, fast_relaxed, native };
+
+/// In which precision shading kernels store the colours of lights.
+enum class LightColors { single, half };
+
 /// How kernels are built and launched; 0: the tuning table's choice for the device.
 struct KernelSettings {
     int lanes = 0;         // VW: 1, 2, 4, 8, 16
     int group_height = 0;  // rows of a shading work-group
     int chunks = 0;        // of lights in culling
+    MathMode math = MathMode::exact;                   // of shading; the forward renderers know only this
+    LightColors light_colors = LightColors::single;    // likewise
 };
 
 /// Everything that decides a picture, beside scene, camera and time: the command line's shared options.
@@ -36,6 +46,7 @@ struct RenderSettings {
     int width = 1920;   // [pixel]
     int height = 1080;  // [pixel]
     LightOptions lights;
+    double range_budget = kDefaultRangeBudget;  // for the scene's lights without a range, see range_of_light()
     uint gbuffer = GBUFFER_PACKED;
     Shading shading = Shading::automatic;
     float ambient = 0.02f;  // radiance that falls in from everywhere

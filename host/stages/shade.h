@@ -27,12 +27,14 @@ class Shade {
     Radiance launch(const cl::Program& program, const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
                     const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer);
 
+    cl::Buffer stored_lights(const cl::Program& program, const PreparedLights& lights, StageTimer& timer);
+
     Gpu gpu_;
     Tuning tuning_;
     KernelFeatures features_;
     cl::Program program_;
     float ambient_ = 0.0f;
-    GrowingBuffer srgb_, radiance_, empty_;
+    GrowingBuffer srgb_, radiance_, empty_, stored_;
 };
 
 }  // namespace kilolux

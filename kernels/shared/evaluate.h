@@ -45,6 +45,11 @@
 #define FAST_RSQRT 0
 #endif
 
+// How the one quotient per light is taken; a kernel may define a faster one.
+#ifndef DIVIDE
+#define DIVIDE(a, b) ((a) / (b))
+#endif
+
 // Nearer than this the inverse square stops growing: light sources have a size [m] (Lagarde and de
 // Rousiers 2014, "Moving Frostbite to PBR", 3.1: max(d^2, 0.01^2)).
 #define LIGHT_D_MIN 0.01f
@@ -223,7 +228,7 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
     FV smith_l = sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - p.alpha2, p.alpha2));
     FV smith = fma(n_dot_l, p.smith_v, p.n_dot_v * smith_l);
     // D * V without its constant 1 / (2 pi), which finish_shading multiplies in.
-    FV lobe = (lit * (hh * hh)) / (ggx * ggx * smith);
+    FV lobe = DIVIDE(lit * (hh * hh), ggx * ggx * smith);
     FV schlick = max(fma(-dot3(p.to_eye, h), rsqrt(hh), fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;
@@ -271,7 +276,7 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
 #if HAS_SPOT_LIGHTS
     window = window * cone_of(v, fv(1.0f) / distance, light);
 #endif
-    FV lit = (window * n_dot_v) / (e2 * distance);
+    FV lit = DIVIDE(window * n_dot_v, e2 * distance);
     return add_incident(sum, p, v, fv(0.0f), fv(0.0f), lit, light.color_scale);
 #else
     FV inv_d = rsqrt(e2);

@@ -121,6 +121,30 @@ TEST(FlipHdr, IsTheLargestOfTheLdrErrorsWrittenOut) {
     EXPECT_GT(e.count, 2);
 }
 
+// What the authors' own program says (NVlabs/flip, python/flip_api.py, version 1.2, in double).
+TEST(FlipHdr, MatchesTheAuthorsProgram) {
+    const auto shapes = [](double shift) {
+        RgbImage out = make_rgb_image(31, 22);
+        for (int y = 0; y < 22; ++y) {
+            for (int x = 0; x < 31; ++x) {
+                double* rgb = &out.rgb[static_cast<std::size_t>(3 * (y * 31 + x))];
+                rgb[0] = 0.5 + 0.5 * std::sin(0.31 * (x + shift) + 0.1 * y);
+                rgb[1] = (x + static_cast<int>(shift)) % 13 < 6 ? 0.8 : 0.1;
+                rgb[2] = 0.5 + 0.5 * std::cos(0.2 * y - 0.05 * (x + shift));
+            }
+        }
+        for (double& v : out.rgb) v = std::exp(5.0 * v - 2.0);
+        return out;
+    };
+    const FlipHdrResult result = flip_hdr(shapes(1.0), shapes(0.0), {.pixels_per_degree = 67.0});
+    EXPECT_NEAR(result.exposures.start, -2.3718205740171645, 1e-9);
+    EXPECT_NEAR(result.exposures.stop, -1.359748347872564, 1e-9);
+    EXPECT_EQ(result.exposures.count, 2);
+    EXPECT_NEAR(result.flip.error.mean, 0.519210005, 1e-6);
+    EXPECT_NEAR(result.flip.error.max, 0.909702817, 1e-6);
+    EXPECT_NEAR(result.flip.errors[7 * 31 + 5], 0.710341725, 1e-6);
+}
+
 TEST(FlipHdr, ScalingBothPicturesChangesNothing) {
     RgbImage a = bright_noise(16, 16, 5), b = bright_noise(16, 16, 6);
     const double before = flip_hdr(a, b).flip.error.mean;

@@ -67,6 +67,16 @@ TEST(FlipLdr, MatchesTheFormulasWrittenOut) {
     }
 }
 
+// What the authors' own program says (NVlabs/flip, python/flip_api.py, version 1.2, in double),
+// whose constants have nine digits.
+TEST(FlipLdr, MatchesTheAuthorsProgram) {
+    const FlipResult flip = flip_ldr(shapes(31, 22, 0.0), shapes(31, 22, 3.0), 67.0);
+    EXPECT_NEAR(flip.error.mean, 0.818622796, 1e-6);
+    EXPECT_NEAR(flip.error.max, 0.982219845, 1e-6);
+    EXPECT_NEAR(flip.errors[7 * 31 + 5], 0.968636119, 1e-6);
+    EXPECT_NEAR(flip.errors[21 * 31 + 30], 0.982107653, 1e-6);
+}
+
 TEST(FlipLdr, NoiseMatchesTheFormulasWrittenOut) {
     const RgbImage a = noise(24, 18, 2), b = noise(24, 18, 3);
     const FlipResult flip = flip_ldr(a, b, 67.0);

@@ -51,5 +51,29 @@ TEST(Pareto, IsWhatNoOtherPointBeats) {
     }
 }
 
+TEST(ParetoOfMeasurements, WhatCannotBeToldApartIsEqual) {
+    const std::vector<double> quiet(3, 0.0), noisy(3, 0.1);
+    // As fast within 3 %, but ten times as exact.
+    const std::vector<CostAndError> tie = {{1.00, 1.0}, {1.02, 0.1}};
+    EXPECT_EQ(pareto_set(tie, std::span(quiet).first(2)), (Indices{1}));
+    // 10 % slower: both stay, unless the noise hides it.
+    const std::vector<CostAndError> slower = {{1.0, 1.0}, {1.1, 0.1}};
+    EXPECT_EQ(pareto_set(slower, std::span(quiet).first(2)), (Indices{0, 1}));
+    EXPECT_EQ(pareto_set(slower, std::span(noisy).first(2)), (Indices{1}));
+    // As exact within 0.5 dB, but slower.
+    const std::vector<CostAndError> close = {{1.0, 1.0}, {1.5, 0.97}, {1.5, 0.9}};
+    EXPECT_EQ(pareto_set(close, quiet), (Indices{0, 2}));
+    // Equal in both: all stay.
+    const std::vector<CostAndError> same = {{1.01, 1.0}, {1.0, 1.0}, {1.0, 1.0}};
+    EXPECT_EQ(pareto_set(same, quiet), (Indices{1, 2, 0}));
+}
+
+TEST(ParetoOfMeasurements, NanAndInfinityAreNotOfUse) {
+    const double inf = INFINITY, nan = std::nan("");
+    const std::vector<CostAndError> points = {{inf, 0.5}, {1.0, 1.0}, {nan, 0.0}, {2.0, 0.5}};
+    const std::vector<double> noises(4, 0.0);
+    EXPECT_EQ(pareto_set(points, noises), (Indices{1, 3}));
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -147,6 +147,22 @@ TEST(Reference, LightsPerPixelCountsThoseInRange) {
         << "2, 1 and 0 over three hit pixels";
 }
 
+TEST(Reference, ReachingCountsOnlyLightsBeyondDoubt) {
+    const auto reaching = [](const ReferenceLight& light) {
+        return shade_reference(wall_pixel(), {{light}, {}}, {}).reaching.at(0);
+    };
+    EXPECT_EQ(reaching(light_at({0, 0, -3}, 2.1)), 1u);
+    EXPECT_EQ(reaching(light_at({0, 0, -3}, 2.0 * (1 + 1e-5))), 1u);
+    EXPECT_EQ(reaching(light_at({0, 0, -3}, 2.0 * (1 + 1e-6))), 0u) << "float32 might round it out";
+    EXPECT_EQ(reaching(light_at({0, 0, -3}, 1.9)), 0u);
+    ReferenceLight spot = light_at({0, 0, -3}, 4.0);
+    spot.axis = {0, 0, 1};  // away from the wall
+    spot.cos_out = 0.5;
+    EXPECT_EQ(reaching(spot), 0u);
+    spot.axis = {0, 0, -1};
+    EXPECT_EQ(reaching(spot), 1u);
+}
+
 TEST(Reference, ProgressEndsAtOneAndCanStop) {
     const SurfaceSamples surfaces = make_surface_samples(4, 50);
     double last = 0.0;

@@ -172,5 +172,21 @@ TEST(Paths, Oct2x4DecodesToWhatFullStores) {
     }
 }
 
+// OpenGL's object names are small numbers in every context: one renderer's end must not take
+// another's objects with it.
+TEST(Renderer, AnotherOnesEndLeavesItAlone) {
+    const Scene scene = make_generated_scene("grid");
+    const RenderSettings settings = small_settings();
+    const Camera camera = first_camera(scene);
+    Renderer lasting(scene, settings);
+    const Frame expected = lasting.render(camera, 0.0);
+    {
+        Renderer passing(scene, settings);
+        passing.render(camera, 0.0);
+        EXPECT_EQ(lasting.render(camera, 0.0).radiance, expected.radiance);
+    }
+    EXPECT_EQ(lasting.render(camera, 0.0).radiance, expected.radiance);
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/command_report.h"
+#include "present/registrar.h"
+#include "present/suggest.h"
+
+namespace kilolux {
+
+std::vector<std::string> report_trade_names() {
+    return {"gbuffer", "lanes", "math", "grid", "renderer", "shading", "cut-off"};
+}
+
+void add_report_options(CLI::App& command, ReportOptions& options) {
+    using Text = const std::string&;
+    add_shared_options(command, options.shared);
+    Registrar(command, "Measuring and output")
+        .flag("--quick", options.quick,
+              "480x270 pixels, 1000 lights, fewer settings and frames: about a minute")
+        .value({"--trades", joined(report_trade_names(), "|") + ",...", "all",
+                "What the settings differ in"},
+               [&options](Text name, Text text) {
+                   options.trades = parse_name_list(name, text, report_trade_names());
+               })
+        .value({"--warm-up", "N", "2", "Frames before those that count, in each of two rounds"},
+               [&options](Text name, Text text) {
+                   options.warm_up = static_cast<int>(parse_count(name, text, {0, 1000000}));
+               })
+        .value({"--frames", "N", "20", "Frames that count; fewer of settings that are slow"},
+               [&options](Text name, Text text) {
+                   options.frames = static_cast<int>(parse_count(name, text, {1, 1000000}));
+               })
+        .value({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
+               [&options](Text, Text text) { options.output = text; })
+        .flag("--json", options.json, "JSON instead of a table on standard output");
+    add_budget_options(command, options.budget);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small report: what each reference isolates, and that the default is on the Pareto set. Errors
+// are measured; times, which a machine's other work decides, are replaced by what must be moved.
+#include "host/measure/report_run.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "host/measure/display.h"
+#include "host/measure/report_table.h"
+#include "host/measure/worst_pixel.h"
+#include "host/render/scene_plan.h"
+#include "host/scene/generated_scenes.h"
+#include "tests/render/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+// What a frame must move for a pixel [byte]: its G-buffer, and each light that it evaluates. Lanes
+// and the ways to compute are alike in this.
+double work_of(const Scene& scene, const ReportRow& row) {
+    const ScenePlan plan = make_scene_plan(scene, row.setting.settings, 0);
+    return plan.gbuffer_bytes_per_pixel + sizeof(ShadeLight) * std::max(row.speed.k, 0.0);
+}
+
+// What the tests look at; each setting costs building its kernels several times.
+bool is_looked_at(const ReportSetting& setting) {
+    const std::set<std::string> names = {
+        "default",      "gbuffer full",  "gbuffer half",      "gbuffer normal-xy",
+        "lanes 1",      "grid 4,4,1",    "shading lambert",   "renderer deferred-all",
+        "cut-off 1/16", "cut-off 1/256", "light-colors half", "renderer forward-plus"};
+    return names.count(setting.name) > 0;
+}
+
+// One report for all checks of a test.
+struct SmallReport {
+    SmallReport() : scene(make_generated_scene("grid")), settings(small_settings(64, 36, 100)) {
+        const ReportView view{scene, first_camera(scene), 0.0};
+        const DeviceInfo device = describe(choose_device(settings.device));
+        run.emplace(view, settings);
+        auto looked_at = report_settings(scene, settings, device, true);
+        std::erase_if(looked_at, [](const ReportSetting& s) { return !is_looked_at(s); });
+        rows = run->measure(looked_at, {0, 1});
+    }
+    const ReportRow& row(const std::string& name) const {
+        for (const ReportRow& r : rows) {
+            if (r.setting.name == name) return r;
+        }
+        throw std::runtime_error("no row '" + name + "'");
+    }
+    Scene scene;
+    RenderSettings settings;
+    std::optional<ReportRun> run;
+    std::vector<ReportRow> rows;
+};
+
+SmallReport& report() {
+    static SmallReport small;
+    return small;
+}
+
+void expect_right_kernels() {
+    for (const ReportRow& row : report().rows) {
+        const bool forward = row.setting.name.find("forward") != std::string::npos;
+        const bool approximate = row.setting.trade == Trade::math;
+        const double bound = approximate ? 1e-3 : (forward ? 1e-2 : 3e-5);
+        EXPECT_LE(row.kernels.hdr.relative.max, bound) << row.setting.name;
+        EXPECT_EQ(row.kernels.hdr.nan_pixels, 0u) << row.setting.name;
+        EXPECT_EQ(row.kernels.hdr.infinite_pixels, 0u) << row.setting.name;
+        EXPECT_EQ(row.kernels.hdr.negative_pixels, 0u) << row.setting.name;
+        EXPECT_EQ(row.missed_lights.value_or(0), 0u) << row.setting.name;
+        EXPECT_LE(row.kernels.codes.difference.max, 1.0 + 254.0 * forward) << row.setting.name;
+    }
+    EXPECT_TRUE(report().row("default").missed_lights.has_value());
+    EXPECT_GE(report().row("default").kernels.hdr.psnr_db, 110.0);
+}
+
+void expect_equal_pictures() {
+    const ReportRow& expected = report().row("default");
+    for (const char* name : {"lanes 1", "grid 4,4,1", "renderer deferred-all"}) {
+        EXPECT_EQ(report().row(name).picture.rgb, expected.picture.rgb) << name;
+        EXPECT_EQ(report().row(name).surfaces.hdr.rmse, expected.surfaces.hdr.rmse) << name;
+    }
+}
+
+void expect_isolated_causes() {
+    const auto& r = report();
+    const ReportRow& standard = r.row("default");
+    // `full` quantises nothing: its error against what was drawn is that of the kernels.
+    EXPECT_EQ(r.row("gbuffer full").drawn.rmse, r.row("gbuffer full").kernels.hdr.rmse);
+    EXPECT_GT(standard.drawn.rmse, 100.0 * standard.kernels.hdr.rmse);
+    EXPECT_GT(r.row("gbuffer half").drawn.rmse, standard.drawn.rmse);
+    EXPECT_GT(r.row("gbuffer normal-xy").drawn.rmse, standard.drawn.rmse);
+    // A simpler shading model is right by its own standard and wrong by the scene's.
+    const ReportRow& lambert = r.row("shading lambert");
+    EXPECT_LT(lambert.kernels.hdr.rmse, 1e-4 * lambert.surfaces.hdr.rmse);
+    EXPECT_GT(lambert.surfaces.hdr.rmse, standard.surfaces.hdr.rmse);
+    // Ranges cost against R3 only, less for a finer cut-off.
+    const ReportRow &coarse = r.row("cut-off 1/16"), &fine = r.row("cut-off 1/256");
+    EXPECT_LT(fine.unbounded.hdr.rmse, coarse.unbounded.hdr.rmse);
+    EXPECT_GT(coarse.unbounded.hdr.rmse, coarse.surfaces.hdr.rmse);
+    EXPECT_GT(fine.speed.k, coarse.speed.k);
+    EXPECT_NEAR(coarse.cut_off, 1.0 / 16, 1e-12);
+}
+
+void expect_default_on_front() {
+    std::vector<ReportRow> rows = report().rows;
+    const double standard = work_of(report().scene, rows.front());
+    for (ReportRow& row : rows) {
+        row.speed.relative = work_of(report().scene, row) / standard;
+        row.speed.noise = 0.0;
+        row.surfaces_front = row.unbounded_front = false;
+    }
+    mark_fronts(rows);
+    EXPECT_TRUE(rows.front().surfaces_front);
+    EXPECT_TRUE(rows.front().unbounded_front);
+    for (const ReportRow& row : rows) {
+        const bool as_exact = row.surfaces.hdr.rmse <= rows.front().surfaces.hdr.rmse;
+        if (row.setting.trade == Trade::math || row.setting.trade == Trade::cut_off) continue;
+        if (as_exact) {
+            EXPECT_GE(row.speed.relative, 1.0) << row.setting.name;
+        }
+    }
+}
+
+void expect_whole_tables() {
+    const auto& rows = report().rows;
+    const Table table = report_table(rows);
+    EXPECT_EQ(table.rows.size(), rows.size());
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
+    EXPECT_EQ(std::set<std::string>(table.columns.begin(), table.columns.end()).size(),
+              table.columns.size());
+    EXPECT_EQ(report_summary(rows).rows.size(), rows.size());
+    std::size_t points = 0;
+    for (const Plot& plot : {surfaces_plot(rows), unbounded_plot(rows)}) {
+        for (const PlotSeries& series : plot.series) points += series.points.size();
+        EXPECT_TRUE(plot.pareto_front);
+    }
+    EXPECT_EQ(points, rows.size() + 1) << "the default is in both";
+}
+
+void expect_worst_pixels_in_the_middle() {
+    auto& r = report();
+    const ReportRow& row = r.rows.front();
+    const RenderSettings settings = r.run->at_error_size(row.setting.settings);
+    const Canvas sheet = worst_pixel_sheet(row, r.run->references().all(settings));
+    ASSERT_EQ(sheet.rgba.size(), static_cast<std::size_t>(4 * sheet.width * sheet.height));
+    const ErrorDistribution& worst = row.kernels.hdr.relative;
+    // Left panel of R1: 6 sheet pixels a pixel, the 17th of 33 is the worst one.
+    const std::size_t at =
+        static_cast<std::size_t>(4 * ((22 + 16 * 6 + 3) * sheet.width + 6 + 16 * 6 + 3));
+    const auto code = static_cast<std::size_t>(4 * (worst.y * row.picture.width + worst.x));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(sheet.rgba[at + c], row.display[code + c]);
+}
+
+// One test, as each test is a process of its own and would measure again.
+TEST(ReportRun, MeasuresWhatEachSettingCostsAndErrs) {
+    expect_right_kernels();
+    expect_equal_pictures();
+    expect_isolated_causes();
+    expect_default_on_front();
+    expect_whole_tables();
+    expect_worst_pixels_in_the_middle();
+}
+
+TEST(ReportRun, DisplayCodesAreTheDevices) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings(64, 36, 100);
+    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces}) {
+        settings.tone_curve = curve;
+        settings.exposure = 0.5f;
+        const Frame frame = render_once(scene, settings);
+        const auto codes = display_codes(rgb_image_of(frame.width, frame.height, frame.radiance),
+                                         settings.exposure, curve);
+        ASSERT_EQ(codes.size(), frame.display.size());
+        int worst = 0;
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            worst = std::max(worst, std::abs(codes[i] - frame.display[i]));
+        }
+        EXPECT_LE(worst, curve == ToneCurve::none ? 0 : 1) << static_cast<int>(curve);
+    }
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/report_setting.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+#include "host/render/light_source.h"
+#include "host/scene/generated_scenes.h"
+
+namespace kilolux {
+namespace {
+
+DeviceInfo device() {
+    DeviceInfo out;
+    out.is_cpu = true;
+    out.lane_width = 8;
+    out.compute_units = 2;
+    out.max_work_group = 4096;
+    return out;
+}
+
+std::set<Trade> trades(const std::vector<ReportSetting>& settings) {
+    std::set<Trade> out;
+    for (const ReportSetting& setting : settings) out.insert(setting.trade);
+    return out;
+}
+
+TEST(ReportSettings, CoverEveryTradeOnceEach) {
+    const Scene scene = make_generated_scene("grid");
+    for (const bool quick : {false, true}) {
+        const auto settings = report_settings(scene, {}, device(), quick);
+        EXPECT_EQ(settings.front().name, "default");
+        EXPECT_EQ(settings.front().options, "");
+        EXPECT_EQ(trades(settings).size(), 8u);
+        std::set<std::string> names;
+        for (const ReportSetting& s : settings) EXPECT_TRUE(names.insert(s.name).second) << s.name;
+        for (const char* name :
+             {"gbuffer full", "gbuffer half", "gbuffer normal-xy", "gbuffer oct-2x4",
+              "math fast-relaxed", "math native", "light-colors half", "renderer deferred-all",
+              "renderer forward-plus", "shading blinn-phong", "cut-off 1/256"}) {
+            EXPECT_TRUE(names.count(name)) << name;
+        }
+        EXPECT_EQ(names.count("renderer forward"), quick ? 0u : 1u);
+        EXPECT_FALSE(names.count("gbuffer packed")) << "that is the default";
+    }
+}
+
+TEST(ReportSettings, CutOffsKeepTheLightsAndSetTheirRange) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings base;
+    base.lights.count = 300;
+    const double intensity = automatic_light_scale(base.lights, scene).intensity;
+    for (const ReportSetting& s : report_settings(scene, base, device(), false)) {
+        if (s.trade != Trade::cut_off) continue;
+        const LightScale scale = automatic_light_scale(s.settings.lights, scene);
+        EXPECT_DOUBLE_EQ(scale.intensity, intensity) << s.name;
+        const double budget = scale.intensity / (std::numbers::pi * scale.radius * scale.radius);
+        EXPECT_NEAR(budget, s.settings.range_budget, 1e-12) << s.name;
+        EXPECT_NEAR(cut_off_of(scene, s.settings), budget, 1e-12);
+    }
+}
+
+// A file's lights: those with a range keep it, the others follow the budget.
+TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
+    Scene scene = make_generated_scene("plain");
+    RenderSettings base;
+    base.lights.count = 0;
+    EXPECT_EQ(trades(report_settings(scene, base, device(), false)).count(Trade::cut_off), 0u)
+        << "no light has a range to choose";
+    SceneLight ranged, open;
+    ranged.intensity = open.intensity = {10.0f, 5.0f, 1.0f};
+    ranged.range = 3.0f;
+    scene.lights = {ranged, open};
+    int cut_offs = 0;
+    for (const ReportSetting& s : report_settings(scene, base, device(), false)) {
+        if (s.trade != Trade::cut_off) continue;
+        ++cut_offs;
+        const auto lights = lights_at(scene, s.settings, 0.0);
+        EXPECT_EQ(lights[0].range, 3.0f);
+        EXPECT_FLOAT_EQ(lights[1].range,
+                        static_cast<float>(range_of_light(10.0, s.settings.range_budget)));
+    }
+    EXPECT_EQ(cut_offs, 4) << "1/256 is the default";
+}
+
+TEST(ReportSettings, ForwardRenderersHaveNoGBufferToVary) {
+    RenderSettings base;
+    base.renderer = RendererKind::forward_plus;
+    const auto found = trades(report_settings(make_generated_scene("plain"), base, device(), true));
+    EXPECT_FALSE(found.count(Trade::gbuffer));
+    EXPECT_FALSE(found.count(Trade::lanes));
+    EXPECT_FALSE(found.count(Trade::math));
+    EXPECT_TRUE(found.count(Trade::grid));
+}
+
+}  // namespace
+}  // namespace kilolux

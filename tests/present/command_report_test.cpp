@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// `kilolux report` and --max-error as a whole, on pictures small enough for any machine. No time is
+// judged.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "child.h"
+#include "host/measure/bench_row.h"
+#include "host/scene/generated_scenes.h"
+#include "messages.h"
+#include "present/command_report.h"
+#include "present/names.h"
+#include "tests/measure/cache_sandbox.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class Report : public CacheSandbox {
+ protected:
+    static ChildResult small(std::vector<std::string> words) {
+        words.insert(words.end(), {"grid", "--resolution", "64,36", "--lights", "40"});
+        return run_kilolux(words);
+    }
+    static ChildResult report(std::vector<std::string> more) {
+        more.insert(more.begin(), {"report", "--warm-up", "0", "--frames", "1", "--quick"});
+        return small(more);
+    }
+};
+
+TEST_F(Report, WritesTablesPlotsAndPictures) {
+    const TemporaryFolder folder;
+    const fs::path out = folder / "out";
+    const ChildResult result = report({"--trades", "gbuffer,math,cut-off", "-o", out.string()});
+    ASSERT_EQ(result.code, 0) << result.err;
+    for (const char* name : {"report.csv", "report.md", "report.json", "time_against_error.png",
+                             "time_against_error.svg", "time_against_unbounded_error.png",
+                             "time_against_unbounded_error.svg", "worst/default.png",
+                             "worst/gbuffer_half.png", "worst/cut-off_1_16.png"}) {
+        EXPECT_TRUE(fs::exists(out / name)) << name;
+    }
+    EXPECT_EQ(text_of_file(out / "report.md"), result.out);
+    const Json document = Json::parse(text_of_file(out / "report.json"));
+    EXPECT_FALSE(document.at("context").at("device").at("name").get<std::string>().empty());
+    EXPECT_EQ(document.at("context").at("error_resolution"), Json({64, 36}));
+    EXPECT_EQ(document.at("context").at("lights"), 40);
+    std::set<std::string> names;
+    for (const Json& row : document.at("rows")) {
+        names.insert(row.at("setting"));
+        EXPECT_GT(row.at("frame [ms]"), 0.0) << row;
+        EXPECT_GT(row.at("shade [ms]"), 0.0) << row;
+        EXPECT_GT(row.at("k"), 0.0) << row;
+        EXPECT_LE(row.at("k*/k"), 1.0) << row;
+        EXPECT_EQ(row.at("missed lights"), 0) << row;
+        for (const char* of : {"R1", "R2", "R3"}) {
+            for (const char* metric : {" max abs", " rmse", " psnr [dB]", " flip mean", " ssim"}) {
+                EXPECT_TRUE(row.at(std::string(of) + metric).is_number()) << of << metric;
+            }
+        }
+    }
+    EXPECT_EQ(names.size(), document.at("rows").size());
+    for (const char* name : {"default", "gbuffer full", "math native", "light-colors half"}) {
+        EXPECT_TRUE(names.count(name)) << name;
+    }
+    EXPECT_FALSE(names.count("lanes 1")) << "not among --trades";
+    const std::string csv = text_of_file(out / "report.csv");
+    const auto header = csv_fields(csv.substr(0, csv.find('\n')));
+    EXPECT_EQ(header.size(), document.at("rows").front().size());
+}
+
+TEST_F(Report, RefusesWhatCannotBeObeyed) {
+    const TemporaryFolder folder;
+    write_text(folder / "file", "");
+    const ChildResult blocked = report({"-o", (folder / "file").string()});
+    EXPECT_EQ(blocked.code, 1);
+    EXPECT_TRUE(contains(blocked.err, "cannot make this folder")) << blocked.err;
+    const ChildResult trade = report({"--trades", "gbufer"});
+    EXPECT_EQ(trade.code, 2);
+    EXPECT_TRUE(contains(trade.err, "gbuffer")) << trade.err;
+    const ChildResult metric = small({"render", "--max-error", "1", "--error-metric", "psnr"});
+    EXPECT_EQ(metric.code, 2);
+    EXPECT_TRUE(contains(metric.err, "r3-flip")) << metric.err;
+    EXPECT_EQ(small({"render", "-o", "x.png", "--max-error", "-1"}).code, 2);
+    EXPECT_EQ(small({"bench", "--culling", "--max-error", "1"}).code, 2);
+}
+
+TEST_F(Report, ABudgetIsChosenOnceAndKept) {
+    const TemporaryFolder folder;
+    const std::string picture = (folder / "picture.exr").string();
+    const std::vector<std::string> command = {"render", "-o", picture, "--max-error", "0.5"};
+    const ChildResult first = small(command);
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_TRUE(contains(first.err, "measured now, and kept")) << first.err;
+    EXPECT_TRUE(fs::exists(picture));
+    const ChildResult second = small(command);
+    ASSERT_EQ(second.code, 0) << second.err;
+    EXPECT_TRUE(contains(second.err, "kept from before")) << second.err;
+    const std::string chosen = first.err.substr(first.err.find("chose"));
+    EXPECT_TRUE(contains(second.err, chosen.substr(0, chosen.find(';')))) << second.err;
+    const ChildResult other = small({"render", "-o", picture, "--max-error", "0.5",
+                                     "--error-metric", "rmse", "--light-seed", "2", "--quiet"});
+    EXPECT_EQ(other.code, 0) << other.err;
+    const ChildResult bench =
+        small({"bench", "--max-error", "0.5", "--frames", "1", "--warm-up", "0"});
+    EXPECT_EQ(bench.code, 0) << bench.err;
+    EXPECT_TRUE(contains(bench.err, "kept from before")) << bench.err;
+}
+
+TEST_F(Report, AnImpossibleBudgetNamesTheBest) {
+    const TemporaryFolder folder;
+    const std::string picture = (folder / "picture.png").string();
+    const ChildResult result =
+        small({"render", "-o", picture, "--max-error", "0", "--error-metric", "rmse"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(contains(result.err, "no setting is within rmse 0; the best reachable is "))
+        << result.err;
+    EXPECT_FALSE(fs::exists(picture));
+}
+
+// What the table says for the command line leads to the setting that was measured.
+TEST(ReportOptionsText, LeadsToTheSetting) {
+    const Scene scene = make_generated_scene("grid");
+    DeviceInfo device;
+    device.lane_width = 8;
+    SharedOptions base;
+    for (const ReportSetting& setting : report_settings(scene, base.settings, device, false)) {
+        SharedOptions shared;
+        CLI::App app;
+        add_shared_options(app, shared);
+        std::istringstream words(setting.options);
+        std::vector<std::string> arguments;
+        for (std::string word; words >> word;) arguments.insert(arguments.begin(), word);
+        app.parse(arguments);
+        const RenderSettings &s = shared.settings, &expected = setting.settings;
+        EXPECT_EQ(s.renderer, expected.renderer) << setting.options;
+        EXPECT_EQ(s.gbuffer, expected.gbuffer) << setting.options;
+        EXPECT_EQ(s.shading, expected.shading) << setting.options;
+        EXPECT_EQ(s.kernels.lanes, expected.kernels.lanes) << setting.options;
+        EXPECT_EQ(s.kernels.math, expected.kernels.math) << setting.options;
+        EXPECT_EQ(s.kernels.light_colors, expected.kernels.light_colors) << setting.options;
+        EXPECT_EQ(s.grid.tiles_x, expected.grid.tiles_x) << setting.options;
+        EXPECT_EQ(s.grid.tiles_y, expected.grid.tiles_y) << setting.options;
+        EXPECT_EQ(s.grid.slices_per_octave, expected.grid.slices_per_octave) << setting.options;
+        EXPECT_EQ(s.range_budget, expected.range_budget) << setting.options;
+        EXPECT_EQ(s.lights.radius, expected.lights.radius) << setting.options;
+        EXPECT_EQ(s.lights.intensity, expected.lights.intensity) << setting.options;
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
