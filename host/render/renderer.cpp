@@ -283,6 +283,11 @@ LitSurfaces Renderer::lit_surfaces() {
     if (!parts_->deferred) {
         throw Error("renderer: the forward renderers keep no G-buffer to look at");
     }
+    if (parts_->memory.band_rows < parts_->settings.height) {
+        throw Error("renderer: the memory there is makes pictures of " +
+                    std::to_string(parts_->settings.height) + " rows in bands of " +
+                    std::to_string(parts_->memory.band_rows) + ": none is whole to look at");
+    }
     return in_stage("lit surfaces", [&] { return parts_->deferred->lit_surfaces(); });
 }
 

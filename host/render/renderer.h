@@ -45,7 +45,7 @@ class Renderer {
 
     /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a float64
     /// reference of the kernels starts from. Throws Error for the forward renderers, which keep no
-    /// G-buffer.
+    /// G-buffer, and for pictures made in bands.
     LitSurfaces lit_surfaces();
 
     const DeviceInfo& device() const;
