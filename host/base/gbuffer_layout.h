@@ -15,6 +15,7 @@ struct GBufferNeeds {
     bool material = false;         // metallic or emissive anywhere in the scene
     bool occlusion = false;        // an occlusion texture anywhere in the scene
     float emissive_scale = 1.0f;   // largest emissive value, > 0
+    bool operator==(const GBufferNeeds&) const = default;
 };
 
 /// Which planes a G-buffer has and where, for planes of stride * height elements.

@@ -13,13 +13,13 @@ DeferredPath::DeferredPath(const RenderContext& context)
       list_stages_(context.gpu, context.tuning, context.plan.kernels),
       shade_(context.gpu, context.tuning, context.plan.kernels),
       count_lights_(context.gpu, context.tuning, context.plan.kernels) {
-    shade_.set_ambient(context.settings.ambient);
     if (has_blended_surfaces(context.gpu_scene.scene())) {
         blended_.emplace(context.gpu_scene, forward_features(context.plan, !all_lights_, false));
     }
 }
 
 Radiance DeferredPath::light(const SampleInput& sample, StageTimer& timer, FrameStats& stats) {
+    shade_.set_ambient(context_.settings.ambient);
     gbuffer_ = surfaces_.draw(sample.camera, stats.stages);
     grid_ = coarse_grid(context_, sample.camera, stats);
     local_lights_ = sample.lights.count;
@@ -59,6 +59,12 @@ Radiance DeferredPath::light_from_lists(const SampleInput& sample, StageTimer& t
             mean_of_drawn(download<uint>(context_.gpu, covering, size));
     }
     return radiance;
+}
+
+PixelProbe DeferredPath::probe(int x, int y) {
+    PixelProbe out = surfaces_.probe(gbuffer_, grid_, x, y);
+    if (out.drawn() && !all_lights_) list_stages_.probe(lists_, gbuffer_.view, x, y, out);
+    return out;
 }
 
 LightCounts DeferredPath::count_lights() {

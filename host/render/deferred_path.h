@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "host/render/light_lists.h"
+#include "host/render/pixel_probe.h"
 #include "host/render/surface_pass.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/shade.h"
@@ -24,6 +25,12 @@ class DeferredPath {
 
     /// Surfaces and counts of the last light(), for AOVs and views. Blocks.
     DecodedSurfaces pixels();
+
+    /// What the last light() knows of a pixel; of its lights the indices. Blocks.
+    PixelProbe probe(int x, int y);
+
+    /// The active clusters of the last light(), without `deferred-all`. Blocks.
+    std::vector<ActiveCluster> active_clusters() const { return list_stages_.clusters(lists_); }
 
  private:
     Radiance light_from_lists(const SampleInput& sample, StageTimer& timer, FrameStats& stats);

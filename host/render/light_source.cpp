@@ -27,16 +27,25 @@ LightSource::LightSource(const Gpu& gpu, const Scene& scene, const LightOptions&
       local_(gpu, "lights"),
       directional_(gpu, "lights") {}
 
-LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) const {
-    std::vector<SceneLight> lights = own_;
-    const std::vector<SceneLight> generated = generate_lights(generated_, scene_, time);
-    lights.insert(lights.end(), generated.begin(), generated.end());
-    LightRows rows = make_light_rows(lights, camera_position);
-    stats.lights_given = lights.size();
+void LightSource::set_generated(const LightOptions& generated) {
+    if (generated == generated_) return;
+    generated_ = generated;
+    time_.reset();
+}
+
+LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) {
+    if (time_ != time) {
+        const std::vector<SceneLight> generated = generate_lights(generated_, scene_, time);
+        lights_ = own_;
+        lights_.insert(lights_.end(), generated.begin(), generated.end());
+        time_ = time;
+    }
+    LightRows rows = make_light_rows(lights_, camera_position);
+    stats.lights_given = lights_.size();
     stats.lights_rejected = rows.rejected;
     stats.lights_used = rows.local.size() + rows.directional.size();
     stats.directional_lights = rows.directional.size();
-    stats.lights_dropped = lights.size() - rows.rejected - stats.lights_used;
+    stats.lights_dropped = lights_.size() - rows.rejected - stats.lights_used;
     return rows;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/gpu/buffer.h"
@@ -18,8 +19,11 @@ class LightSource {
     /// Says so when it has to give lights of the scene a range. The scene must outlive this.
     LightSource(const Gpu& gpu, const Scene& scene, const LightOptions& generated);
 
+    /// Other generated lights from now on.
+    void set_generated(const LightOptions& generated);
+
     /// Rows relative to the camera at `time` [s]; sets the counts of lights.
-    LightRows at(double time, const glm::dvec3& camera_position, FrameStats& stats) const;
+    LightRows at(double time, const glm::dvec3& camera_position, FrameStats& stats);
 
     /// The rows on the device, until the next call.
     LightInput upload(const LightRows& rows);
@@ -28,7 +32,9 @@ class LightSource {
     Gpu gpu_;
     const Scene& scene_;
     LightOptions generated_;
-    std::vector<SceneLight> own_;  // with ranges
+    std::vector<SceneLight> own_;     // with ranges
+    std::vector<SceneLight> lights_;  // all of them at time_
+    std::optional<double> time_;      // none: not made yet
     GrowingBuffer local_, directional_;
 };
 

@@ -21,6 +21,7 @@ struct GridSettings {
     int tiles_y = 9;
     int slices_per_octave = 4;  // 1, 2, 4, ... 64
     int fine_per_octave = 16;   // of active clusters: slices_per_octave ... 64
+    bool operator==(const GridSettings&) const = default;
 };
 
 /// How kernels are built and launched; 0: the tuning table's choice for the device.
@@ -28,6 +29,7 @@ struct KernelSettings {
     int lanes = 0;         // VW: 1, 2, 4, 8, 16
     int group_height = 0;  // rows of a shading work-group
     int chunks = 0;        // of lights in culling
+    bool operator==(const KernelSettings&) const = default;
 };
 
 /// Everything that decides a picture, beside scene, camera and time: the command line's shared options.
@@ -50,6 +52,7 @@ struct RenderSettings {
     bool count_useful = false;  // also count k*, at the price of one more pass
     std::vector<std::string> force_features;  // compiled in although the scene lacks them; see forceable_features()
     std::string device;  // name, part of it, or index; empty: the best
+    bool operator==(const RenderSettings&) const = default;
 };
 
 }  // namespace kilolux
