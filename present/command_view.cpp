@@ -16,6 +16,7 @@ struct ViewOptions {
     SharedOptions shared;
     std::uint64_t exit_after = 0;
     std::string screenshot;
+    std::string script;
 };
 
 void run_view(const ViewOptions& options) {
@@ -26,6 +27,7 @@ void run_view(const ViewOptions& options) {
     session.state.settings = options.shared.settings;
     session.exit_after = options.exit_after;
     session.screenshot = options.screenshot;
+    if (!options.script.empty()) session.script = read_script(options.script);
     const WindowSystem system;
     const Window context({16, 16}, "Kilolux", false);
     Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
@@ -50,7 +52,10 @@ void add_view_command(Program& program) {
         .count({"--exit-after", "N", "", "Leave when N pictures have been shown"},
                options->exit_after, {1, 1'000'000'000})
         .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
-              options->screenshot);
+              options->screenshot)
+        .text(
+            {"--script", "FILE", "", "Do what the file's lines say, then leave; README tells how"},
+            options->script);
 }
 
 }  // namespace kilolux

@@ -80,6 +80,12 @@ ViewSession::ViewSession(const Scene& scene, SessionOptions options, Window& win
     window_.set_vsync(state_.vsync);
     worker_ = std::make_unique<RenderWorker>(scene, wanted().settings, context);
     post_startup_jobs();
+    if (!options_.script.empty()) {
+        script_ = std::make_unique<ScriptPlayer>(
+            options_.script,
+            ScriptStage{window_, ui_, [this] { return is_settled(); },
+                        [this](const std::filesystem::path& file) { save_window(file); }});
+    }
 }
 
 ViewSession::~ViewSession() {
@@ -99,6 +105,7 @@ void ViewSession::run() {
         paint();
         finish_frame();
         if (options_.exit_after > 0 && shown_ >= options_.exit_after) break;
+        if (script_ && script_->is_done()) break;
     }
     if (!options_.screenshot.empty()) save_window(options_.screenshot);
 }
@@ -111,10 +118,20 @@ void ViewSession::wait() {
         --lively_frames_;
         seconds = kFrameSeconds;
     }
+    if (script_) seconds = script_->is_settling() ? 0.01 : 0.0;
     window_.wait_events(seconds);
     const Clock::time_point now = Clock::now();
     frame_seconds_ = std::min(std::chrono::duration<double>(now - last_frame_).count(), 0.25);
     last_frame_ = now;
+    if (!script_) return;
+    frame_seconds_ = ScriptPlayer::kFrameSeconds;
+    script_->advance();
+}
+
+// The last picture is what the window wants, in full size.
+bool ViewSession::is_settled() const {
+    return requested_ && picture_ && picture_->request.serial == requested_->serial &&
+           !is_moving() && same_request(*requested_, wanted()) && worker_->is_idle();
 }
 
 void ViewSession::take_event(const InputEvent& event) {

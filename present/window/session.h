@@ -15,6 +15,7 @@
 #include "present/window/panel.h"
 #include "present/window/picture_buffers.h"
 #include "present/window/render_worker.h"
+#include "present/window/script.h"
 #include "present/window/view_state.h"
 #include "present/window/window.h"
 
@@ -24,7 +25,8 @@ namespace kilolux {
 struct SessionOptions {
     SharedOptions shared;  // scene, camera, time
     ViewState state;
-    std::uint64_t exit_after = 0;      // pictures; 0: until it is closed
+    std::uint64_t exit_after = 0;  // pictures; 0: until it is closed
+    std::vector<ScriptStep> script;
     std::filesystem::path screenshot;  // written at the end; empty: none
 };
 
@@ -69,6 +71,7 @@ class ViewSession {
     // Pictures.
     PictureRequest wanted() const;
     bool is_moving() const;
+    bool is_settled() const;
     void post_startup_jobs();
     void save_picture(const std::string& extension);
     void save_window(const std::filesystem::path& file);
@@ -102,6 +105,7 @@ class ViewSession {
     Clock::time_point last_frame_ = Clock::now();
     Clock::time_point last_change_;
     double frame_seconds_ = 0.0;
+    std::unique_ptr<ScriptPlayer> script_;  // none: a person
     int lively_frames_ = 0;  // to draw without waiting, for what the panel still has to settle
     bool dragging_ = false;  // the mouse, begun on the picture
     bool show_help_ = false;

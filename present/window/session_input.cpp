@@ -50,11 +50,11 @@ void ViewSession::steer() {
     const bool begins = pressed && !dragging_ && !gui_.wants_mouse();
     if (begins) dragging_ = true;
     // What is flown by the mouse wants room for the mouse.
-    if (begins && state_.camera_mode == CameraMode::fly) window_.grab_mouse(true);
+    if (begins && !script_ && state_.camera_mode == CameraMode::fly) window_.grab_mouse(true);
     rig_.move(camera_wish(), state_.camera_mode, frame_seconds_);
     if (dragging_ && !pressed) {
         dragging_ = false;
-        window_.grab_mouse(false);
+        if (!script_) window_.grab_mouse(false);
     }
 }
 

@@ -46,7 +46,7 @@ constexpr KeyHelp kKeys[] = {
 }  // namespace
 
 void ViewSession::describe() {
-    gui_.begin(input_, std::nullopt);
+    gui_.begin(input_, script_ ? std::optional(ScriptPlayer::kFrameSeconds) : std::nullopt);
     ui_.begin_frame();
     PanelWishes wishes;
     if (buffers_.width() > 0) {
