@@ -16,9 +16,12 @@ const cl::Buffer& GrowingBuffer::reserve(std::size_t bytes) {
     }
     try {
         buffer_ = cl::Buffer();  // before the new one is there: both might not fit
+        counted_.reset();
         bytes_ = 0;
         buffer_ = cl::Buffer(gpu_.context, CL_MEM_READ_WRITE, bytes);
         bytes_ = bytes;
+        *gpu_.allocated_bytes += bytes;
+        counted_ = std::shared_ptr<void>(nullptr, [total = gpu_.allocated_bytes, bytes](void*) { *total -= bytes; });
     } catch (const cl::Error& error) {
         throw Error(need() + "allocation failed with " + cl_error_name(error.err()));
     }

@@ -28,6 +28,7 @@ class GrowingBuffer {
     std::string owner_;
     cl::Buffer buffer_;
     std::size_t bytes_ = 0;
+    std::shared_ptr<void> counted_;  // takes bytes_ off gpu_.allocated_bytes when the last copy goes
 };
 
 /// Copies `values` to `buffer`; blocks until the host memory may be reused.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +47,9 @@ struct Gpu {
     cl::Context context;
     cl::CommandQueue queue;
     DeviceInfo info;
+    /// Bytes that GrowingBuffers of the copies hold now.
+    std::shared_ptr<std::atomic<std::uint64_t>> allocated_bytes =
+        std::make_shared<std::atomic<std::uint64_t>>(0);
 };
 
 }  // namespace kilolux

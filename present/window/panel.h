@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "host/measure/stage_report.h"
 #include "host/render/scene_plan.h"
 #include "host/scene/scene.h"
+#include "present/window/bench_job.h"
 #include "present/window/stage_history.h"
 #include "present/window/view_state.h"
 #include "present/window/widgets.h"
@@ -31,6 +33,7 @@ struct PanelFacts {
     const char* picture_way = "";     // how pictures come to the window
     std::uint64_t device_bytes = 0;   // of our OpenCL buffers
     std::uint64_t process_bytes = 0;  // resident
+    std::size_t boxes = 0;            // frozen clusters drawn
     std::string status;               // what is being worked on; empty: nothing
     std::string failure;              // the last one; empty: none
     std::string message;              // what was done last: a file saved, text copied
@@ -49,6 +52,9 @@ struct PanelWishes {
     bool help = false;
     bool reset_settings = false;
     bool dismiss_failure = false;
+    bool start_bench = false;
+    bool stop_bench = false;
+    bool measure_error = false;
 };
 
 /// The sections of the panel, one function each; they change `state` and `wishes`.
@@ -64,6 +70,7 @@ struct Panel {
     void speed() const;
     void camera(const CameraRig& rig) const;
     void window() const;
+    void bench(const std::shared_ptr<BenchProgress>& progress) const;
     void device() const;
 };
 

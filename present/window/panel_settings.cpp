@@ -22,13 +22,13 @@ void enum_choice(Widgets& ui, const char* label, Enum& value,
 void automatic_slider(Widgets& ui, const char* label, double& value, double automatic,
                       const SliderRange& range) {
     bool is_automatic = value <= 0.0;
-    const std::string box = std::string("auto ") + label;
     double shown = is_automatic ? automatic : value;
-    if (ui.slider(label, shown, range)) {
+    if (ui.slider(label, shown, range, "auto")) {
         value = shown;
         is_automatic = false;
     }
-    if (ui.checkbox(box.c_str(), is_automatic)) value = is_automatic ? 0.0 : automatic;
+    ImGui::SameLine();
+    if (ui.checkbox("auto", is_automatic, label)) value = is_automatic ? 0.0 : automatic;
 }
 
 }  // namespace
@@ -82,6 +82,13 @@ void Panel::clusters() const {
         state.settings.kernels.lanes = lane == 0 ? 0 : 1 << (lane - 1);
     }
     ui.tip("Pixels or lights a work-item treats at once; changes no bit of a picture");
+    ui.checkbox("Point at a pixel", state.probe);
+    ui.tip("Its tile, slice and box, and the lights in its list with what each adds");
+    ui.checkbox("Freeze", state.frozen);
+    ui.tip("Keeps the active clusters of this moment and draws them as boxes");
+    if (!state.frozen) return;
+    ui.slider("Least lights", state.box_lights, {0, 200, false, "%.0f"});
+    fact_line("Boxes", short_count(static_cast<double>(facts.boxes)));
 }
 
 void Panel::camera(const CameraRig& rig) const {

@@ -30,6 +30,9 @@ struct PictureRequest {
 struct Picture {
     PictureRequest request;
     Frame frame;  // without display and radiance
+    DeviceInfo device;
+    ScenePlan plan;
+    std::uint64_t device_bytes = 0;  // of our OpenCL buffers
 };
 
 /// The Renderer in a thread of its own, so that the window answers while a picture takes its time,

@@ -79,7 +79,6 @@ ViewSession::ViewSession(const Scene& scene, SessionOptions options, Window& win
     window_.on_event([this](const InputEvent& event) { take_event(event); });
     window_.set_vsync(state_.vsync);
     worker_ = std::make_unique<RenderWorker>(scene, wanted().settings, context);
-    post_startup_jobs();
     if (!options_.script.empty()) {
         script_ = std::make_unique<ScriptPlayer>(
             options_.script,
@@ -90,6 +89,7 @@ ViewSession::ViewSession(const Scene& scene, SessionOptions options, Window& win
 
 ViewSession::~ViewSession() {
     window_.on_event({});
+    if (bench_) bench_->cancelled = true;
     worker_.reset();
 }
 
@@ -131,7 +131,8 @@ void ViewSession::wait() {
 // The last picture is what the window wants, in full size.
 bool ViewSession::is_settled() const {
     return requested_ && picture_ && picture_->request.serial == requested_->serial &&
-           !is_moving() && same_request(*requested_, wanted()) && worker_->is_idle();
+           !is_moving() && same_request(*requested_, wanted()) && worker_->is_idle() && !probing_ &&
+           !freezing_;
 }
 
 void ViewSession::take_event(const InputEvent& event) {
@@ -150,12 +151,17 @@ void ViewSession::take_results() {
         lively_frames_ = kLivelyFrames;
     }
     news_->take(facts_);
+    take_clusters();
 }
 
 void ViewSession::take_picture(Picture picture) {
     const RenderSettings& drawn = picture.request.settings;
     buffers_.show(picture.request.slot, drawn.width, drawn.height);
     facts_.stats = picture.frame.stats;
+    facts_.device = picture.device;
+    facts_.plan = picture.plan;
+    facts_.device_bytes = picture.device_bytes;
+    if (shown_ == 0) post_startup_jobs();
     facts_.width = drawn.width;
     facts_.height = drawn.height;
     const Area area = picture_area();
@@ -166,6 +172,9 @@ void ViewSession::take_picture(Picture picture) {
     facts_.picture_way = buffers_.is_mapped() ? "persistent pixel buffer, written by the device"
                                               : "upload from host memory";
     scale_.picture_took(picture.frame.stats.frame_ms, facts_.scale);
+    if (boxes_ && !picture.frame.aovs.empty()) {
+        boxes_->set_depths(picture.frame.aovs.front().values, drawn.width, drawn.height);
+    }
     picture_ = std::move(picture);
     ++shown_;
 }
@@ -196,6 +205,7 @@ PictureRequest ViewSession::wanted() const {
     };
     out.settings.width = edge(area.width);
     out.settings.height = edge(area.height);
+    if (state_.frozen) out.settings.aovs = {"depth"};
     out.camera = rig_.camera();
     out.time = time_;
     return out;

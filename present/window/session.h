@@ -11,6 +11,7 @@
 #include "present/options.h"
 #include "present/window/adaptive_scale.h"
 #include "present/window/camera_rig.h"
+#include "present/window/cluster_view.h"
 #include "present/window/gui.h"
 #include "present/window/panel.h"
 #include "present/window/picture_buffers.h"
@@ -86,6 +87,18 @@ class ViewSession {
     void describe_help();
     void describe_failure(PanelWishes& wishes);
 
+    // Clusters.
+    ScreenPlace picture_place() const;
+    void ask_probe();
+    void describe_picture();
+    void describe_clusters();
+    void take_clusters();
+    void paint_boxes() const;
+    void show_boxes();
+
+    // The benchmark.
+    void start_bench();
+
     const Scene& scene_;
     SessionOptions options_;
     Window& window_;
@@ -108,6 +121,14 @@ class ViewSession {
     std::unique_ptr<ScriptPlayer> script_;  // none: a person
     int lively_frames_ = 0;  // to draw without waiting, for what the panel still has to settle
     bool dragging_ = false;  // the mouse, begun on the picture
+    std::unique_ptr<BoxPass> boxes_;        // made when first frozen
+    std::optional<FrozenClusters> frozen_;  // asked for by state_.frozen
+    bool freezing_ = false;                 // asked for, not there yet
+    int box_lights_ = -1;                   // that boxes_ were made for
+    std::optional<ProbedPixel> probed_;
+    bool probing_ = false;                       // asked for, not there yet
+    std::array<int, 3> probed_for_{-1, -1, -1};  // pixel, and number of the picture
+    std::shared_ptr<BenchProgress> bench_;       // none before the first
     bool show_help_ = false;
     bool full_screen_ = false;
     std::shared_ptr<struct SessionNews> news_;  // what jobs of the worker found out

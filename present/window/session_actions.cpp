@@ -30,9 +30,27 @@ std::string vector_text(const glm::dvec3& v) {
 
 void ViewSession::post_startup_jobs() {
     worker_->post([news = news_](Renderer& renderer) {
+        const DeviceLimits limits = cached_device_limits(renderer.gpu());
         const std::lock_guard lock(news->mutex);
-        news->device = renderer.device();
-        news->plan = renderer.plan();
+        news->limits = limits;
+    });
+}
+
+void ViewSession::start_bench() {
+    BenchRequest request;
+    const PictureRequest now = wanted();
+    request.settings = now.settings;
+    request.settings.aovs.clear();
+    request.camera = now.camera;
+    request.time = now.time;
+    request.renderers = {RendererKind::deferred, RendererKind::forward_plus};
+    request.most_lights = state_.bench_lights;
+    request.csv = free_file(state_.folder, "-bench.csv");
+    bench_ = std::make_shared<BenchProgress>();
+    worker_->post([news = news_, request, progress = bench_, &scene = scene_](Renderer&) {
+        run_bench_job(scene, request, *progress);
+        const std::lock_guard lock(news->mutex);
+        if (!progress->rows.empty()) news->message = "wrote " + request.csv.string();
     });
 }
 
@@ -50,6 +68,8 @@ void ViewSession::obey_wishes(const PanelWishes& wishes) {
         window_.set_clipboard(render_command());
         facts_.message = "copied the command";
     }
+    if (wishes.start_bench) start_bench();
+    if (wishes.stop_bench && bench_) bench_->cancelled = true;
     if (wishes.save_png) save_picture(".png");
     if (wishes.save_exr) save_picture(".exr");
     if (wishes.help) show_help_ = !show_help_;

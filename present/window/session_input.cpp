@@ -102,6 +102,12 @@ void ViewSession::obey_key(const KeyEvent& key) {
         case GLFW_KEY_SPACE:
             state_.lights_move = !state_.lights_move;
             break;
+        case GLFW_KEY_X:
+            state_.probe = !state_.probe;
+            break;
+        case GLFW_KEY_G:
+            state_.frozen = !state_.frozen;
+            break;
         case GLFW_KEY_F11:
             wishes.full_screen = true;
             break;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "present/window/cluster_view.h"
 #include "present/window/panel.h"
 
 namespace kilolux {
@@ -12,23 +13,17 @@ namespace kilolux {
 /// What the worker's jobs found out, until the window takes it.
 struct SessionNews {
     std::mutex mutex;
-    std::optional<DeviceInfo> device;
-    std::optional<ScenePlan> plan;
     std::optional<DeviceLimits> limits;
-    std::optional<std::uint64_t> device_bytes;
     std::optional<std::string> message;
+    std::optional<ProbedPixel> probed;
+    std::optional<FrozenClusters> frozen;
+    bool probe_done = false;  // with or without a result
 
     void take(PanelFacts& facts) {
         const std::lock_guard lock(mutex);
-        if (device) facts.device = *device;
-        if (plan) facts.plan = *plan;
         if (limits) facts.limits = *limits;
-        if (device_bytes) facts.device_bytes = *device_bytes;
         if (message) facts.message = *message;
-        device.reset();
-        plan.reset();
         limits.reset();
-        device_bytes.reset();
         message.reset();
     }
 };

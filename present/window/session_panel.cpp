@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <imgui.h>
 
-#include <cstdint>
-#include <cstdio>
+#include <algorithm>
 
 #include "present/names.h"
 #include "present/window/session.h"
@@ -49,13 +48,8 @@ void ViewSession::describe() {
     gui_.begin(input_, script_ ? std::optional(ScriptPlayer::kFrameSeconds) : std::nullopt);
     ui_.begin_frame();
     PanelWishes wishes;
-    if (buffers_.width() > 0) {
-        const auto size = window_.size();
-        const auto texture = reinterpret_cast<ImTextureID>(std::uintptr_t{buffers_.texture()});
-        ImGui::GetBackgroundDrawList()->AddImage(
-            texture, {panel_width(), 0.0f},
-            {static_cast<float>(size[0]), static_cast<float>(size[1])});
-    }
+    describe_picture();
+    describe_clusters();
     if (state_.show_panel) describe_panel(wishes);
     if (state_.show_overlay) describe_overlay();
     if (show_help_) describe_help();
@@ -76,9 +70,9 @@ void ViewSession::describe_panel(PanelWishes& wishes) {
     panel.speed();
     panel.clusters();
     panel.camera(rig_);
+    panel.bench(bench_);
     panel.window();
     panel.device();
-    if (!facts_.message.empty()) ImGui::TextWrapped("%s", facts_.message.c_str());
     ImGui::End();
 }
 
@@ -97,7 +91,18 @@ void ViewSession::describe_overlay() {
         ImGui::Text("%s  %s lights", name_of(state_.settings.renderer).c_str(),
                     short_count(static_cast<double>(facts_.stats.lights_used)).c_str());
     }
+    if (bench_ && bench_->running) {
+        ImGui::Text("benchmark: %zu of %zu pictures", bench_->frames_done.load(),
+                    bench_->frames_total.load());
+    }
+    if (state_.frozen)
+        ImGui::Text("frozen: %s clusters", short_count(static_cast<double>(facts_.boxes)).c_str());
     if (!facts_.status.empty() && shown_ > 0) ImGui::TextUnformatted(facts_.status.c_str());
+    if (!facts_.message.empty()) {
+        ImGui::PushTextWrapPos(gui_.scaled(260.0f));
+        ImGui::TextUnformatted(facts_.message.c_str());
+        ImGui::PopTextWrapPos();
+    }
     ImGui::End();
 }
 

@@ -54,11 +54,12 @@ double StageHistory::ms(std::size_t i, std::size_t stage) const {
 }
 
 double StageHistory::median_ms(std::size_t stage) const {
+    if (size() == 0 || !(ms(size() - 1, stage) > 0.0)) return -1.0;
     std::vector<double> values;
     for (std::size_t i = size() - std::min(size(), kRecent); i < size(); ++i) {
         if (ms(i, stage) > 0.0) values.push_back(ms(i, stage));
     }
-    return values.empty() ? -1.0 : median(values);
+    return median(values);
 }
 
 double StageHistory::median_frame_ms() const {
@@ -67,14 +68,16 @@ double StageHistory::median_frame_ms() const {
     return median({frames_.end() - recent, frames_.end()});
 }
 
-double StageHistory::largest_ms() const {
-    double largest = 0.0;
+double StageHistory::usual_ms() const {
+    std::vector<double> sums;
     for (const std::vector<double>& times : times_) {
         double sum = 0.0;
         for (const double time : times) sum += time;
-        largest = std::max(largest, sum);
+        sums.push_back(sum);
     }
-    return largest;
+    if (sums.empty()) return 0.0;
+    std::sort(sums.begin(), sums.end());
+    return sums[(sums.size() - 1) * 9 / 10];
 }
 
 unsigned stage_color(std::size_t stage) {
@@ -92,14 +95,15 @@ void draw_stage_history(const StageHistory& history, float height) {
     ImGui::Dummy({width, height});
     draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, 0xff161414, 4.0f);
     if (history.size() == 0) return;
-    const double top = round_up(std::max(history.largest_ms(), 1e-3));
+    const double top = round_up(std::max(history.usual_ms(), 1e-3));
     const float bar = width / static_cast<float>(StageHistory::kLength);
     const float first = origin.x + width - bar * static_cast<float>(history.size());
     for (std::size_t i = 0; i < history.size(); ++i) {
         const float x = first + bar * static_cast<float>(i);
         float y = origin.y + height;
         for (std::size_t stage = 0; stage < history.stages().size(); ++stage) {
-            const float rise = height * static_cast<float>(history.ms(i, stage) / top);
+            const float rise =
+                std::min(height * static_cast<float>(history.ms(i, stage) / top), y - origin.y);
             if (rise <= 0.0f) continue;
             draw.AddRectFilled({x, y - rise}, {x + std::max(bar, 1.0f), y}, stage_color(stage));
             y -= rise;

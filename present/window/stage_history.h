@@ -24,12 +24,14 @@ class StageHistory {
     double ms(std::size_t i, std::size_t stage) const;
     double frame_ms(std::size_t i) const { return frames_.at(i); }
 
-    /// Median of a stage over the pictures that have it among the latest few [ms]; < 0: none has.
+    /// Median of a stage over the pictures that have it among the latest few [ms]; < 0: the latest
+    /// one has it not.
     double median_ms(std::size_t stage) const;
     double median_frame_ms() const;
 
-    /// The largest of a picture's stages in sum [ms].
-    double largest_ms() const;
+    /// What nearly all pictures' stages take in sum at most [ms]: the first after a change also
+    /// compile.
+    double usual_ms() const;
 
  private:
     std::vector<std::string> stages_;

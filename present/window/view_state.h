@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "host/render/settings.h"
@@ -22,6 +23,9 @@ struct ViewState {
     bool vsync = true;
     bool show_panel = true;
     bool show_overlay = true;
+    bool frozen = false;  // the clusters of a moment are drawn as boxes; not kept
+    int box_lights = 1;   // that a frozen cluster must have to be drawn
+    std::uint64_t bench_lights = 16384;
     bool probe = false;  // lists of the pixel under the mouse
     std::array<int, 2> window_size = {1280, 800};
     std::string folder;  // for saved pictures; empty: where the program was started

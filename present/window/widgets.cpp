@@ -55,11 +55,14 @@ WidgetPlace& Widgets::note(const std::string& name) {
     return place;
 }
 
-void Widgets::label(const char* text) const {
+void Widgets::label(const char* text, const char* beside) const {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(text);
     ImGui::SameLine(label_width_);
-    ImGui::SetNextItemWidth(-FLT_MIN);
+    const float room = *beside == '\0' ? FLT_MIN
+                                       : ImGui::CalcTextSize(beside).x + ImGui::GetFrameHeight() +
+                                             2.0f * ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetNextItemWidth(-room);
 }
 
 bool Widgets::section(const char* label, bool open_at_first) {
@@ -70,9 +73,12 @@ bool Widgets::section(const char* label, bool open_at_first) {
     return open;
 }
 
-bool Widgets::checkbox(const char* text, bool& value) {
+bool Widgets::checkbox(const char* text, bool& value, const char* owner) {
+    const std::string name = *owner == '\0' ? text : std::string(owner) + " " + text;
+    ImGui::PushID(owner);
     const bool changed = ImGui::Checkbox(text, &value);
-    note(text);
+    ImGui::PopID();
+    note(name);
     return changed;
 }
 
@@ -82,8 +88,9 @@ bool Widgets::button(const char* text, bool wide) {
     return clicked;
 }
 
-bool Widgets::slider(const char* text, double& value, const SliderRange& range) {
-    label(text);
+bool Widgets::slider(const char* text, double& value, const SliderRange& range,
+                     const char* beside) {
+    label(text, beside);
     const bool changed =
         ImGui::SliderScalar(hidden(text).c_str(), ImGuiDataType_Double, &value, &range.low,
                             &range.high, range.format, flags_of(range));

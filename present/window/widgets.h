@@ -44,9 +44,12 @@ class Widgets {
     void set_label_width(float width) { label_width_ = width; }
 
     bool section(const char* label, bool open_at_first);
-    bool checkbox(const char* label, bool& value);
+    /// `owner`: what it belongs to where several have the same label; first word of its name.
+    bool checkbox(const char* label, bool& value, const char* owner = "");
     bool button(const char* label, bool wide = false);
-    bool slider(const char* label, double& value, const SliderRange& range);
+    /// `beside`: the label of a box that follows in the same line.
+    bool slider(const char* label, double& value, const SliderRange& range,
+                const char* beside = "");
     bool slider(const char* label, float& value, const SliderRange& range);
     bool slider(const char* label, int& value, const SliderRange& range);
     bool slider(const char* label, std::uint64_t& value, const SliderRange& range);
@@ -59,7 +62,7 @@ class Widgets {
     std::vector<std::string> names() const;
 
  private:
-    void label(const char* text) const;
+    void label(const char* text, const char* beside = "") const;
     WidgetPlace& note(const std::string& name);
 
     float label_width_ = 100.0f;
