@@ -31,10 +31,11 @@ Radiance DeferredPath::light(const SampleInput& sample, StageTimer& timer, Frame
 
 Radiance DeferredPath::light_from_all(const SampleInput& sample, StageTimer& timer,
                                       FrameStats& stats) {
-    const PreparedLights lights = prepare_.enqueue(sample.lights, gbuffer_.view, grid_, timer);
+    lists_ = {};
+    lists_.lights = prepare_.enqueue(sample.lights, gbuffer_.view, grid_, timer);
     stats.evaluations_per_pixel = sample.lights.count;
     stats.useful_evaluations_per_pixel = -1.0;
-    return shade_.enqueue_all_lights(gbuffer_, lights, timer);
+    return shade_.enqueue_all_lights(gbuffer_, lists_.lights, timer);
 }
 
 Radiance DeferredPath::light_from_lists(const SampleInput& sample, StageTimer& timer,
@@ -59,6 +60,12 @@ Radiance DeferredPath::light_from_lists(const SampleInput& sample, StageTimer& t
             mean_of_drawn(download<uint>(context_.gpu, covering, size));
     }
     return radiance;
+}
+
+LitSurfaces DeferredPath::lit_surfaces() {
+    const PreparedLights& lights = lists_.lights;
+    return {pixels(), download<ShadeLight>(context_.gpu, lights.lights, lights.count),
+            download<DirectionalLight>(context_.gpu, lights.directional, lights.directional_count)};
 }
 
 PixelProbe DeferredPath::probe(int x, int y) {

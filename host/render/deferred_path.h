@@ -26,6 +26,9 @@ class DeferredPath {
     /// Surfaces and counts of the last light(), for AOVs and views. Blocks.
     DecodedSurfaces pixels();
 
+    /// What the last light() shaded, and with which lights. Blocks.
+    LitSurfaces lit_surfaces();
+
     /// What the last light() knows of a pixel; of its lights the indices. Blocks.
     PixelProbe probe(int x, int y);
 

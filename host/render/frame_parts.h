@@ -9,6 +9,7 @@
 #include "host/render/frame.h"
 #include "host/scene/camera.h"
 #include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/light.h"
 #include "kernels/shared/surface_planes.h"
 #include "kernels/shared/view.h"
 
@@ -33,6 +34,13 @@ struct DecodedSurfaces {
     std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground
     std::vector<uint> covering;   // [height][stride] k*: those that reach it; empty if not counted
     ClusterGrid grid{};
+};
+
+/// What was shaded with what, on the host.
+struct LitSurfaces {
+    DecodedSurfaces surfaces;
+    std::vector<ShadeLight> lights;             // view space
+    std::vector<DirectionalLight> directional;  // view space
 };
 
 /// The coarse cluster of the pixel at an index of the planes; none for background.

@@ -317,6 +317,18 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
     return in_stage("render", [&] { return parts_->render_to(pixels, camera, time); });
 }
 
+LitSurfaces Renderer::lit_surfaces() {
+    const auto found = parts_->deferred.find(parts_->settings.renderer);
+    if (found == parts_->deferred.end()) {
+        throw Error("renderer: the forward renderers keep no G-buffer to look at");
+    }
+    return in_stage("lit surfaces", [&] { return found->second.lit_surfaces(); });
+}
+
+std::uint64_t Renderer::light_count(const RenderSettings& settings) const {
+    return settings.lights.count + scene_->scene.lights.size();
+}
+
 PixelProbe Renderer::probe(int x, int y) {
     if (scene_->context) scene_->context->make_current();
     return in_stage("probe", [&] { return parts_->probe(x, y); });

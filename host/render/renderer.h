@@ -7,6 +7,7 @@
 
 #include "host/gpu/device.h"
 #include "host/render/frame.h"
+#include "host/render/frame_parts.h"
 #include "host/render/pixel_probe.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
@@ -58,12 +59,20 @@ class Renderer {
     /// and Frame::radiance are empty. A device that shares the host's memory writes there itself.
     Frame render_to(std::span<uint> pixels, const Camera& camera, double time);
 
+    /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a
+    /// float64 reference of the kernels starts from. Throws Error for the forward renderers, which
+    /// keep no G-buffer.
+    LitSurfaces lit_surfaces();
+
     /// The surface at a pixel of the last render, and the lights in its list. Blocks.
     PixelProbe probe(int x, int y);
 
     /// The active clusters of the last render, in its camera's view space; none unless the renderer
     /// is `deferred`. Blocks.
     std::vector<ActiveCluster> active_clusters() const;
+
+    /// Lights that `settings` mean, the scene's own and the generated ones.
+    std::uint64_t light_count(const RenderSettings& settings) const;
 
     const DeviceInfo& device() const;
     const ScenePlan& plan() const;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/measure/device_limits.h"
+#include "host/measure/frame_error.h"
 #include "host/measure/stage_report.h"
 #include "host/render/scene_plan.h"
 #include "host/scene/scene.h"
@@ -57,6 +60,14 @@ struct PanelWishes {
     bool measure_error = false;
 };
 
+/// A measurement of the picture's error, shared by the thread that measures and the window.
+struct ErrorProgress {
+    std::mutex mutex;  // guards the result
+    std::optional<FrameError> result;
+    std::atomic<float> share = 0.0f;
+    std::atomic<bool> running = true;
+};
+
 /// The sections of the panel, one function each; they change `state` and `wishes`.
 struct Panel {
     Widgets& ui;
@@ -70,6 +81,7 @@ struct Panel {
     void speed() const;
     void camera(const CameraRig& rig) const;
     void window() const;
+    void error(const std::shared_ptr<ErrorProgress>& progress) const;
     void bench(const std::shared_ptr<BenchProgress>& progress) const;
     void device() const;
 };

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <utility>
 
+#include "host/base/error.h"
 #include "present/interrupt.h"
 #include "present/window/session_news.h"
 #include "raster/gl_context.h"
@@ -147,6 +148,8 @@ void ViewSession::take_results() {
     }
     while (const std::optional<RenderWorker::Failure> failure = worker_->take_failure()) {
         if (failure->slot) buffers_.release(*failure->slot);
+        // A person reads it and goes on; a script cannot.
+        if (script_) throw Error(failure->what);
         facts_.failure = failure->what;
         lively_frames_ = kLivelyFrames;
     }
@@ -166,7 +169,7 @@ void ViewSession::take_picture(Picture picture) {
     facts_.height = drawn.height;
     const Area area = picture_area();
     facts_.scale = area.width > 0 ? static_cast<double>(drawn.width) / area.width : 1.0;
-    facts_.history.add(picture.frame.stats);
+    facts_.history.add(picture.frame.stats, drawn.width * drawn.height);
     facts_.status.clear();
     facts_.process_bytes = resident_bytes();
     facts_.picture_way = buffers_.is_mapped() ? "persistent pixel buffer, written by the device"

@@ -76,8 +76,8 @@ class ViewSession {
     void post_startup_jobs();
     void save_picture(const std::string& extension);
     void save_window(const std::filesystem::path& file);
-    std::string camera_options() const;
-    std::string render_command() const;
+    std::string command() const;
+    void copy(const std::string& text);
     Area picture_area() const;
     float panel_width() const;
 
@@ -98,6 +98,7 @@ class ViewSession {
 
     // The benchmark.
     void start_bench();
+    void start_error();
 
     const Scene& scene_;
     SessionOptions options_;
@@ -129,6 +130,7 @@ class ViewSession {
     bool probing_ = false;                       // asked for, not there yet
     std::array<int, 3> probed_for_{-1, -1, -1};  // pixel, and number of the picture
     std::shared_ptr<BenchProgress> bench_;       // none before the first
+    std::shared_ptr<ErrorProgress> error_;
     bool show_help_ = false;
     bool full_screen_ = false;
     std::shared_ptr<struct SessionNews> news_;  // what jobs of the worker found out

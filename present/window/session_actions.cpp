@@ -3,8 +3,10 @@
 
 #include <cstring>
 
+#include "host/base/error.h"
 #include "present/frame_summary.h"
 #include "present/image_file.h"
+#include "present/window/command_text.h"
 #include "present/window/session.h"
 #include "present/window/session_news.h"
 
@@ -22,10 +24,6 @@ fs::path free_file(const fs::path& folder, const std::string& extension) {
     }
 }
 
-std::string vector_text(const glm::dvec3& v) {
-    return number_text(v.x) + "," + number_text(v.y) + "," + number_text(v.z);
-}
-
 }  // namespace
 
 void ViewSession::post_startup_jobs() {
@@ -33,6 +31,28 @@ void ViewSession::post_startup_jobs() {
         const DeviceLimits limits = cached_device_limits(renderer.gpu());
         const std::lock_guard lock(news->mutex);
         news->limits = limits;
+    });
+}
+
+// Of the picture as it is on the screen.
+void ViewSession::start_error() {
+    error_ = std::make_shared<ErrorProgress>();
+    worker_->post([progress = error_, request = wanted(), &worker = *worker_](Renderer& renderer) {
+        const auto tell = [&](double share) {
+            progress->share = static_cast<float>(share);
+            if (worker.is_stopping()) throw Interrupted();
+            wake_windows();
+        };
+        try {
+            const FrameError error =
+                measure_frame_error(renderer, request.settings, request.camera, request.time, tell);
+            const std::lock_guard lock(progress->mutex);
+            progress->result = error;
+        } catch (...) {
+            progress->running = false;
+            throw;
+        }
+        progress->running = false;
     });
 }
 
@@ -61,13 +81,12 @@ void ViewSession::obey_wishes(const PanelWishes& wishes) {
         rig_.set(camera_of(scene_.cameras.at(static_cast<std::size_t>(*wishes.scene_camera))));
     }
     if (wishes.copy_camera) {
-        window_.set_clipboard(camera_options());
-        facts_.message = "copied the camera's options";
+        copy(camera_options(rig_, options_.shared, scene_));
     }
     if (wishes.copy_command) {
-        window_.set_clipboard(render_command());
-        facts_.message = "copied the command";
+        copy(command());
     }
+    if (wishes.measure_error) start_error();
     if (wishes.start_bench) start_bench();
     if (wishes.stop_bench && bench_) bench_->cancelled = true;
     if (wishes.save_png) save_picture(".png");
@@ -76,6 +95,21 @@ void ViewSession::obey_wishes(const PanelWishes& wishes) {
     if (wishes.dismiss_failure) facts_.failure.clear();
     if (wishes.full_screen) full_screen_ = !full_screen_;
     window_.set_full_screen(full_screen_);
+}
+
+void ViewSession::copy(const std::string& text) {
+    window_.set_clipboard(text);
+    facts_.message = "copied: " + text;
+}
+
+std::string ViewSession::command() const {
+    SharedOptions options = options_.shared;
+    options.settings = wanted().settings;
+    const Area area = picture_area();
+    options.settings.width = area.width;
+    options.settings.height = area.height;
+    options.time = time_;
+    return render_command(rig_, options, scene_);
 }
 
 // In full size, whatever is on the screen.
@@ -122,20 +156,6 @@ void ViewSession::save_window(const fs::path& file) {
     }
     for (std::size_t i = 3; i < frame.display.size(); i += 4) frame.display[i] = 255;
     write_image(file, frame);
-}
-
-std::string ViewSession::camera_options() const {
-    const Camera& camera = rig_.camera();
-    std::string out;
-    if (!rig_.is_unmoved() || scene_.cameras.empty()) {
-        out = "--camera-position " + vector_text(camera.position) + " --camera-focal-point " +
-              vector_text(rig_.focal_point());
-    }
-    return out + " --camera-view-angle " + number_text(glm::degrees(camera.y_fov));
-}
-
-std::string ViewSession::render_command() const {
-    return "kilolux render " + options_.shared.scene + " " + camera_options();
 }
 
 }  // namespace kilolux

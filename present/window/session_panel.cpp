@@ -70,6 +70,7 @@ void ViewSession::describe_panel(PanelWishes& wishes) {
     panel.speed();
     panel.clusters();
     panel.camera(rig_);
+    panel.error(error_);
     panel.bench(bench_);
     panel.window();
     panel.device();

@@ -29,7 +29,7 @@ double round_up(double value) {
 
 }  // namespace
 
-void StageHistory::add(const FrameStats& stats) {
+void StageHistory::add(const FrameStats& stats, int pixels) {
     std::vector<double> times(stages_.size(), 0.0);
     for (const StageTime& stage : stats.stages) {
         const auto found = std::find(stages_.begin(), stages_.end(), stage.name);
@@ -42,9 +42,11 @@ void StageHistory::add(const FrameStats& stats) {
     }
     times_.push_back(std::move(times));
     frames_.push_back(stats.frame_ms);
+    pixels_.push_back(pixels);
     if (times_.size() > kLength) {
         times_.pop_front();
         frames_.pop_front();
+        pixels_.pop_front();
     }
 }
 
@@ -56,7 +58,7 @@ double StageHistory::ms(std::size_t i, std::size_t stage) const {
 double StageHistory::median_ms(std::size_t stage) const {
     if (size() == 0 || !(ms(size() - 1, stage) > 0.0)) return -1.0;
     std::vector<double> values;
-    for (std::size_t i = size() - std::min(size(), kRecent); i < size(); ++i) {
+    for (const std::size_t i : recent()) {
         if (ms(i, stage) > 0.0) values.push_back(ms(i, stage));
     }
     return median(values);
@@ -64,8 +66,18 @@ double StageHistory::median_ms(std::size_t stage) const {
 
 double StageHistory::median_frame_ms() const {
     if (frames_.empty()) return 0.0;
-    const auto recent = static_cast<std::ptrdiff_t>(std::min(size(), kRecent));
-    return median({frames_.end() - recent, frames_.end()});
+    std::vector<double> values;
+    for (const std::size_t i : recent()) values.push_back(frames_[i]);
+    return median(values);
+}
+
+// Pictures that can be compared with the newest.
+std::vector<std::size_t> StageHistory::recent() const {
+    std::vector<std::size_t> out;
+    for (std::size_t i = size() - std::min(size(), kRecent); i < size(); ++i) {
+        if (pixels_[i] == pixels_.back()) out.push_back(i);
+    }
+    return out;
 }
 
 double StageHistory::usual_ms() const {

@@ -14,7 +14,8 @@ class StageHistory {
  public:
     static constexpr std::size_t kLength = 160;  // pictures
 
-    void add(const FrameStats& stats);
+    /// `pixels`: of the picture; medians are over pictures of the newest one's size.
+    void add(const FrameStats& stats, int pixels);
 
     /// Stages in the order of first use; one keeps its place, and so its colour.
     const std::vector<std::string>& stages() const { return stages_; }
@@ -34,9 +35,12 @@ class StageHistory {
     double usual_ms() const;
 
  private:
+    std::vector<std::size_t> recent() const;
+
     std::vector<std::string> stages_;
     std::deque<std::vector<double>> times_;  // by stage; shorter where later stages are unknown
     std::deque<double> frames_;
+    std::deque<int> pixels_;
 };
 
 /// Draws stacked stage times, the newest at the right, in the space there is; `height` [pixel].

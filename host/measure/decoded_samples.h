@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/measure/surface_samples.h"
+#include "host/render/frame_parts.h"
+
+namespace kilolux {
+
+/// A decoded G-buffer as a reference shades it: float32 values as they are, normals not made unit
+/// again, since the kernels take them so too. Background where the depth is 0.
+SurfaceSamples surface_samples(const DecodedSurfaces& decoded);
+
+}  // namespace kilolux
