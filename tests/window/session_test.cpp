@@ -166,8 +166,8 @@ TEST(Window, SlidersAndTextReachThePicture) {
     script.shot("start");
     script.line("slide exposure -4").shot("dark");
     script.line("type exposure 0").shot("back");
-    script.line("slide lights 20000").shot("lights");
-    script.line("type lights 150").shot("typed");
+    script.line("slide lights 20000").line("move 20 410").shot("lights");
+    script.line("type lights 150").line("move 20 410").shot("typed");
     script.line("choose tone map aces").shot("aces");
     script.line("slide bloom 0.6").shot("bloom");
     play(script);
