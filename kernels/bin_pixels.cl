@@ -21,7 +21,7 @@ typedef struct TileSlices {
 
 static inline UV slices_of_strip(GBuffer g, ClusterGrid grid, uint x, uint y) {
     FV depth01 = load_depth01(g, x, y);
-    FV z = view_depth(g.view, pixel_centers_x(x), fv((float)y + 0.5f), depth01);
+    FV z = view_depth(g.view, pixel_centers_x(x), pixel_center_y(g.view, y), depth01);
     UV slice = fine_slice_of_depth(grid, z);
     MASK drawn = (depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(g.view.width));
     return select((UV)(NO_SLICE), slice, full_mask(drawn));
@@ -83,7 +83,7 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
         if (!any_lane(mask)) continue;
         uint x = tile_x * FINE_TILE + i % STRIPS * VW;
         uint y = tile_y * FINE_TILE + i / STRIPS;
-        FV z = view_depth(g.view, pixel_centers_x(x), fv((float)y + 0.5f), load_depth01(g, x, y));
+        FV z = view_depth(g.view, pixel_centers_x(x), pixel_center_y(g.view, y), load_depth01(g, x, y));
         FV3 p = load_position(g, x, y, z);
         lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)), min(lo.z, select_fv(mask, p.z, lo.z)));
         hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)), max(hi.z, select_fv(mask, p.z, hi.z)));

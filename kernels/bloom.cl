@@ -16,12 +16,23 @@ static inline FV bloomable(FV v) {
     return fmin(fmax(v, fv(0.0f)), fv(1e36f));
 }
 
-// p[0], p[2], p[4] ...
+// p[0], p[2], p[4] ... Elements by name, since oclgrind 21.10 crashes on vectors joined of halves
+// such as (a.even, b.even); compilers make the same shuffles of both.
 static inline FV every_second(global const float* p) {
 #if VW == 1
     return p[0];
 #else
-    return (FV)(load_lanes(p).even, load_lanes(p + VW).even);
+    FV a = load_lanes(p), b = load_lanes(p + VW);
+#if VW == 2
+    return (FV)(a.s0, b.s0);
+#elif VW == 4
+    return (FV)(a.s0, a.s2, b.s0, b.s2);
+#elif VW == 8
+    return (FV)(a.s0, a.s2, a.s4, a.s6, b.s0, b.s2, b.s4, b.s6);
+#else
+    return (FV)(a.s0, a.s2, a.s4, a.s6, a.s8, a.sa, a.sc, a.se,  //
+                b.s0, b.s2, b.s4, b.s6, b.s8, b.sa, b.sc, b.se);
+#endif
 #endif
 }
 
@@ -58,8 +69,28 @@ kernel void bloom_down(global const float* restrict fine,  // [3][height][stride
     store_lanes(sum, coarse + (plane * coarse_size.y + y) * coarse_size.z + x);
 }
 
+// Half as many lanes.
+#if VW == 2
+#define HALF_LOAD(p) (*(p))
+#elif VW == 4
+#define HALF_LOAD(p) vload2(0, p)
+#elif VW == 8
+#define HALF_LOAD(p) vload4(0, p)
+#elif VW == 16
+#define HALF_LOAD(p) vload8(0, p)
+#endif
+
 // The coarse row doubled at pixels x .. x + VW - 1.
 static inline FV doubled_row(global const float* row, uint width, uint x) {
+#if VW > 1
+    if (x > 0u && x / 2u + VW / 2u < width) {  // not at a border: whole loads
+        FV near, far;
+        near.even = near.odd = HALF_LOAD(row + x / 2u);
+        far.even = HALF_LOAD(row + x / 2u - 1u);
+        far.odd = HALF_LOAD(row + x / 2u + 1u);
+        return fma(near, fv(0.75f), far * 0.25f);
+    }
+#endif
 #define NEAR(i) row[clamped((int)((x + i) / 2u), width)]
 #define FAR(i) row[clamped((int)((x + i) / 2u) + ((x + i) % 2u != 0u ? 1 : -1), width)]
     return fma(LANES(FV, NEAR), fv(0.75f), LANES(FV, FAR) * 0.25f);

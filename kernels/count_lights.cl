@@ -38,7 +38,7 @@ kernel void count_lights(global const uchar* restrict gbuffer,
     UV k = (UV)(~0u);
     UV k_star = (UV)(~0u);
     if (any_lane(drawn)) {
-        FV z = view_depth(view, pixel_centers_x(x), fv((float)y + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
+        FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y), select_fv(drawn, depth01, fv(1.0f)));
         FV3 p = load_position(g, x, y, z);
         UV slice = fine_slice_of_depth(grid, z);
         uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;

@@ -15,7 +15,7 @@ kernel void decode_gbuffer(global const uchar* restrict gbuffer,
     GBuffer g = {gbuffer, layout, view, srgb};
     FV depth01 = load_depth01(g, x, y);
     MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
-    FV z = view_depth(view, pixel_centers_x(x), fv((float)y + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
+    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y), select_fv(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, x, y, z);
     FV values[SURFACE_PLANES] = {z, s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
                                  s.albedo.x, s.albedo.y, s.albedo.z, s.roughness, s.metallic,

@@ -17,13 +17,12 @@
 #define BATCH (GROUP * VW)
 
 // The coarse cluster that holds a fine tile's fine slice.
-static inline uint coarse_cluster(ClusterGrid grid, uint fine_tiles_x, uint tile, uint slice) {
+static inline uint coarse_cluster(View view, ClusterGrid grid, uint tile, uint slice) {
+    uint fine_tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
     uint column = tile % fine_tiles_x * FINE_TILE / grid.tile_width;
-    uint row = tile / fine_tiles_x * FINE_TILE / grid.tile_height;
+    uint row = (tile / fine_tiles_x * FINE_TILE + view.first_row) / grid.tile_height;
     return cluster_index(grid, column, row, slice >> grid.fine_slice_bits);
 }
-
-static inline uint fine_tiles_in_row(View view) { return (view.width + FINE_TILE - 1) / FINE_TILE; }
 
 kernel void refine_lights_reserve(View view,
                                   ClusterGrid grid,
@@ -39,7 +38,7 @@ kernel void refine_lights_reserve(View view,
     // More clusters than there is room for: the host grows the buffer and runs the stage again.
     uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
-        uint coarse = coarse_cluster(grid, fine_tiles_in_row(view), tile, clusters[i].slice);
+        uint coarse = coarse_cluster(view, grid, tile, clusters[i].slice);
         sum += coarse_offsets[coarse + 1] - coarse_offsets[coarse];
     }
     reserves[tile] = sum;
@@ -136,7 +135,7 @@ kernel void refine_lights(global const ShadeLight* restrict lights,  // [count],
     uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
         ActiveCluster c = clusters[i];
-        uint coarse = coarse_cluster(grid, fine_tiles_in_row(view), tile, c.slice);
+        uint coarse = coarse_cluster(view, grid, tile, c.slice);
         uint coarse_begin = coarse_offsets[coarse];
         uint coarse_end = min(coarse_offsets[coarse + 1], coarse_capacity);
         uint begin = place;

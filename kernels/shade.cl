@@ -158,7 +158,7 @@ kernel void shade(global const uchar* restrict gbuffer,
         return;
     }
 #endif
-    FV z = view_depth(view, pixel_centers_x(x), fv((float)row + 0.5f), select_fv(drawn, depth01, fv(1.0f)));
+    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, row), select_fv(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, x, row, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     LightSum sum = zero_sum();

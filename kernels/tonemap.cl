@@ -2,7 +2,6 @@
 // Linear HDR radiance -> 8-bit sRGB: exposure, tone curve, transfer function, exact rounding.
 // One work-item makes VW neighbouring pixels of a row.
 #include "kernels/device/lanes.h"
-#include "kernels/shared/power.h"
 #include "kernels/shared/tone_curve.h"
 
 #ifndef TONE_CURVE
@@ -27,25 +26,30 @@ static inline UV srgb_code_by_table(global const float* bucket_boundary, global 
 #endif
 }
 
-// The same by arithmetic in all lanes at once; only where a value lies within 1/512 of a code's boundary,
-// far more than the arithmetic's error (1e-4), do the lanes ask the table.
+// The same by arithmetic in all lanes at once: 255 (1.055 c^(1/2.4) - 0.055) + 0.5 as a polynomial in
+// c^(1/4), minimax on [0.0031, 1], error 3.7e-4. Only where a value lies within 1/1024 of a code's boundary,
+// more than that and float's rounding (1e-4), do the lanes ask the table.
 static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
-    FV curve = fma(pow_of_unit(c, c - fv(1.0f), fv(1.0f / 2.4f)), fv(1.055f * 255.0f), fv(0.5f - 0.055f * 255.0f));
+    FV u = sqrt(sqrt(c));
+    FV curve = fma(u, fv(17.4495867f), fv(-81.4141021f));
+    curve = fma(u, curve, fv(167.921942f));
+    curve = fma(u, curve, fv(-217.775036f));
+    curve = fma(u, curve, fv(348.426791f));
+    curve = fma(u, curve, fv(35.5733148f));
+    curve = fma(u, curve, fv(0.5f - 0.055f * 255.0f - 1.1571349f));
     FV line = fma(c, fv(12.92f * 255.0f), fv(0.5f));
     FV code_and_rest = select_fv(c <= fv(0.0031308f), line, curve);
-    UV code = to_uint_lanes(code_and_rest);
-    FV rest = code_and_rest - to_float_lanes(code);
-    FV from_middle = rest - fv(0.5f);
-    if (any_lane(max(from_middle, -from_middle) > fv(0.5f - 1.0f / 512.0f))) {
+    IV code = to_int_lanes(code_and_rest);
+    FV from_middle = (code_and_rest - to_float_lanes(code)) - fv(0.5f);
+    if (any_lane(max(from_middle, -from_middle) > fv(0.5f - 1.0f / 1024.0f))) {
         return srgb_code_by_table(bucket_boundary, bucket_code, v);
     }
-    return code;
+    return KX_CONCAT(as_, UV)(code);
 }
 
 // NaN and negative light are black, infinite light is white, not what a tone curve would make of them.
-// fmax, since max leaves NaN open.
-static inline FV displayable(FV v) { return fmin(fmax(v, fv(0.0f)), fv(1e9f)); }
+static inline FV displayable(FV v) { return min(select_fv(v > fv(0.0f), v, fv(0.0f)), fv(1e9f)); }
 
 kernel void tonemap(global const float* restrict radiance,         // [3][height][stride]
                     uint pixel_count,                              // height * stride

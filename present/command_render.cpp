@@ -67,7 +67,7 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
     const OutputOptions& out = options.output;
     std::optional<Reference> reference;
     if (!task.reference.empty()) reference.emplace(task.reference);
-    const Frame frame = renderer.render(camera, task.time);
+    const Frame frame = renderer.render(camera, task.time, check_interrupt);
     check_interrupt();
     FrameRecord record{task.frame, task.time, task.file.string(), frame.stats, std::nullopt};
     if (reference) record.comparison = reference->compare(frame, out.metric, out.threshold);
@@ -125,6 +125,7 @@ void run_render(const RenderOptions& options) {
     const std::vector<Task> tasks = tasks_of(options);
     if (tasks.empty()) return note("nothing to render: every file is there");
     check_files(options, tasks);
+    check_light_memory(options.shared.settings);
     const Scene scene = open_scene(options.shared.scene, tasks.front().time);
     const Camera camera = choose_camera(options.shared.camera, scene);
     check_interrupt();

@@ -48,8 +48,12 @@ void catch_signals() {
     for (const int number : {SIGXFSZ, SIGPIPE}) signal(number, SIG_IGN);
 }
 
+bool interrupt_requested() {
+    return state().requested != 0;
+}
+
 void check_interrupt() {
-    if (state().requested != 0) throw Interrupted();
+    if (interrupt_requested()) throw Interrupted();
 }
 
 void set_unfinished_file(const std::filesystem::path& file) {

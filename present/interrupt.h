@@ -10,6 +10,10 @@ namespace kilolux {
 /// limit or into a closed pipe becomes an error of write() instead of a signal.
 void catch_signals();
 
+/// Whether a signal has asked for the end. What fails from then on fails because of it: the OpenCL
+/// compiler, for one, removes its files at a signal and says that they are missing.
+bool interrupt_requested();
+
 /// Throws Interrupted once a signal has asked for the end.
 void check_interrupt();
 

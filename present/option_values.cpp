@@ -111,6 +111,20 @@ std::uint64_t parse_count(const std::string& option, std::string_view text,
     return *value;
 }
 
+std::uint64_t parse_bytes(const std::string& option, std::string_view text) {
+    constexpr std::string_view kUnits = "KMGT";
+    if (text == "auto") return 0;
+    std::string_view digits = text;
+    const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+    if (unit != std::string_view::npos) digits.remove_suffix(1);
+    const int shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
+    const auto value = number_of<std::uint64_t>(digits);
+    if (!value || *value == 0 || *value > (~std::uint64_t{0} >> shift)) {
+        refuse(option, text, "'auto' or a size such as 512M or 4G");
+    }
+    return *value << shift;
+}
+
 std::vector<int> parse_counts(const std::string& option, std::string_view text,
                               std::string_view form, const CountRange& range) {
     std::vector<int> values;

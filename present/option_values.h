@@ -39,6 +39,9 @@ double parse_number_or_auto(const std::string& option, std::string_view text,
 std::uint64_t parse_count(const std::string& option, std::string_view text,
                           const CountRange& range);
 
+/// Bytes as "512M", "4G" (K, M, G, T are powers of 1024) or a plain number, at least 1; "auto": 0.
+std::uint64_t parse_bytes(const std::string& option, std::string_view text);
+
 /// `size` whole numbers within `range`, separated by commas; `form` is how they are written: "W,H".
 std::vector<int> parse_counts(const std::string& option, std::string_view text,
                               std::string_view form, const CountRange& range);

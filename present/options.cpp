@@ -117,7 +117,14 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
         const std::size_t place = parse_name(name, text, {"auto", "1", "2", "4", "8", "16"});
         s.kernels.lanes = place == 0 ? 0 : 1 << (place - 1);
     };
+    const auto memory = [&s](const std::string& name, const std::string& text) {
+        s.max_memory_bytes = parse_bytes(name, text);
+    };
     Registrar(command, "Device and tuning")
+        .value({"--max-memory", "SIZE|auto", "auto",
+                "Of the program, e.g. 512M or 4G: pictures that need more are made in bands, with "
+                "the same bits; auto: most of what is available"},
+               memory)
         .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, s.device)
         .question("--list-devices", "Print the OpenCL devices and leave")
         .value({"--grid", "X,Y,SLICES_PER_OCTAVE", "16,9,4",

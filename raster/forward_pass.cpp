@@ -112,12 +112,13 @@ void ForwardPass::draw_transparent(const Camera& camera) const {
     blended_.draw(scene_, draws, glm::mat4(clip_from_view(camera, width, height)));
 }
 
-void ForwardPass::draw_blended(const Camera& camera, const GBufferTargets& gbuffer,
-                               std::span<const float> radiance, const ForwardLights& lights) {
+void ForwardPass::draw_blended(const Camera& camera, const View& view,
+                               const GBufferTargets& gbuffer, std::span<const float> radiance,
+                               const ForwardLights& lights) {
     const int width = gbuffer.width();
     const int height = gbuffer.height();
     prepare(width, height);
-    light_buffers_.upload(lights, view_of(camera, width, height));
+    light_buffers_.upload(lights, view);
     timer_.begin();
     load_radiance(*targets_, radiance);
     glBlitNamedFramebuffer(gbuffer.framebuffer(), targets_->framebuffer(), 0, 0, width, height, 0,

@@ -35,8 +35,9 @@ class ForwardPass {
     void draw(const Camera& camera, int width, int height, const ForwardLights& lights);
 
     /// Draws what blends over `radiance` (float[3][height][stride], red, green, blue) with the
-    /// depth of a G-buffer of the same size. Enqueues only.
-    void draw_blended(const Camera& camera, const GBufferTargets& gbuffer,
+    /// depth of a G-buffer of the same size. `camera` sees what the targets hold, a band of the
+    /// picture perhaps; `view` is the picture's, with the band's rows. Enqueues only.
+    void draw_blended(const Camera& camera, const View& view, const GBufferTargets& gbuffer,
                       std::span<const float> radiance, const ForwardLights& lights);
 
     /// The picture as float[3][height][stride]; waits for it. 0 past the width.

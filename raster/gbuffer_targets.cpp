@@ -193,32 +193,45 @@ void check_target_size(int width, int height) {
 namespace {
 
 // llvmpipe reads pixels fast, and converts what it reads from textures.
-void read_from_framebuffer(const GBufferTargets& targets, const PlaneRead& read, void* destination) {
+void read_from_framebuffer(const GBufferTargets& targets, const PlaneRead& read, RowRange rows,
+                           void* destination) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, targets.framebuffer());
     if (read.source != GL_DEPTH_ATTACHMENT) glReadBuffer(read.source);
-    glReadPixels(0, 0, targets.width(), targets.height(), read.format, read.type, destination);
+    glReadPixels(0, rows.first, targets.width(), rows.count, read.format, read.type, destination);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 
 // NVIDIA's driver takes 0.2 ms for a plane of 1920x1080 this way, and 340 ms by glReadPixels.
-void read_from_texture(const GBufferTargets& targets, const PlaneRead& read, void* destination) {
+void read_from_texture(const GBufferTargets& targets, const PlaneRead& read, RowRange rows,
+                       void* destination) {
     const GLuint texture = read.source == GL_DEPTH_ATTACHMENT
                                ? targets.depth_texture()
                                : targets.color_texture(read.source - GL_COLOR_ATTACHMENT0);
-    glGetTextureImage(texture, 0, read.format, read.type, std::numeric_limits<GLsizei>::max(), destination);
+    constexpr GLsizei kAnySize = std::numeric_limits<GLsizei>::max();
+    if (rows.count == targets.height()) {
+        glGetTextureImage(texture, 0, read.format, read.type, kAnySize, destination);
+    } else {
+        glGetTextureSubImage(texture, 0, 0, rows.first, 0, targets.width(), rows.count, 1,
+                             read.format, read.type, kAnySize, destination);
+    }
 }
 
 }  // namespace
 
 void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
                 void* destination) {
+    read_plane(targets, read, stride, {0, targets.height()}, destination);
+}
+
+void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride, RowRange rows,
+                void* destination) {
     glPixelStorei(GL_PACK_ALIGNMENT, stride % 4 == 0 ? 4 : 1);
     const bool padded = stride != static_cast<uint>(targets.width());
     if (padded) glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(stride));
     if (is_software_renderer()) {
-        read_from_framebuffer(targets, read, destination);
+        read_from_framebuffer(targets, read, rows, destination);
     } else {
-        read_from_texture(targets, read, destination);
+        read_from_texture(targets, read, rows, destination);
     }
     glPixelStorei(GL_PACK_ROW_LENGTH, 0);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);

@@ -57,10 +57,18 @@ class GBufferTargets {
 /// Throws Error unless the driver can draw into targets of this size [pixel].
 void check_target_size(int width, int height);
 
+/// Neighbouring rows of a target, from the top.
+struct RowRange {
+    int first = 0;
+    int count = 0;
+};
+
 /// Reads one plane, rows `stride` elements apart, image rows from the top. `destination` is a host
 /// pointer, or an offset where a pixel pack buffer is bound. Elements past the width are left
 /// alone.
 void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
+                void* destination);
+void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride, RowRange rows,
                 void* destination);
 
 /// All planes in host memory, laid out as make_gbuffer_layout() says; 0 past the width.

@@ -3,13 +3,42 @@
 
 #include <CL/opencl.hpp>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/gpu/device.h"
 
 namespace kilolux {
+
+/// A buffer's share of a budget, given back with it.
+class BufferCharge {
+   public:
+    BufferCharge() = default;
+    BufferCharge(std::shared_ptr<MemoryBudget> budget, std::uint64_t bytes)
+        : budget_(std::move(budget)), bytes_(budget_ ? bytes : 0) {
+        if (budget_) budget_->used += bytes_;
+    }
+    BufferCharge(BufferCharge&& other) noexcept
+        : budget_(std::move(other.budget_)), bytes_(std::exchange(other.bytes_, 0)) {}
+    BufferCharge& operator=(BufferCharge&& other) noexcept {
+        std::swap(budget_, other.budget_);
+        std::swap(bytes_, other.bytes_);
+        return *this;
+    }
+    BufferCharge(const BufferCharge&) = delete;
+    BufferCharge& operator=(const BufferCharge&) = delete;
+    ~BufferCharge() {
+        if (budget_) budget_->used -= bytes_;
+    }
+    std::uint64_t bytes() const { return bytes_; }
+
+   private:
+    std::shared_ptr<MemoryBudget> budget_;
+    std::uint64_t bytes_ = 0;
+};
 
 /// A device buffer that grows on demand and never shrinks; its contents are lost when it grows.
 class GrowingBuffer {
@@ -18,17 +47,20 @@ class GrowingBuffer {
     GrowingBuffer(const Gpu& gpu, std::string_view owner) : gpu_(gpu), owner_(owner) {}
 
     /// The buffer with room for at least `bytes` (at least 16 are allocated).
-    /// Throws Error with owner, need and limit when the device cannot provide it.
+    /// Throws Error with owner, need and limit when the device cannot provide it or the budget
+    /// does not allow it.
     const cl::Buffer& reserve(std::size_t bytes);
     const cl::Buffer& get() const { return buffer_; }
     std::size_t bytes() const { return bytes_; }
 
    private:
+    void check(std::size_t bytes) const;
+
     Gpu gpu_;
     std::string owner_;
     cl::Buffer buffer_;
     std::size_t bytes_ = 0;
-    std::shared_ptr<void> counted_;  // takes bytes_ off gpu_.allocated_bytes when the last copy goes
+    BufferCharge charge_;
 };
 
 /// Copies `values` to `buffer`; blocks until the host memory may be reused.

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "host/base/error.h"
+#include "host/gpu/program.h"
 
 namespace kilolux {
 namespace {
@@ -102,7 +103,7 @@ Gpu::Gpu(const cl::Device& chosen, int lane_width) : device(chosen) {
         queue = cl::CommandQueue(context, device, cl::QueueProperties::Profiling);
     } catch (const cl::Error& error) {
         throw Error("OpenCL: " + trimmed(device.getInfo<CL_DEVICE_NAME>()) + ": " + error.what() + " failed with " +
-                    std::to_string(error.err()));
+                    cl_error_name(error.err()));
     }
     info = describe(device);
     if (lane_width > 0) info.lane_width = lane_width;

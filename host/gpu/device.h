@@ -2,12 +2,13 @@
 #pragma once
 
 #include <CL/opencl.hpp>
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "host/gpu/memory_budget.h"
 
 namespace kilolux {
 
@@ -47,9 +48,7 @@ struct Gpu {
     cl::Context context;
     cl::CommandQueue queue;
     DeviceInfo info;
-    /// Bytes that GrowingBuffers of the copies hold now.
-    std::shared_ptr<std::atomic<std::uint64_t>> allocated_bytes =
-        std::make_shared<std::atomic<std::uint64_t>>(0);
+    std::shared_ptr<MemoryBudget> budget;  // of GrowingBuffers; none: what the device has
 };
 
 }  // namespace kilolux

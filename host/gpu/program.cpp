@@ -19,14 +19,19 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
 }
 
 cl::Program build(const Gpu& gpu, const std::string& file, const std::string& text, const std::string& options) {
+    const auto fail = [&](int code, const std::string& log) {
+        throw Error(file + ": build failed with " + cl_error_name(code) + " on " + gpu.info.name + ", options '" +
+                    options + "': " + log);
+    };
     cl::Program program;
     try {
         program = cl::Program(gpu.context, text);
-        program.build(gpu.device, options.c_str());
     } catch (const cl::Error& error) {
-        throw Error(file + ": build failed with " + cl_error_name(error.err()) + " on " + gpu.info.name + ", options '" +
-                    options + "': " + build_log(program, gpu.device));
+        fail(error.err(), "the source was not taken");
     }
+    // Not program.build(): where there is no log, its error is that there is none.
+    const int code = ::clBuildProgram(program(), 1, &gpu.device(), options.c_str(), nullptr, nullptr);
+    if (code != CL_SUCCESS) fail(code, build_log(program, gpu.device));
     return program;
 }
 

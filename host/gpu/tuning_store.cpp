@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/tuning_store.h"
 
+#include <algorithm>
+
 #include <bit>
 
 #include "host/gpu/device_cache.h"
@@ -60,7 +62,10 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
 }
 
 StoredTuning built_in_tuning(const DeviceInfo& device) {
-    return {device.lane_width, default_tuning(device)};
+    // On CPUs two vectors a work-item: their chains of operations hide each other's latency (AVX2,
+    // shade, against one vector: lambert 1.1, pbr 1.2, blinn-phong 1.4 times as fast).
+    const int lanes = device.is_cpu ? std::min(2 * device.lane_width, 16) : device.lane_width;
+    return {lanes, default_tuning(device)};
 }
 
 std::optional<StoredTuning> stored_tuning(const DeviceInfo& device) {

@@ -50,18 +50,20 @@ void GBufferBridge::make_staging(std::size_t bytes) {
     staging_ = std::move(staging);
 }
 
-GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs, const View& view) {
+GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs,
+                                const View& view, int first_row) {
     return in_stage(kStage, [&] {
         const auto start = std::chrono::steady_clock::now();
         GBuffer out;
         out.layout = make_gbuffer_layout(needs, view.stride, view.height);
         out.view = view;
         const std::size_t bytes = gbuffer_bytes(out.layout, view.stride, view.height);
-        if (!staging_ || staging_->bytes != bytes) make_staging(bytes);
+        if (!staging_ || staging_->bytes < bytes) make_staging(bytes);
         glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
         for (const PlaneRead& read : targets.reads()) {
             const std::size_t offset = out.layout.offset_bytes[read.plane];
-            read_plane(targets, read, view.stride, reinterpret_cast<void*>(offset));
+            read_plane(targets, read, view.stride, {first_row, static_cast<int>(view.height)},
+                       reinterpret_cast<void*>(offset));
         }
         glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
         wait_for_gl();

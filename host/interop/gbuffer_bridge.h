@@ -23,7 +23,9 @@ class GBufferBridge {
 
     /// The planes of what was drawn to `targets`, on the device. Waits for OpenGL to finish, not for
     /// OpenCL. Valid until the next call; the queue must be done with the last result before it.
-    GBuffer transfer(const GBufferTargets& targets, const GBufferNeeds& needs, const View& view);
+    /// `view`'s rows begin at row `first_row` of the targets.
+    GBuffer transfer(const GBufferTargets& targets, const GBufferNeeds& needs, const View& view,
+                     int first_row = 0);
 
     /// Host time of the last transfer, OpenGL's reading included [ms].
     double last_ms() const { return last_ms_; }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "host/base/gbuffer_layout.h"
+#include "host/measure/limit_kernels.h"
 #include "host/measure/stage_model.h"
 #include "host/render/kernel_choice.h"
 #include "host/scene/camera.h"
@@ -118,7 +119,7 @@ void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) 
     m.bound = bound_name(limit.bound);
     m.evaluations = counts.evaluations;
     m.bytes = work.bytes_read + work.bytes_written;
-    m.instruction_ms = 1e3 * work.lanes.instructions / limits.lane_instructions_per_s;
+    m.instruction_ms = 1e3 * work.lanes.instructions / (0.5 * limits.fma_flops);
 }
 
 // The least time of the same model with one lane.
@@ -139,7 +140,7 @@ int shading_variants(const RenderSettings& settings) {
 }
 
 std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings,
-                                                const DeviceLimits& limits, int runs,
+                                                DeviceLimits limits, int runs,
                                                 const std::function<void()>& on_run) {
     return in_stage("shading bench", [&] {
         const Gpu gpu = open_device(settings);
@@ -147,7 +148,9 @@ std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings,
             make_gbuffer(gpu, view_of(Camera{}, settings.width, settings.height));
         const PreparedLights lights = make_lights(gpu);
         std::vector<Variant> variants = make_variants(gpu, settings);
+        LimitKernels limit_kernels(Gpu(gpu.context, gpu.queue, describe(gpu.device).lane_width));
         for (int run = -1; run < runs; ++run) {
+            raise_arithmetic_limits(limits, limit_kernels);
             for (Variant& variant : variants) {
                 StageTimer timer;
                 variant.shade.enqueue_all_lights(gbuffer, lights, timer);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/device_limits.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/base/error.h"
@@ -58,7 +59,23 @@ std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
     return limits;
 }
 
+void raise(double& limit, double measured) {
+    limit = std::max(limit, measured);
+}
+
 }  // namespace
+
+void raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
+    const auto rate = [&](const char* kernel, int operations) {
+        return kernels.lane_operations_per_s(kernel, operations);
+    };
+    raise(limits.fma_flops, 2.0 * rate("fma_rate", kFmaChains));
+    raise(limits.lane_instructions_per_s, limits.fma_flops / 2.0);
+    raise(limits.lane_instructions_per_s, rate("instruction_rate", kFmaChains + kAddChains));
+    raise(limits.rsqrt_per_s, rate("rsqrt_rate", kFmaChains));
+    raise(limits.sqrt_per_s, rate("sqrt_rate", kFmaChains));
+    raise(limits.divisions_per_s, rate("division_rate", kFmaChains));
+}
 
 DeviceLimits measure_device_limits(const Gpu& gpu) {
     return in_stage("measure_limits", [&] {
@@ -68,17 +85,11 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         LimitKernels kernels(natural);
         DeviceLimits limits;
         limits.lanes = info.lane_width;
-        limits.fma_flops = 2.0 * kernels.lane_operations_per_s("fma_rate", kFmaChains);
+        raise_arithmetic_limits(limits, kernels);
         limits.one_lane_fma_flops =
             info.lane_width == 1
                 ? limits.fma_flops
                 : 2.0 * LimitKernels(one_lane).lane_operations_per_s("fma_rate", kFmaChains);
-        limits.lane_instructions_per_s =
-            std::max(limits.fma_flops / 2.0,
-                     kernels.lane_operations_per_s("instruction_rate", kFmaChains + kAddChains));
-        limits.rsqrt_per_s = kernels.lane_operations_per_s("rsqrt_rate", kFmaChains);
-        limits.sqrt_per_s = kernels.lane_operations_per_s("sqrt_rate", kFmaChains);
-        limits.divisions_per_s = kernels.lane_operations_per_s("division_rate", kFmaChains);
         limits.cache_bytes = static_cast<double>(std::max(info.cache_bytes, kSmallestCache));
         const MemoryRates large = kernels.memory_rates(large_buffer_bytes(info));
         limits.read_bandwidth = large.read;

@@ -5,6 +5,8 @@
 
 namespace kilolux {
 
+class LimitKernels;
+
 /// What a device does at best, measured: the roofs that stages' times stand against.
 ///
 /// "Lane operations" count each lane of an FV by itself, so that devices of every width compare.
@@ -41,6 +43,10 @@ struct DeviceLimits {
 /// Measures the device; about a second. The best of several runs counts, as other work on the
 /// machine can only slow it. Throws Error when a kernel fails.
 DeviceLimits measure_device_limits(const Gpu& gpu);
+
+/// Measures the arithmetic again and keeps what is better: between the runs of a benchmark, so that
+/// limits and runs see the same machine.
+void raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
 
 /// The limits kept in the user's cache folder, or measured and kept. Where they cannot be kept, a
 /// warning says so and they are measured anew the next time. `measure_again`: ignore what is kept.

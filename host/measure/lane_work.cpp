@@ -4,30 +4,27 @@
 
 /// The operations of kernels/shared/evaluate.h and kernels/device/gbuffer.h, counted by their
 /// source. Checked against PoCL 3.1's AVX2 code of shade's inner loop, where an inverse square root
-/// is two instructions: Lambert 23, with spot lights 34, Blinn-Phong 85, PBR 68, with metals 71
-/// vector arithmetic instructions a light; by the source 23, 33, 84, 68, 71 (two negations are the
-/// rest).
+/// is two instructions: Lambert 21, Blinn-Phong 78, PBR 68 vector arithmetic instructions a light.
 namespace kilolux {
 namespace {
 
-// n.l from an unnormalised direction 3 + 1, at least 0 1, lit 1.
-constexpr LaneWork kIncident = {6.0};
 // sum.x..z with one weight.
 constexpr LaneWork kAddScaled = {3.0};
-// Half vector 3, its length's square 3, at least 1, inverse square root.
-constexpr LaneWork kHalfVector = {8.0, 1.0};
-// pow_one_minus(): 1 - h 2, exponent and mantissa 7, f 3, logarithm 12, product 3, exponential 13.
-constexpr LaneWork kPowOneMinus = {40.0};
+// Half vector 3, its length's square 3, at least 1.
+constexpr LaneWork kHalfVector = {7.0};
+// pow_one_minus(): 1 - h and its sign 3, exponent and mantissa 7, f 3, logarithm 7 and a division,
+// product 1, exponential 14.
+constexpr LaneWork kPowOneMinus = {36.0, 0.0, 0.0, 1.0};
 
 LaneWork blinn_phong_work() {
-    // d 3, its square 3, half of it 1, at most 1 1; weight 1.
-    return kHalfVector + LaneWork{9.0} + kPowOneMinus + 2.0 * kAddScaled;
+    // Inverse root 1, d 3, its square 3, half of it 1; weight 1.
+    return kHalfVector + LaneWork{9.0, 1.0} + kPowOneMinus + 2.0 * kAddScaled;
 }
 
 LaneWork pbr_work(bool metallic) {
-    // n x h 6, its square 3, times 1/h^2 2, at most 1 1, GGX 1; Smith 2 and a square root 1, both
-    // 2; lobe 2 and a division 1; Schlick 3 + 1 + 1 + 1 + 2, 1 - f 1.
-    const LaneWork lobe = {30.0, 0.0, 1.0, 1.0};
+    // n x h 6, its square 3, GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a
+    // division 1; Schlick 3, inverse root 1, 2 + 3, 1 - f 1.
+    const LaneWork lobe = {31.0, 1.0, 1.0, 1.0};
     // Diffuse weight 1; specular weight 2 (dielectric), or 1 and its untinted part's 1.
     const LaneWork sums = (metallic ? 3.0 : 2.0) * kAddScaled + LaneWork{3.0};
     return kHalfVector + lobe + sums;
@@ -36,12 +33,26 @@ LaneWork pbr_work(bool metallic) {
 LaneWork incident_work(const KernelFeatures& kernels) {
     switch (kernels.shading) {
         case SHADING_BLINN_PHONG:
-            return kIncident + blinn_phong_work();
+            return blinn_phong_work();
         case SHADING_PBR:
-            return kIncident + pbr_work(kernels.metallic);
+            return pbr_work(kernels.metallic);
         default:
-            return kIncident + kAddScaled;
+            return kAddScaled;
     }
+}
+
+// From the distance's square and n.v to a unit direction's n.l and falloff.
+LaneWork falloff_work(const KernelFeatures& kernels) {
+    // At least d_min 1; root 1, cube 1, product 1, division 1.
+    if (kernels.shading == SHADING_LAMBERT) return {5.0, 0.0, 1.0, 1.0};
+    // At least d_min 1, inverse root 1, n.l 1, products 3.
+    return {6.0, 1.0};
+}
+
+// Cone 3 + 1 + 4, its square 1, window 1; Lambert divides for the inverse distance.
+LaneWork cone_work(const KernelFeatures& kernels) {
+    if (kernels.shading == SHADING_LAMBERT) return {11.0, 0.0, 0.0, 1.0};
+    return {10.0};
 }
 
 // Position, normal and albedo from what the layout stores.
@@ -98,16 +109,15 @@ LaneWork operator*(double times, const LaneWork& work) {
 }
 
 LaneWork work_of_evaluation(const KernelFeatures& kernels) {
-    // v 3, d^2 3, in ranges 1, window 2, at least d_min 1, inverse root 1, strength 2.
-    LaneWork work = LaneWork{13.0, 1.0} + incident_work(kernels);
-    // Along the axis 3, cosine 1, cone 4, its square 1, strength 1.
-    if (kernels.spot_lights) work = work + LaneWork{10.0};
+    // v 3, d^2 3, in ranges 1, window 2, n.v 3 + 1.
+    LaneWork work = LaneWork{13.0} + falloff_work(kernels) + incident_work(kernels);
+    if (kernels.spot_lights) work = work + cone_work(kernels);
     return work;
 }
 
 LaneWork work_of_directional(const KernelFeatures& kernels) {
-    // Its direction is a unit vector and its strength 1: n.l needs two operations less.
-    return incident_work(kernels) + LaneWork{-2.0};
+    // n.l 3 + 1.
+    return LaneWork{4.0} + incident_work(kernels);
 }
 
 LaneWork work_of_pixel(const KernelFeatures& kernels) {

@@ -128,12 +128,27 @@ StageWork shade_work(const StageCounts& c) {
     return work;
 }
 
+// The two finest levels of the pyramid, which move 0.94 of all its bytes: down reads a level and
+// writes a quarter of it, up reads that quarter and the level and writes the level.
+StageWork bloom_work(const StageCounts& c) {
+    constexpr double kLevels = 1.0 + 0.25;
+    StageWork work;
+    work.bytes_read = kLevels * (1.0 + 0.25 + 1.0) * kRadianceBytes * c.pixels;
+    work.bytes_written = kLevels * (0.25 + 1.0) * kRadianceBytes * c.pixels;
+    // A channel of a coarse pixel: 4 rows of 4 bounded taps 3 and filter 4, their filter 4; of a fine
+    // one: 2 rows 2, wide 2, mix 2.
+    work.lanes = kLevels * 3.0 * c.pixels * (0.25 * LaneWork{68.0} + LaneWork{8.0});
+    work.launches = 4;
+    return work;
+}
+
 StageWork tonemap_work(const StageCounts& c) {
     StageWork work;
     work.bytes_read = kRadianceBytes * c.pixels;
     work.bytes_written = kDisplayBytes * c.pixels;
-    // Exposure and bound 6, sRGB codes 3 * 7, packing 5. Tone curves differ: none is counted.
-    work.lanes = c.pixels * LaneWork{32.0};
+    // Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest 6);
+    // packing 5. Tone curves differ: none is counted.
+    work.lanes = c.pixels * LaneWork{74.0, 0.0, 6.0};
     work.launches = 1;
     return work;
 }
@@ -166,7 +181,7 @@ constexpr Model kModels[] = {
     {"prepare_lights", prepare_work}, {"build_clusters", build_work},
     {"cull_lights", cull_work},       {"bin_pixels", bin_work},
     {"refine_lights", refine_work},   {"shade", shade_work},
-    {"tonemap", tonemap_work},
+    {"bloom", bloom_work},            {"tonemap", tonemap_work},
 };
 
 // What fits the cache moves at the cache's rate, the rest at memory's.

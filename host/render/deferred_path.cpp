@@ -20,7 +20,7 @@ DeferredPath::DeferredPath(const RenderContext& context)
 
 Radiance DeferredPath::light(const SampleInput& sample, StageTimer& timer, FrameStats& stats) {
     shade_.set_ambient(context_.settings.ambient);
-    gbuffer_ = surfaces_.draw(sample.camera, stats.stages);
+    gbuffer_ = surfaces_.draw(sample.camera, sample.band, sample.redraw, stats.stages);
     grid_ = coarse_grid(context_, sample.camera, stats);
     local_lights_ = sample.lights.count;
     const Radiance radiance =
@@ -87,7 +87,7 @@ void DeferredPath::blend(const SampleInput& sample, const Radiance& radiance, Fr
     HostCoarseLists lists;
     if (!all_lights_) lists = list_stages_.download_coarse(lists_);
     blended_->draw_blended(
-        sample.camera, surfaces_.targets(), planes,
+        crop(sample.camera, context_.settings.height, sample.band), view, surfaces_.targets(), planes,
         forward_lights(sample.rows, context_.settings.ambient, all_lights_ ? nullptr : &lists));
     upload<float>(context_.gpu, radiance.planes, blended_->read_radiance(view.stride));
     add_stage_time(stats.stages, "blended", blended_->last_ms());

@@ -72,7 +72,8 @@ std::vector<uint> ForwardPath::evaluated(const Camera& camera, const DecodedSurf
 PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
     if (!surfaces_) surfaces_.emplace(context_);
     std::vector<StageTime> untimed;
-    PixelProbe out = surfaces_->probe(surfaces_->draw(camera, untimed), grid_, x, y);
+    PixelProbe out = surfaces_->probe(
+        surfaces_->draw(camera, {0, context_.settings.height}, true, untimed), grid_, x, y);
     if (!out.drawn() || !clustered_) return out;
     const uint cluster = cluster_index(grid_, out.tile_x, out.tile_y, out.slice);
     out.has_list = true;
@@ -86,7 +87,7 @@ PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
 DecodedSurfaces ForwardPath::pixels(const Camera& camera) {
     if (!surfaces_) surfaces_.emplace(context_);
     std::vector<StageTime> untimed;
-    DecodedSurfaces out = surfaces_->decode(surfaces_->draw(camera, untimed), grid_);
+    DecodedSurfaces out = surfaces_->decode(surfaces_->draw(camera, {0, context_.settings.height}, true, untimed), grid_);
     out.evaluated = evaluated(camera, out);
     return out;
 }

@@ -79,8 +79,8 @@ std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixe
     const float z = value_at(s, SURFACE_DEPTH, pixel);
     if (z == 0.0f) return std::nullopt;
     const uint x = static_cast<uint>(pixel % s.view.stride) / s.grid.tile_width;
-    const uint y = static_cast<uint>(pixel / s.view.stride) / s.grid.tile_height;
-    return cluster_index(s.grid, x, y, slice_of_depth(s.grid, z));
+    const uint row = static_cast<uint>(pixel / s.view.stride) + s.view.first_row;
+    return cluster_index(s.grid, x, row / s.grid.tile_height, slice_of_depth(s.grid, z));
 }
 
 std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view) {

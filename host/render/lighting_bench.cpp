@@ -179,7 +179,9 @@ LightingRun LightingBench::Parts::run(const LightingRequest& request) {
 
 LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
                              const Camera& camera, double time)
-    : parts_(std::make_unique<Parts>(scene, settings, camera, time)) {}
+    : parts_(in_stage("lighting bench", [&] {
+          return std::make_unique<Parts>(scene, settings, camera, time);
+      })) {}
 LightingBench::~LightingBench() = default;
 LightingBench::LightingBench(LightingBench&&) noexcept = default;
 LightingBench& LightingBench::operator=(LightingBench&&) noexcept = default;

@@ -5,6 +5,7 @@
 
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
+#include "host/render/bands.h"
 #include "host/render/frame.h"
 #include "host/render/light_input.h"
 #include "host/render/scene_plan.h"
@@ -24,11 +25,13 @@ struct RenderContext {
     Box box;  // of the scene, world space [m]
 };
 
-/// One sample of a frame to light: the lights on the host and, uploaded, on the device.
+/// One sample of a band of a frame to light: the lights on the host and, uploaded, on the device.
 struct SampleInput {
-    const Camera& camera;
+    const Camera& camera;  // of the whole picture
     const LightRows& rows;
     LightInput lights;
+    Band band;
+    bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
 };
 
 /// Adds to the stage's time, or appends the stage.

@@ -3,19 +3,12 @@
 
 #include <chrono>
 #include <cstring>
-#include <map>
 
-#include "host/render/deferred_path.h"
-#include "host/render/forward_path.h"
-#include "host/render/kernel_choice.h"
-#include "host/render/light_source.h"
-#include "host/render/radiance_sum.h"
-#include "host/render/render_scene.h"
+#include "host/render/bands.h"
+#include "host/render/frame_bands.h"
+#include "host/render/renderer_parts.h"
 #include "host/render/sample_pattern.h"
 #include "host/render/views.h"
-#include "host/stages/bloom.h"
-#include "host/stages/tonemap.h"
-#include "raster/overdraw_pass.h"
 
 namespace kilolux {
 namespace {
@@ -26,23 +19,11 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+}  // namespace
+
 bool is_forward(RendererKind renderer) {
     return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
 }
-
-// The same picture with every light at every pixel.
-RenderSettings reference_of(RenderSettings settings) {
-    settings.renderer = RendererKind::deferred_all;
-    settings.show = "lit";
-    settings.aovs.clear();
-    return settings;
-}
-
-ScenePlan plan_of(const Scene& scene, const RenderSettings& settings) {
-    return make_scene_plan(scene, settings, settings.lights.count + scene.lights.size());
-}
-
-}  // namespace
 
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> infos;
@@ -54,102 +35,6 @@ std::size_t display_stride(int width) {
     return view_of(Camera{}, width, 1).stride;
 }
 
-struct Renderer::Parts {
-    Parts(const RenderScene& the_scene, const RenderSettings& the_settings);
-    bool is_built_for(const RenderSettings& other) const;
-    void take(const RenderSettings& next);
-    static void change(std::unique_ptr<Parts>& parts, const RenderScene& scene,
-                       const RenderSettings& settings);
-
-    Frame render(const Camera& camera, double time);
-    Frame render_to(std::span<uint> pixels, const Camera& camera, double time);
-    Radiance light(const SampleInput& sample, FrameStats& stats);
-    Radiance light_samples(const Camera& camera, FrameStats& stats);
-    Radiance light_frame(const Camera& camera, double time, FrameStats& stats);
-    DecodedSurfaces surfaces(const Camera& camera);
-    PixelProbe probe(int x, int y);
-    Radiance glowing(const Radiance& radiance);
-    Frame empty_frame() const;
-    void make_optional_parts();
-    void take_stage_times(FrameStats& stats);
-    void add_pixels(const Camera& camera, double time, Frame& frame);
-    void develop_to(std::span<uint> pixels, const Radiance& radiance);
-
-    const RenderScene& scene;
-    RenderSettings settings;
-    ScenePlan plan;
-    Gpu gpu;
-    Tuning tuning;
-    LightSource lights;
-    RenderContext context;
-    std::map<RendererKind, DeferredPath> deferred;  // made when first asked for
-    std::map<RendererKind, ForwardPath> forward;
-    std::unique_ptr<Parts> reference;      // for the view of differences from it
-    std::optional<OverdrawPass> overdraw;  // for its view
-    RadianceSum sum;
-    std::optional<Bloom> bloom;  // none at a share of 0
-    Tonemap tonemap;
-    StageTimer timer;
-    // Of the last render.
-    LightRows rows;
-    Camera last_camera;
-};
-
-Renderer::Parts::Parts(const RenderScene& the_scene, const RenderSettings& the_settings)
-    : scene(the_scene),
-      settings(the_settings),
-      plan(plan_of(the_scene.scene, settings)),
-      gpu(open_device(settings)),
-      tuning(choose_tuning(describe(gpu.device), settings.kernels).tuning),
-      lights(gpu, the_scene.scene, settings.lights),
-      context{settings, plan, gpu, tuning, *the_scene.meshes, the_scene.box},
-      sum(gpu),
-      tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
-    make_optional_parts();
-}
-
-// What some settings need and others do not.
-void Renderer::Parts::make_optional_parts() {
-    const RendererKind kind = settings.renderer;
-    if (is_forward(kind)) {
-        if (!forward.contains(kind)) forward.try_emplace(kind, context);
-    } else if (!deferred.contains(kind)) {
-        deferred.try_emplace(kind, context);
-    }
-    if (settings.bloom > 0.0f && !bloom) bloom.emplace(gpu);
-    if (settings.show == "overdraw" && !overdraw) overdraw.emplace(*scene.meshes);
-    if (settings.show == "difference") change(reference, scene, reference_of(settings));
-}
-
-// Whether other settings need neither other kernels nor another device.
-bool Renderer::Parts::is_built_for(const RenderSettings& other) const {
-    return other.device == settings.device && other.kernels == settings.kernels &&
-           plan_of(scene.scene, other) == plan;
-}
-
-void Renderer::Parts::take(const RenderSettings& next) {
-    const RenderSettings former = std::exchange(settings, next);
-    try {
-        make_optional_parts();
-        if (next.tone_curve != former.tone_curve) {
-            tonemap = Tonemap(gpu, tuning, static_cast<int>(next.tone_curve));
-        }
-    } catch (...) {
-        settings = former;
-        throw;
-    }
-    lights.set_generated(next.lights);
-}
-
-void Renderer::Parts::change(std::unique_ptr<Parts>& parts, const RenderScene& scene,
-                             const RenderSettings& settings) {
-    if (parts && parts->is_built_for(settings)) {
-        parts->take(settings);
-    } else {
-        parts = std::make_unique<Parts>(scene, settings);
-    }
-}
-
 // From the lights to a sample's radiance, by the path that was asked for.
 Radiance Renderer::Parts::light(const SampleInput& sample, FrameStats& stats) {
     const RendererKind kind = settings.renderer;
@@ -159,14 +44,13 @@ Radiance Renderer::Parts::light(const SampleInput& sample, FrameStats& stats) {
 
 // The mean of the jittered samples. Sample 0, through the pixels' centres, comes last: counts, AOVs
 // and views are its, since depths, ids and unit vectors have no mean.
-Radiance Renderer::Parts::light_samples(const Camera& camera, FrameStats& stats) {
-    const LightInput input = lights.upload(rows);
-    if (settings.samples <= 1) return light({camera, rows, input}, stats);
+Radiance Renderer::Parts::light_samples(const SampleInput& band, FrameStats& stats) {
+    if (settings.samples <= 1) return light(band, stats);
     sum.clear();
     for (int i = settings.samples - 1; i >= 0; --i) {
-        Camera jittered = camera;
+        Camera jittered = band.camera;
         jittered.jitter += sample_offset(static_cast<std::uint32_t>(i));
-        sum.add(light({jittered, rows, input}, stats));
+        sum.add(light({jittered, band.rows, band.lights, band.band, true}, stats));
         take_stage_times(stats);
     }
     return sum.mean();
@@ -179,64 +63,107 @@ void Renderer::Parts::take_stage_times(FrameStats& stats) {
     }
 }
 
-DecodedSurfaces Renderer::Parts::surfaces(const Camera& camera) {
-    const RendererKind kind = settings.renderer;
-    return is_forward(kind) ? forward.at(kind).pixels(camera) : deferred.at(kind).pixels();
-}
-
-// AOVs, and the view in place of the lit picture.
-void Renderer::Parts::add_pixels(const Camera& camera, double time, Frame& frame) {
-    if (!wants_pixels(settings)) return;
-    const DecodedSurfaces pixels = surfaces(camera);
-    for (const std::string& name : settings.aovs) {
-        frame.aovs.push_back(make_aov(name, pixels, camera));
-    }
-    if (settings.show == "lit") return;
-    std::vector<float> fragments, reference_radiance;
-    if (settings.show == "overdraw") {
-        fragments = overdraw->count(camera, settings.width, settings.height);
-    }
-    if (settings.show == "difference") {
-        reference_radiance = reference->render(camera, time).radiance;
-    }
-    frame.display = make_view(settings.show, {pixels, camera, context.box, fragments,
-                                              frame.radiance, reference_radiance});
-}
-
-// From the lights to a frame's radiance.
-Radiance Renderer::Parts::light_frame(const Camera& camera, double time, FrameStats& stats) {
-    if (scene.context) scene.context->make_current();
-    const Clock::time_point start = Clock::now();
-    last_camera = camera;
-    rows = lights.at(time, camera.position, stats);
-    add_stage_time(stats.stages, "light_input", ms_since(start));
-    return light_samples(camera, stats);
+// Appends a band's pixels as they leave the device.
+void Renderer::Parts::finish_pixels(const Radiance& radiance, Frame& frame) {
+    const cl::Buffer display = tonemap.enqueue(radiance, settings.exposure, timer);
+    const View& view = radiance.view;
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    append_rows(frame.radiance,
+                tight_radiance(download<float>(gpu, radiance.planes, 3 * plane), view),
+                3 * pixel_count());
+    append_rows(frame.display, tight_display(download<uint>(gpu, display, plane), view),
+                4 * pixel_count());
 }
 
 Radiance Renderer::Parts::glowing(const Radiance& radiance) {
     return settings.bloom > 0.0f ? bloom->enqueue(radiance, settings.bloom, timer) : radiance;
 }
 
-Frame Renderer::Parts::empty_frame() const {
-    Frame frame;
-    frame.width = settings.width;
-    frame.height = settings.height;
-    return frame;
+void Renderer::Parts::render_band(const SampleInput& band, Frame& frame,
+                                  DecodedSurfaces& surfaces) {
+    const Clock::time_point start = Clock::now();
+    FrameStats stats;
+    const Radiance radiance = light_samples(band, stats);
+    finish_pixels(band.band.rows == settings.height ? glowing(radiance) : radiance, frame);
+    take_stage_times(stats);
+    add_band(frame.stats, stats);
+    frame.stats.frame_ms += ms_since(start);
+    add_surfaces(band, frame, surfaces);
 }
 
-Frame Renderer::Parts::render(const Camera& camera, double time) {
-    const Clock::time_point start = Clock::now();
-    Frame frame = empty_frame();
-    const Radiance radiance = light_frame(camera, time, frame.stats);
-    const cl::Buffer display = tonemap.enqueue(glowing(radiance), settings.exposure, timer);
+// A band's AOVs, and its surfaces for a view.
+void Renderer::Parts::add_surfaces(const SampleInput& band, Frame& frame,
+                                   DecodedSurfaces& surfaces) {
+    if (!wants_pixels(settings)) return;
+    const RendererKind kind = settings.renderer;
+    DecodedSurfaces pixels =
+        is_forward(kind) ? forward.at(kind).pixels(band.camera) : deferred.at(kind).pixels();
+    std::vector<Layer> layers;
+    for (const std::string& name : settings.aovs) {
+        layers.push_back(make_aov(name, pixels, band.camera));
+    }
+    append_layers(frame.aovs, std::move(layers), pixel_count());
+    if (settings.show != "lit") place_surfaces(surfaces, std::move(pixels), settings.height);
+}
 
-    const View& view = radiance.view;
-    const std::size_t plane = std::size_t{view.stride} * view.height;
-    frame.radiance = tight_radiance(download<float>(gpu, radiance.planes, 3 * plane), view);
-    frame.display = tight_display(download<uint>(gpu, display, plane), view);
-    frame.stats.frame_ms = ms_since(start);
+// Light spreads over the whole picture: after the last band.
+void Renderer::Parts::bloom_whole(const View& view, Frame& frame) {
+    const Clock::time_point start = Clock::now();
+    GrowingBuffer planes(gpu, "bloom");
+    const Radiance radiance{
+        planes.reserve(std::size_t{3} * sizeof(float) * view.stride * view.height), view};
+    upload<float>(gpu, radiance.planes, radiance_planes(frame.radiance, view));
+    frame.radiance.clear();
+    frame.display.clear();
+    finish_pixels(bloom->enqueue(radiance, settings.bloom, timer), frame);
     take_stage_times(frame.stats);
-    add_pixels(camera, time, frame);
+    frame.stats.frame_ms += ms_since(start);
+}
+
+// The view in place of the lit picture.
+void Renderer::Parts::show_view(const Camera& camera, double time, const DecodedSurfaces& surfaces,
+                                Frame& frame) {
+    std::vector<float> fragments, reference_radiance;
+    if (settings.show == "overdraw") {
+        fragments = overdraw->count(camera, settings.width, settings.height);
+    }
+    if (settings.show == "difference") {
+        reference_radiance = reference->render(camera, time, {}).radiance;
+    }
+    frame.display = make_view(settings.show, {surfaces, camera, context.box, fragments,
+                                              frame.radiance, reference_radiance});
+}
+
+// The frame's size, and its lights on the device.
+LightInput Renderer::Parts::begin(const Camera& camera, double time, Frame& frame) {
+    if (scene.context) scene.context->make_current();
+    const Clock::time_point start = Clock::now();
+    last_camera = camera;
+    frame.width = settings.width;
+    frame.height = settings.height;
+    rows = lights.at(time, camera.position, frame.stats);
+    add_stage_time(frame.stats.stages, "light_input", ms_since(start));
+    const LightInput input = lights.upload(rows);
+    frame.stats.frame_ms = ms_since(start);
+    return input;
+}
+
+Frame Renderer::Parts::render(const Camera& camera, double time,
+                              const std::function<void()>& between) {
+    Frame frame;
+    const LightInput input = begin(camera, time, frame);
+    const std::vector<Band> bands = make_bands(settings.height, memory.band_rows);
+    DecodedSurfaces surfaces;
+    for (const Band& band : bands) {
+        if (between) between();
+        const bool redraw =
+            raster_tile(settings.height, band.first_row).first_row == band.first_row;
+        render_band({camera, rows, input, band, redraw}, frame, surfaces);
+    }
+    if (settings.bloom > 0.0f && bands.size() > 1) {
+        bloom_whole(view_of(camera, settings.width, settings.height), frame);
+    }
+    if (settings.show != "lit") show_view(camera, time, surfaces, frame);
     return frame;
 }
 
@@ -260,8 +187,8 @@ void Renderer::Parts::develop_to(std::span<uint> pixels, const Radiance& radianc
 Frame Renderer::Parts::render_to(std::span<uint> pixels, const Camera& camera, double time) {
     const std::size_t stride = display_stride(settings.width);
     pixels = pixels.first(stride * static_cast<std::size_t>(settings.height));
-    if (settings.show != "lit") {
-        Frame frame = render(camera, time);
+    if (settings.show != "lit" || !is_whole()) {
+        Frame frame = render(camera, time, {});
         const auto row = static_cast<std::size_t>(settings.width);
         for (std::size_t y = 0; y < static_cast<std::size_t>(settings.height); ++y) {
             std::memcpy(&pixels[y * stride], &frame.display[4 * y * row], 4 * row);
@@ -270,17 +197,29 @@ Frame Renderer::Parts::render_to(std::span<uint> pixels, const Camera& camera, d
         frame.radiance.clear();
         return frame;
     }
+    Frame frame;
+    const LightInput input = begin(camera, time, frame);
     const Clock::time_point start = Clock::now();
-    Frame frame = empty_frame();
-    const Radiance radiance = light_frame(camera, time, frame.stats);
-    develop_to(pixels, radiance);
-    frame.stats.frame_ms = ms_since(start);
-    take_stage_times(frame.stats);
-    add_pixels(camera, time, frame);
+    const SampleInput whole{camera, rows, input, {0, settings.height}, true};
+    FrameStats stats;
+    develop_to(pixels, light_samples(whole, stats));
+    take_stage_times(stats);
+    add_band(frame.stats, stats);
+    frame.stats.frame_ms += ms_since(start);
+    DecodedSurfaces unseen;
+    add_surfaces(whole, frame, unseen);
     return frame;
 }
 
+// What is on the device is the last band's.
+void Renderer::Parts::require_whole(const char* what) const {
+    if (is_whole()) return;
+    throw Error(std::string(what) + ": the picture is made in bands of " +
+                std::to_string(memory.band_rows) + " rows; it needs the whole (--max-memory)");
+}
+
 PixelProbe Renderer::Parts::probe(int x, int y) {
+    require_whole("probe");
     PixelProbe out = is_forward(settings.renderer)
                          ? forward.at(settings.renderer).probe(last_camera, x, y)
                          : deferred.at(settings.renderer).probe(x, y);
@@ -292,25 +231,12 @@ PixelProbe Renderer::Parts::probe(int x, int y) {
     return out;
 }
 
-Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
-    : scene_(std::make_shared<RenderScene>(scene, gl == GlSource::headless)),
-      parts_(std::make_unique<Parts>(*scene_, settings)) {}
-Renderer::~Renderer() = default;
-Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer& Renderer::operator=(Renderer&&) noexcept = default;
-
-void Renderer::change(const RenderSettings& settings) {
-    if (settings == parts_->settings) return;
-    if (scene_->context) scene_->context->make_current();
-    in_stage("settings", [&] { Parts::change(parts_, *scene_, settings); });
-}
-
 const RenderSettings& Renderer::settings() const {
     return parts_->settings;
 }
 
-Frame Renderer::render(const Camera& camera, double time) {
-    return in_stage("render", [&] { return parts_->render(camera, time); });
+Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
+    return in_stage("render", [&] { return parts_->render(camera, time, between); });
 }
 
 Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double time) {
@@ -318,6 +244,7 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
 }
 
 LitSurfaces Renderer::lit_surfaces() {
+    parts_->require_whole("lit surfaces");
     const auto found = parts_->deferred.find(parts_->settings.renderer);
     if (found == parts_->deferred.end()) {
         throw Error("renderer: the forward renderers keep no G-buffer to look at");
@@ -347,6 +274,9 @@ const DeviceInfo& Renderer::device() const {
 }
 const ScenePlan& Renderer::plan() const {
     return parts_->plan;
+}
+const MemoryPlan& Renderer::memory() const {
+    return parts_->memory;
 }
 const Gpu& Renderer::gpu() const {
     return parts_->gpu;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "host/gpu/device.h"
 #include "host/render/frame.h"
 #include "host/render/frame_parts.h"
+#include "host/render/memory_plan.h"
 #include "host/render/pixel_probe.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
@@ -50,9 +52,10 @@ class Renderer {
 
     /// The picture at `time` [s]: the mean of settings.samples jittered samples (sample_pattern.h).
     /// AOVs, views and counts are those of the sample through the pixels' centres; stage times are
-    /// sums over the samples. Blocks until it is on the host. The same arguments give the same bits
-    /// on every call.
-    Frame render(const Camera& camera, double time);
+    /// sums over the samples and bands. Blocks until it is on the host. The same arguments give the
+    /// same bits on every call and with any memory. `between` is called before every band, and what
+    /// it throws comes out.
+    Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
 
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
     /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display
@@ -77,6 +80,7 @@ class Renderer {
     const DeviceInfo& device() const;
     const ScenePlan& plan() const;
     const Gpu& gpu() const;
+    const MemoryPlan& memory() const;
 
  private:
     struct Parts;

@@ -51,6 +51,8 @@ struct RenderSettings {
     KernelSettings kernels;
     bool count_useful = false;  // also count k*, at the price of one more pass
     std::vector<std::string> force_features;  // compiled in although the scene lacks them; see forceable_features()
+    std::uint64_t max_memory_bytes = 0;  // that a renderer may take in all; 0: most of what is available
+    int band_rows = 0;  // made at once at most, a multiple of FINE_TILE; 0: what memory allows
     std::string device;  // name, part of it, or index; empty: the best
     bool operator==(const RenderSettings&) const = default;
 };

@@ -11,12 +11,15 @@ SurfacePass::SurfacePass(const RenderContext& context)
       bridge_(context.gpu),
       decode_(context.gpu, context.tuning, context.plan.kernels) {}
 
-GBuffer SurfacePass::draw(const Camera& camera, std::vector<StageTime>& stages) {
+GBuffer SurfacePass::draw(const Camera& camera, Band band, bool redraw,
+                          std::vector<StageTime>& stages) {
     const RenderSettings& settings = context_.settings;
-    geometry_.draw(camera, settings.width, settings.height);
+    const Band tile = raster_tile(settings.height, band.first_row);
+    if (redraw) geometry_.draw(crop(camera, settings.height, tile), settings.width, tile.rows);
     GBuffer gbuffer = bridge_.transfer(geometry_.targets(), context_.plan.gbuffer,
-                                       view_of(camera, settings.width, settings.height));
-    add_stage_time(stages, "geometry", geometry_.last_ms());
+                                       view_of(camera, settings.width, settings.height, band),
+                                       band.first_row - tile.first_row);
+    if (redraw) add_stage_time(stages, "geometry", geometry_.last_ms());
     add_stage_time(stages, "gbuffer_bridge", bridge_.last_ms());
     return gbuffer;
 }

@@ -15,9 +15,10 @@ class SurfacePass {
  public:
     explicit SurfacePass(const RenderContext& context);
 
-    /// Draws the G-buffer and brings it to the device, where it stays until the next call. Waits
-    /// for OpenGL. Adds the stages geometry and gbuffer_bridge to `stages`.
-    GBuffer draw(const Camera& camera, std::vector<StageTime>& stages);
+    /// Draws the G-buffer of the band's raster tile, unless it is there from the last call, and
+    /// brings the band to the device, where it stays until the next call. Waits for OpenGL. Adds
+    /// the stages geometry and gbuffer_bridge to `stages`.
+    GBuffer draw(const Camera& camera, Band band, bool redraw, std::vector<StageTime>& stages);
 
     /// The surfaces of the last draw() on the host. Blocks.
     DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);

@@ -8,14 +8,14 @@ namespace {
 
 constexpr std::string_view kStage = "shade";
 
-BuildOptions options_of(const Tuning& tuning, const KernelFeatures& features) {
-    return feature_options(features).define("STAGE", tuning.shade_stage);
+BuildOptions options_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
+    return feature_options(features).define("STAGE", tuning.shade_stage).define("FAST_RSQRT", !gpu.info.is_cpu);
 }
 
 }  // namespace
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : gpu_(gpu), tuning_(tuning), features_(features), program_(build_program(gpu, kStage, options_of(tuning, features))),
+    : gpu_(gpu), tuning_(tuning), features_(features), program_(build_program(gpu, kStage, options_of(gpu, tuning, features))),
       srgb_(gpu, kStage), radiance_(gpu, kStage), empty_(gpu, kStage) {
     const auto table = srgb_to_linear_table();
     upload<float>(gpu_, srgb_.reserve(table.size() * sizeof(float)), table);
@@ -28,7 +28,7 @@ Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, co
 }
 
 Radiance Shade::enqueue_all_lights(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer) {
-    const cl::Program program = build_program(gpu_, kStage, options_of(tuning_, features_).define("ALL_LIGHTS", 1));
+    const cl::Program program = build_program(gpu_, kStage, options_of(gpu_, tuning_, features_).define("ALL_LIGHTS", 1));
     const ActiveClusters no_clusters{empty_.get(), empty_.get(), 0, 0};
     return launch(program, gbuffer, lights, ClusterGrid{}, no_clusters, RefinedLists{empty_.get(), 0}, timer);
 }

@@ -40,6 +40,9 @@ static inline FV load_depth01(GBuffer g, uint x, uint y) {
 
 static inline FV pixel_centers_x(uint x) { return to_float_lanes(lane_numbers + x) + 0.5f; }
 
+// In the picture, of row y of the planes.
+static inline FV pixel_center_y(View view, uint y) { return fv((float)(y + view.first_row) + 0.5f); }
+
 // Linear value of each lane's sRGB code.
 static inline FV srgb_to_linear(global const float* table, UV code) {
 #if VW == 1
@@ -110,7 +113,7 @@ static inline FV3 load_position(GBuffer g, uint x, uint y, FV z) {
                     load_half(g, PLANE_POSITION_Z, pixel) - camera.z);
     return rotate_to_view(g.view, world);
 #else
-    return view_position(g.view, pixel_centers_x(x), fv((float)y + 0.5f), z);
+    return view_position(g.view, pixel_centers_x(x), pixel_center_y(g.view, y), z);
 #endif
 }
 

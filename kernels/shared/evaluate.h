@@ -6,7 +6,7 @@
 //   falloff(d) = window(d / range) / max(d, LIGHT_D_MIN)^2,  window(x) = clamp(1 - x^4, 0, 1)
 //
 // The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
-// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC: what the scene does not need is not
+// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, FAST_RSQRT: what the scene does not need is not
 // in the code.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
@@ -28,6 +28,11 @@
 // the branch costs more than it saves.
 #ifndef EARLY_OUT
 #define EARLY_OUT (SHADING != SHADING_LAMBERT)
+#endif
+
+// Whether rsqrt is one instruction (GPUs) rather than a root and a division (CPUs).
+#ifndef FAST_RSQRT
+#define FAST_RSQRT 0
 #endif
 
 // Nearer than this the inverse square stops growing: light sources have a size [m].
@@ -136,35 +141,32 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     return p;
 }
 
-// Adds light that arrives along `v` * `inv_length`, a unit vector, with `color` * `strength` where
-// strength already holds the falloff.
-SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV strength, float4 color) {
-    FV n_dot_l = max(dot3(p.normal, v) * inv_length, fv(0.0f));
-    FV lit = strength * n_dot_l;
+// Adds light of `lit` = intensity's weight * falloff * n.l from the unit direction `v` * `inv_length`.
+SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l, FV lit, float4 color) {
+#if SHADING != SHADING_LAMBERT
+    FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y), fma(v.z, inv_length, p.to_eye.z));
+    FV hh = max(dot3(h, h), fv(1e-12f));
+#endif
 #if SHADING == SHADING_LAMBERT
     sum.diffuse = add_scaled(sum.diffuse, lit, color);
-#else
-    FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y), fma(v.z, inv_length, p.to_eye.z));
-    FV inv_h = rsqrt(max(dot3(h, h), fv(1e-12f)));
-#endif
-#if SHADING == SHADING_BLINN_PHONG
+#elif SHADING == SHADING_BLINN_PHONG
     // cos = 1 - |n - h|^2 / 2 keeps the lobe that n.h rounds away at large exponents.
+    FV inv_h = rsqrt(hh);
     FV3 d = fv3(fma(-h.x, inv_h, p.normal.x), fma(-h.y, inv_h, p.normal.y), fma(-h.z, inv_h, p.normal.z));
-    FV half_q = min(fv(0.5f) * dot3(d, d), fv(1.0f));
+    FV half_q = fv(0.5f) * dot3(d, d);
     sum.diffuse = add_scaled(sum.diffuse, lit, color);
     sum.specular = add_scaled(sum.specular, lit * pow_one_minus(half_q, p.exponent), color);
-#endif
-#if SHADING == SHADING_PBR
-    // Lagrange's identity |n x h|^2 = 1 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1).
+#else
+    // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both sides of
+    // D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha, so that the
+    // peak of a mirror keeps the size it has in the end.
     FV3 nxh = cross3(p.normal, h);
-    FV sin2 = min(dot3(nxh, nxh) * (inv_h * inv_h), fv(1.0f));
-    // Divided by alpha, so that the peak of a mirror keeps the size it has in the end.
-    FV ggx = fma(sin2, p.ggx_slope, p.ggx_floor);
+    FV ggx = fma(dot3(nxh, nxh), p.ggx_slope, p.ggx_floor * hh);
     FV smith_l = sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - p.alpha2, p.alpha2));
     FV smith = fma(n_dot_l, p.smith_v, p.n_dot_v * smith_l);
     // D * V without its constant 1 / (2 pi), which finish_shading multiplies in.
-    FV lobe = lit / (ggx * ggx * smith);
-    FV schlick = max(fma(-dot3(p.to_eye, h), inv_h, fv(1.0f)), fv(0.0f));
+    FV lobe = (lit * (hh * hh)) / (ggx * ggx * smith);
+    FV schlick = max(fma(-dot3(p.to_eye, h), rsqrt(hh), fv(1.0f)), fv(0.0f));
     FV schlick2 = schlick * schlick;
     FV f = schlick2 * schlick2 * schlick;
     FV g = fv(1.0f) - f;
@@ -179,6 +181,14 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
     return sum;
 }
 
+// The share of a spot light's intensity in the direction -`v` / distance.
+SHARED_FN FV cone_of(FV3 v, FV inv_distance, ShadeLight light) {
+    FV along = fma(v.x, fv(light.axis_cos.x), fma(v.y, fv(light.axis_cos.y), v.z * fv(light.axis_cos.z)));
+    FV cos_axis = -along * inv_distance;
+    FV cone = min(max((cos_axis - fv(light.axis_cos.w)) * fv(light.color_scale.w), fv(0.0f)), fv(1.0f));
+    return cone * cone;
+}
+
 // Adds a point or spot light.
 SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     FV3 v = fv3(fv(light.position_inv_range2.x) - p.position.x, fv(light.position_inv_range2.y) - p.position.y,
@@ -189,20 +199,31 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
 #if EARLY_OUT
     if (!any_of(window > fv(0.0f))) return sum;
 #endif
-    FV inv_d = rsqrt(max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN)));
-    FV strength = window * (inv_d * inv_d);
+    FV e2 = max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN));
+    FV n_dot_v = max(dot3(p.normal, v), fv(0.0f));  // n.l times the distance
+#if SHADING == SHADING_LAMBERT && !FAST_RSQRT
+    // One root and one division, and no product more than they need.
+    FV distance = sqrt(e2);
 #if HAS_SPOT_LIGHTS
-    FV along = fma(v.x, fv(light.axis_cos.x), fma(v.y, fv(light.axis_cos.y), v.z * fv(light.axis_cos.z)));
-    FV cos_axis = -along * inv_d;
-    FV cone = min(max((cos_axis - fv(light.axis_cos.w)) * fv(light.color_scale.w), fv(0.0f)), fv(1.0f));
-    strength = strength * (cone * cone);
+    window = window * cone_of(v, fv(1.0f) / distance, light);
 #endif
-    return add_incident(sum, p, v, inv_d, strength, light.color_scale);
+    FV lit = (window * n_dot_v) / (e2 * distance);
+    return add_incident(sum, p, v, fv(0.0f), fv(0.0f), lit, light.color_scale);
+#else
+    FV inv_d = rsqrt(e2);
+#if HAS_SPOT_LIGHTS
+    window = window * cone_of(v, inv_d, light);
+#endif
+    FV n_dot_l = n_dot_v * inv_d;
+    FV lit = window * (inv_d * inv_d) * n_dot_l;
+    return add_incident(sum, p, v, inv_d, n_dot_l, lit, light.color_scale);
+#endif
 }
 
 SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, DirectionalLight light) {
     FV3 to_light = fv3(fv(light.to_light.x), fv(light.to_light.y), fv(light.to_light.z));
-    return add_incident(sum, p, to_light, fv(1.0f), fv(1.0f), light.color);
+    FV n_dot_l = max(dot3(p.normal, to_light), fv(0.0f));
+    return add_incident(sum, p, to_light, fv(1.0f), n_dot_l, n_dot_l, light.color);
 }
 
 // Radiance of the surface from the sums over its lights.

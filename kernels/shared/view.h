@@ -16,19 +16,23 @@ namespace kilolux {
 // Orthographic:  x_view =  px * ray.x + ray.y,       y_view =  py * ray.z + ray.w,
 //                z      = depth01 * depth.x + px * depth.y + py * depth.z + depth.w
 // depth.y and depth.z are 0 unless the near plane is oblique: 1/z is linear in screen space.
+// Planes may hold a band of the picture only: row y of a plane is the picture's row first_row + y,
+// and py counts in the picture, so that a pixel has the same bits in whatever band it lies.
 SHARED_STRUCT(View) {
     float4 ray;
     float4 depth;
     uint width;         // [pixel]
-    uint height;        // [pixel]
+    uint height;        // rows of the planes [pixel]
     uint stride;        // pixels from a row to the next in every plane: width rounded up to 16
     uint orthographic;  // 0 or 1
     float4 view_from_world_x;  // xyz: row x of the rotation, for camera-relative positions
     float4 view_from_world_y;
     float4 view_from_world_z;
     float4 camera_position;  // xyz: world [m]; only layouts that store world positions need it
+    uint first_row;  // of the picture, where the planes begin; `height` counts the planes' rows
+    uint unused0, unused1, unused2;
 };
-SHARED_ASSERT(view_size, sizeof(View) == 112);
+SHARED_ASSERT(view_size, sizeof(View) == 128);
 
 // Depth z [m] of a pixel with depth01 at pixel coordinates (px, py), centres at +0.5.
 SHARED_FN FV view_depth(View view, FV px, FV py, FV depth01) {

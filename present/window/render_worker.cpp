@@ -118,7 +118,7 @@ void RenderWorker::do_picture(Renderer& renderer, PictureRequest request) {
         renderer.change(request.settings);
         Frame frame = renderer.render_to(request.pixels, request.camera, request.time);
         Picture picture{std::move(request), std::move(frame), renderer.device(), renderer.plan(),
-                        *renderer.gpu().allocated_bytes};
+                        renderer.gpu().budget->used};
         const std::lock_guard lock(mutex_);
         pictures_.push_back(std::move(picture));
     } catch (const std::exception& error) {

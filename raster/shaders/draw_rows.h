@@ -35,7 +35,7 @@ SHARED_STRUCT(ForwardRow) {
     float ambient;  // radiance that falls in from everywhere
     uint unused0;
 };
-SHARED_ASSERT(forward_row_size, sizeof(ForwardRow) == 176);
+SHARED_ASSERT(forward_row_size, sizeof(ForwardRow) == 192);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

@@ -17,14 +17,21 @@ layout(std430, binding = 3) readonly buffer LightLists { uint light_lists[]; };
 
 layout(location = 0) out vec4 out_radiance;  // linear; alpha for materials that blend
 
+// In the picture, of which the target may hold a band.
+vec2 fragment_pixel() {
+    return vec2(gl_FragCoord.x, gl_FragCoord.y + float(frame.view.first_row));
+}
+
 // Where the deferred renderer finds the fragment too: from pixel and depth, not from a varying.
 float depth_of_fragment() {
-    return view_depth(frame.view, gl_FragCoord.x, gl_FragCoord.y, gl_FragCoord.z);
+    vec2 pixel = fragment_pixel();
+    return view_depth(frame.view, pixel.x, pixel.y, gl_FragCoord.z);
 }
 
 Surface surface_of(MaterialSample m, float z) {
     Surface s;
-    s.position = view_position(frame.view, gl_FragCoord.x, gl_FragCoord.y, z);
+    vec2 pixel = fragment_pixel();
+    s.position = view_position(frame.view, pixel.x, pixel.y, z);
     s.normal = fv3(m.normal.x, m.normal.y, m.normal.z);
     s.albedo = fv3(m.base_color.r, m.base_color.g, m.base_color.b);
     s.emissive = fv3(m.emissive.r, m.emissive.g, m.emissive.b);
@@ -37,7 +44,7 @@ Surface surface_of(MaterialSample m, float z) {
 // First and end of the fragment's lights in light_lists, or in lights.
 uvec2 light_range(float z) {
 #ifdef CLUSTERED
-    uvec2 tile = uvec2(gl_FragCoord.xy) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
+    uvec2 tile = uvec2(fragment_pixel()) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
     uint cluster = cluster_index(frame.grid, tile.x, tile.y, slice_of_depth(frame.grid, z));
     return uvec2(cluster_offsets[cluster], cluster_offsets[cluster + 1u]);
 #else

@@ -3,6 +3,7 @@
 // must do.
 #include <gtest/gtest.h>
 
+#include "host/stages/bloom.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
@@ -110,6 +111,32 @@ TEST(EveryKernel, LargeGroupsAndSeveralBatches) {
 
 TEST(EveryKernel, LanesAndLargeGroups) {
     run_every_kernel({8, 64, 1, 0, 16, GBUFFER_HALF, SHADING_BLINN_PHONG});
+}
+
+// Two halvings, both of odd sizes; what is past the width is not read.
+void run_bloom(int lanes) {
+    const Gpu gpu = test_gpu(lanes);
+    View view{};
+    view.width = 35;
+    view.height = 37;
+    view.stride = 48;
+    std::vector<float> planes(std::size_t{3} * view.stride * view.height, 1.0f);
+    GrowingBuffer buffer(gpu, "test");
+    buffer.reserve(planes.size() * sizeof(float));
+    upload<float>(gpu, buffer.get(), planes);
+    Bloom bloom(gpu);
+    StageTimer timer;
+    const Radiance out = bloom.enqueue({buffer.get(), view}, 0.25f, timer);
+    const auto glowing = download<float>(gpu, out.planes, planes.size());
+    EXPECT_NEAR(glowing[view.stride + 1], 1.0f, 1e-5f);
+}
+
+TEST(EveryKernel, BloomOneLane) {
+    run_bloom(1);
+}
+
+TEST(EveryKernel, BloomLanes) {
+    run_bloom(8);
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ std::vector<Measure> view_measures() {
             OFFSET_OF(View, view_from_world_y),
             OFFSET_OF(View, view_from_world_z),
             OFFSET_OF(View, camera_position),
+            OFFSET_OF(View, first_row),
             SIZE_OF(GBufferLayout),
             OFFSET_OF(GBufferLayout, offset_bytes),
             OFFSET_OF(GBufferLayout, layout),

@@ -137,8 +137,9 @@ TEST(Tonemap, CurvesAgreeWithDouble) {
                    static_cast<float>(size * random.unit()),
                    static_cast<float>(size * random.unit()));
     }
-    for (const int curve : {TONE_CURVE_NEUTRAL, TONE_CURVE_ACES}) {
-        const auto display = display_of(0, curve, colors);
+    for (const auto& [lanes, curve] : {std::pair(1, TONE_CURVE_NEUTRAL), std::pair(1, TONE_CURVE_ACES),
+                                       std::pair(0, TONE_CURVE_NEUTRAL), std::pair(0, TONE_CURVE_ACES)}) {
+        const auto display = display_of(lanes, curve, colors);
         int different = 0;
         for (std::size_t i = 0; i < display.size(); ++i) {
             const Vec3d expected =
@@ -146,7 +147,10 @@ TEST(Tonemap, CurvesAgreeWithDouble) {
             const double values[] = {expected.x, expected.y, expected.z};
             for (int c = 0; c < 3; ++c) {
                 const int off = std::abs(channel(display[i], c) - code_of(values[c]));
-                ASSERT_LE(off, 1) << "curve " << curve << ", color " << i;
+                ASSERT_LE(off, 1) << "curve " << curve << ", color " << i << " (" << colors.red[i]
+                                  << ", " << colors.green[i] << ", " << colors.blue[i]
+                                  << "), channel " << c << ": " << channel(display[i], c)
+                                  << ", expected " << code_of(values[c]);
                 different += off;
             }
         }

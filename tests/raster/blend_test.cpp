@@ -67,7 +67,10 @@ TEST_F(BlendTest, BlendsOverAnotherRenderersPicture) {
     ForwardFeatures features;
     features.opaque = false;
     ForwardPass pass(gpu, features);
-    pass.draw_blended(panes_camera(), geometry.targets(), radiance, {});
+    pass.draw_blended(
+        panes_camera(),
+        view_of(panes_camera(), geometry.targets().width(), geometry.targets().height()),
+        geometry.targets(), radiance, {});
     const std::vector<float> over = pass.read_radiance(kStride);
     const std::vector<float> forward = draw(scene);
     EXPECT_EQ(over, forward);

@@ -6,7 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/load_scene.h"
-#include "tests/scene/gltf_compressed.h"
+#include "tests/scene/gltf_seeds.h"
 
 namespace kilolux {
 namespace {
@@ -20,52 +20,6 @@ using Random = std::mt19937;
 
 std::size_t pick(Random& random, std::size_t count) {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
-}
-
-// A quad with everything that a file may say about nodes: lights, cameras, skin, morph, animation.
-GltfBuilder busy_file() {
-    GltfBuilder file = quad_with_normal_map();
-    json& attributes = file.primitive()["attributes"];
-    attributes["JOINTS_0"] = file.add_accessor(Blob(16), {kUnsignedByte, "VEC4", 4, false, 0});
-    attributes["WEIGHTS_0"] =
-        file.add_floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
-    attributes["COLOR_0"] = file.add_accessor(Blob(16, 200), {kUnsignedByte, "VEC4", 4, true, 0});
-    const int delta = file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
-    file.primitive()["targets"] = {{{"POSITION", delta}}};
-    file.root["accessors"][static_cast<std::size_t>(delta)]["sparse"] = {
-        {"count", 1},
-        {"indices", {{"bufferView", file.add_view(Blob{2})}, {"componentType", kUnsignedByte}}},
-        {"values", {{"bufferView", file.add_view(Blob(12))}}}};
-    file.root["meshes"][0]["weights"] = {0.5};
-    file.add("skins", {{"joints", {1}}});
-    file.root["nodes"][0]["skin"] = 0;
-    file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
-    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "spot"}, {"color", {1, 1, 1}}, {"range", 3}, {"spot", {{"outerConeAngle", 1}}}}};
-    file.add_node({{"camera", 0},
-                   {"children", {2}},
-                   {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-    file.add("nodes", {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1}}});
-    const int input = file.add_floats("SCALAR", {0, 1, 2});
-    const int output = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 2, 0, 0});
-    file.add(
-        "animations",
-        {{"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}},
-         {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
-    file.root["materials"][0]["extensions"] = {{"KHR_materials_ior", {{"ior", 1.4}}}};
-    file.root["materials"][0]["normalTexture"]["extensions"] = {
-        {"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1}, {"scale", {2, 2}}}}};
-    file.root["textures"][0]["sampler"] = file.add("samplers", {{"wrapS", 33071}});
-    return file;
-}
-
-std::vector<GltfBuilder> seeds() {
-    return {busy_file(),
-            triangle_file(),
-            meshopt_quad("TRIANGLES"),
-            meshopt_quad("INDICES"),
-            draco_file(draco_quad(kDracoEdgebreaker)),
-            draco_file(draco_quad(kDracoSequential))};
 }
 
 Blob flip_bits(Random& random, const GltfBuilder& seed) {
@@ -187,7 +141,7 @@ void expect_loads_or_errors(Mutation mutate, unsigned random_seed) {
     Random random(random_seed + 1000u * static_cast<unsigned>(GTEST_FLAG_GET(random_seed)));
     int loaded = 0;
     int refused = 0;
-    const std::vector<GltfBuilder> all = seeds();
+    const std::vector<GltfBuilder> all = gltf_seeds();
     for (std::size_t s = 0; s < all.size(); ++s) {
         for (int m = 0; m < kMutationsPerSeed; ++m) {
             SCOPED_TRACE("seed file " + std::to_string(s) + ", mutation " + std::to_string(m));

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/base/memory.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+namespace kilolux {
+namespace {
+
+constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
+
+// The first number of a file, which may hold "max" instead.
+std::uint64_t number_in(const std::string& file) {
+    std::ifstream in(file);
+    std::uint64_t value = 0;
+    return in >> value ? value : kUnknown;
+}
+
+std::uint64_t system_available() {
+    std::ifstream in("/proc/meminfo");
+    std::string key, unit;
+    std::uint64_t kibibytes = 0;
+    while (in >> key >> kibibytes) {
+        if (key == "MemAvailable:") return kibibytes * 1024;
+        std::getline(in, unit);
+    }
+    return kUnknown;
+}
+
+std::uint64_t below(std::uint64_t limit, std::uint64_t used) {
+    if (limit == kUnknown || used == kUnknown) return kUnknown;
+    return limit - std::min(limit, used);
+}
+
+// Version 2, as a container sees its own group.
+std::uint64_t group_available() {
+    const std::string group = "/sys/fs/cgroup/memory.";
+    return below(number_in(group + "max"), number_in(group + "current"));
+}
+
+std::uint64_t address_space_available() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnknown;
+    const std::uint64_t pages = number_in("/proc/self/statm");
+    const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    return below(limit.rlim_cur, pages == kUnknown ? 0 : pages * page);
+}
+
+}  // namespace
+
+std::uint64_t available_memory_bytes() {
+    return std::min({system_available(), group_available(), address_space_available()});
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+    return std::to_string((bytes >> 20) + ((bytes & 0xfffff) != 0 ? 1 : 0)) + " MiB";
+}
+
+}  // namespace kilolux

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/memory_plan.h"
+
+#include <algorithm>
+
+#include "host/base/error.h"
+#include "host/base/memory.h"
+#include "host/render/bands.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/surface_planes.h"
+#include "raster/forward_pass.h"
+
+namespace kilolux {
+namespace {
+
+using Bytes = std::uint64_t;
+
+// The program with its drivers and their compilers: resident size of a 16x16 picture, rounded up.
+constexpr Bytes kProgram = Bytes{256} << 20;
+// Of one light: twice as the scene has it, a row on the host and one on the device, prepared.
+constexpr Bytes kLight = 2 * sizeof(SceneLight) + 4 * 48 + 48;
+// Radiance and display picture, and as much again while a file is made of them.
+constexpr Bytes kHostPixel = 2 * (3 * sizeof(float) + 4);
+// Radiance and display picture on the device, and twice on the host: as planes and pixels.
+constexpr Bytes kBandPixel = 3 * (3 * sizeof(float) + 4);
+// Active clusters, their lists and the sums of both; about two clusters a fine tile.
+constexpr Bytes kListsPixel = 1;
+// Kernels count the elements of a picture's planes in 32 bits.
+constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES - 1;
+// OpenCL drivers and images of the files leave a share of what is available unused.
+constexpr double kAvailableShare = 0.8;
+
+bool is_forward(const RenderSettings& s) {
+    return s.renderer == RendererKind::forward || s.renderer == RendererKind::forward_plus;
+}
+
+Bytes limit_of(const RenderSettings& settings) {
+    if (settings.max_memory_bytes > 0) return settings.max_memory_bytes;
+    return static_cast<Bytes>(kAvailableShare * static_cast<double>(available_memory_bytes()));
+}
+
+std::string limit_text(const RenderSettings& settings) {
+    return settings.max_memory_bytes > 0
+               ? "--max-memory is " + mebibytes(settings.max_memory_bytes)
+               : "there are " + mebibytes(limit_of(settings)) + " to use (--max-memory)";
+}
+
+// Twice: for OpenGL, too.
+Bytes scene_bytes(const Scene& scene) {
+    Bytes bytes = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        constexpr Bytes kVertex = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2);
+        bytes += mesh.positions.size() * kVertex + mesh.indices.size() * sizeof(std::uint32_t);
+    }
+    for (const Image& image : scene.images) bytes += image.rgba.size() * 4 / 3;
+    return 2 * bytes + scene.instances.size() * 2 * sizeof(Instance);
+}
+
+// Of OpenGL's targets for a G-buffer, depth included.
+Bytes target_pixel_bytes(const ScenePlan& plan) {
+    constexpr Bytes kFloat4 = 16;
+    const Bytes optional = plan.gbuffer.material ? 5 : 1;
+    if (plan.gbuffer.layout == GBUFFER_FULL) return 4 + kFloat4 * (plan.gbuffer.material ? 5 : 4);
+    if (plan.gbuffer.layout == GBUFFER_HALF) return 4 + 8 + 8 + 4 + optional;
+    return static_cast<Bytes>(plan.gbuffer_bytes_per_pixel);
+}
+
+struct Need {
+    Bytes fixed = 0;      // whatever the bands
+    Bytes band_pixel = 0; // for each pixel of a band
+    Bytes largest_element = 0;  // of a band's pixel in one buffer
+};
+
+Bytes layer_bytes(const RenderSettings& settings) {
+    constexpr Bytes kMostChannels = 3;
+    return settings.aovs.size() * kMostChannels * sizeof(float);
+}
+
+// What the whole picture takes on the host, and where stages need all of it, there too.
+Bytes picture_pixel_bytes(const RenderSettings& settings) {
+    Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
+    if (settings.bloom > 0.0f) bytes += 4 * 3 * sizeof(float);
+    if (settings.show != "lit") bytes += SURFACE_PLANES * sizeof(float) + 8;
+    if (settings.show == "difference") bytes *= 2;
+    return bytes;
+}
+
+Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan) {
+    const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+    const auto height = static_cast<Bytes>(settings.height);
+    const Bytes tile_rows = is_forward(settings) ? height : std::min<Bytes>(height, kRasterRows);
+    const bool blends = has_blended_surfaces(scene);
+    const bool decodes = !settings.aovs.empty() || settings.show != "lit";
+    Need need;
+    need.fixed = kProgram + scene_bytes(scene) +
+                 (settings.lights.count + scene.lights.size()) * kLight +
+                 width * height * picture_pixel_bytes(settings);
+    constexpr Bytes kForwardTarget = 20;
+    if (!is_forward(settings)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
+    if (is_forward(settings) || blends) need.fixed += width * tile_rows * kForwardTarget;
+    need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
+    if (settings.samples > 1) need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
+    if (decodes || settings.count_useful) need.band_pixel += 4 * sizeof(std::uint32_t);
+    if (decodes) need.band_pixel += 2 * SURFACE_PLANES * sizeof(float) + layer_bytes(settings);
+    if (blends) need.band_pixel += 3 * 3 * sizeof(float);
+    need.largest_element = decodes ? SURFACE_PLANES * sizeof(float) : 3 * sizeof(float);
+    need.largest_element =
+        std::max(need.largest_element, static_cast<Bytes>(plan.gbuffer_bytes_per_pixel));
+    return need;
+}
+
+// Rows of a band at most: what a buffer of the device holds, and what 32 bits address.
+Bytes most_rows(const Need& need, const DeviceInfo& device, Bytes width) {
+    const Bytes buffer = std::min<Bytes>(device.max_allocation_bytes, 0xf0000000u);
+    return std::min(buffer / need.largest_element, kMostBandPixels) / width;
+}
+
+bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
+    return is_forward(settings) || has_blended_surfaces(scene);
+}
+
+std::string picture_text(const RenderSettings& settings) {
+    return std::to_string(settings.width) + "x" + std::to_string(settings.height) + " pixels with " +
+           std::to_string(settings.lights.count) + " generated lights";
+}
+
+int multiple_of_tile(Bytes rows) {
+    return static_cast<int>(rows / FINE_TILE * FINE_TILE);
+}
+
+}  // namespace
+
+MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
+                       const DeviceInfo& device) {
+    const Need need = need_of(scene, settings, plan);
+    const Bytes limit = limit_of(settings);
+    const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+    const int whole = (settings.height + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
+    const int tile = is_forward(settings) ? whole : std::min(whole, kRasterRows);
+    const int lowest = needs_whole_tiles(scene, settings) ? tile : FINE_TILE;
+    const Bytes row = width * need.band_pixel;
+    const Bytes fitting = limit > need.fixed ? (limit - need.fixed) / row : 0;
+    const int rows = multiple_of_tile(std::min<Bytes>(
+        {fitting, most_rows(need, device, width), static_cast<Bytes>(tile)}));
+    if (rows < lowest) {
+        throw Error("memory: " + picture_text(settings) + " need at least " +
+                    mebibytes(need.fixed + static_cast<Bytes>(lowest) * row) + "; " +
+                    limit_text(settings));
+    }
+    MemoryPlan out;
+    out.band_rows = settings.band_rows > 0 ? std::clamp(settings.band_rows, lowest, rows) : rows;
+    out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
+    // A CPU's buffers are memory like the rest: lights and bands as planned, and for lists what is
+    // left.
+    out.device_bytes = device.is_cpu ? limit - need.fixed + settings.lights.count * kLight
+                                     : device.memory_bytes;
+    return out;
+}
+
+void check_light_memory(const RenderSettings& settings) {
+    const Bytes need = kProgram + settings.lights.count * kLight;
+    if (need <= limit_of(settings)) return;
+    throw Error("memory: " + std::to_string(settings.lights.count) + " lights need at least " +
+                mebibytes(need) + "; " + limit_text(settings));
+}
+
+}  // namespace kilolux

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "host/gpu/device.h"
+#include "host/render/scene_plan.h"
+#include "host/render/settings.h"
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// How a picture is made within the memory there is.
+struct MemoryPlan {
+    int band_rows = 0;                    // rows made at once: a multiple of FINE_TILE
+    std::uint64_t bytes = 0;              // what that takes, light lists aside
+    std::uint64_t device_bytes = 0;       // that device buffers may take: GrowingBuffer's budget
+};
+
+/// The highest bands that fit into settings.max_memory_bytes (0: most of what is available) and into
+/// the device's buffers. The picture's bits do not depend on it. Throws Error, before anything large
+/// is allocated, when even the lowest bands do not fit: what is needed, and what there is.
+MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
+                       const DeviceInfo& device);
+
+/// Throws Error when the generated lights alone do not fit; for before a scene is loaded.
+void check_light_memory(const RenderSettings& settings);
+
+}  // namespace kilolux

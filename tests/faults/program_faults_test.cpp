@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults of the world around the program: each ends in one line and exit code 1 (130 for signals),
+// leaves no temporary file, and leaves an earlier output as it was.
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "tests/present/child.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Words = std::vector<std::string>;
+
+constexpr const char* kOld = "an earlier output";
+
+// `render` of a small scene to `file`, after `before`: a program that changes the world and runs
+// what follows.
+Words render_words(Words before, const fs::path& file, const Words& more = {}) {
+    const Words render = {KILOLUX_PROGRAM, "render", "plain", "--lights",   "50",
+                          "--resolution",  "48,32",  "-o",    file.string()};
+    before.insert(before.end(), render.begin(), render.end());
+    before.insert(before.end(), more.begin(), more.end());
+    return before;
+}
+
+Words with_environment(const Words& variables) {
+    Words words = {"/usr/bin/env"};
+    words.insert(words.end(), variables.begin(), variables.end());
+    return words;
+}
+
+bool has(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
+
+// The last line is ours; lines before it may be warnings of ours or of drivers.
+void expect_failure(const ChildResult& result, std::string_view part) {
+    EXPECT_EQ(result.code, 1) << "signal " << result.signal << "\n" << result.err;
+    EXPECT_TRUE(has(result.err, part)) << result.err;
+    EXPECT_TRUE(has("\n" + result.err, "\nkilolux: ")) << result.err;
+}
+
+class Faults : public testing::Test {
+ protected:
+    Faults() { write_text(picture_, kOld); }
+
+    void expect_untouched() const {
+        EXPECT_EQ(folder_.names(), std::set<std::string>{"a.png"});
+        EXPECT_EQ(text_of_file(picture_), kOld);
+    }
+    void expect_refused(const Words& before, std::string_view part, const Words& more = {}) const {
+        SCOPED_TRACE(std::string(part));
+        expect_failure(run_child(render_words(before, picture_, more)), part);
+        expect_untouched();
+    }
+
+    TemporaryFolder folder_;
+    TemporaryFolder elsewhere_;
+    fs::path picture_ = folder_ / "a.png";
+};
+
+TEST_F(Faults, NoPlatformNoDeviceNoOpenGl) {
+    const std::string empty = elsewhere_.path().string();
+    expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
+    expect_refused(with_environment({"POCL_DEVICES=none"}), "OpenCL: no device found");
+    expect_refused(with_environment({"__EGL_VENDOR_LIBRARY_FILENAMES=" + empty + "/none.json"}),
+                   "EGL: no headless OpenGL 4.5 context");
+    write_text(elsewhere_ / "broken.icd", "libno-such-driver.so.1\n");
+    expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
+    write_text(elsewhere_ / "broken.icd", "libm.so.6\n");  // a library, but no driver
+    expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
+}
+
+TEST_F(Faults, DeviceLostOnTheWay) {
+    const std::string layer = "OPENCL_LAYERS=" KILOLUX_FAULT_LAYER;
+    for (const int call : {1, 2, 30, 90, 120}) {
+        expect_refused(with_environment({layer, "KILOLUX_FAULT=" + std::to_string(call) + ":-5"}),
+                       "CL_OUT_OF_RESOURCES");
+    }
+}
+
+TEST_F(Faults, KernelsThatDoNotBuild) {
+    for (const char* room : {"kernels", "raster"}) {
+        fs::copy(fs::path(KILOLUX_ROOT) / room, elsewhere_ / room, fs::copy_options::recursive);
+    }
+    const Words developer = with_environment({"KILOLUX_SOURCE_DIR=" + elsewhere_.path().string()});
+    const std::string shade = text_of_file(elsewhere_ / "kernels/shade.cl");
+    write_text(elsewhere_ / "kernels/shade.cl", shade + "\nthis is no OpenCL C\n");
+    const ChildResult result = run_child(render_words(developer, picture_));
+    expect_failure(result, "kernels/shade.cl: build failed with CL_BUILD_PROGRAM_FAILURE on ");
+    expect_untouched();
+    for (const char* part :
+         {"options '-cl-std=CL1.2", "unknown type name 'this'", "error: kernels/shade.cl:",
+          "kilolux: warning: sources are read from KILOLUX_SOURCE_DIR="}) {
+        EXPECT_TRUE(has(result.err, part)) << part << "\n" << result.err;
+    }
+    fs::remove(elsewhere_ / "kernels/shade.cl");
+    expect_refused(developer, "kernels/shade.cl: cannot be read");
+    write_text(elsewhere_ / "kernels/shade.cl", shade);
+    write_text(elsewhere_ / "raster/shaders/geometry.frag", "#version 450\nthis is no GLSL\n");
+    expect_refused(developer, "raster/shaders/geometry.frag");
+}
+
+TEST_F(Faults, FileSizeLimitAndFullDisk) {
+    // Room for what the OpenCL compiler writes, but not for the picture.
+    const Words large = {"--resolution", "1600,1000"};
+    ASSERT_EQ(run_child(render_words({}, elsewhere_ / "a.png", large)).code, 0);
+    ASSERT_GT(fs::file_size(elsewhere_ / "a.png"), 350'000u);
+    expect_refused({"/usr/bin/prlimit", "--fsize=300000"}, "a.png: cannot write: File too large",
+                   large);
+    const fs::path mounted = elsewhere_ / "full";
+    fs::create_directory(mounted);
+    if (mount("kilolux", mounted.c_str(), "tmpfs", 0, "size=4k") != 0) {
+        GTEST_SKIP() << "no permission to mount a tmpfs; the file-size limit was tested";
+    }
+    write_text(mounted / "b", std::string(4096, 'x'));
+    write_text(mounted / "a.png", "");
+    const ChildResult result = run_child(render_words({}, mounted / "a.png"));
+    expect_failure(result, "a.png: cannot write: No space left on device");
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(mounted)) {
+        names.insert(entry.path().filename().string());
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"a.png", "b"}));
+    EXPECT_EQ(umount(mounted.c_str()), 0);
+}
+
+TEST_F(Faults, MemoryThatIsShort) {
+    for (const char* size : {"1K", "1M", "100M"}) {
+        expect_refused({}, "--max-memory is ", {"--max-memory", size});
+    }
+    expect_refused({}, "memory: 65536x16384 pixels",
+                   {"--resolution", "65536,16384", "--max-memory", "2G"});
+    expect_refused({}, "memory: 2147483648 lights", {"--lights", "2147483648"});
+#if !defined(__SANITIZE_ADDRESS__)
+    // What the drivers map is beyond us: limits that they start with, and pictures that then do not
+    // fit.
+    for (const char* limit : {"--as=700000000", "--as=900000000"}) {
+        const ChildResult result = run_child(render_words({"/usr/bin/prlimit", limit}, picture_));
+        expect_failure(result, "memory: ");
+        expect_untouched();
+    }
+    expect_refused({"/usr/bin/prlimit", "--as=4000000000"}, "memory: 16384x8192 pixels",
+                   {"--resolution", "16384,8192"});
+#endif
+}
+
+TEST_F(Faults, OutputsThatCannotBeWritten) {
+    const TemporaryFolder other;
+    const fs::path lost = other / "gone/a.png";
+    const ChildResult result = run_child(render_words({}, lost));
+    expect_failure(result, "there is no folder");
+    expect_refused({}, "there is no folder", {"--stats", (other / "gone/stats.json").string()});
+    EXPECT_TRUE(other.names().empty());
+}
+
+// SIGINT and SIGTERM at any moment from start to end.
+TEST_F(Faults, SignalsAtRandomMoments) {
+    std::mt19937 random(11);
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(
+        run_child(render_words({}, elsewhere_ / "whole.png",
+                               {"--frames", "0:0", "-o", (elsewhere_ / "whole.#.png").string()}))
+            .code,
+        0);
+    const auto whole = std::chrono::steady_clock::now() - begin;
+    int interrupted = 0, finished = 0, early = 0;
+    for (int i = 0; i < 16; ++i) {
+        const int number = i % 2 == 0 ? SIGINT : SIGTERM;
+        const auto moment = whole * static_cast<int>(random() % 1000) / 1000;
+        write_text(picture_, kOld);
+        const ChildResult result =
+            run_child(render_words({}, picture_, {"--quiet"}), [&](pid_t child) {
+                std::this_thread::sleep_for(moment);
+                kill(child, number);
+            });
+        SCOPED_TRACE("signal " + std::to_string(number) + " after " +
+                     std::to_string(std::chrono::duration<double>(moment).count()) + " s\n" +
+                     result.err);
+        EXPECT_EQ(folder_.names(), std::set<std::string>{"a.png"});
+        if (result.signal != 0) {
+            // Before main() has asked for signals: libraries are being loaded.
+            EXPECT_EQ(result.signal, number);
+            EXPECT_EQ(text_of_file(picture_), kOld);
+            ++early;
+        } else if (result.code == 0) {
+            EXPECT_NE(text_of_file(picture_), kOld);
+            ++finished;
+        } else {
+            EXPECT_EQ(result.code, 130);
+            // The OpenCL compiler may have complained before.
+            EXPECT_TRUE(result.err.ends_with("kilolux: interrupted\n"));
+            EXPECT_EQ(text_of_file(picture_), kOld);
+            ++interrupted;
+        }
+    }
+    EXPECT_GT(interrupted, 5) << early << " early, " << finished << " finished";
+}
+
+// A sequence that is interrupted leaves whole frames only.
+TEST_F(Faults, InterruptedSequenceLeavesWholeFrames) {
+    const std::string pattern = (elsewhere_ / "f.###.exr").string();
+    const ChildResult result =
+        run_child(render_words({}, picture_, {"-o", pattern, "--frames", "0:999", "--quiet"}),
+                  [&](pid_t child) {
+                      while (elsewhere_.names().size() < 5) {
+                          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                      }
+                      kill(child, SIGTERM);
+                  });
+    EXPECT_EQ(result.code, 130) << result.err;
+    std::uintmax_t size = 0;
+    for (const std::string& name : elsewhere_.names()) {
+        EXPECT_TRUE(name.starts_with("f.") && name.ends_with(".exr")) << name;
+        EXPECT_GT(fs::file_size(elsewhere_ / name), 500u) << name;
+        size += fs::file_size(elsewhere_ / name);
+    }
+    EXPECT_GT(size, 0u);
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is fuzzed: by libFuzzer, with feedback (libfuzzer/), and by fuzz_test.cpp for a fixed count.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kilolux {
+
+using FuzzInput = std::span<const std::uint8_t>;
+
+/// Loads the bytes as a scene file: GLB when they begin so, else JSON. An Error must be one line.
+/// True if it loads. Aborts where a scene is not fit to be rendered.
+bool fuzz_load_scene(FuzzInput input);
+
+/// Parses the bytes: lines are words of a command line of `kilolux render`; after a line "%", the
+/// rest is a configuration file. True if they can be obeyed.
+bool fuzz_options(FuzzInput input);
+
+/// Inputs to start from.
+std::vector<std::string> load_scene_corpus();
+std::vector<std::string> options_corpus();
+
+}  // namespace kilolux
