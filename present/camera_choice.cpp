@@ -54,6 +54,13 @@ glm::dvec3 up_vector(const CameraChoice& choice, const glm::dvec3& direction) {
 
 }  // namespace
 
+Camera place_camera(const CameraPlace& place, double y_fov, double radius) {
+    Camera camera = look_at(place.position, place.focal_point, place.view_up, y_fov);
+    // Near enough to enter small scenes; reversed depth loses nothing by it.
+    camera.z_near = std::min(camera.z_near, 0.01 * radius);
+    return camera;
+}
+
 Camera choose_camera(const CameraChoice& choice, const Scene& scene) {
     const Box box = resting_bounds(scene);
     Camera camera = start_camera(choice, scene, box);
@@ -67,9 +74,8 @@ Camera choose_camera(const CameraChoice& choice, const Scene& scene) {
     const glm::dvec3 position = choice.position.value_or(camera.position);
     const double y_fov = choice.view_angle ? glm::radians(*choice.view_angle) : camera.y_fov;
     if (choice.position || choice.focal_point || choice.view_up) {
-        camera = look_at(position, focal, up_vector(choice, focal - position), y_fov);
-        // Near enough to enter small scenes; reversed depth loses nothing by it.
-        camera.z_near = std::min(camera.z_near, 0.01 * radius);
+        camera =
+            place_camera({position, focal, up_vector(choice, focal - position)}, y_fov, radius);
     }
     camera.y_fov = y_fov;
     if (choice.orthographic) make_orthographic(camera, glm::length(focal - position), box);

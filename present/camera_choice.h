@@ -19,6 +19,17 @@ struct CameraChoice {
     bool orthographic = false;
 };
 
+/// Where a camera stands, what it looks at, and what is up.
+struct CameraPlace {
+    glm::dvec3 position{0.0};     // [m]
+    glm::dvec3 focal_point{0.0};  // [m]
+    glm::dvec3 view_up{0.0, 1.0, 0.0};
+};
+
+/// A perspective camera at a place in a scene of `radius` [m], vertical angle `y_fov` [rad]. Throws
+/// Error when the directions are degenerate.
+Camera place_camera(const CameraPlace& place, double y_fov, double radius);
+
 /// The camera that `choice` means in `scene`.
 ///
 /// It starts from the camera of the index, else the scene's first, else one that frames the scene.

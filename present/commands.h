@@ -7,6 +7,7 @@
 namespace kilolux {
 
 void add_render_command(Program& program);
+void add_view_command(Program& program);
 void add_bench_command(Program& program);
 void add_report_command(Program& program);
 void add_info_command(Program& program);

@@ -53,6 +53,7 @@ Program::Program() : app_(kMeaning, "kilolux") {
         .choice({"--completion", "", "", "Print a script that completes options in a shell"},
                 completion_shell_, completion_shells());
     add_render_command(*this);
+    add_view_command(*this);
     add_bench_command(*this);
     add_report_command(*this);
     add_info_command(*this);

@@ -2,7 +2,7 @@ cmake_minimum_required(VERSION 3.22)
 # Who may include whom. Includes point down only: ROOT's files are checked against this table.
 #   cmake -DROOT=<source folder> -P tests/include_rules.cmake
 set(rooms kernels/shared kernels/device kernels host/base host/scene host/gpu host/stages host/interop
-    host/render host/measure host/measure/synthetic host/measure/hard_cases raster present)
+    host/render host/measure host/measure/synthetic host/measure/hard_cases raster present present/window)
 set(allowed_kernels/shared kernels/shared)
 set(allowed_kernels/device kernels/shared kernels/device)
 set(allowed_kernels kernels/shared kernels/device)
@@ -17,11 +17,13 @@ set(allowed_host/measure/synthetic kernels/shared host/base host/gpu host/stages
 set(allowed_host/measure/hard_cases kernels/shared host/base host/scene host/gpu host/stages host/interop host/render
     host/measure host/measure/synthetic host/measure/hard_cases raster)
 set(allowed_raster kernels/shared host/base host/scene raster)
-set(allowed_present kernels/shared host/base host/scene host/gpu host/stages host/interop host/render host/measure host/measure/hard_cases raster present)
+set(allowed_present kernels/shared host/base host/scene host/gpu host/stages host/interop host/render host/measure
+    host/measure/hard_cases raster present present/window)
+set(allowed_present/window ${allowed_present})
 # Libraries that only some rooms may see.
 set(opencl_rooms host/gpu host/stages host/interop host/render host/measure host/measure/synthetic
-    host/measure/hard_cases present)
-set(opengl_rooms raster host/interop present)
+    host/measure/hard_cases present present/window)
+set(opengl_rooms raster host/interop present present/window)
 
 function(complain file what)
   message(SEND_ERROR "${file}: ${what}")

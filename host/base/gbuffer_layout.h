@@ -17,6 +17,7 @@ struct GBufferNeeds {
     float emissive_scale = 1.0f;   // largest emissive value, > 0
     bool specular = false;         // dielectrics that reflect otherwise than 4 % anywhere in the scene
     bool unlit = false;            // unlit materials among glossy ones: a roughness of 0 marks them
+    bool operator==(const GBufferNeeds&) const = default;
 };
 
 /// Which planes a G-buffer has and where, for planes of stride * height elements.

@@ -57,11 +57,13 @@ std::array<int, 2> error_resolution(std::array<int, 2> resolution, std::uint64_t
     return resolution;
 }
 
-BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera, double time)
+BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera, double time,
+                   GlSource gl)
     : scene_(scene),
       base_(std::move(base)),
       camera_(camera),
       time_(time),
+      gl_(gl),
       limits_(cached_device_limits(Gpu(choose_device(base_.device)))) {
     base_.aovs.clear();
 }
@@ -71,7 +73,7 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
     std::vector<FrameStats> measured;
     FrameSetup setup;
     {
-        Renderer renderer(scene_, settings);
+        Renderer renderer(scene_, settings, gl_);
         setup = frame_setup(settings, renderer.plan(), renderer.device());
         for (int i = 0; i < frames.warm_up + frames.measured; ++i) {
             Frame frame = renderer.render(camera_, time_);
@@ -132,7 +134,7 @@ const BenchRun::Coverage& BenchRun::coverage(const SweepPoint& point) {
     RenderSettings settings = settings_at(base_, point);
     settings.renderer = RendererKind::deferred;
     settings.count_useful = true;
-    const FrameStats stats = Renderer(scene_, settings).render(camera_, time_).stats;
+    const FrameStats stats = Renderer(scene_, settings, gl_).render(camera_, time_).stats;
     on_frame_();
     found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels};
     return found->second;
@@ -145,14 +147,15 @@ const RgbImage& BenchRun::reference(const SweepPoint& point) {
     SweepPoint all = point;
     all.renderer = RendererKind::deferred_all;
     all.lanes = all.group_height = 0;
-    found->second = picture_of(Renderer(scene_, settings_at(base_, all)).render(camera_, time_));
+    found->second =
+        picture_of(Renderer(scene_, settings_at(base_, all), gl_).render(camera_, time_));
     on_frame_();
     return found->second;
 }
 
 PictureError BenchRun::error_of(const SweepPoint& point) {
     const SweepPoint small = error_point(point);
-    const Frame frame = Renderer(scene_, settings_at(base_, small)).render(camera_, time_);
+    const Frame frame = Renderer(scene_, settings_at(base_, small), gl_).render(camera_, time_);
     on_frame_();
     const HdrMetrics metrics = compare_hdr(picture_of(frame), reference(small));
     return {metrics.relative.max, metrics.different_pixels, metrics.pixels};

@@ -13,6 +13,7 @@
 #include "host/measure/rgb_image.h"
 #include "host/measure/stage_model.h"
 #include "host/render/frame.h"
+#include "host/render/renderer.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
 
@@ -32,7 +33,9 @@ std::array<int, 2> error_resolution(std::array<int, 2> resolution, std::uint64_t
 class BenchRun {
  public:
     /// `base`: all settings but the points'. The scene must outlive this.
-    BenchRun(const Scene& scene, RenderSettings base, const Camera& camera, double time);
+    /// `gl`: see Renderer.
+    BenchRun(const Scene& scene, RenderSettings base, const Camera& camera, double time,
+             GlSource gl = GlSource::headless);
 
     /// What is called after every frame that is rendered; it may throw to stop.
     void on_frame(std::function<void()> call) { on_frame_ = std::move(call); }
@@ -65,6 +68,7 @@ class BenchRun {
     RenderSettings base_;
     Camera camera_;
     double time_;
+    GlSource gl_;
     DeviceLimits limits_;
     std::function<void()> on_frame_ = [] {};
     std::map<SceneKey, Coverage> coverages_;

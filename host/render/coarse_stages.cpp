@@ -3,6 +3,13 @@
 
 namespace kilolux {
 
+std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& list, int bits,
+                                   std::size_t count, std::size_t first) {
+    if (bits == 32) return download<uint>(gpu, list, count, first);
+    const auto narrow = download<std::uint16_t>(gpu, list, count, first);
+    return {narrow.begin(), narrow.end()};
+}
+
 CoarseStages::CoarseStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       index_bits_(features.light_index_bits),
@@ -24,13 +31,7 @@ HostCoarseLists CoarseStages::download(const CoarseResult& result) const {
     out.grid = result.boxes.grid;
     out.offsets = kilolux::download<uint>(gpu_, result.lists.offsets,
                                           std::size_t{out.grid.cluster_count} + 1);
-    const std::size_t entries = out.offsets.back();
-    if (index_bits_ == 32) {
-        out.lists = kilolux::download<uint>(gpu_, result.lists.lists, entries);
-        return out;
-    }
-    const auto narrow = kilolux::download<std::uint16_t>(gpu_, result.lists.lists, entries);
-    out.lists.assign(narrow.begin(), narrow.end());
+    out.lists = download_indices(gpu_, result.lists.lists, index_bits_, out.offsets.back());
     return out;
 }
 

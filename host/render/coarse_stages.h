@@ -22,6 +22,10 @@ struct HostCoarseLists {
     std::vector<uint> lists;
 };
 
+/// Light indices of a list of `bits`, 16 or 32, widened. Blocks.
+std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& list, int bits,
+                                   std::size_t count, std::size_t first = 0);
+
 /// The stages from lights to the coarse grid's lists.
 class CoarseStages {
  public:

@@ -13,13 +13,13 @@ DeferredPath::DeferredPath(const RenderContext& context)
       list_stages_(context.gpu, context.tuning, context.plan.kernels),
       shade_(context.gpu, context.tuning, context.plan.kernels),
       count_lights_(context.gpu, context.tuning, context.plan.kernels) {
-    shade_.set_ambient(context.settings.ambient);
     if (has_blended_surfaces(context.gpu_scene.scene())) {
         blended_.emplace(context.gpu_scene, forward_features(context.plan, !all_lights_, false));
     }
 }
 
 Radiance DeferredPath::light(const SampleInput& sample, StageTimer& timer, FrameStats& stats) {
+    shade_.set_ambient(context_.settings.ambient);
     gbuffer_ = surfaces_.draw(sample.camera, sample.band, sample.redraw, stats.stages);
     grid_ = coarse_grid(context_, sample.camera, stats);
     local_lights_ = sample.lights.count;
@@ -66,6 +66,12 @@ LitSurfaces DeferredPath::lit_surfaces() {
     const PreparedLights& lights = lists_.lights;
     return {pixels(), download<ShadeLight>(context_.gpu, lights.lights, lights.count),
             download<DirectionalLight>(context_.gpu, lights.directional, lights.directional_count)};
+}
+
+PixelProbe DeferredPath::probe(int x, int y) {
+    PixelProbe out = surfaces_.probe(gbuffer_, grid_, x, y);
+    if (out.drawn() && !all_lights_) list_stages_.probe(lists_, gbuffer_.view, x, y, out);
+    return out;
 }
 
 LightCounts DeferredPath::count_lights() {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "host/render/light_lists.h"
+#include "host/render/pixel_probe.h"
 #include "host/render/surface_pass.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/shade.h"
@@ -27,6 +28,12 @@ class DeferredPath {
 
     /// What the last light() shaded, and with which lights. Blocks.
     LitSurfaces lit_surfaces();
+
+    /// What the last light() knows of a pixel; of its lights the indices. Blocks.
+    PixelProbe probe(int x, int y);
+
+    /// The active clusters of the last light(), without `deferred-all`. Blocks.
+    std::vector<ActiveCluster> active_clusters() const { return list_stages_.clusters(lists_); }
 
  private:
     Radiance light_from_lists(const SampleInput& sample, StageTimer& timer, FrameStats& stats);

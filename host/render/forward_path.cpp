@@ -69,6 +69,21 @@ std::vector<uint> ForwardPath::evaluated(const Camera& camera, const DecodedSurf
     return out;
 }
 
+PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
+    if (!surfaces_) surfaces_.emplace(context_);
+    std::vector<StageTime> untimed;
+    PixelProbe out = surfaces_->probe(
+        surfaces_->draw(camera, {0, context_.settings.height}, true, untimed), grid_, x, y);
+    if (!out.drawn() || !clustered_) return out;
+    const uint cluster = cluster_index(grid_, out.tile_x, out.tile_y, out.slice);
+    out.has_list = true;
+    for (uint i = lists_.offsets[cluster]; i < lists_.offsets[cluster + 1]; ++i) {
+        out.lights.push_back({lists_.lists[i], {}, {}});
+    }
+    out.coarse_count = static_cast<uint>(out.lights.size());
+    return out;
+}
+
 DecodedSurfaces ForwardPath::pixels(const Camera& camera) {
     if (!surfaces_) surfaces_.emplace(context_);
     std::vector<StageTime> untimed;

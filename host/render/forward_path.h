@@ -24,6 +24,9 @@ class ForwardPath {
     /// Surfaces and counts of the last light(), for AOVs and views. Blocks.
     DecodedSurfaces pixels(const Camera& camera);
 
+    /// As DeferredPath::probe; draws a G-buffer for it.
+    PixelProbe probe(const Camera& camera, int x, int y);
+
  private:
     HostCoarseLists make_lists(const SampleInput& sample, const View& view, StageTimer& timer,
                                FrameStats& stats);

@@ -5,6 +5,7 @@ namespace kilolux {
 
 ListStages::ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
+      index_bits_(features.light_index_bits),
       coarse_(gpu, tuning, features),
       bin_(gpu, tuning, features),
       refine_(gpu, tuning, features) {}
@@ -45,6 +46,30 @@ void ListStages::count(const LightLists& lists, FrameStats& stats) const {
     }
     stats.evaluations_per_pixel =
         stats.drawn_pixels > 0 ? evaluations / static_cast<double>(stats.drawn_pixels) : 0.0;
+}
+
+std::vector<ActiveCluster> ListStages::clusters(const LightLists& lists) const {
+    return download<ActiveCluster>(gpu_, lists.clusters.clusters, bin_.active());
+}
+
+void ListStages::probe(const LightLists& lists, const View& view, int x, int y,
+                       PixelProbe& probe) const {
+    const uint coarse = cluster_index(probe.grid, probe.tile_x, probe.tile_y, probe.slice);
+    const auto ends = download<uint>(gpu_, lists.coarse.offsets, 2, coarse);
+    probe.coarse_count = ends[1] - ends[0];
+    const uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    const uint tile = static_cast<uint>(y) / FINE_TILE * tiles_x + static_cast<uint>(x) / FINE_TILE;
+    const auto range = download<uint>(gpu_, lists.clusters.offsets, 2, tile);
+    for (const ActiveCluster& cluster :
+         download<ActiveCluster>(gpu_, lists.clusters.clusters, range[1] - range[0], range[0])) {
+        if (cluster.slice != probe.fine_slice) continue;
+        probe.active = cluster;
+        probe.has_list = true;
+        for (const uint light : download_indices(gpu_, lists.refined.lists, index_bits_,
+                                                 cluster.list_count, cluster.list_begin)) {
+            probe.lights.push_back({light, {}, {}});
+        }
+    }
 }
 
 HostCoarseLists ListStages::download_coarse(const LightLists& lists) const {

@@ -3,6 +3,7 @@
 
 #include "host/render/coarse_stages.h"
 #include "host/render/frame.h"
+#include "host/render/pixel_probe.h"
 #include "host/stages/bin_pixels.h"
 #include "host/stages/refine_lights.h"
 
@@ -34,11 +35,19 @@ class ListStages {
     /// evaluated a pixel. Blocks.
     void count(const LightLists& lists, FrameStats& stats) const;
 
+    /// Adds to a probe of a drawn pixel (x, y) its lists of the last enqueue, whose result is
+    /// `lists`. Blocks.
+    void probe(const LightLists& lists, const View& view, int x, int y, PixelProbe& probe) const;
+
+    /// The active clusters of the last enqueue. Blocks.
+    std::vector<ActiveCluster> clusters(const LightLists& lists) const;
+
     /// The coarse lists of the last enqueue on the host. Blocks.
     HostCoarseLists download_coarse(const LightLists& lists) const;
 
  private:
     Gpu gpu_;
+    int index_bits_;
     CoarseStages coarse_;
     BinPixels bin_;
     RefineLights refine_;

@@ -30,26 +30,42 @@ std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& sett
 LightSource::LightSource(const Gpu& gpu, const Scene& scene, const RenderSettings& settings)
     : gpu_(gpu),
       scene_(scene),
+      revision_(scene.revision),
+      range_budget_(settings.range_budget),
       generated_(settings.lights),
       own_(lights_with_ranges(scene, settings.range_budget)),
       local_(gpu, "lights"),
       directional_(gpu, "lights") {}
 
-void LightSource::refresh() {
-    own_ = scene_.lights;
-    fill_missing_ranges(own_);
+void LightSource::set_generated(const LightOptions& generated) {
+    if (generated == generated_) return;
+    generated_ = generated;
+    time_.reset();
 }
 
-LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) const {
-    std::vector<SceneLight> lights = own_;
-    const std::vector<SceneLight> generated = generate_lights(generated_, scene_, time);
-    lights.insert(lights.end(), generated.begin(), generated.end());
-    LightRows rows = make_light_rows(lights, camera_position);
-    stats.lights_given = lights.size();
+// The scene's own lights anew where they moved.
+void LightSource::take_up_changes() {
+    if (revision_ == scene_.revision) return;
+    revision_ = scene_.revision;
+    own_ = scene_.lights;
+    fill_missing_ranges(own_, range_budget_);
+    time_.reset();
+}
+
+LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) {
+    take_up_changes();
+    if (time_ != time) {
+        const std::vector<SceneLight> generated = generate_lights(generated_, scene_, time);
+        lights_ = own_;
+        lights_.insert(lights_.end(), generated.begin(), generated.end());
+        time_ = time;
+    }
+    LightRows rows = make_light_rows(lights_, camera_position);
+    stats.lights_given = lights_.size();
     stats.lights_rejected = rows.rejected;
     stats.lights_used = rows.local.size() + rows.directional.size();
     stats.directional_lights = rows.directional.size();
-    stats.lights_dropped = lights.size() - rows.rejected - stats.lights_used;
+    stats.lights_dropped = lights_.size() - rows.rejected - stats.lights_used;
     return rows;
 }
 

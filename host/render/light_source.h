@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "host/gpu/buffer.h"
@@ -22,20 +23,27 @@ class LightSource {
     /// must outlive this.
     LightSource(const Gpu& gpu, const Scene& scene, const RenderSettings& settings);
 
-    /// Takes the scene's own lights anew, after they moved.
-    void refresh();
+    /// Other generated lights from now on.
+    void set_generated(const LightOptions& generated);
 
-    /// Rows relative to the camera at `time` [s]; sets the counts of lights.
-    LightRows at(double time, const glm::dvec3& camera_position, FrameStats& stats) const;
+    /// Rows relative to the camera at `time` [s], of the scene as it is now; sets the counts of
+    /// lights.
+    LightRows at(double time, const glm::dvec3& camera_position, FrameStats& stats);
 
     /// The rows on the device, until the next call.
     LightInput upload(const LightRows& rows);
 
  private:
+    void take_up_changes();
+
     Gpu gpu_;
     const Scene& scene_;
+    std::uint32_t revision_;  // of the scene that own_ are of
+    double range_budget_;
     LightOptions generated_;
-    std::vector<SceneLight> own_;  // with ranges
+    std::vector<SceneLight> own_;     // with ranges
+    std::vector<SceneLight> lights_;  // all of them at time_
+    std::optional<double> time_;      // none: not made yet
     GrowingBuffer local_, directional_;
 };
 

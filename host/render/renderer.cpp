@@ -2,23 +2,13 @@
 #include "host/render/renderer.h"
 
 #include <chrono>
-#include <optional>
+#include <cstring>
 
-#include "host/base/error.h"
-#include "host/base/log.h"
-#include "host/render/deferred_path.h"
-#include "host/render/forward_path.h"
+#include "host/render/bands.h"
 #include "host/render/frame_bands.h"
-#include "host/render/kernel_choice.h"
-#include "host/render/light_source.h"
-#include "host/render/memory_plan.h"
-#include "host/render/radiance_sum.h"
+#include "host/render/renderer_parts.h"
 #include "host/render/sample_pattern.h"
 #include "host/render/views.h"
-#include "host/stages/bloom.h"
-#include "host/stages/tonemap.h"
-#include "raster/gl_context.h"
-#include "raster/overdraw_pass.h"
 
 namespace kilolux {
 namespace {
@@ -29,30 +19,11 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-std::optional<GlContext> context_from(GlSource gl) {
-    if (gl == GlSource::current) return std::nullopt;
-    return GlContext::headless();
-}
+}  // namespace
 
 bool is_forward(RendererKind renderer) {
     return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
 }
-
-// The same picture with every light at every pixel.
-RenderSettings reference_of(RenderSettings settings) {
-    settings.renderer = RendererKind::deferred_all;
-    settings.show = "lit";
-    settings.aovs.clear();
-    return settings;
-}
-
-// Holds the buffers of everything that gets the device from now on within the plan.
-MemoryPlan limit_buffers(Gpu& gpu, const MemoryPlan& plan) {
-    gpu.budget = std::make_shared<MemoryBudget>(MemoryBudget{plan.device_bytes, 0});
-    return plan;
-}
-
-}  // namespace
 
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> infos;
@@ -60,98 +31,15 @@ std::vector<DeviceInfo> list_devices() {
     return infos;
 }
 
-struct Renderer::Parts {
-    Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl);
-    ~Parts();
-    Parts(const Parts&) = delete;
-    Parts& operator=(const Parts&) = delete;
-    Frame render(const Camera& camera, double time, const std::function<void()>& between);
-    void take_up_changes();
-    Radiance light(const SampleInput& sample, FrameStats& stats);
-    Radiance light_samples(const SampleInput& band, FrameStats& stats);
-    void render_band(const SampleInput& band, Frame& frame, DecodedSurfaces& surfaces);
-    void add_light(const Radiance& radiance, Frame& frame);
-    void add_display(const Radiance& glowing, Frame& frame);
-    void take_stage_times(FrameStats& stats);
-    std::size_t pixel_count() const {
-        return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
-    }
-    void bloom_whole(const View& view, Frame& frame);
-    void show_view(const Camera& camera, double time, const DecodedSurfaces& surfaces,
-                   Frame& frame);
-
-    const Scene& scene;
-    std::uint32_t revision;  // of the scene that was taken up
-    Box box;                 // of the scene then
-    RenderSettings settings;
-    ScenePlan plan;
-    Gpu gpu;
-    MemoryPlan memory;
-    Tuning tuning;
-    std::optional<GlContext> gl_context;
-    GpuScene gpu_scene;
-    LightSource lights;
-    RenderContext context;
-    std::optional<DeferredPath> deferred;  // this,
-    std::optional<ForwardPath> forward;    // or this
-    std::unique_ptr<Renderer> reference;   // for the view of differences from it
-    std::optional<OverdrawPass> overdraw;  // for its view
-    std::size_t zero_normals;
-    RadianceSum sum;
-    std::optional<Bloom> bloom;  // none at a share of 0
-    Tonemap tonemap;
-    StageTimer timer;
-};
-
-Renderer::Parts::Parts(const Scene& the_scene, const RenderSettings& the_settings, GlSource gl)
-    : scene(the_scene),
-      revision(the_scene.revision),
-      box(bounds(the_scene)),
-      settings(the_settings),
-      plan(make_scene_plan(the_scene, settings, settings.lights.count + the_scene.lights.size())),
-      gpu(open_device(settings)),
-      memory(limit_buffers(gpu, plan_memory(the_scene, settings, plan, gpu.info))),
-      tuning(choose_tuning(describe(gpu.device), settings.kernels).tuning),
-      gl_context(context_from(gl)),
-      gpu_scene(the_scene),
-      lights(gpu, the_scene, settings),
-      context{settings, plan, gpu, tuning, gpu_scene, box},
-      zero_normals(zero_normal_count(the_scene)),
-      sum(gpu),
-      tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
-    if (is_forward(settings.renderer)) {
-        forward.emplace(context);
-    } else {
-        deferred.emplace(context);
-    }
-    if (settings.bloom > 0.0f) bloom.emplace(gpu);
-    if (settings.show == "overdraw") overdraw.emplace(gpu_scene);
-    if (settings.show == "difference") {
-        reference =
-            std::make_unique<Renderer>(the_scene, reference_of(settings), GlSource::current);
-    }
-}
-
-void Renderer::Parts::take_up_changes() {
-    if (revision == scene.revision) return;
-    revision = scene.revision;
-    box = bounds(scene);
-    gpu_scene.refresh();
-    lights.refresh();
-}
-
-// OpenGL's names are a context's own: in another renderer's they would delete its objects.
-Renderer::Parts::~Parts() {
-    try {
-        if (gl_context) gl_context->make_current();
-    } catch (const Error& error) {
-        detail(error.what());  // the context is lost, and the names with it
-    }
+std::size_t display_stride(int width) {
+    return view_of(Camera{}, width, 1).stride;
 }
 
 // From the lights to a sample's radiance, by the path that was asked for.
 Radiance Renderer::Parts::light(const SampleInput& sample, FrameStats& stats) {
-    return deferred ? deferred->light(sample, timer, stats) : forward->light(sample, timer, stats);
+    const RendererKind kind = settings.renderer;
+    return is_forward(kind) ? forward.at(kind).light(sample, timer, stats)
+                            : deferred.at(kind).light(sample, timer, stats);
 }
 
 // The mean of the jittered samples. Sample 0, through the pixels' centres, comes last: counts, AOVs
@@ -189,11 +77,15 @@ void Renderer::Parts::add_display(const Radiance& glowing, Frame& frame) {
     const cl::Buffer display = tonemap.enqueue(glowing, settings.exposure, timer);
     const View& view = glowing.view;
     const std::size_t plane = std::size_t{view.stride} * view.height;
-    if (bloom && settings.keep_bloomed) {
+    if (settings.bloom > 0.0f && settings.keep_bloomed) {
         frame.bloomed = tight_radiance(download<float>(gpu, glowing.planes, 3 * plane), view);
     }
     append_rows(frame.display, tight_display(download<uint>(gpu, display, plane), view),
                 4 * pixel_count());
+}
+
+Radiance Renderer::Parts::glowing(const Radiance& radiance) {
+    return settings.bloom > 0.0f ? bloom->enqueue(radiance, settings.bloom, timer) : radiance;
 }
 
 void Renderer::Parts::render_band(const SampleInput& band, Frame& frame,
@@ -201,17 +93,23 @@ void Renderer::Parts::render_band(const SampleInput& band, Frame& frame,
     const Clock::time_point start = Clock::now();
     FrameStats stats;
     const Radiance radiance = light_samples(band, stats);
-    if (!bloom) {
-        add_display(radiance, frame);
-    } else if (band.band.rows == settings.height) {
-        add_display(bloom->enqueue(radiance, settings.bloom, timer), frame);
+    if (settings.bloom <= 0.0f || band.band.rows == settings.height) {
+        add_display(glowing(radiance), frame);
     }  // else light spreads over the whole picture: bloom_whole()
     add_light(radiance, frame);
     take_stage_times(stats);
     add_band(frame.stats, stats);
     frame.stats.frame_ms += ms_since(start);
+    add_surfaces(band, frame, surfaces);
+}
+
+// A band's AOVs, and its surfaces for a view.
+void Renderer::Parts::add_surfaces(const SampleInput& band, Frame& frame,
+                                   DecodedSurfaces& surfaces) {
     if (!wants_pixels(settings)) return;
-    DecodedSurfaces pixels = deferred ? deferred->pixels() : forward->pixels(band.camera);
+    const RendererKind kind = settings.renderer;
+    DecodedSurfaces pixels =
+        is_forward(kind) ? forward.at(kind).pixels(band.camera) : deferred.at(kind).pixels();
     std::vector<Layer> layers;
     for (const std::string& name : settings.aovs) {
         layers.push_back(make_aov(name, pixels, band.camera));
@@ -236,59 +134,151 @@ void Renderer::Parts::bloom_whole(const View& view, Frame& frame) {
 void Renderer::Parts::show_view(const Camera& camera, double time, const DecodedSurfaces& surfaces,
                                 Frame& frame) {
     std::vector<float> fragments, reference_radiance;
-    if (overdraw) fragments = overdraw->count(camera, settings.width, settings.height);
-    if (reference) reference_radiance = reference->render(camera, time).radiance;
+    if (settings.show == "overdraw") {
+        fragments = overdraw->count(camera, settings.width, settings.height);
+    }
+    if (settings.show == "difference") {
+        reference_radiance = reference->render(camera, time, {}).radiance;
+    }
     frame.display = make_view(settings.show, {surfaces, camera, context.box, fragments,
                                               frame.radiance, reference_radiance});
 }
 
-Frame Renderer::Parts::render(const Camera& camera, double time,
-                              const std::function<void()>& between) {
-    if (gl_context) gl_context->make_current();
-    take_up_changes();
+// The frame's size, and its lights on the device.
+LightInput Renderer::Parts::begin(const Camera& camera, double time, Frame& frame) {
+    scene->make_current();
+    scene->take_up_changes();
     const Clock::time_point start = Clock::now();
-    Frame frame;
+    last_camera = camera;
     frame.width = settings.width;
     frame.height = settings.height;
-    frame.stats.zero_normals = zero_normals;
-    const LightRows rows = lights.at(time, camera.position, frame.stats);
+    frame.stats.zero_normals = scene->zero_normals();
+    rows = lights.at(time, camera.position, frame.stats);
     add_stage_time(frame.stats.stages, "light_input", ms_since(start));
     const LightInput input = lights.upload(rows);
     frame.stats.frame_ms = ms_since(start);
+    return input;
+}
+
+Frame Renderer::Parts::render(const Camera& camera, double time,
+                              const std::function<void()>& between) {
+    Frame frame;
+    const LightInput input = begin(camera, time, frame);
     const std::vector<Band> bands = make_bands(settings.height, memory.band_rows);
     DecodedSurfaces surfaces;
     for (const Band& band : bands) {
         if (between) between();
-        const bool redraw = raster_tile(settings.height, band.first_row).first_row == band.first_row;
+        const bool redraw =
+            raster_tile(settings.height, band.first_row).first_row == band.first_row;
         render_band({camera, rows, input, band, redraw}, frame, surfaces);
     }
-    if (bloom && bands.size() > 1) {
+    if (settings.bloom > 0.0f && bands.size() > 1) {
         bloom_whole(view_of(camera, settings.width, settings.height), frame);
     }
     if (settings.show != "lit") show_view(camera, time, surfaces, frame);
     return frame;
 }
 
-Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
-    : parts_(in_stage("renderer", [&] { return std::make_unique<Parts>(scene, settings, gl); })) {}
-Renderer::~Renderer() = default;
-Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+// The display picture to the caller's memory: a CPU device's kernel writes there itself.
+void Renderer::Parts::develop_to(std::span<uint> pixels, const Radiance& radiance) {
+    const Radiance shown = glowing(radiance);
+    if (!gpu.info.is_cpu) {
+        const cl::Buffer display = tonemap.enqueue(shown, settings.exposure, timer);
+        gpu.queue.enqueueReadBuffer(display, CL_TRUE, 0, pixels.size_bytes(), pixels.data());
+        return;
+    }
+    const cl::Buffer display(gpu.context, CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR,
+                             pixels.size_bytes(), pixels.data());
+    tonemap.enqueue_to(display, shown, settings.exposure, timer);
+    void* mapped =
+        gpu.queue.enqueueMapBuffer(display, CL_TRUE, CL_MAP_READ, 0, pixels.size_bytes());
+    gpu.queue.enqueueUnmapMemObject(display, mapped);
+    gpu.queue.finish();
+}
+
+Frame Renderer::Parts::render_to(std::span<uint> pixels, const Camera& camera, double time) {
+    const std::size_t stride = display_stride(settings.width);
+    pixels = pixels.first(stride * static_cast<std::size_t>(settings.height));
+    if (settings.show != "lit" || !is_whole()) {
+        Frame frame = render(camera, time, {});
+        const auto row = static_cast<std::size_t>(settings.width);
+        for (std::size_t y = 0; y < static_cast<std::size_t>(settings.height); ++y) {
+            std::memcpy(&pixels[y * stride], &frame.display[4 * y * row], 4 * row);
+        }
+        frame.display.clear();
+        frame.radiance.clear();
+        return frame;
+    }
+    Frame frame;
+    const LightInput input = begin(camera, time, frame);
+    const Clock::time_point start = Clock::now();
+    const SampleInput whole{camera, rows, input, {0, settings.height}, true};
+    FrameStats stats;
+    develop_to(pixels, light_samples(whole, stats));
+    take_stage_times(stats);
+    add_band(frame.stats, stats);
+    frame.stats.frame_ms += ms_since(start);
+    DecodedSurfaces unseen;
+    add_surfaces(whole, frame, unseen);
+    return frame;
+}
+
+// What is on the device is the last band's.
+void Renderer::Parts::require_whole(const char* what) const {
+    if (is_whole()) return;
+    throw Error(std::string(what) + ": the picture is made in bands of " +
+                std::to_string(memory.band_rows) + " rows; it needs the whole (--max-memory)");
+}
+
+PixelProbe Renderer::Parts::probe(int x, int y) {
+    require_whole("probe");
+    PixelProbe out = is_forward(settings.renderer)
+                         ? forward.at(settings.renderer).probe(last_camera, x, y)
+                         : deferred.at(settings.renderer).probe(x, y);
+    const View view = view_of(last_camera, settings.width, settings.height);
+    for (ProbedLight& light : out.lights) {
+        light.light = rows.local.at(light.index);
+        light.shade = shade_light(view, light.light);
+    }
+    return out;
+}
+
+const RenderSettings& Renderer::settings() const {
+    return parts_->settings;
+}
 
 Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
     return in_stage("render", [&] { return parts_->render(camera, time, between); });
 }
 
+Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double time) {
+    return in_stage("render", [&] { return parts_->render_to(pixels, camera, time); });
+}
+
 LitSurfaces Renderer::lit_surfaces() {
-    if (!parts_->deferred) {
+    parts_->require_whole("lit surfaces");
+    const auto found = parts_->deferred.find(parts_->settings.renderer);
+    if (found == parts_->deferred.end()) {
         throw Error("renderer: the forward renderers keep no G-buffer to look at");
     }
-    if (parts_->memory.band_rows < parts_->settings.height) {
-        throw Error("renderer: the memory there is makes pictures of " +
-                    std::to_string(parts_->settings.height) + " rows in bands of " +
-                    std::to_string(parts_->memory.band_rows) + ": none is whole to look at");
+    return in_stage("lit surfaces", [&] { return found->second.lit_surfaces(); });
+}
+
+std::uint64_t Renderer::light_count(const RenderSettings& settings) const {
+    return settings.lights.count + parts_->scene->scene().lights.size();
+}
+
+PixelProbe Renderer::probe(int x, int y) {
+    parts_->scene->make_current();
+    return in_stage("probe", [&] { return parts_->probe(x, y); });
+}
+
+std::vector<ActiveCluster> Renderer::active_clusters() const {
+    const auto found = parts_->deferred.find(RendererKind::deferred);
+    if (parts_->settings.renderer != RendererKind::deferred || found == parts_->deferred.end()) {
+        return {};
     }
-    return in_stage("lit surfaces", [&] { return parts_->deferred->lit_surfaces(); });
+    return in_stage("active clusters", [&] { return found->second.active_clusters(); });
 }
 
 const DeviceInfo& Renderer::device() const {
@@ -299,6 +289,9 @@ const ScenePlan& Renderer::plan() const {
 }
 const MemoryPlan& Renderer::memory() const {
     return parts_->memory;
+}
+const Gpu& Renderer::gpu() const {
+    return parts_->gpu;
 }
 
 }  // namespace kilolux

@@ -3,12 +3,14 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "host/gpu/device.h"
 #include "host/render/frame.h"
 #include "host/render/frame_parts.h"
 #include "host/render/memory_plan.h"
+#include "host/render/pixel_probe.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
@@ -25,6 +27,9 @@ enum class GlSource {
     current,   // the caller's, current now and at every render()
 };
 
+/// Pixels from a row of a display picture to the next, as render_to() writes them.
+std::size_t display_stride(int width);
+
 /// Renders one scene: the whole data flow, from meshes and lights to pixels. Between frames the scene
 /// may change as AnimatedScene changes it: what its revisions say is new is taken up.
 class Renderer {
@@ -36,6 +41,14 @@ class Renderer {
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
+    /// Renders with other settings from now on. Meshes and textures stay; kernels and shaders are
+    /// built anew only where the device, the scene plan or the renderer changes, and kept for the
+    /// way back to an earlier renderer. Throws Error as the constructor does; then the former
+    /// settings hold.
+    void change(const RenderSettings& settings);
+
+    const RenderSettings& settings() const;
+
     /// The picture at `time` [s]: the mean of settings.samples jittered samples (sample_pattern.h).
     /// AOVs, views and counts are those of the sample through the pixels' centres; stage times are
     /// sums over the samples and bands. Blocks until it is on the host. The same arguments give the
@@ -43,13 +56,30 @@ class Renderer {
     /// it throws comes out.
     Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
 
-    /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a float64
-    /// reference of the kernels starts from. Throws Error for the forward renderers, which keep no
-    /// G-buffer, and for pictures made in bands.
+    /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
+    /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display
+    /// and Frame::radiance are empty. A device that shares the host's memory writes there itself.
+    Frame render_to(std::span<uint> pixels, const Camera& camera, double time);
+
+    /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a
+    /// float64 reference of the kernels starts from. Throws Error for the forward renderers, which
+    /// keep no G-buffer, and for pictures made in bands.
     LitSurfaces lit_surfaces();
+
+    /// The surface at a pixel of the last render, and the lights in its list. Blocks. Throws Error
+    /// for pictures made in bands.
+    PixelProbe probe(int x, int y);
+
+    /// The active clusters of the last render, in its camera's view space; none unless the renderer
+    /// is `deferred`. Blocks.
+    std::vector<ActiveCluster> active_clusters() const;
+
+    /// Lights that `settings` mean, the scene's own and the generated ones.
+    std::uint64_t light_count(const RenderSettings& settings) const;
 
     const DeviceInfo& device() const;
     const ScenePlan& plan() const;
+    const Gpu& gpu() const;
     const MemoryPlan& memory() const;
 
  private:

@@ -19,6 +19,7 @@ struct ScenePlan {
     KernelFeatures kernels;
     GBufferNeeds gbuffer;
     int gbuffer_bytes_per_pixel = 0;
+    bool operator==(const ScenePlan&) const = default;
 };
 
 /// What RenderSettings::force_features may name: features of kernels and G-buffer, and shading models.

@@ -22,6 +22,7 @@ struct GridSettings {
     int tiles_y = 9;
     int slices_per_octave = 4;  // 1, 2, 4, ... 64
     int fine_per_octave = 16;   // of active clusters: slices_per_octave ... 64
+    bool operator==(const GridSettings&) const = default;
 };
 
 /// How shading kernels compute: as OpenCL C demands it, with -cl-fast-relaxed-math, or with the
@@ -38,6 +39,7 @@ struct KernelSettings {
     int chunks = 0;        // of lights in culling
     MathMode math = MathMode::exact;                   // of shading; the forward renderers know only this
     LightColors light_colors = LightColors::single;    // likewise
+    bool operator==(const KernelSettings&) const = default;
 };
 
 /// Everything that decides a picture, beside scene, camera and time: the command line's shared options.
@@ -64,6 +66,7 @@ struct RenderSettings {
     std::uint64_t max_memory_bytes = 0;  // that a renderer may take in all; 0: most of what is available
     int band_rows = 0;  // made at once at most, a multiple of FINE_TILE; 0: what memory allows
     std::string device;  // name, part of it, or index; empty: the best
+    bool operator==(const RenderSettings&) const = default;
 };
 
 }  // namespace kilolux

@@ -35,6 +35,26 @@ DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& g
     return out;
 }
 
+PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, int x, int y) {
+    StageTimer untimed;
+    const View& view = gbuffer.view;
+    const cl::Buffer planes = decode_.enqueue(gbuffer, untimed);
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * view.stride + static_cast<std::size_t>(x);
+    PixelProbe out;
+    out.grid = grid;
+    for (std::size_t i = 0; i < out.surface.size(); ++i) {
+        out.surface[i] = download<float>(context_.gpu, planes, 1, i * plane + pixel).front();
+    }
+    const float z = out.surface[SURFACE_DEPTH];
+    out.tile_x = static_cast<uint>(x) / grid.tile_width;
+    out.tile_y = static_cast<uint>(y) / grid.tile_height;
+    out.slice = slice_of_depth(grid, z);
+    out.fine_slice = fine_slice_of_depth(grid, z);
+    return out;
+}
+
 ClusterGrid coarse_grid(const RenderContext& context, const Camera& camera, FrameStats& stats) {
     const RenderSettings& settings = context.settings;
     const bool forward = settings.renderer == RendererKind::forward ||

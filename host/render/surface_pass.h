@@ -3,6 +3,7 @@
 
 #include "host/interop/gbuffer_bridge.h"
 #include "host/render/frame_parts.h"
+#include "host/render/pixel_probe.h"
 #include "host/render/render_context.h"
 #include "host/stages/decode_gbuffer.h"
 #include "raster/geometry_pass.h"
@@ -21,6 +22,9 @@ class SurfacePass {
 
     /// The surfaces of the last draw() on the host. Blocks.
     DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);
+
+    /// The surface and the coarse cluster of one pixel of the last draw(). Blocks.
+    PixelProbe probe(const GBuffer& gbuffer, const ClusterGrid& grid, int x, int y);
 
     const GBufferTargets& targets() const { return geometry_.targets(); }
 

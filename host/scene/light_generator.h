@@ -17,6 +17,7 @@ struct LightOptions {
     double intensity =
         0.0;  // brightest colour channel [cd]; 0: automatic, well exposed at any count
     Box box;  // empty: the scene's light_box, else its bounds
+    bool operator==(const LightOptions&) const = default;
 };
 
 /// The lights of `options` at `time` [s]. A closed form of (seed, light, time): the same on every

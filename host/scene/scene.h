@@ -132,6 +132,7 @@ struct Box {
         min = glm::min(min, p);
         max = glm::max(max, p);
     }
+    bool operator==(const Box&) const = default;
 };
 
 /// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts them.

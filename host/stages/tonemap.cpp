@@ -21,15 +21,20 @@ Tonemap::Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve)
 }
 
 cl::Buffer Tonemap::enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer) {
-    return in_stage(kStage, [&] {
+    const std::size_t pixels = std::size_t{radiance.view.stride} * radiance.view.height;
+    const cl::Buffer& display = display_.reserve(pixels * sizeof(uint));
+    enqueue_to(display, radiance, exposure_ev, timer);
+    return display;
+}
+
+void Tonemap::enqueue_to(const cl::Buffer& display, const Radiance& radiance, float exposure_ev, StageTimer& timer) {
+    in_stage(kStage, [&] {
         const uint pixels = radiance.view.stride * radiance.view.height;
-        const cl::Buffer& display = display_.reserve(std::size_t{pixels} * sizeof(uint));
         const auto group = static_cast<std::size_t>(tuning_.light_group);
         const std::size_t items = pixels / static_cast<uint>(gpu_.info.lane_width);
         cl::KernelFunctor<cl::Buffer, uint, float, cl::Buffer, cl::Buffer, cl::Buffer> kernel(program_, "tonemap");
         timer.record(kStage, kernel(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(items, group)), cl::NDRange(group)), radiance.planes,
                                     pixels, std::exp2(exposure_ev), boundary_.get(), code_.get(), display));
-        return display;
     });
 }
 

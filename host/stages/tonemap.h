@@ -17,6 +17,9 @@ class Tonemap {
     /// Returns uint[height][stride]: R | G << 8 | B << 16 | 255 << 24. Enqueues only.
     cl::Buffer enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer);
 
+    /// The same into the caller's `display`, which has room for all pixels. Enqueues only.
+    void enqueue_to(const cl::Buffer& display, const Radiance& radiance, float exposure_ev, StageTimer& timer);
+
    private:
     Gpu gpu_;
     Tuning tuning_;

@@ -28,6 +28,12 @@ Layer make_layer(const std::string& name, std::vector<std::string> channels, boo
     return layer;
 }
 
+ImageOptions half_colour() {
+    ImageOptions options;
+    options.half_colour = true;
+    return options;
+}
+
 Frame make_frame() {
     Frame frame;
     frame.width = kWidth;
@@ -102,7 +108,7 @@ TEST(ImageFile, ExrKeepsEveryBitOfColourAndLayers) {
 
 TEST(ImageFile, ExrFormatsOfChannels) {
     const TemporaryFolder folder;
-    write_image(folder / "a.exr", make_layered_frame(), {}, {.half_colour = true});
+    write_image(folder / "a.exr", make_layered_frame(), {}, half_colour());
     const auto in = OIIO::ImageInput::open((folder / "a.exr").string());
     ASSERT_TRUE(in);
     const OIIO::ImageSpec& spec = in->spec();
@@ -122,7 +128,7 @@ TEST(ImageFile, HalfColourIsRoundedAndNotClamped) {
     const TemporaryFolder folder;
     Frame frame = make_frame();
     frame.radiance[0] = 1000.3f;
-    write_image(folder / "a.exr", frame, {}, {.half_colour = true});
+    write_image(folder / "a.exr", frame, {}, half_colour());
     const std::vector<float> colour = colour_of(read_image(folder / "a.exr"));
     EXPECT_EQ(colour[0], 1000.5f);
     EXPECT_EQ(colour[1], -2.5f);

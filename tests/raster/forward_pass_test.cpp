@@ -10,7 +10,10 @@
 #define SHADING 2
 #define HAS_SPOT_LIGHTS 1
 #define HAS_METALLIC 1
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // of features that are left out
 #include "kernels/shared/evaluate.h"
+#pragma GCC diagnostic pop
 
 namespace kilolux {
 namespace {

@@ -103,8 +103,8 @@ void check_rows(const Gpu& gpu, Findings& findings) {
     Random random(151);
     Scene scene = scene_with_lights(random, 999);
     FrameStats stats;
-    LightOptions none;
-    none.count = 0;
+    RenderSettings none;
+    none.lights.count = 0;
     const LightRows expected = LightSource(gpu, scene, none).at(0.0, {1, 2, 3}, stats);
     Worst wrong;
     for (const BadLight& bad : bad_lights(bounds(scene))) {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/clusters.h"
+#include "kernels/shared/light.h"
+#include "kernels/shared/surface_planes.h"
+
+namespace kilolux {
+
+/// A light of a pixel's list.
+struct ProbedLight {
+    uint index = 0;      // among the point and spot lights in use
+    Light light{};       // camera-relative, world axes
+    ShadeLight shade{};  // as shading has it, view space
+};
+
+/// What is known of one pixel and of the lists that light it.
+struct PixelProbe {
+    std::array<float, SURFACE_PLANES> surface{};  // SURFACE_*: view space; depth 0: background
+    ClusterGrid grid{};
+    uint tile_x = 0, tile_y = 0, slice = 0;  // its coarse cluster
+    uint fine_slice = 0;                     // of its active cluster
+    uint coarse_count = 0;                   // lights in the coarse cluster's list
+    std::optional<ActiveCluster> active;     // view space; none unless the renderer has them
+    bool has_list = false;                   // else the renderer evaluates every light
+    std::vector<ProbedLight> lights;         // in the list that is evaluated at the pixel
+    bool drawn() const { return surface[SURFACE_DEPTH] != 0.0f; }
+};
+
+}  // namespace kilolux

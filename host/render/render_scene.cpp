@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/render_scene.h"
+
+#include "host/base/error.h"
+#include "host/base/log.h"
+
+namespace kilolux {
+
+RenderScene::RenderScene(const Scene& scene, bool own_context)
+    : scene_(scene),
+      revision_(scene.revision),
+      box_(bounds(scene)),
+      zero_normals_(zero_normal_count(scene)) {
+    if (own_context) context_.emplace(GlContext::headless());
+    meshes_.emplace(scene);
+}
+
+RenderScene::~RenderScene() { make_current_or_lost(); }
+
+void RenderScene::make_current() const {
+    if (context_) context_->make_current();
+}
+
+void RenderScene::make_current_or_lost() const noexcept {
+    try {
+        make_current();
+    } catch (const Error& error) {
+        detail(error.what());
+    }
+}
+
+void RenderScene::take_up_changes() {
+    if (revision_ == scene_.revision) return;
+    revision_ = scene_.revision;
+    box_ = bounds(scene_);
+    meshes_->refresh();
+}
+
+}  // namespace kilolux
