@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
+
 #include "host/measure/surface_samples.h"
 #include "host/render/frame_parts.h"
 
 namespace kilolux {
+
+/// One decoded pixel, of which `value(SURFACE_*)` gives each plane. `specular`, `unlit`: as in
+/// DecodedSurfaces.
+SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bool specular,
+                             bool unlit);
 
 /// A decoded G-buffer as a reference shades it: float32 values as they are, normals not made unit
 /// again, since the kernels take them so too. Background where the depth is 0.

@@ -3,24 +3,17 @@
 
 #include <algorithm>
 
+#include "host/measure/decoded_samples.h"
 #include "host/measure/reference.h"
 
 namespace kilolux {
 namespace {
 
-glm::dvec3 vector_of(const PixelProbe& probe, std::size_t plane) {
-    return {probe.surface[plane], probe.surface[plane + 1], probe.surface[plane + 2]};
-}
-
 // Without what it would be in the dark: emission.
 SurfaceSample surface_of(const PixelProbe& probe) {
-    SurfaceSample out;
-    out.position = vector_of(probe, SURFACE_POSITION);
-    out.normal = vector_of(probe, SURFACE_NORMAL);
-    out.albedo = vector_of(probe, SURFACE_ALBEDO);
-    out.roughness = probe.surface[SURFACE_ROUGHNESS];
-    out.metallic = probe.surface[SURFACE_METALLIC];
-    out.kind = SurfaceKind::lit;
+    SurfaceSample out = surface_sample([&](std::size_t plane) { return probe.surface[plane]; },
+                                       probe.specular, probe.unlit);
+    out.emissive = glm::dvec3(0.0);
     return out;
 }
 

@@ -57,6 +57,8 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
     whole.view.first_row = 0;
     whole.view.height = static_cast<uint>(height);
     whole.grid = band.grid;
+    whole.specular = band.specular;
+    whole.unlit = band.unlit;
 }
 
 void add_band(FrameStats& whole, const FrameStats& band) {

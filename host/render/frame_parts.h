@@ -34,6 +34,8 @@ struct DecodedSurfaces {
     std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground
     std::vector<uint> covering;   // [height][stride] k*: those that reach it; empty if not counted
     ClusterGrid grid{};
+    bool specular = false;  // whether there are planes of the dielectrics' reflectance
+    bool unlit = false;     // whether a roughness of 0 means an unlit surface
 };
 
 /// What was shaded with what, on the host.

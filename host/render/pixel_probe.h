@@ -21,7 +21,10 @@ struct ProbedLight {
 
 /// What is known of one pixel and of the lists that light it.
 struct PixelProbe {
-    std::array<float, SURFACE_PLANES> surface{};  // SURFACE_*: view space; depth 0: background
+    // SURFACE_*: view space; depth 0: background
+    std::array<float, SURFACE_PLANES_WITH_SPECULAR> surface{};
+    bool specular = false;  // whether `surface` has the dielectric's reflectance
+    bool unlit = false;     // whether a roughness of 0 means an unlit surface
     ClusterGrid grid{};
     uint tile_x = 0, tile_y = 0, slice = 0;  // its coarse cluster
     uint fine_slice = 0;                     // of its active cluster

@@ -30,6 +30,8 @@ DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& g
     DecodedSurfaces out;
     out.view = view;
     out.grid = grid;
+    out.specular = context_.plan.gbuffer.specular;
+    out.unlit = context_.plan.gbuffer.unlit;
     out.planes = download<float>(context_.gpu, decode_.enqueue(gbuffer, untimed),
                                  std::size_t{decode_.plane_count()} * view.stride * view.height);
     return out;
@@ -44,7 +46,9 @@ PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, i
         static_cast<std::size_t>(y) * view.stride + static_cast<std::size_t>(x);
     PixelProbe out;
     out.grid = grid;
-    for (std::size_t i = 0; i < out.surface.size(); ++i) {
+    out.specular = context_.plan.gbuffer.specular;
+    out.unlit = context_.plan.gbuffer.unlit;
+    for (std::size_t i = 0; i < decode_.plane_count(); ++i) {
         out.surface[i] = download<float>(context_.gpu, planes, 1, i * plane + pixel).front();
     }
     const float z = out.surface[SURFACE_DEPTH];

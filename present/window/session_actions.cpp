@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 // The first of kilolux-001, kilolux-002, ... that is not there.
 fs::path free_file(const fs::path& folder, const std::string& extension) {
     for (int i = 1;; ++i) {
-        char name[32];
-        std::snprintf(name, sizeof name, "kilolux-%03d%s", i, extension.c_str());
-        if (!fs::exists(folder / name)) return folder / name;
+        char number[16];
+        std::snprintf(number, sizeof number, "%03d", i);
+        const fs::path file = folder / ("kilolux-" + std::string(number) + extension);
+        if (!fs::exists(file)) return file;
     }
 }
 

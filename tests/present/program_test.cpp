@@ -23,7 +23,7 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
         const char* message;
     } cases[] = {
         {{}, "no command given"},
-        {{"redner"}, "'redner' is no command; there are render, bench, info; did you mean 'render'?"},
+        {{"redner"}, "'redner' is no command; there are render, view, bench, report, info, export; did you mean 'render'?"},
         {{"--frobnicate"}, "unknown option --frobnicate"},
         {{"render"}, "--output: needs a file"},
         {{"render", "--ligths", "5", "-o", "a.png"},
@@ -153,7 +153,8 @@ struct Query {
 
 TEST(Completion, BashOffersWhatFits) {
     const std::vector<Query> queries = {
-        {"kilolux re", "render"},
+        {"kilolux re", "render report"},
+        {"kilolux ren", "render"},
         {"kilolux render --renderer forw", "forward-plus forward"},
         {"kilolux render --tonemap ''", "none neutral aces"},
         {"kilolux render --aov depth,no", "depth,normal"},

@@ -27,9 +27,8 @@ using Variables = std::vector<std::string>;  // "NAME=value"; "-uNAME" takes one
 ChildResult view_in_display(const Variables& variables, std::vector<std::string> arguments) {
     std::vector<std::string> words = {"/usr/bin/env"};
     words.insert(words.end(), variables.begin(), variables.end());
-    for (const char* word : {"xvfb-run", "-a", "-s", "-screen 0 1000x700x24", KILOLUX_PROGRAM}) {
-        words.emplace_back(word);
-    }
+    words.emplace_back(KILOLUX_ROOT "/tests/window/with_display");
+    words.emplace_back(KILOLUX_PROGRAM);
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_child(words);
 }
