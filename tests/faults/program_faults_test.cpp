@@ -108,11 +108,11 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
 }
 
 TEST_F(Faults, FileSizeLimitAndFullDisk) {
-    // Room for what the OpenCL compiler writes, but not for the picture.
-    const Words large = {"--resolution", "1600,1000"};
+    // Room for what the OpenCL compiler writes (its preprocessed headers, 0.9 MB), but not for the picture.
+    const Words large = {"--resolution", "4000,2500"};
     ASSERT_EQ(run_child(render_words({}, elsewhere_ / "a.png", large)).code, 0);
-    ASSERT_GT(fs::file_size(elsewhere_ / "a.png"), 350'000u);
-    expect_refused({"/usr/bin/prlimit", "--fsize=300000"}, "a.png: cannot write: File too large",
+    ASSERT_GT(fs::file_size(elsewhere_ / "a.png"), 1'700'000u);
+    expect_refused({"/usr/bin/prlimit", "--fsize=1400000"}, "a.png: cannot write: File too large",
                    large);
     const fs::path mounted = elsewhere_ / "full";
     fs::create_directory(mounted);
