@@ -80,6 +80,15 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
             if (i >= frames.warm_up) measured.push_back(std::move(frame.stats));
             on_frame_();
         }
+        if (is_forward(point.renderer)) {
+            // Counted by a pass that the frames in the sweep do not pay for.
+            RenderSettings counted = settings;
+            counted.count_useful = true;
+            renderer.change(counted);
+            measured.back().evaluations_per_pixel =
+                renderer.render(camera_, time_).stats.evaluations_per_pixel;
+            on_frame_();
+        }
     }
     return rows_of(point, std::move(measured), setup);
 }
@@ -90,7 +99,7 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     FrameStats stats = frames.back();
     const auto local = static_cast<double>(stats.lights_used - stats.directional_lights);
     if (stats.drawn_pixels == 0) stats.drawn_pixels = covered.drawn_pixels;
-    if (!has_clusters(point.renderer)) stats.evaluations_per_pixel = local;
+    if (point.renderer == RendererKind::deferred_all) stats.evaluations_per_pixel = local;
     BenchRow row;
     row.point = point;
     row.k = stats.evaluations_per_pixel;
@@ -114,12 +123,14 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
 std::size_t BenchRun::frame_count(const std::vector<SweepPoint>& points,
                                   const BenchFrames& frames) const {
     std::set<SceneKey> covered, compared;
+    std::size_t counted = 0;
     for (const SweepPoint& p : points) {
+        counted += is_forward(p.renderer);
         covered.emplace(p.resolution, p.lights, p.gbuffer);
         compared.emplace(error_point(p).resolution, p.lights, p.gbuffer);
     }
     const auto each = static_cast<std::size_t>(frames.warm_up + frames.measured + 1);
-    return points.size() * each + covered.size() + compared.size();
+    return points.size() * each + counted + covered.size() + compared.size();
 }
 
 SweepPoint BenchRun::error_point(SweepPoint point) const {

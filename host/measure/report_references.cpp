@@ -13,10 +13,6 @@
 namespace kilolux {
 namespace {
 
-bool is_forward(RendererKind renderer) {
-    return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
-}
-
 Shading shading_of_plan(int shading) {
     switch (shading) {
         case SHADING_BLINN_PHONG:

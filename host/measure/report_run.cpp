@@ -16,10 +16,6 @@ constexpr double kErrorEvaluations = 3e8;  // of float64: seconds of a small CPU
 constexpr double kSettingMs = 10000.0;     // that the frames of a setting may take in a round
 constexpr double kSlowFrameMs = 20000.0;   // beyond which a frame is not timed at full size
 
-bool is_forward(RendererKind renderer) {
-    return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
-}
-
 double pixels(const RenderSettings& s) {
     return static_cast<double>(s.width) * s.height;
 }

@@ -153,6 +153,17 @@ StageWork tonemap_work(const StageCounts& c) {
     return work;
 }
 
+// The fragments of the forward renderers: what they evaluate, and the picture. With `evaluations` of
+// all fragments, hidden ones too; the surfaces of hidden ones are not counted.
+StageWork forward_work(const StageCounts& c) {
+    StageWork work;
+    work.bytes_written = kRadianceBytes * c.pixels;
+    work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) +
+                 c.evaluations * work_of_evaluation(c.kernels) +
+                 c.drawn_pixels * c.directional_lights * work_of_directional(c.kernels);
+    return work;
+}
+
 StageWork geometry_work(const StageCounts& c) {
     StageWork work;
     work.bytes_written = c.gbuffer_bytes_per_pixel * c.pixels;
@@ -182,6 +193,7 @@ constexpr Model kModels[] = {
     {"cull_lights", cull_work},       {"bin_pixels", bin_work},
     {"refine_lights", refine_work},   {"shade", shade_work},
     {"bloom", bloom_work},            {"tonemap", tonemap_work},
+    {"forward", forward_work},        {"forward_plus", forward_work},
 };
 
 // What fits the cache moves at the cache's rate, the rest at memory's.

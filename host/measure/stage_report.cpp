@@ -9,7 +9,7 @@ bool is_device_stage(const std::string& stage) {
 }
 
 double evaluations_of(const std::string& stage, const StageCounts& counts) {
-    if (stage == "shade")
+    if (stage == "shade" || stage == "forward" || stage == "forward_plus")
         return counts.evaluations + counts.drawn_pixels * counts.directional_lights;
     if (stage == "refine_lights") return counts.refine_tests;
     return 0.0;

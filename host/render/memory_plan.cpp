@@ -30,10 +30,6 @@ constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULA
 // OpenCL drivers and images of the files leave a share of what is available unused.
 constexpr double kAvailableShare = 0.8;
 
-bool is_forward(const RenderSettings& s) {
-    return s.renderer == RendererKind::forward || s.renderer == RendererKind::forward_plus;
-}
-
 Bytes limit_of(const RenderSettings& settings) {
     if (settings.max_memory_bytes > 0) return settings.max_memory_bytes;
     return static_cast<Bytes>(kAvailableShare * static_cast<double>(available_memory_bytes()));
@@ -88,7 +84,7 @@ Bytes picture_pixel_bytes(const RenderSettings& settings) {
 Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan) {
     const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
     const auto height = static_cast<Bytes>(settings.height);
-    const Bytes tile_rows = is_forward(settings) ? height : std::min<Bytes>(height, kRasterRows);
+    const Bytes tile_rows = is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
     const bool blends = has_blended_surfaces(scene);
     const bool decodes = !settings.aovs.empty() || settings.show != "lit";
     Need need;
@@ -96,8 +92,8 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
                  (settings.lights.count + scene.lights.size()) * kLight +
                  width * height * picture_pixel_bytes(settings);
     constexpr Bytes kForwardTarget = 20;
-    if (!is_forward(settings)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
-    if (is_forward(settings) || blends) need.fixed += width * tile_rows * kForwardTarget;
+    if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
+    if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
     need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
     if (settings.samples > 1) need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
     if (decodes || settings.count_useful) need.band_pixel += 4 * sizeof(std::uint32_t);
@@ -118,7 +114,7 @@ Bytes most_rows(const Need& need, const DeviceInfo& device, Bytes width) {
 }
 
 bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
-    return is_forward(settings) || has_blended_surfaces(scene);
+    return is_forward(settings.renderer) || has_blended_surfaces(scene);
 }
 
 std::string picture_text(const RenderSettings& settings) {
@@ -138,7 +134,7 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     const Bytes limit = limit_of(settings);
     const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
     const int whole = (settings.height + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
-    const int tile = is_forward(settings) ? whole : std::min(whole, kRasterRows);
+    const int tile = is_forward(settings.renderer) ? whole : std::min(whole, kRasterRows);
     const int lowest = needs_whole_tiles(scene, settings) ? tile : FINE_TILE;
     const Bytes row = width * need.band_pixel;
     const Bytes fitting = limit > need.fixed ? (limit - need.fixed) / row : 0;

@@ -21,10 +21,6 @@ double ms_since(Clock::time_point start) {
 
 }  // namespace
 
-bool is_forward(RendererKind renderer) {
-    return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
-}
-
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> infos;
     for (const cl::Device& device : all_devices()) infos.push_back(describe(device));

@@ -21,8 +21,6 @@
 
 namespace kilolux {
 
-bool is_forward(RendererKind renderer);
-
 struct Renderer::Parts {
     Parts(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings);
     ~Parts();

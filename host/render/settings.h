@@ -13,6 +13,12 @@
 namespace kilolux {
 
 enum class RendererKind { deferred, forward_plus, forward, deferred_all };
+
+/// Whether OpenGL's fragments light the surfaces.
+constexpr bool is_forward(RendererKind renderer) {
+    return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
+}
+
 enum class Shading { automatic, lambert, blinn_phong, pbr };
 enum class ToneCurve { none, neutral, aces };
 

@@ -61,9 +61,7 @@ PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, i
 
 ClusterGrid coarse_grid(const RenderContext& context, const Camera& camera, FrameStats& stats) {
     const RenderSettings& settings = context.settings;
-    const bool forward = settings.renderer == RendererKind::forward ||
-                         settings.renderer == RendererKind::forward_plus;
-    const uint layout = forward ? GBUFFER_PACKED : settings.gbuffer;
+    const uint layout = is_forward(settings.renderer) ? GBUFFER_PACKED : settings.gbuffer;
     const GridRequest request =
         grid_request(settings.grid, camera, context.box, position_pad(layout, context.box, camera));
     const ClusterGrid grid = make_cluster_grid(request, static_cast<uint>(settings.width),
