@@ -10,8 +10,8 @@ vec3 unit_or_zero(vec3 v) {
     return scaled / sqrt(dot(scaled, scaled));
 }
 
-// A direction for every v: +z, towards the viewer, where v has none.
+// A direction for every v: +z, towards the viewer, where v has none, NaN included.
 vec3 unit_or_z(vec3 v) {
     vec3 unit = unit_or_zero(v);
-    return unit == vec3(0.0) ? vec3(0.0, 0.0, 1.0) : unit;
+    return dot(unit, unit) > 0.0 ? unit : vec3(0.0, 0.0, 1.0);
 }

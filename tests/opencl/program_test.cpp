@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/base/memory.h"
 #include "host/base/source.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/stage_timer.h"
@@ -103,7 +104,7 @@ TEST(GrowingBuffer, MoreThanTheDeviceAllocatesIsAnErrorAndKeepsWhatThereIs) {
     const std::string message = error_of([&] { buffer.reserve(limit + 1); });
     expect_contains(message, "cull_lights: needs a buffer of ");
     expect_contains(message,
-                    gpu.info.name + " allocates at most " + std::to_string(limit >> 20) + " MiB");
+                    gpu.info.name + " allocates at most " + mebibytes(limit));
     EXPECT_EQ(buffer.bytes(), 64u);
     EXPECT_EQ(buffer.get().getInfo<CL_MEM_SIZE>(), 64u);
 }
