@@ -14,7 +14,7 @@ namespace kilolux {
 
 /// How far a configuration's picture is from the all-lights reference of the same G-buffer layout.
 struct PictureError {
-    double max_relative = 0.0;           // over all channels of all pixels
+    double max_relative = 0.0;  // over all channels of all pixels; below the picture's mean to that
     std::uint64_t different_pixels = 0;  // whose float32 bits differ
     std::uint64_t pixels = 0;            // compared
     bool operator==(const PictureError&) const = default;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -44,6 +45,15 @@ BenchRow frame_row(BenchRow row, const std::vector<FrameStats>& frames,
 
 RgbImage picture_of(const Frame& frame) {
     return rgb_image_of(frame.width, frame.height, frame.radiance);
+}
+
+// The picture's mean at every pixel: what errors of darker ones are relative to.
+RgbImage mean_of(const RgbImage& picture) {
+    RgbImage out = picture;
+    const double sum = std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0);
+    const double count = static_cast<double>(std::max<std::size_t>(picture.rgb.size(), 1));
+    std::fill(out.rgb.begin(), out.rgb.end(), sum / count);
+    return out;
 }
 
 }  // namespace
@@ -168,7 +178,9 @@ PictureError BenchRun::error_of(const SweepPoint& point) {
     const SweepPoint small = error_point(point);
     const Frame frame = Renderer(scene_, settings_at(base_, small), gl_).render(camera_, time_);
     on_frame_();
-    const HdrMetrics metrics = compare_hdr(picture_of(frame), reference(small));
+    const RgbImage& expected = reference(small);
+    const RgbImage floor = mean_of(expected);
+    const HdrMetrics metrics = compare_hdr(picture_of(frame), expected, {.scale = &floor});
     return {metrics.relative.max, metrics.different_pixels, metrics.pixels};
 }
 
