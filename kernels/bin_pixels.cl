@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Active clusters: for every fine tile, one for each depth slice that occurs among its pixels, with the
-// box of just those pixels (Olsson, Billeter, Assarsson 2012: explicit bounds). Background pixels
-// belong to none, and tiles of background only cost nothing afterwards.
+// Active clusters: for every fine tile, one for each depth slice that occurs among its pixels, with
+// the box of just those pixels (Olsson, Billeter, Assarsson 2012: explicit bounds). Background
+// pixels belong to none, and tiles of background only cost nothing afterwards.
 //   bin_pixels_count  active clusters of each tile
 //   (prefix_sum over tiles)
 //   bin_pixels_fill   the clusters
@@ -27,14 +27,17 @@ static inline UV slices_of_strip(GBuffer g, ClusterGrid grid, uint x, uint y) {
     return select((UV)(NO_SLICE), slice, full_mask(drawn));
 }
 
-static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint tile_y, TileSlices* out) {
+static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint tile_y,
+                               TileSlices* out) {
     UV first = (UV)(NO_SLICE);
     UV last = (UV)(0u);
     uint rows = min((uint)FINE_TILE, g.view.height - tile_y * FINE_TILE);
     for (uint row = 0; row < FINE_TILE; ++row) {
         for (uint strip = 0; strip < STRIPS; ++strip) {
             UV slice = (UV)(NO_SLICE);
-            if (row < rows) slice = slices_of_strip(g, grid, tile_x * FINE_TILE + strip * VW, tile_y * FINE_TILE + row);
+            if (row < rows)
+                slice = slices_of_strip(g, grid, tile_x * FINE_TILE + strip * VW,
+                                        tile_y * FINE_TILE + row);
             out->slice[row * STRIPS + strip] = slice;
             first = min(first, slice);
             // NO_SLICE + 1 wraps to 0.
@@ -56,9 +59,7 @@ static inline uint next_slice(const TileSlices* tile, uint slice) {
     return min_lane_uint(next);
 }
 
-kernel void bin_pixels_count(global const uchar* restrict gbuffer,
-                             GBufferLayout layout,
-                             View view,
+kernel void bin_pixels_count(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
                              ClusterGrid grid,
                              global uint* restrict counts) {  // out [tiles]: active clusters
     uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
@@ -74,7 +75,8 @@ kernel void bin_pixels_count(global const uchar* restrict gbuffer,
 }
 
 // Box and count of the tile's pixels in one slice.
-static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y, const TileSlices* tile, uint slice) {
+static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y,
+                                             const TileSlices* tile, uint slice) {
     FV3 lo = fv3(fv(Z_UNBOUNDED), fv(Z_UNBOUNDED), fv(Z_UNBOUNDED));
     FV3 hi = fv3(fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED));
     UV pixels = (UV)(0u);
@@ -83,10 +85,13 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
         if (!any_lane(mask)) continue;
         uint x = tile_x * FINE_TILE + i % STRIPS * VW;
         uint y = tile_y * FINE_TILE + i / STRIPS;
-        FV z = view_depth(g.view, pixel_centers_x(x), pixel_center_y(g.view, y), load_depth01(g, x, y));
+        FV z = view_depth(g.view, pixel_centers_x(x), pixel_center_y(g.view, y),
+                          load_depth01(g, x, y));
         FV3 p = load_position(g, x, y, z);
-        lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)), min(lo.z, select_fv(mask, p.z, lo.z)));
-        hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)), max(hi.z, select_fv(mask, p.z, hi.z)));
+        lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)),
+                 min(lo.z, select_fv(mask, p.z, lo.z)));
+        hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)),
+                 max(hi.z, select_fv(mask, p.z, hi.z)));
         pixels -= KX_CONCAT(as_, UV)(mask);
     }
     ActiveCluster c;
@@ -105,12 +110,10 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
     return c;
 }
 
-kernel void bin_pixels_fill(global const uchar* restrict gbuffer,
-                            GBufferLayout layout,
-                            View view,
+kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
                             ClusterGrid grid,
-                            global const uint* restrict offsets,       // [tiles + 1]
-                            global ActiveCluster* restrict clusters,   // out [capacity]
+                            global const uint* restrict offsets,      // [tiles + 1]
+                            global ActiveCluster* restrict clusters,  // out [capacity]
                             uint capacity) {
     uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
     uint tile = get_global_id(0);
@@ -122,7 +125,8 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer,
     TileSlices slices;
     load_slices(g, grid, tile % tiles_x, tile_y, &slices);
     for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
-        if (place < capacity) clusters[place] = cluster_of_slice(g, tile % tiles_x, tile_y, &slices, slice);
+        if (place < capacity)
+            clusters[place] = cluster_of_slice(g, tile % tiles_x, tile_y, &slices, slice);
         ++place;
     }
 }

@@ -6,15 +6,11 @@
 // that is missing. One work-item makes VW neighbouring pixels of a row of one plane.
 #include "kernels/device/lanes.h"
 
-static inline uint clamped(int i, uint size) {
-    return (uint)clamp(i, 0, (int)size - 1);
-}
+static inline uint clamped(int i, uint size) { return (uint)clamp(i, 0, (int)size - 1); }
 
 // Light that is no number or negative does not bloom, and infinite light only as much as float
 // holds after a sum of 16. fmax, since max leaves NaN open.
-static inline FV bloomable(FV v) {
-    return fmin(fmax(v, fv(0.0f)), fv(1e36f));
-}
+static inline FV bloomable(FV v) { return fmin(fmax(v, fv(0.0f)), fv(1e36f)); }
 
 // p[0], p[2], p[4] ... Elements by name, since oclgrind 21.10 crashes on vectors joined of halves
 // such as (a.even, b.even); compilers make the same shuffles of both.

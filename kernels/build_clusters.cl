@@ -12,11 +12,15 @@ static inline float2 slice_depths(ClusterGrid grid, uint slice, bool orthographi
     return (float2)(near, far);
 }
 
-static inline float2 padded(float2 interval, float pad) { return (float2)(interval.x - pad, interval.y + pad); }
+static inline float2 padded(float2 interval, float pad) {
+    return (float2)(interval.x - pad, interval.y + pad);
+}
 
 // View-space interval [m] that pixel coordinates [p0, p1] span over the depths, along one axis with
-// x_view = (p * step + offset) * z (perspective). 4e-7: rounding of that formula for a pixel inside.
-static inline float2 view_interval(float p0, float p1, float step, float offset, float2 depths, bool orthographic) {
+// x_view = (p * step + offset) * z (perspective). 4e-7: rounding of that formula for a pixel
+// inside.
+static inline float2 view_interval(float p0, float p1, float step, float offset, float2 depths,
+                                   bool orthographic) {
     float pad = 4e-7f * (fabs(offset) + fabs(p1 * step));
     float a = fma(p0, step, offset);
     float b = fma(p1, step, offset);
@@ -26,24 +30,26 @@ static inline float2 view_interval(float p0, float p1, float step, float offset,
     return (float2)(min(lo * depths.x, lo * depths.y), max(hi * depths.x, hi * depths.y));
 }
 
-kernel void build_clusters(View view,
-                           ClusterGrid grid,
-                           global float2* restrict columns,  // out [slices][tiles_x]: x of the boxes [m]
-                           global float2* restrict rows,     // out [slices][tiles_y]: y
-                           global float2* restrict depths) { // out [slices]: z, positive forward
+kernel void build_clusters(
+    View view, ClusterGrid grid,
+    global float2* restrict columns,   // out [slices][tiles_x]: x of the boxes [m]
+    global float2* restrict rows,      // out [slices][tiles_y]: y
+    global float2* restrict depths) {  // out [slices]: z, positive forward
     uint i = get_global_id(0);
     uint slice = get_global_id(1);
     bool orthographic = view.orthographic != 0u;
     float2 z = slice_depths(grid, slice, orthographic);
     if (i < grid.tiles_x) {
         float p = (float)(i * grid.tile_width);
-        columns[slice * grid.tiles_x + i] =
-            padded(view_interval(p, p + (float)grid.tile_width, view.ray.x, view.ray.y, z, orthographic), grid.position_pad);
+        columns[slice * grid.tiles_x + i] = padded(
+            view_interval(p, p + (float)grid.tile_width, view.ray.x, view.ray.y, z, orthographic),
+            grid.position_pad);
     }
     if (i < grid.tiles_y) {
         float p = (float)(i * grid.tile_height);
-        rows[slice * grid.tiles_y + i] =
-            padded(view_interval(p, p + (float)grid.tile_height, view.ray.z, view.ray.w, z, orthographic), grid.position_pad);
+        rows[slice * grid.tiles_y + i] = padded(
+            view_interval(p, p + (float)grid.tile_height, view.ray.z, view.ray.w, z, orthographic),
+            grid.position_pad);
     }
     if (i == 0) depths[slice] = padded(z, grid.position_pad);
 }

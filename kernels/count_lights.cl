@@ -7,7 +7,8 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 
-static inline UV count_covering(FV3 p, global const float4* bounds, global const LIGHT_INDEX* list, uint count) {
+static inline UV count_covering(FV3 p, global const float4* bounds, global const LIGHT_INDEX* list,
+                                uint count) {
     UV covering = (UV)(0u);
     for (uint i = 0; i < count; ++i) {
         float4 light = bounds[list[i]];
@@ -18,17 +19,15 @@ static inline UV count_covering(FV3 p, global const float4* bounds, global const
     return covering;
 }
 
-kernel void count_lights(global const uchar* restrict gbuffer,
-                         GBufferLayout layout,
-                         View view,
-                         global const float4* restrict bounds,  // [light_count]
-                         ClusterGrid grid,
-                         global const uint* restrict cluster_offsets,    // [tiles + 1]
-                         global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-                         uint cluster_capacity,
-                         global const LIGHT_INDEX* restrict lists,
-                         global uint* restrict evaluated,  // out [height][stride]; ~0 for background
-                         global uint* restrict covering) { // out [height][stride]; ~0 for background
+kernel void count_lights(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+    global const float4* restrict bounds,  // [light_count]
+    ClusterGrid grid,
+    global const uint* restrict cluster_offsets,    // [tiles + 1]
+    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
+    uint cluster_capacity, global const LIGHT_INDEX* restrict lists,
+    global uint* restrict evaluated,   // out [height][stride]; ~0 for background
+    global uint* restrict covering) {  // out [height][stride]; ~0 for background
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     if (y >= view.height) return;
@@ -38,7 +37,8 @@ kernel void count_lights(global const uchar* restrict gbuffer,
     UV k = (UV)(~0u);
     UV k_star = (UV)(~0u);
     if (any_lane(drawn)) {
-        FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y), select_fv(drawn, depth01, fv(1.0f)));
+        FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y),
+                          select_fv(drawn, depth01, fv(1.0f)));
         FV3 p = load_position(g, x, y, z);
         UV slice = fine_slice_of_depth(grid, z);
         uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
@@ -48,7 +48,9 @@ kernel void count_lights(global const uchar* restrict gbuffer,
             if (!any_lane(mine)) continue;
             uint count = clusters[i].list_count;
             k = select(k, (UV)(count), KX_CONCAT(as_, UV)(mine));
-            k_star = select(k_star, count_covering(p, bounds, lists + clusters[i].list_begin, count), KX_CONCAT(as_, UV)(mine));
+            k_star =
+                select(k_star, count_covering(p, bounds, lists + clusters[i].list_begin, count),
+                       KX_CONCAT(as_, UV)(mine));
         }
     }
     uint pixel = y * view.stride + x;

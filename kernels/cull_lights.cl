@@ -2,13 +2,13 @@
 // Lists the lights of every coarse cluster: a stable counting sort of (light, cluster) pairs.
 //
 //   cull_lights_count   pairs by (chunk of lights, cluster)
-//   cull_lights_offset  within each cluster, where each chunk's pairs begin; and the cluster's total
+//   cull_lights_offset  where each chunk's pairs begin within each cluster, and its total
 //   (prefix_sum over clusters)
 //   cull_lights_fill    writes the light indices
 //
 // A work-group walks one contiguous chunk of the lights in order and spreads one light's rows of
-// clusters over its work-items, so no two of them ever meet in a cluster: lists ascend by light index
-// without atomics, and are the same for every group size and number of chunks.
+// clusters over its work-items, so no two of them ever meet in a cluster: lists ascend by light
+// index without atomics, and are the same for every group size and number of chunks.
 #include "kernels/device/light_index.h"
 #include "kernels/device/light_reach.h"
 #include "kernels/shared/clusters.h"
@@ -21,10 +21,10 @@ typedef struct ClusterBoxes {
 
 // Where pairs go: counted, or filled in.
 typedef struct PairSink {
-    global uint* cursors;              // [cluster_count] of this chunk
-    global const uint* offsets;        // [cluster_count + 1]; fill only
-    global LIGHT_INDEX* lists;         // fill only
-    uint capacity;                     // of lists
+    global uint* cursors;        // [cluster_count] of this chunk
+    global const uint* offsets;  // [cluster_count + 1]; fill only
+    global LIGHT_INDEX* lists;   // fill only
+    uint capacity;               // of lists
 } PairSink;
 
 static inline void put_pair(PairSink sink, uint cluster, uint light, bool fill) {
@@ -48,12 +48,14 @@ typedef struct ClusterRow {
     float dy, dz;
 } ClusterRow;
 
-static inline bool reaches_column(Candidate c, ClusterGrid grid, ClusterBoxes boxes, ClusterRow r, uint column) {
+static inline bool reaches_column(Candidate c, ClusterGrid grid, ClusterBoxes boxes, ClusterRow r,
+                                  uint column) {
     float2 x = boxes.columns[r.slice * grid.tiles_x + column];
     return sphere_reaches(interval_distance(c.bound.x, x.x, x.y), r.dy, r.dz, c.bound.w);
 }
 
-static inline bool cone_reaches_column(Candidate c, ClusterGrid grid, ClusterBoxes boxes, ClusterRow r, uint column) {
+static inline bool cone_reaches_column(Candidate c, ClusterGrid grid, ClusterBoxes boxes,
+                                       ClusterRow r, uint column) {
 #if HAS_SPOT_LIGHTS
     float2 x = boxes.columns[r.slice * grid.tiles_x + column];
     float2 y = boxes.rows[r.slice * grid.tiles_y + r.row];
@@ -64,20 +66,23 @@ static inline bool cone_reaches_column(Candidate c, ClusterGrid grid, ClusterBox
 #endif
 }
 
-// The columns of a row that the sphere reaches are neighbours, since boxes are ordered along x: find
-// both ends, and all between belong.
-static inline void walk_row(Candidate c, ClusterGrid grid, ClusterBoxes boxes, ClusterRow r, PairSink sink, bool fill) {
+// The columns of a row that the sphere reaches are neighbours, since boxes are ordered along x:
+// find both ends, and all between belong.
+static inline void walk_row(Candidate c, ClusterGrid grid, ClusterBoxes boxes, ClusterRow r,
+                            PairSink sink, bool fill) {
     uint first = c.extent.columns & 0xffffu;
     uint end = (c.extent.columns >> 16) + 1u;
     while (first < end && !reaches_column(c, grid, boxes, r, first)) ++first;
     while (first < end && !reaches_column(c, grid, boxes, r, end - 1u)) --end;
     uint base = cluster_index(grid, 0u, r.row, r.slice);
     for (uint column = first; column < end; ++column) {
-        if (cone_reaches_column(c, grid, boxes, r, column)) put_pair(sink, base + column, c.light, fill);
+        if (cone_reaches_column(c, grid, boxes, r, column))
+            put_pair(sink, base + column, c.light, fill);
     }
 }
 
-static inline void walk_light(Candidate c, ClusterGrid grid, ClusterBoxes boxes, PairSink sink, bool fill) {
+static inline void walk_light(Candidate c, ClusterGrid grid, ClusterBoxes boxes, PairSink sink,
+                              bool fill) {
     uint first_slice = c.extent.slices & 0xffffu;
     uint first_row = c.extent.rows & 0xffffu;
     uint row_count = (c.extent.rows >> 16) + 1u - first_row;
@@ -97,19 +102,21 @@ static inline void walk_light(Candidate c, ClusterGrid grid, ClusterBoxes boxes,
 static inline bool is_empty_interval(uint packed) { return (packed & 0xffffu) > (packed >> 16); }
 
 static inline bool touches_grid(LightExtent e) {
-    return !is_empty_interval(e.slices) && !is_empty_interval(e.columns) && !is_empty_interval(e.rows);
+    return !is_empty_interval(e.slices) && !is_empty_interval(e.columns) &&
+           !is_empty_interval(e.rows);
 }
 
 // This work-group's chunk of the lights: [first, end).
 static inline uint2 chunk_of_group(uint count) {
     uint chunk = get_group_id(0);
     uint chunks = get_num_groups(0);
-    return (uint2)((uint)((ulong)count * chunk / chunks), (uint)((ulong)count * (chunk + 1u) / chunks));
+    return (uint2)((uint)((ulong)count * chunk / chunks),
+                   (uint)((ulong)count * (chunk + 1u) / chunks));
 }
 
 static inline void walk_chunk(global const ShadeLight* lights, global const float4* bounds,
-                              global const LightExtent* extents, uint count, ClusterGrid grid, ClusterBoxes boxes,
-                              PairSink sink, bool fill) {
+                              global const LightExtent* extents, uint count, ClusterGrid grid,
+                              ClusterBoxes boxes, PairSink sink, bool fill) {
     uint2 chunk = chunk_of_group(count);
     for (uint light = chunk.x; light < chunk.y; ++light) {
         Candidate c;
@@ -127,28 +134,29 @@ static inline void walk_chunk(global const ShadeLight* lights, global const floa
     }
 }
 
-kernel void cull_lights_count(global const ShadeLight* restrict lights,    // [count], view space
-                              global const float4* restrict bounds,        // [count]
-                              global const LightExtent* restrict extents,  // [count]
-                              uint count,
-                              ClusterGrid grid,
-                              global const float2* restrict columns,  // [slices][tiles_x]
-                              global const float2* restrict rows,     // [slices][tiles_y]
-                              global const float2* restrict depths,   // [slices]
-                              global uint* restrict cursors) {        // out [groups][cluster_count]: pairs
+kernel void cull_lights_count(
+    global const ShadeLight* restrict lights,    // [count], view space
+    global const float4* restrict bounds,        // [count]
+    global const LightExtent* restrict extents,  // [count]
+    uint count, ClusterGrid grid,
+    global const float2* restrict columns,  // [slices][tiles_x]
+    global const float2* restrict rows,     // [slices][tiles_y]
+    global const float2* restrict depths,   // [slices]
+    global uint* restrict cursors) {        // out [groups][cluster_count]: pairs
     ClusterBoxes boxes = {columns, rows, depths};
     PairSink sink = {cursors + get_group_id(0) * grid.cluster_count, 0, 0, 0u};
-    for (uint i = get_local_id(0); i < grid.cluster_count; i += get_local_size(0)) sink.cursors[i] = 0u;
+    for (uint i = get_local_id(0); i < grid.cluster_count; i += get_local_size(0))
+        sink.cursors[i] = 0u;
     // Zeroed by all before any counts.
     barrier(CLK_GLOBAL_MEM_FENCE);
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, false);
 }
 
 // One work-item a cluster: chunk counts become chunk starts within the cluster.
-kernel void cull_lights_offset(uint cluster_count,
-                               uint chunk_count,
-                               global uint* restrict cursors,  // in: pairs, out: starts [chunk_count][cluster_count]
-                               global uint* restrict counts) { // out [cluster_count]: pairs of each cluster
+kernel void cull_lights_offset(
+    uint cluster_count, uint chunk_count,
+    global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cluster_count]
+    global uint* restrict counts) {  // out [cluster_count]: pairs of each cluster
     uint cluster = get_global_id(0);
     if (cluster >= cluster_count) return;
     uint sum = 0;
@@ -161,39 +169,34 @@ kernel void cull_lights_offset(uint cluster_count,
     counts[cluster] = sum;
 }
 
-kernel void cull_lights_fill(global const ShadeLight* restrict lights,
-                             global const float4* restrict bounds,
-                             global const LightExtent* restrict extents,
-                             uint count,
-                             ClusterGrid grid,
-                             global const float2* restrict columns,
-                             global const float2* restrict rows,
-                             global const float2* restrict depths,
-                             global uint* restrict cursors,           // in: starts [groups][cluster_count]; used up
-                             global const uint* restrict offsets,     // [cluster_count + 1], of the lists
-                             global LIGHT_INDEX* restrict lists,      // out [capacity]
-                             uint capacity) {
+kernel void cull_lights_fill(
+    global const ShadeLight* restrict lights, global const float4* restrict bounds,
+    global const LightExtent* restrict extents, uint count, ClusterGrid grid,
+    global const float2* restrict columns, global const float2* restrict rows,
+    global const float2* restrict depths,
+    global uint* restrict cursors,        // in: starts [groups][cluster_count]; used up
+    global const uint* restrict offsets,  // [cluster_count + 1], of the lists
+    global LIGHT_INDEX* restrict lists,   // out [capacity]
+    uint capacity) {
     ClusterBoxes boxes = {columns, rows, depths};
     PairSink sink = {cursors + get_group_id(0) * grid.cluster_count, offsets, lists, capacity};
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, true);
 }
 
-static inline bool holds(uint interval, uint i) { return (interval & 0xffffu) <= i && i <= (interval >> 16); }
+static inline bool holds(uint interval, uint i) {
+    return (interval & 0xffffu) <= i && i <= (interval >> 16);
+}
 
-// The oracle: every light against every cluster. One work-item a cluster. With `lists` null it counts,
-// else it fills at `offsets`. Ships for tests and as the benchmark's baseline.
-kernel void cull_lights_brute_force(global const ShadeLight* restrict lights,
-                                    global const float4* restrict bounds,
-                                    global const LightExtent* restrict extents,
-                                    uint count,
-                                    ClusterGrid grid,
-                                    global const float2* restrict columns,
-                                    global const float2* restrict rows,
-                                    global const float2* restrict depths,
-                                    uint fill,
-                                    global uint* restrict counts,         // out [cluster_count]
-                                    global const uint* restrict offsets,  // [cluster_count + 1], if fill
-                                    global LIGHT_INDEX* restrict lists) { // out, if fill
+// The oracle: every light against every cluster. One work-item a cluster. With `lists` null it
+// counts, else it fills at `offsets`. Ships for tests and as the benchmark's baseline.
+kernel void cull_lights_brute_force(
+    global const ShadeLight* restrict lights, global const float4* restrict bounds,
+    global const LightExtent* restrict extents, uint count, ClusterGrid grid,
+    global const float2* restrict columns, global const float2* restrict rows,
+    global const float2* restrict depths, uint fill,
+    global uint* restrict counts,          // out [cluster_count]
+    global const uint* restrict offsets,   // [cluster_count + 1], if fill
+    global LIGHT_INDEX* restrict lists) {  // out, if fill
     uint cluster = get_global_id(0);
     if (cluster >= grid.cluster_count) return;
     uint column = cluster % grid.tiles_x;
@@ -205,14 +208,17 @@ kernel void cull_lights_brute_force(global const ShadeLight* restrict lights,
     uint found = 0;
     for (uint light = 0; light < count; ++light) {
         float4 b = bounds[light];
-        bool reaches = sphere_reaches(interval_distance(b.x, x.x, x.y), interval_distance(b.y, y.x, y.y),
-                                      interval_distance(-b.z, z.x, z.y), b.w);
+        bool reaches =
+            sphere_reaches(interval_distance(b.x, x.x, x.y), interval_distance(b.y, y.x, y.y),
+                           interval_distance(-b.z, z.x, z.y), b.w);
 #if HAS_SPOT_LIGHTS
-        reaches = reaches && cone_reaches(lights[light], (float3)(x.x, y.x, -z.y), (float3)(x.y, y.y, -z.x));
+        reaches = reaches &&
+                  cone_reaches(lights[light], (float3)(x.x, y.x, -z.y), (float3)(x.y, y.y, -z.x));
 #endif
         // A box reaches beyond its cluster's part of the view: there the light's extent decides.
         LightExtent e = extents[light];
-        reaches = reaches && holds(e.columns, column) && holds(e.rows, row) && holds(e.slices, slice);
+        reaches =
+            reaches && holds(e.columns, column) && holds(e.rows, row) && holds(e.slices, slice);
         if (!reaches) continue;
         if (fill) lists[offsets[cluster] + found] = (LIGHT_INDEX)light;
         ++found;

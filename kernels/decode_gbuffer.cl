@@ -4,18 +4,19 @@
 #include "kernels/device/gbuffer.h"
 #include "kernels/shared/surface_planes.h"
 
-kernel void decode_gbuffer(global const uchar* restrict gbuffer,
-                           GBufferLayout layout,
-                           View view,
-                           global const float* restrict srgb,  // [256]
-                           global float* restrict planes) {    // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for background
+kernel void decode_gbuffer(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+    global const float* restrict srgb,  // [256]
+    global float* restrict planes) {  // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for
+                                      // background
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     if (y >= view.height) return;
     GBuffer g = {gbuffer, layout, view, srgb};
     FV depth01 = load_depth01(g, x, y);
     MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
-    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y), select_fv(drawn, depth01, fv(1.0f)));
+    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y),
+                      select_fv(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, x, y, z);
 #if HAS_SPECULAR
 #define PLANES SURFACE_PLANES_WITH_SPECULAR
@@ -24,9 +25,22 @@ kernel void decode_gbuffer(global const uchar* restrict gbuffer,
 #define PLANES SURFACE_PLANES
 #define SPECULAR
 #endif
-    FV values[PLANES] = {z, s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y, s.normal.z,
-                                 s.albedo.x, s.albedo.y, s.albedo.z, s.roughness, s.metallic,
-                                 s.emissive.x, s.emissive.y, s.emissive.z, s.occlusion SPECULAR};
+    FV values[PLANES] = {z,
+                         s.position.x,
+                         s.position.y,
+                         s.position.z,
+                         s.normal.x,
+                         s.normal.y,
+                         s.normal.z,
+                         s.albedo.x,
+                         s.albedo.y,
+                         s.albedo.z,
+                         s.roughness,
+                         s.metallic,
+                         s.emissive.x,
+                         s.emissive.y,
+                         s.emissive.z,
+                         s.occlusion SPECULAR};
     uint pixel = y * view.stride + x;
     uint plane = view.stride * view.height;
     for (uint i = 0; i < PLANES; ++i) {

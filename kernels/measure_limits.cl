@@ -90,9 +90,7 @@ kernel void division_rate(uint iterations, float a, float b,
 }
 
 // Does nothing: what a launch costs.
-kernel void launch_nothing(global float* restrict out) {
-    (void)out;
-}
+kernel void launch_nothing(global float* restrict out) { (void)out; }
 
 kernel void write_memory(uint repeats, uint count, uint item_step, uint step,
                          global float* restrict to,  // out [items * count][VW]

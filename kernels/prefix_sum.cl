@@ -3,7 +3,8 @@
 //   prefix_sum_blocks   each work-item sums its PER_ITEM neighbours, each work-group its block
 //   prefix_sum_totals   one work-item scans the blocks' sums, in 64 bits
 //   prefix_sum_apply    each work-item writes its neighbours' offsets
-// GROUP is the work-group size, PER_ITEM the elements a work-item takes; GROUP * PER_ITEM is a block.
+// GROUP is the work-group size, PER_ITEM the elements a work-item takes; GROUP * PER_ITEM is a
+// block.
 #ifndef GROUP
 #define GROUP 1
 #endif
@@ -44,11 +45,11 @@ kernel void prefix_sum_blocks(global const uint* restrict counts,  // [n]
     if (get_local_id(0) == GROUP - 1) block_sums[get_group_id(0)] = before + sum;
 }
 
-kernel void prefix_sum_totals(global ulong* restrict block_sums,  // in: sums, out: offsets [block_count]
-                              uint block_count,
-                              uint n,
-                              global uint* restrict offsets,     // out: offsets[n] = total, modulo 2^32
-                              global ulong* restrict total) {    // out [1]: the exact total
+kernel void prefix_sum_totals(
+    global ulong* restrict block_sums,  // in: sums, out: offsets [block_count]
+    uint block_count, uint n,
+    global uint* restrict offsets,   // out: offsets[n] = total, modulo 2^32
+    global ulong* restrict total) {  // out [1]: the exact total
     ulong sum = 0;
     for (uint block = 0; block < block_count; ++block) {
         ulong value = block_sums[block];
@@ -59,14 +60,16 @@ kernel void prefix_sum_totals(global ulong* restrict block_sums,  // in: sums, o
     *total = sum;
 }
 
-kernel void prefix_sum_apply(global const uint* restrict counts,      // [n]
-                             uint n,
-                             global const ulong* restrict block_sums, // [groups], offsets
-                             global uint* restrict offsets) {         // out [n + 1]; the last by prefix_sum_totals
+kernel void prefix_sum_apply(
+    global const uint* restrict counts,  // [n]
+    uint n,
+    global const ulong* restrict block_sums,  // [groups], offsets
+    global uint* restrict offsets) {          // out [n + 1]; the last by prefix_sum_totals
     local ulong shared_sums[GROUP];
     uint first = (uint)get_global_id(0) * PER_ITEM;
     // Offsets are modulo 2^32: the host refuses larger lists by the exact total.
-    uint sum = (uint)(block_sums[get_group_id(0)] + scan_group(sum_of_item(counts, n, first), shared_sums));
+    uint sum = (uint)(block_sums[get_group_id(0)] +
+                      scan_group(sum_of_item(counts, n, first), shared_sums));
     for (uint i = first; i < min(first + PER_ITEM, n); ++i) {
         uint value = counts[i];
         offsets[i] = sum;

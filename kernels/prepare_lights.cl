@@ -7,7 +7,9 @@
 #include "kernels/shared/light.h"
 #include "kernels/shared/view.h"
 
-static inline float rotate_row(float4 row, float4 v) { return fma(row.z, v.z, fma(row.y, v.y, row.x * v.x)); }
+static inline float rotate_row(float4 row, float4 v) {
+    return fma(row.z, v.z, fma(row.y, v.y, row.x * v.x));
+}
 
 static inline float4 rotated(View view, float4 v, float w) {
     return (float4)(rotate_row(view.view_from_world_x, v), rotate_row(view.view_from_world_y, v),
@@ -25,8 +27,8 @@ static inline ShadeLight shade_light(View view, Light light) {
     return out;
 }
 
-// Tiles [first, last] that the interval [lo, hi] in pixels touches, with a hundredth of a tile to spare
-// for rounding; an interval beside the screen gives first > last.
+// Tiles [first, last] that the interval [lo, hi] in pixels touches, with a hundredth of a tile to
+// spare for rounding; an interval beside the screen gives first > last.
 static inline UV tile_interval(FV lo, FV hi, uint tile_size, uint tiles) {
     float inv = 1.0f / (float)tile_size;
     float end = (float)tiles;
@@ -40,8 +42,8 @@ static inline UV tile_interval(FV lo, FV hi, uint tile_size, uint tiles) {
     return select(interval, (UV)(1u), full_mask(outside));
 }
 
-// Pixels that x_view / scale can take for x in [lo, hi] and scale in [near, far] > 0, along one axis
-// with pixel = (ratio - offset) / step.
+// Pixels that x_view / scale can take for x in [lo, hi] and scale in [near, far] > 0, along one
+// axis with pixel = (ratio - offset) / step.
 typedef struct Interval {
     FV lo, hi;
 } Interval;
@@ -62,7 +64,8 @@ typedef struct Sphere {
     FV radius;
 } Sphere;
 
-static inline void store_extents(global LightExtent* extents, uint first, uint count, UV slices, UV columns, UV rows) {
+static inline void store_extents(global LightExtent* extents, uint first, uint count, UV slices,
+                                 UV columns, UV rows) {
     uint s[VW], c[VW], r[VW];
     store_lanes(slices, s);
     store_lanes(columns, c);
@@ -77,7 +80,8 @@ static inline void store_extents(global LightExtent* extents, uint first, uint c
     }
 }
 
-static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint first, uint count, global LightExtent* extents) {
+static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint first, uint count,
+                                global LightExtent* extents) {
     FV zero = fv(0.0f);
     FV z_lo = sphere.z - sphere.radius;
     FV z_hi = sphere.z + sphere.radius;
@@ -85,8 +89,10 @@ static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint
     // Pixels of a perspective view lie in front of the camera; 1e-30 keeps the ratios finite.
     FV near = perspective ? max(z_lo, fv(1e-30f)) : fv(1.0f);
     FV far = perspective ? max(z_hi, fv(1e-30f)) : fv(1.0f);
-    Interval px = pixel_interval(sphere.x - sphere.radius, sphere.x + sphere.radius, near, far, view.ray.x, view.ray.y);
-    Interval py = pixel_interval(sphere.y - sphere.radius, sphere.y + sphere.radius, near, far, view.ray.z, view.ray.w);
+    Interval px = pixel_interval(sphere.x - sphere.radius, sphere.x + sphere.radius, near, far,
+                                 view.ray.x, view.ray.y);
+    Interval py = pixel_interval(sphere.y - sphere.radius, sphere.y + sphere.radius, near, far,
+                                 view.ray.z, view.ray.w);
     UV columns = tile_interval(px.lo, px.hi, grid.tile_width, grid.tiles_x);
     UV rows = tile_interval(py.lo, py.hi, grid.tile_height, grid.tiles_y);
     UV slices = slice_of_depth(grid, z_lo) | (slice_of_depth(grid, z_hi) << 16);
@@ -94,13 +100,12 @@ static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint
     store_extents(extents, first, count, select(slices, (UV)(1u), behind), columns, rows);
 }
 
-kernel void prepare_lights(global const Light* restrict lights,  // [count], camera-relative, world axes
-                           uint count,
-                           View view,
-                           ClusterGrid grid,
-                           global ShadeLight* restrict shade_lights,  // out [count], view space
-                           global float4* restrict bounds,            // out [count]: p_view, 1/range^2
-                           global LightExtent* restrict extents) {    // out [count]
+kernel void prepare_lights(
+    global const Light* restrict lights,  // [count], camera-relative, world axes
+    uint count, View view, ClusterGrid grid,
+    global ShadeLight* restrict shade_lights,  // out [count], view space
+    global float4* restrict bounds,            // out [count]: p_view, 1/range^2
+    global LightExtent* restrict extents) {    // out [count]
     uint first = (uint)get_global_id(0) * VW;
     if (first >= count) return;
     float x[VW], y[VW], z[VW], r[VW];
@@ -113,9 +118,11 @@ kernel void prepare_lights(global const Light* restrict lights,  // [count], cam
         x[i] = p.x;
         y[i] = p.y;
         z[i] = -p.z;
-        // More than the list test grants (CULL_LIMIT, 1e-6 of the range) and float32 loses on the way to
-        // tiles (16 u of the position); 1e-18 m where both are denormal, which a device may flush.
-        r[i] = fma(lights[light].position_range.w, 1.00001f, 1e-6f * (fabs(p.x) + fabs(p.y) + fabs(p.z)) + grid.position_pad + 1e-18f);
+        // More than the list test grants (CULL_LIMIT, 1e-6 of the range) and float32 loses on the
+        // way to tiles (16 u of the position); 1e-18 m where both are denormal, which a device may
+        // flush.
+        r[i] = fma(lights[light].position_range.w, 1.00001f,
+                   1e-6f * (fabs(p.x) + fabs(p.y) + fabs(p.z)) + grid.position_pad + 1e-18f);
     }
     Sphere sphere;
     sphere.x = load_lanes(x);
@@ -126,9 +133,10 @@ kernel void prepare_lights(global const Light* restrict lights,  // [count], cam
 }
 
 // Directional lights: their direction in view space.
-kernel void prepare_directional_lights(global const DirectionalLight* restrict lights,  // [count], world axes
-                                       View view,
-                                       global DirectionalLight* restrict out) {  // out [count], view space
+kernel void prepare_directional_lights(
+    global const DirectionalLight* restrict lights,  // [count], world axes
+    View view,
+    global DirectionalLight* restrict out) {  // out [count], view space
     uint light = get_global_id(0);
     out[light].to_light = rotated(view, lights[light].to_light, 0.0f);
     out[light].color = lights[light].color;

@@ -24,14 +24,13 @@ static inline uint coarse_cluster(View view, ClusterGrid grid, uint tile, uint s
     return cluster_index(grid, column, row, slice >> grid.fine_slice_bits);
 }
 
-kernel void refine_lights_reserve(View view,
-                                  ClusterGrid grid,
-                                  uint tile_count,
-                                  global const uint* restrict cluster_offsets,     // [tile_count + 1], of active clusters
-                                  global const ActiveCluster* restrict clusters,   // [cluster_capacity]
-                                  uint cluster_capacity,
-                                  global const uint* restrict coarse_offsets,      // [coarse clusters + 1]
-                                  global uint* restrict reserves) {                // out [tile_count]
+kernel void refine_lights_reserve(
+    View view, ClusterGrid grid, uint tile_count,
+    global const uint* restrict cluster_offsets,    // [tile_count + 1], of active clusters
+    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
+    uint cluster_capacity,
+    global const uint* restrict coarse_offsets,  // [coarse clusters + 1]
+    global uint* restrict reserves) {            // out [tile_count]
     uint tile = get_global_id(0);
     if (tile >= tile_count) return;
     uint sum = 0;
@@ -45,8 +44,9 @@ kernel void refine_lights_reserve(View view,
 }
 
 // Which of VW lights of a list from entry `first` on reach the box; lanes beyond `end` do not.
-static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights, global const float4* bounds,
-                                global const LIGHT_INDEX* list, uint first, uint end) {
+static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights,
+                                global const float4* bounds, global const LIGHT_INDEX* list,
+                                uint first, uint end) {
     float x[VW], y[VW], z[VW], w[VW];
     for (uint i = 0; i < VW; ++i) {
         float4 b = bounds[list[min(first + i, end - 1u)]];
@@ -66,7 +66,8 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
     uint flag[VW];
     store_lanes(flags, flag);
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] && !cone_reaches(lights[list[first + i]], (float3)(c.min_x, c.min_y, c.min_z), (float3)(c.max_x, c.max_y, c.max_z))) {
+        if (flag[i] && !cone_reaches(lights[list[first + i]], (float3)(c.min_x, c.min_y, c.min_z),
+                                     (float3)(c.max_x, c.max_y, c.max_z))) {
             flag[i] = 0;
         }
     }
@@ -76,8 +77,8 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
 }
 
 // Appends the flagged lights in order and returns how many there were in the whole work-group.
-static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first, global LIGHT_INDEX* out, uint room,
-                          local uint* ballots) {
+static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first,
+                          global LIGHT_INDEX* out, uint room, local uint* ballots) {
 #if GROUP == 1
     uint flag[VW];
     store_lanes(flags, flag);
@@ -104,7 +105,9 @@ static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first, 
     for (uint word = 0; word < (BATCH + 31) / 32; ++word) {
         uint bits = ballots[word];
         uint bit = item * VW;
-        before += word < bit / 32 ? popcount(bits) : word == bit / 32 ? popcount(bits & ((1u << (bit % 32)) - 1u)) : 0u;
+        before += word < bit / 32    ? popcount(bits)
+                  : word == bit / 32 ? popcount(bits & ((1u << (bit % 32)) - 1u))
+                                     : 0u;
         total += popcount(bits);
     }
     for (uint i = 0; i < VW; ++i) {
@@ -116,19 +119,19 @@ static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first, 
 #endif
 }
 
-kernel void refine_lights(global const ShadeLight* restrict lights,  // [count], view space
-                          global const float4* restrict bounds,      // [count]
-                          View view,
-                          ClusterGrid grid,
-                          global const uint* restrict coarse_offsets,       // [coarse clusters + 1]
-                          global const LIGHT_INDEX* restrict coarse_lists,  // [coarse_capacity]
-                          uint coarse_capacity,
-                          global const uint* restrict cluster_offsets,      // [tiles + 1]
-                          global ActiveCluster* restrict clusters,          // in/out [cluster_capacity]: lists set
-                          uint cluster_capacity,
-                          global const uint* restrict list_offsets,         // [tiles + 1], reserves
-                          global LIGHT_INDEX* restrict lists,               // out [list_capacity]
-                          uint list_capacity) {
+kernel void refine_lights(
+    global const ShadeLight* restrict lights,  // [count], view space
+    global const float4* restrict bounds,      // [count]
+    View view, ClusterGrid grid,
+    global const uint* restrict coarse_offsets,       // [coarse clusters + 1]
+    global const LIGHT_INDEX* restrict coarse_lists,  // [coarse_capacity]
+    uint coarse_capacity,
+    global const uint* restrict cluster_offsets,  // [tiles + 1]
+    global ActiveCluster* restrict clusters,      // in/out [cluster_capacity]: lists set
+    uint cluster_capacity,
+    global const uint* restrict list_offsets,  // [tiles + 1], reserves
+    global LIGHT_INDEX* restrict lists,        // out [list_capacity]
+    uint list_capacity) {
     local uint ballots[(BATCH + 31) / 32];
     uint tile = get_group_id(0);
     uint place = list_offsets[tile];
@@ -142,7 +145,8 @@ kernel void refine_lights(global const ShadeLight* restrict lights,  // [count],
         for (uint batch = coarse_begin; batch < coarse_end; batch += BATCH) {
             uint first = batch + (uint)get_local_id(0) * VW;
             UV flags = (UV)(0u);
-            if (first < coarse_end) flags = reaching_lanes(c, lights, bounds, coarse_lists, first, coarse_end);
+            if (first < coarse_end)
+                flags = reaching_lanes(c, lights, bounds, coarse_lists, first, coarse_end);
             uint room = place < list_capacity ? list_capacity - place : 0u;
             place += append(flags, coarse_lists, first, lists + place, room, ballots);
         }

@@ -8,7 +8,7 @@
 #undef rsqrt
 #define sqrt native_sqrt
 #define rsqrt native_rsqrt
-#define DIVIDE(a, b) ((a) * native_recip(b))
+#define DIVIDE(a, b) ((a)*native_recip(b))
 #endif
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/light_index.h"
@@ -21,7 +21,8 @@
 #ifndef HAS_DIRECTIONAL_LIGHTS
 #define HAS_DIRECTIONAL_LIGHTS 0
 #endif
-// Lights that a work-group stages in local memory at a time; 0: none. Then work-groups are whole tiles.
+// Lights that a work-group stages in local memory at a time; 0: none. Then work-groups are whole
+// tiles.
 #ifndef STAGE
 #define STAGE 0
 #endif
@@ -38,7 +39,8 @@
 // bytes instead of 48 without spot lights.
 typedef struct StoredLight {
     float4 position_inv_range2;
-    uint4 color_scale;  // xy: half4 of the colour / z; z: that power of two; w: 1/(cos_in - cos_out)
+    uint4
+        color_scale;  // xy: half4 of the colour / z; z: that power of two; w: 1/(cos_in - cos_out)
 #if HAS_SPOT_LIGHTS
     float4 axis_cos;
 #endif
@@ -47,7 +49,8 @@ typedef struct StoredLight {
 static inline ShadeLight load_light(global const StoredLight* stored) {
     ShadeLight light;
     light.position_inv_range2 = stored->position_inv_range2;
-    light.color_scale = vload_half4(0, (global const half*)&stored->color_scale) * as_float(stored->color_scale.z);
+    light.color_scale =
+        vload_half4(0, (global const half*)&stored->color_scale) * as_float(stored->color_scale.z);
     light.color_scale.w = as_float(stored->color_scale.w);
 #if HAS_SPOT_LIGHTS
     light.axis_cos = stored->axis_cos;
@@ -56,7 +59,8 @@ static inline ShadeLight load_light(global const StoredLight* stored) {
 }
 #define LIGHT_AT(lights, i) load_light((lights) + (i))
 
-kernel void store_lights(global const ShadeLight* restrict lights, global StoredLight* restrict stored) {
+kernel void store_lights(global const ShadeLight* restrict lights,
+                         global StoredLight* restrict stored) {
     uint i = get_global_id(0);
     float4 c = lights[i].color_scale;
     float unit = ldexp(1.0f, clamp(ilogb(max(c.x, max(c.y, c.z))), -126, 126));
@@ -112,7 +116,8 @@ typedef struct Staged {
     local uint* indices;
 } Staged;
 
-static inline void stage_batch(Staged staged, global const StoredLight* lights, global const LIGHT_INDEX* list, uint first, uint end) {
+static inline void stage_batch(Staged staged, global const StoredLight* lights,
+                               global const LIGHT_INDEX* list, uint first, uint end) {
     uint item = get_local_id(1) * get_local_size(0) + get_local_id(0);
     uint items = get_local_size(0) * get_local_size(1);
     for (uint i = item; first + i < end; i += items) {
@@ -125,8 +130,9 @@ static inline void stage_batch(Staged staged, global const StoredLight* lights, 
 
 // Adds the lights of list[0..count), or lights 0..count with ALL_LIGHTS, where `wanted`. The whole
 // work-group calls this with the same list: it may stage the lights together.
-static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, global const StoredLight* lights,
-                                  global const LIGHT_INDEX* list, uint count STAGED_PARAMETER) {
+static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p,
+                                  global const StoredLight* lights, global const LIGHT_INDEX* list,
+                                  uint count STAGED_PARAMETER) {
     RunningSum sum = start_sum(total);
 #if STAGE > 0
     for (uint first = 0; first < count; first += STAGE) {
@@ -168,21 +174,17 @@ static inline void store_radiance(global float* radiance, View view, uint x, uin
     store_lanes(color.z, radiance + 2 * plane + pixel);
 }
 
-kernel void shade(global const uchar* restrict gbuffer,
-                  GBufferLayout layout,
-                  View view,
-                  global const float* restrict srgb,  // [256]
-                  global const DirectionalLight* restrict directional_lights,  // [directional_count], view space
-                  uint directional_count,
-                  global const StoredLight* restrict lights,  // [light_count], view space
-                  uint light_count,
-                  ClusterGrid grid,
-                  global const uint* restrict cluster_offsets,    // [tiles + 1]
-                  global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-                  uint cluster_capacity,
-                  global const LIGHT_INDEX* restrict lists,
-                  float ambient,
-                  global float* restrict radiance) {  // out [3][height][stride]
+kernel void shade(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+    global const float* restrict srgb,                           // [256]
+    global const DirectionalLight* restrict directional_lights,  // [directional_count], view space
+    uint directional_count,
+    global const StoredLight* restrict lights,  // [light_count], view space
+    uint light_count, ClusterGrid grid,
+    global const uint* restrict cluster_offsets,    // [tiles + 1]
+    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
+    uint cluster_capacity, global const LIGHT_INDEX* restrict lists, float ambient,
+    global float* restrict radiance) {  // out [3][height][stride]
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     bool inside = y < view.height;
@@ -204,12 +206,14 @@ kernel void shade(global const uchar* restrict gbuffer,
         return;
     }
 #endif
-    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, row), select_fv(drawn, depth01, fv(1.0f)));
+    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, row),
+                      select_fv(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, x, row, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     LightSum sum = zero_sum();
 #if HAS_DIRECTIONAL_LIGHTS
-    for (uint i = 0; i < directional_count; ++i) sum = evaluate_directional(sum, p, directional_lights[i]);
+    for (uint i = 0; i < directional_count; ++i)
+        sum = evaluate_directional(sum, p, directional_lights[i]);
 #endif
 #if ALL_LIGHTS
     sum = sum_lights(sum, any_drawn, p, lights, lists, light_count STAGED_ARGUMENT);
@@ -221,7 +225,8 @@ kernel void shade(global const uchar* restrict gbuffer,
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
         MASK mine = full_mask(slice == (UV)(clusters[i].slice)) & drawn;
         bool wanted = any_drawn && any_lane(mine);
-        LightSum lit = sum_lights(unlit, wanted, p, lights, lists + clusters[i].list_begin, clusters[i].list_count STAGED_ARGUMENT);
+        LightSum lit = sum_lights(unlit, wanted, p, lights, lists + clusters[i].list_begin,
+                                  clusters[i].list_count STAGED_ARGUMENT);
         if (wanted) sum = select_sum(mine, lit, sum);
     }
 #endif

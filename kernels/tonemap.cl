@@ -9,7 +9,8 @@
 #endif
 
 // The sRGB code of linear v, correctly rounded: IEC 61966-2-1 by table, lane by lane.
-static inline UV srgb_code_by_table(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
+static inline UV srgb_code_by_table(global const float* bucket_boundary,
+                                    global const uint* bucket_code, FV v) {
     // Below 2^-13 is code 0.
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
     UV bucket = (lane_bits(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;
@@ -26,10 +27,11 @@ static inline UV srgb_code_by_table(global const float* bucket_boundary, global 
 #endif
 }
 
-// The same by arithmetic in all lanes at once: 255 (1.055 c^(1/2.4) - 0.055) + 0.5 as a polynomial in
-// c^(1/4), minimax on [0.0031, 1], error 3.7e-4. Only where a value lies within 1/1024 of a code's boundary,
-// more than that and float's rounding (1e-4), do the lanes ask the table.
-static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code, FV v) {
+// The same by arithmetic in all lanes at once: 255 (1.055 c^(1/2.4) - 0.055) + 0.5 as a polynomial
+// in c^(1/4), minimax on [0.0031, 1], error 3.7e-4. Only where a value lies within 1/1024 of a
+// code's boundary, more than that and float's rounding (1e-4), do the lanes ask the table.
+static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code,
+                           FV v) {
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
     FV u = sqrt(sqrt(c));
     FV curve = fma(u, fv(17.4495867f), fv(-81.4141021f));
@@ -48,19 +50,22 @@ static inline UV srgb_code(global const float* bucket_boundary, global const uin
     return KX_CONCAT(as_, UV)(code);
 }
 
-// NaN and negative light are black, infinite light is white, not what a tone curve would make of them.
+// NaN and negative light are black, infinite light is white, not what a tone curve would make of
+// them.
 static inline FV displayable(FV v) { return min(select_fv(v > fv(0.0f), v, fv(0.0f)), fv(1e9f)); }
 
-kernel void tonemap(global const float* restrict radiance,         // [3][height][stride]
-                    uint pixel_count,                              // height * stride
-                    float gain,                                    // 2^exposure
-                    global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
-                    global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
-                    global uint* restrict display) {               // out [height][stride]: R | G << 8 | B << 16 | 255 << 24
+kernel void tonemap(
+    global const float* restrict radiance,         // [3][height][stride]
+    uint pixel_count,                              // height * stride
+    float gain,                                    // 2^exposure
+    global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
+    global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
+    global uint* restrict display) {  // out [height][stride]: R | G << 8 | B << 16 | 255 << 24
     uint pixel = (uint)get_global_id(0) * VW;
     if (pixel >= pixel_count) return;
-    FV3 c = fv3(load_lanes(radiance + pixel) * gain, load_lanes(radiance + pixel_count + pixel) * gain,
-                load_lanes(radiance + 2 * pixel_count + pixel) * gain);
+    FV3 c =
+        fv3(load_lanes(radiance + pixel) * gain, load_lanes(radiance + pixel_count + pixel) * gain,
+            load_lanes(radiance + 2 * pixel_count + pixel) * gain);
     c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
 #if TONE_CURVE == TONE_CURVE_NEUTRAL
     c = neutral_tone_curve(c);

@@ -28,9 +28,7 @@ struct InfoOptions {
     std::string stats;
 };
 
-Json vector_json(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
+Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 Json box_json(const Box& box) {
     if (box.empty()) return nullptr;

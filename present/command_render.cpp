@@ -5,7 +5,9 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/measure/device_limits.h"
 #include "host/measure/known_costs.h"
+#include "host/measure/stage_model.h"
 #include "host/render/renderer.h"
 #include "present/commands.h"
 #include "present/comparison.h"
@@ -141,6 +143,14 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
     return settings;
 }
 
+// What each stage would take at the device's measured limits; measures them once a device.
+void fill_limits(std::vector<FrameRecord>& records, const Renderer& renderer) {
+    const DeviceLimits limits =
+        cached_device_limits(Gpu(choose_device(renderer.settings().device)));
+    const FrameSetup setup = frame_setup(renderer.settings(), renderer.plan(), renderer.device());
+    for (FrameRecord& record : records) fill_limits(record.stats, limits, setup);
+}
+
 void run_render(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
@@ -155,8 +165,9 @@ void run_render(const RenderOptions& options) {
     Renderer renderer(scene.scene(),
                       settings_of(options, {scene.scene(), camera, tasks.front().time}));
     check_interrupt();
-    const auto records = render_tasks(options, scene, renderer, tasks);
+    std::vector<FrameRecord> records = render_tasks(options, scene, renderer, tasks);
     if (!out.stats.empty()) {
+        fill_limits(records, renderer);
         write_json(out.stats,
                    stats_json(renderer.device(), renderer.plan(), records, out.frames.has_value(),
                               known_feature_costs(renderer.device(), scene.scene(),

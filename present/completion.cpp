@@ -211,9 +211,7 @@ std::string fish_script(const CLI::App& program) {
 
 }  // namespace
 
-std::vector<std::string> completion_shells() {
-    return {"bash", "zsh", "fish"};
-}
+std::vector<std::string> completion_shells() { return {"bash", "zsh", "fish"}; }
 
 std::string completion_script(const CLI::App& program, const std::string& shell) {
     switch (parse_name("--completion", shell, completion_shells())) {

@@ -28,9 +28,7 @@ float srgb_of_linear(float linear) {
 }
 
 // As kernels/tonemap.cl: NaN and negative light are black, infinite light is white.
-float displayable(float v) {
-    return std::fmin(std::fmax(v, 0.0f), 1e9f);
-}
+float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
 
 FV3 tone_mapped(FV3 c, ToneCurve curve) {
     c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));

@@ -106,9 +106,7 @@ std::vector<unsigned char> encode_display(const std::filesystem::path& file,
 
 }  // namespace
 
-ImageMeaning image_meaning(const std::filesystem::path& file) {
-    return format_of(file).meaning;
-}
+ImageMeaning image_meaning(const std::filesystem::path& file) { return format_of(file).meaning; }
 
 bool holds_16_bits(const std::filesystem::path& file) {
     const std::string_view plugin = format_of(file).plugin;

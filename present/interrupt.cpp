@@ -48,9 +48,7 @@ void catch_signals() {
     for (const int number : {SIGXFSZ, SIGPIPE}) signal(number, SIG_IGN);
 }
 
-bool interrupt_requested() {
-    return state().requested != 0;
-}
+bool interrupt_requested() { return state().requested != 0; }
 
 void check_interrupt() {
     if (interrupt_requested()) throw Interrupted();

@@ -10,21 +10,13 @@ std::vector<std::string> renderer_names() {
     return {"deferred", "forward-plus", "forward", "deferred-all"};
 }
 
-std::vector<std::string> shading_names() {
-    return {"auto", "lambert", "blinn-phong", "pbr"};
-}
+std::vector<std::string> shading_names() { return {"auto", "lambert", "blinn-phong", "pbr"}; }
 
-std::vector<std::string> tone_curve_names() {
-    return {"none", "neutral", "aces"};
-}
+std::vector<std::string> tone_curve_names() { return {"none", "neutral", "aces"}; }
 
-std::vector<std::string> math_names() {
-    return {"exact", "fast-relaxed", "native"};
-}
+std::vector<std::string> math_names() { return {"exact", "fast-relaxed", "native"}; }
 
-std::vector<std::string> light_color_names() {
-    return {"float", "half"};
-}
+std::vector<std::string> light_color_names() { return {"float", "half"}; }
 
 std::vector<std::string> gbuffer_names() {
     std::vector<std::string> names;
@@ -35,9 +27,7 @@ std::vector<std::string> gbuffer_names() {
     return names;
 }
 
-std::vector<std::string> show_names() {
-    return view_names();
-}
+std::vector<std::string> show_names() { return view_names(); }
 
 std::string name_of(RendererKind renderer) {
     return renderer_names().at(static_cast<std::size_t>(renderer));

@@ -29,9 +29,7 @@ constexpr const char* kExitCodes =
     "  3  a comparison with --reference failed\n"
     "130  interrupted";
 
-void print(const std::string& text) {
-    std::fputs(text.c_str(), stdout);
-}
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 bool given(const CLI::App& app, const std::string& name) {
     const CLI::Option* option = app.get_option_no_throw(name);

@@ -54,9 +54,7 @@ Progress::Progress(std::string label, std::size_t total, bool shown)
     draw();
 }
 
-Progress::~Progress() {
-    erase();
-}
+Progress::~Progress() { erase(); }
 
 void Progress::advance() {
     ++done_;

@@ -8,9 +8,7 @@
 namespace kilolux {
 namespace {
 
-std::string long_name(const std::string& names) {
-    return names.substr(0, names.find(','));
-}
+std::string long_name(const std::string& names) { return names.substr(0, names.find(',')); }
 
 }  // namespace
 

@@ -3,8 +3,6 @@
 
 namespace kilolux {
 
-std::string version() {
-    return KILOLUX_VERSION;
-}
+std::string version() { return KILOLUX_VERSION; }
 
 }  // namespace kilolux

@@ -19,8 +19,8 @@ struct ForwardFeatures {
     bool spot_lights = false;
     bool directional_lights = false;
     bool metallic = false;
-    bool specular = false;  // dielectrics that reflect otherwise than 4 %
-    bool unlit = false;     // unlit materials among glossy ones
+    bool specular = false;   // dielectrics that reflect otherwise than 4 %
+    bool unlit = false;      // unlit materials among glossy ones
     bool clustered = false;  // forward-plus: lights of the coarse cluster; else all of them
     bool opaque = true;      // false: only what blends, over a picture that another renderer made
 };

@@ -122,8 +122,9 @@ void plan_full(Planner& planner, const GBufferNeeds& needs) {
     if (needs.specular) {
         planner.define_location("SPECULAR_LOCATION",
                                 planner.attach_vector(PLANE_SPECULAR_R, GL_RGBA32F, GL_FLOAT));
-        planner.define_location("GRAZING_LOCATION",
-                                planner.attach_plane(PLANE_SPECULAR_F90, GL_R32F, GL_RED, GL_FLOAT));
+        planner.define_location(
+            "GRAZING_LOCATION",
+            planner.attach_plane(PLANE_SPECULAR_F90, GL_R32F, GL_RED, GL_FLOAT));
     }
 }
 

@@ -33,30 +33,14 @@ class GlObject {
 };
 
 namespace gl_delete {
-inline void texture(GLuint name) {
-    glDeleteTextures(1, &name);
-}
-inline void sampler(GLuint name) {
-    glDeleteSamplers(1, &name);
-}
-inline void buffer(GLuint name) {
-    glDeleteBuffers(1, &name);
-}
-inline void framebuffer(GLuint name) {
-    glDeleteFramebuffers(1, &name);
-}
-inline void vertex_array(GLuint name) {
-    glDeleteVertexArrays(1, &name);
-}
-inline void query(GLuint name) {
-    glDeleteQueries(1, &name);
-}
-inline void shader(GLuint name) {
-    glDeleteShader(name);
-}
-inline void program(GLuint name) {
-    glDeleteProgram(name);
-}
+inline void texture(GLuint name) { glDeleteTextures(1, &name); }
+inline void sampler(GLuint name) { glDeleteSamplers(1, &name); }
+inline void buffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void query(GLuint name) { glDeleteQueries(1, &name); }
+inline void shader(GLuint name) { glDeleteShader(name); }
+inline void program(GLuint name) { glDeleteProgram(name); }
 }  // namespace gl_delete
 
 using GlTexture = GlObject<gl_delete::texture>;

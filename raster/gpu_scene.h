@@ -16,8 +16,8 @@ struct GpuMesh {
     GlBuffer indices;
     GlVertexArray vertex_array;
     GLsizei index_count = 0;
-    int material = 0;   // index of the material's row
-    uint features = 0;  // of the mesh with its material
+    int material = 0;            // index of the material's row
+    uint features = 0;           // of the mesh with its material
     std::uint32_t revision = 0;  // of the vertices that were uploaded
 };
 
@@ -26,7 +26,8 @@ struct GpuMesh {
 class GpuScene {
  public:
     /// The scene must outlive this; its materials and textures must stay as they are and its meshes
-    /// as many, its instances may move, and vertices may change before a refresh(). `anisotropy`: 0 chooses 8, or 1 where the CPU does the filtering.
+    /// as many, its instances may move, and vertices may change before a refresh(). `anisotropy`: 0
+    /// chooses 8, or 1 where the CPU does the filtering.
     explicit GpuScene(const Scene& scene, float anisotropy = 0.0f);
 
     /// Uploads meshes anew whose revision says that their vertices changed.

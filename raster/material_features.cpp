@@ -8,8 +8,8 @@ namespace kilolux {
 namespace {
 
 constexpr std::array<const char*, USE_COUNT> kUvNames = {
-    "BASE_COLOR_UV", "METALLIC_ROUGHNESS_UV", "NORMAL_UV", "OCCLUSION_UV", "EMISSIVE_UV",
-    "SPECULAR_UV", "SPECULAR_COLOR_UV"};
+    "BASE_COLOR_UV", "METALLIC_ROUGHNESS_UV", "NORMAL_UV",        "OCCLUSION_UV",
+    "EMISSIVE_UV",   "SPECULAR_UV",           "SPECULAR_COLOR_UV"};
 
 bool same_lookup(const TextureUse& a, const TextureUse& b) {
     return a.texture == b.texture && a.uv_set == b.uv_set &&

@@ -18,7 +18,8 @@ enum Feature : uint {
     kFeatureAlphaMask = 2u << (3 * USE_COUNT),
     kFeatureDoubleSided = 4u << (3 * USE_COUNT),
     kFeatureUnlit = 8u << (3 * USE_COUNT),
-    kFeatureSharedOcclusion = 16u << (3 * USE_COUNT),  // occlusion is the red of the metallic-roughness texture
+    kFeatureSharedOcclusion =
+        16u << (3 * USE_COUNT),  // occlusion is the red of the metallic-roughness texture
 };
 
 /// The use of a material's texture slot USE_*.

@@ -8,13 +8,16 @@
 namespace kilolux {
 namespace {
 
-constexpr std::array<std::string_view, 5> kNames = {"packed", "full", "half", "normal-xy", "oct-2x4"};
+constexpr std::array<std::string_view, 5> kNames = {"packed", "full", "half", "normal-xy",
+                                                    "oct-2x4"};
 
 bool is_material_plane(uint plane) {
     return plane == PLANE_MATERIAL || (plane >= PLANE_METALLIC && plane <= PLANE_EMISSIVE_B);
 }
 
-bool is_occlusion_plane(uint plane) { return plane == PLANE_OCCLUSION || plane == PLANE_OCCLUSION_F; }
+bool is_occlusion_plane(uint plane) {
+    return plane == PLANE_OCCLUSION || plane == PLANE_OCCLUSION_F;
+}
 
 bool is_specular_plane(uint plane) {
     return plane >= PLANE_SPECULAR && plane <= PLANE_SPECULAR_F90;
@@ -105,7 +108,8 @@ uint parse_gbuffer_layout(std::string_view name) {
         if (kNames[i] == name) return i;
     }
     std::string names;
-    for (const std::string_view known : kNames) names += (names.empty() ? "" : ", ") + std::string(known);
+    for (const std::string_view known : kNames)
+        names += (names.empty() ? "" : ", ") + std::string(known);
     throw UsageError("--gbuffer: '" + std::string(name) + "' is none of " + names);
 }
 

@@ -15,8 +15,8 @@ struct GBufferNeeds {
     bool material = false;         // metallic or emissive anywhere in the scene
     bool occlusion = false;        // an occlusion texture anywhere in the scene
     float emissive_scale = 1.0f;   // largest emissive value, > 0
-    bool specular = false;         // dielectrics that reflect otherwise than 4 % anywhere in the scene
-    bool unlit = false;            // unlit materials among glossy ones: a roughness of 0 marks them
+    bool specular = false;  // dielectrics that reflect otherwise than 4 % anywhere in the scene
+    bool unlit = false;     // unlit materials among glossy ones: a roughness of 0 marks them
     bool operator==(const GBufferNeeds&) const = default;
 };
 

@@ -62,7 +62,8 @@ void splice(SplicedSource& out, std::string_view path, bool glsl) {
 }  // namespace
 
 std::string embedded_text(std::string_view path) {
-    if (const char* folder = std::getenv("KILOLUX_SOURCE_DIR")) return read_from_folder(folder, path);
+    if (const char* folder = std::getenv("KILOLUX_SOURCE_DIR"))
+        return read_from_folder(folder, path);
     for (const EmbeddedFile& file : embedded_files()) {
         if (file.path == path) return std::string(file.text);
     }

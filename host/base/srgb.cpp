@@ -14,7 +14,9 @@ namespace {
 float first_float_of(std::uint32_t code) {
     const double linear = srgb_to_linear((code - 0.5) / 255.0);
     const auto nearest = static_cast<float>(linear);
-    return static_cast<double>(nearest) >= linear ? nearest : std::nextafter(nearest, std::numeric_limits<float>::infinity());
+    return static_cast<double>(nearest) >= linear
+               ? nearest
+               : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
 }  // namespace
@@ -40,9 +42,11 @@ SrgbBuckets srgb_buckets() {
     std::uint32_t code = 0;
     for (std::uint32_t bucket = 0; bucket < SRGB_BUCKETS; ++bucket) {
         const float low = std::bit_cast<float>(SRGB_FIRST_BITS + (bucket << SRGB_BUCKET_SHIFT));
-        const float high = std::bit_cast<float>(SRGB_FIRST_BITS + ((bucket + 1) << SRGB_BUCKET_SHIFT));
+        const float high =
+            std::bit_cast<float>(SRGB_FIRST_BITS + ((bucket + 1) << SRGB_BUCKET_SHIFT));
         while (code < 255 && first_float_of(code + 1) <= low) ++code;
-        const float next = code < 255 ? first_float_of(code + 1) : std::numeric_limits<float>::infinity();
+        const float next =
+            code < 255 ? first_float_of(code + 1) : std::numeric_limits<float>::infinity();
         buckets.code.push_back(code);
         buckets.boundary.push_back(next < high ? next : std::numeric_limits<float>::infinity());
     }

@@ -14,9 +14,11 @@ double linear_to_srgb(double linear);
 /// Linear value of each 8-bit sRGB code, rounded from double.
 std::array<float, 256> srgb_to_linear_table();
 
-/// Tables by which tonemap.cl rounds linear light to the nearest sRGB code; see kernels/shared/tone_curve.h.
+/// Tables by which tonemap.cl rounds linear light to the nearest sRGB code; see
+/// kernels/shared/tone_curve.h.
 struct SrgbBuckets {
-    std::vector<float> boundary;      // [SRGB_BUCKETS] smallest float of the next code; infinity if not in the bucket
+    std::vector<float>
+        boundary;  // [SRGB_BUCKETS] smallest float of the next code; infinity if not in the bucket
     std::vector<std::uint32_t> code;  // [SRGB_BUCKETS] code at the bucket's lower end
 };
 SrgbBuckets srgb_buckets();

@@ -15,7 +15,7 @@ namespace kilolux {
 
 /// A buffer's share of a budget, given back with it.
 class BufferCharge {
-   public:
+ public:
     BufferCharge() = default;
     BufferCharge(std::shared_ptr<MemoryBudget> budget, std::uint64_t bytes)
         : budget_(std::move(budget)), bytes_(budget_ ? bytes : 0) {
@@ -35,14 +35,14 @@ class BufferCharge {
     }
     std::uint64_t bytes() const { return bytes_; }
 
-   private:
+ private:
     std::shared_ptr<MemoryBudget> budget_;
     std::uint64_t bytes_ = 0;
 };
 
 /// A device buffer that grows on demand and never shrinks; its contents are lost when it grows.
 class GrowingBuffer {
-   public:
+ public:
     /// `owner` names the stage in error messages.
     GrowingBuffer(const Gpu& gpu, std::string_view owner) : gpu_(gpu), owner_(owner) {}
 
@@ -53,7 +53,7 @@ class GrowingBuffer {
     const cl::Buffer& get() const { return buffer_; }
     std::size_t bytes() const { return bytes_; }
 
-   private:
+ private:
     void check(std::size_t bytes) const;
 
     Gpu gpu_;
@@ -66,14 +66,18 @@ class GrowingBuffer {
 /// Copies `values` to `buffer`; blocks until the host memory may be reused.
 template <typename T>
 void upload(const Gpu& gpu, const cl::Buffer& buffer, std::span<const T> values) {
-    if (!values.empty()) gpu.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
+    if (!values.empty())
+        gpu.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
 }
 
 /// Reads `count` values; blocks until everything enqueued before is done.
 template <typename T>
-std::vector<T> download(const Gpu& gpu, const cl::Buffer& buffer, std::size_t count, std::size_t first = 0) {
+std::vector<T> download(const Gpu& gpu, const cl::Buffer& buffer, std::size_t count,
+                        std::size_t first = 0) {
     std::vector<T> values(count);
-    if (count > 0) gpu.queue.enqueueReadBuffer(buffer, CL_TRUE, first * sizeof(T), count * sizeof(T), values.data());
+    if (count > 0)
+        gpu.queue.enqueueReadBuffer(buffer, CL_TRUE, first * sizeof(T), count * sizeof(T),
+                                    values.data());
     return values;
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 std::string lower(std::string_view text) {
     std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return out;
 }
 
@@ -34,12 +35,15 @@ int natural_lane_width(const cl::Device& device, bool is_cpu) {
 std::string list_of(const std::vector<cl::Device>& devices) {
     std::string list;
     for (std::size_t i = 0; i < devices.size(); ++i) {
-        list += (i ? ", " : "") + std::to_string(i) + ": " + trimmed(devices[i].getInfo<CL_DEVICE_NAME>());
+        list += (i ? ", " : "") + std::to_string(i) + ": " +
+                trimmed(devices[i].getInfo<CL_DEVICE_NAME>());
     }
     return list;
 }
 
-bool is_gpu(const cl::Device& device) { return (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0; }
+bool is_gpu(const cl::Device& device) {
+    return (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
+}
 
 }  // namespace
 
@@ -48,11 +52,13 @@ DeviceInfo describe(const cl::Device& device) {
     info.name = trimmed(device.getInfo<CL_DEVICE_NAME>());
     info.version = trimmed(device.getInfo<CL_DEVICE_VERSION>());
     info.driver = trimmed(device.getInfo<CL_DRIVER_VERSION>());
-    info.platform = trimmed(cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>());
+    info.platform =
+        trimmed(cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>());
     info.is_cpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
     info.lane_width = natural_lane_width(device, info.is_cpu);
     info.compute_units = static_cast<int>(device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());
-    info.max_work_group = static_cast<int>(std::min<std::size_t>(device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(), 65536));
+    info.max_work_group = static_cast<int>(
+        std::min<std::size_t>(device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(), 65536));
     info.cache_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>();
     info.memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     info.max_allocation_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
@@ -82,7 +88,9 @@ std::vector<cl::Device> all_devices() {
 cl::Device choose_device(std::string_view choice) {
     const std::vector<cl::Device> devices = all_devices();
     if (devices.empty()) {
-        throw Error("OpenCL: no device found; install a driver, e.g. the package pocl-opencl-icd (OpenCL on the CPU)");
+        throw Error(
+            "OpenCL: no device found; install a driver, e.g. the package pocl-opencl-icd (OpenCL "
+            "on the CPU)");
     }
     if (choice.empty()) {
         const auto gpu = std::find_if(devices.begin(), devices.end(), is_gpu);
@@ -90,9 +98,11 @@ cl::Device choose_device(std::string_view choice) {
     }
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-    if (error == std::errc() && end == choice.data() + choice.size() && index < devices.size()) return devices[index];
+    if (error == std::errc() && end == choice.data() + choice.size() && index < devices.size())
+        return devices[index];
     for (const cl::Device& device : devices) {
-        if (lower(device.getInfo<CL_DEVICE_NAME>()).find(lower(choice)) != std::string::npos) return device;
+        if (lower(device.getInfo<CL_DEVICE_NAME>()).find(lower(choice)) != std::string::npos)
+            return device;
     }
     throw Error("OpenCL: no device '" + std::string(choice) + "'; there are " + list_of(devices));
 }
@@ -102,16 +112,18 @@ Gpu::Gpu(const cl::Device& chosen, int lane_width) : device(chosen) {
         context = cl::Context(device);
         queue = cl::CommandQueue(context, device, cl::QueueProperties::Profiling);
     } catch (const cl::Error& error) {
-        throw Error("OpenCL: " + trimmed(device.getInfo<CL_DEVICE_NAME>()) + ": " + error.what() + " failed with " +
-                    cl_error_name(error.err()));
+        throw Error("OpenCL: " + trimmed(device.getInfo<CL_DEVICE_NAME>()) + ": " + error.what() +
+                    " failed with " + cl_error_name(error.err()));
     }
     info = describe(device);
     if (lane_width > 0) info.lane_width = lane_width;
 }
 
 Gpu::Gpu(cl::Context existing_context, cl::CommandQueue existing_queue, int lane_width)
-    : device(existing_queue.getInfo<CL_QUEUE_DEVICE>()), context(std::move(existing_context)),
-      queue(std::move(existing_queue)), info(describe(device)) {
+    : device(existing_queue.getInfo<CL_QUEUE_DEVICE>()),
+      context(std::move(existing_context)),
+      queue(std::move(existing_queue)),
+      info(describe(device)) {
     if (lane_width > 0) info.lane_width = lane_width;
 }
 

@@ -21,7 +21,7 @@ struct DeviceInfo {
     bool is_cpu = false;
     int lane_width = 1;  // floats that a kernel's FV holds here
     int compute_units = 1;
-    int max_work_group = 1;  // work-items of a work-group
+    int max_work_group = 1;         // work-items of a work-group
     std::uint64_t cache_bytes = 0;  // of the largest cache that global memory has; 0: unknown
     std::uint64_t memory_bytes = 0;
     std::uint64_t max_allocation_bytes = 0;
@@ -32,8 +32,8 @@ DeviceInfo describe(const cl::Device& device);
 /// Every device of every platform; empty when there is none.
 std::vector<cl::Device> all_devices();
 
-/// The device meant by `choice`: an index into all_devices(), or a part of its name (any case); empty:
-/// the first GPU, else the first device. Throws Error that lists what there is.
+/// The device meant by `choice`: an index into all_devices(), or a part of its name (any case);
+/// empty: the first GPU, else the first device. Throws Error that lists what there is.
 cl::Device choose_device(std::string_view choice);
 
 /// A device with its context and an in-order, profiling queue: what every stage is given.

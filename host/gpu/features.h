@@ -6,18 +6,19 @@
 
 namespace kilolux {
 
-/// What is compiled into the kernels: the scene plan's device half. What a scene lacks is not there.
+/// What is compiled into the kernels: the scene plan's device half. What a scene lacks is not
+/// there.
 struct KernelFeatures {
-    int shading = 0;             // SHADING_*
+    int shading = 0;  // SHADING_*
     uint gbuffer = GBUFFER_PACKED;
-    bool material = false;       // the G-buffer has metallic and emissive
-    bool metallic = false;       // any metal: tinted specular reflection
+    bool material = false;  // the G-buffer has metallic and emissive
+    bool metallic = false;  // any metal: tinted specular reflection
     bool occlusion = false;
-    bool specular = false;       // dielectrics that reflect otherwise than 4 %
-    bool unlit = false;          // unlit surfaces among glossy ones
+    bool specular = false;  // dielectrics that reflect otherwise than 4 %
+    bool unlit = false;     // unlit surfaces among glossy ones
     bool spot_lights = false;
     bool directional_lights = false;
-    int light_index_bits = 16;   // 16 while every light's index fits
+    int light_index_bits = 16;  // 16 while every light's index fits
     // Approximations, off unless asked for: how shading computes, and stores lights' colours.
     bool fast_relaxed_math = false;  // -cl-fast-relaxed-math
     bool native_math = false;        // native_sqrt, native_rsqrt, native_recip
@@ -27,17 +28,19 @@ struct KernelFeatures {
 
 BuildOptions feature_options(const KernelFeatures& features);
 
-/// Work sizes by device class. Data, found by measuring (`kilolux bench --tune`); results never depend on them.
+/// Work sizes by device class. Data, found by measuring (`kilolux bench --tune`); results never
+/// depend on them.
 struct Tuning {
-    int shade_rows = 1;      // rows of a shading work-group: 1..16
-    int shade_stage = 0;     // lights that a shading work-group stages in local memory; 0: none, else shade_rows is 16
-    int cull_group = 1;      // work-items that share a light's clusters
-    int cull_chunks = 8;     // contiguous chunks of lights, a work-group each
-    int refine_group = 1;    // work-items that share a tile's lists
-    int prefix_group = 1;    // work-items of a block of the prefix sum
+    int shade_rows = 1;    // rows of a shading work-group: 1..16
+    int shade_stage = 0;   // lights that a shading work-group stages in local memory; 0: none, else
+                           // shade_rows is 16
+    int cull_group = 1;    // work-items that share a light's clusters
+    int cull_chunks = 8;   // contiguous chunks of lights, a work-group each
+    int refine_group = 1;  // work-items that share a tile's lists
+    int prefix_group = 1;  // work-items of a block of the prefix sum
     int prefix_per_item = 4096;
-    int tile_group = 1;      // tiles a work-group of bin_pixels takes
-    int light_group = 1;     // work-items of prepare_lights, build_clusters and other maps
+    int tile_group = 1;   // tiles a work-group of bin_pixels takes
+    int light_group = 1;  // work-items of prepare_lights, build_clusters and other maps
     bool operator==(const Tuning&) const = default;
 };
 

@@ -18,10 +18,11 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
     }
 }
 
-cl::Program build(const Gpu& gpu, const std::string& file, const std::string& text, const std::string& options) {
+cl::Program build(const Gpu& gpu, const std::string& file, const std::string& text,
+                  const std::string& options) {
     const auto fail = [&](int code, const std::string& log) {
-        throw Error(file + ": build failed with " + cl_error_name(code) + " on " + gpu.info.name + ", options '" +
-                    options + "': " + log);
+        throw Error(file + ": build failed with " + cl_error_name(code) + " on " + gpu.info.name +
+                    ", options '" + options + "': " + log);
     };
     cl::Program program;
     try {
@@ -30,14 +31,17 @@ cl::Program build(const Gpu& gpu, const std::string& file, const std::string& te
         fail(error.err(), "the source was not taken");
     }
     // Not program.build(): where there is no log, its error is that there is none.
-    const int code = ::clBuildProgram(program(), 1, &gpu.device(), options.c_str(), nullptr, nullptr);
+    const int code =
+        ::clBuildProgram(program(), 1, &gpu.device(), options.c_str(), nullptr, nullptr);
     if (code != CL_SUCCESS) fail(code, build_log(program, gpu.device));
     return program;
 }
 
 }  // namespace
 
-BuildOptions& BuildOptions::define(std::string_view name, int value) { return define(name, std::to_string(value)); }
+BuildOptions& BuildOptions::define(std::string_view name, int value) {
+    return define(name, std::to_string(value));
+}
 
 BuildOptions& BuildOptions::define(std::string_view name, std::string_view value) {
     return flag("-D" + std::string(name) + "=" + std::string(value));
@@ -55,7 +59,8 @@ cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOpti
     static std::map<Key, cl::Program> programs;  // holds its context: the key stays unique
     const std::string file = "kernels/" + std::string(stem) + ".cl";
     const std::string all_options =
-        "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) + (options.text().empty() ? "" : " ") + options.text();
+        "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) +
+        (options.text().empty() ? "" : " ") + options.text();
     const std::string text = std::string(kKernelPrologue) + splice_source(file, false).text;
     const std::scoped_lock lock(mutex);
     const Key key(gpu.context(), all_options + "\n" + text);

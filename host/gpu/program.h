@@ -12,18 +12,19 @@ namespace kilolux {
 
 /// -D options of a kernel build: tunables and scene features, never formats that both sides share.
 class BuildOptions {
-   public:
+ public:
     BuildOptions& define(std::string_view name, int value);
     BuildOptions& define(std::string_view name, std::string_view value);
     BuildOptions& flag(std::string_view text);  // a compiler option, e.g. "-cl-fast-relaxed-math"
     const std::string& text() const { return text_; }
 
-   private:
+ private:
     std::string text_;
 };
 
 /// What every program begins with. Kernels say fma where they mean it: the same bits for every lane
-/// width and on every call site. Clang warns that wide vectors change the ABI of functions; ours are all inlined.
+/// width and on every call site. Clang warns that wide vectors change the ABI of functions; ours
+/// are all inlined.
 inline constexpr std::string_view kKernelPrologue =
     "#pragma OPENCL FP_CONTRACT OFF\n"
     "#ifdef __clang__\n"
@@ -38,7 +39,9 @@ inline constexpr std::string_view kKernelPrologue =
 cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options = {});
 
 /// Rounds a global size up to whole work-groups.
-constexpr std::size_t round_up(std::size_t value, std::size_t multiple) { return (value + multiple - 1) / multiple * multiple; }
+constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {
+    return (value + multiple - 1) / multiple * multiple;
+}
 
 /// Name of an OpenCL error code, e.g. "CL_OUT_OF_RESOURCES".
 std::string cl_error_name(int code);
@@ -58,7 +61,8 @@ auto in_stage(std::string_view stage, Body&& body) {
     try {
         return body();
     } catch (const cl::Error& error) {
-        throw Error(std::string(stage) + ": " + error.what() + " failed with " + cl_error_name(error.err()));
+        throw Error(std::string(stage) + ": " + error.what() + " failed with " +
+                    cl_error_name(error.err()));
     }
 }
 

@@ -6,7 +6,8 @@
 namespace kilolux {
 
 void StageTimer::record(std::string_view stage, const cl::Event& event) {
-    auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.stage == stage; });
+    auto entry = std::find_if(entries_.begin(), entries_.end(),
+                              [&](const Entry& e) { return e.stage == stage; });
     if (entry == entries_.end()) entry = entries_.insert(entry, Entry{std::string(stage), {}});
     entry->events.push_back(event);
 }

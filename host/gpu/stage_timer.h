@@ -10,7 +10,7 @@ namespace kilolux {
 
 /// Collects the profiling events of a frame under their stages' names.
 class StageTimer {
-   public:
+ public:
     /// Adds an event to a stage; a stage may have several.
     void record(std::string_view stage, const cl::Event& event);
 
@@ -19,10 +19,11 @@ class StageTimer {
         double ms = 0.0;  // sum of the events' execution times on the device
     };
 
-    /// Times by stage in the order of first use, and forgets the events. Blocks until they are done.
+    /// Times by stage in the order of first use, and forgets the events. Blocks until they are
+    /// done.
     std::vector<Time> take();
 
-   private:
+ private:
     struct Entry {
         std::string stage;
         std::vector<cl::Event> events;

@@ -40,13 +40,19 @@ void GBufferBridge::make_staging(std::size_t bytes) {
     auto staging = std::make_unique<Staging>();
     constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     staging->pixels = make_buffer();
-    glNamedBufferStorage(staging->pixels.name(), static_cast<GLsizeiptr>(bytes), nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
-    staging->mapping = glMapNamedBufferRange(staging->pixels.name(), 0, static_cast<GLsizeiptr>(bytes), kAccess);
+    glNamedBufferStorage(staging->pixels.name(), static_cast<GLsizeiptr>(bytes), nullptr,
+                         kAccess | GL_CLIENT_STORAGE_BIT);
+    staging->mapping =
+        glMapNamedBufferRange(staging->pixels.name(), 0, static_cast<GLsizeiptr>(bytes), kAccess);
     check_gl_errors(kStage);
-    if (!staging->mapping) throw Error("gbuffer_bridge: OpenGL cannot map a pixel buffer of " + std::to_string(bytes >> 20) + " MiB");
+    if (!staging->mapping)
+        throw Error("gbuffer_bridge: OpenGL cannot map a pixel buffer of " +
+                    std::to_string(bytes >> 20) + " MiB");
     staging->bytes = bytes;
-    const cl_mem_flags flags = gpu_.info.is_cpu ? CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR : CL_MEM_READ_ONLY;
-    staging->device = cl::Buffer(gpu_.context, flags, bytes, gpu_.info.is_cpu ? staging->mapping : nullptr);
+    const cl_mem_flags flags =
+        gpu_.info.is_cpu ? CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR : CL_MEM_READ_ONLY;
+    staging->device =
+        cl::Buffer(gpu_.context, flags, bytes, gpu_.info.is_cpu ? staging->mapping : nullptr);
     staging_ = std::move(staging);
 }
 
@@ -70,13 +76,16 @@ GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeed
         check_gl_errors(kStage);
         if (gpu_.info.is_cpu) {
             // Tells the device that the memory behind its buffer has changed.
-            void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
+            void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE,
+                                                       CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
             gpu_.queue.enqueueUnmapMemObject(staging_->device, mapped);
         } else {
             gpu_.queue.enqueueWriteBuffer(staging_->device, CL_FALSE, 0, bytes, staging_->mapping);
         }
         out.bytes = staging_->device;
-        last_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        last_ms_ =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                .count();
         return out;
     });
 }

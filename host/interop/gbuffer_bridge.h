@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "host/base/gbuffer_layout.h"
-#include "host/gpu/flow.h"
 #include "host/gpu/device.h"
+#include "host/gpu/flow.h"
 #include "raster/gbuffer_targets.h"
 
 namespace kilolux {
@@ -13,24 +13,25 @@ namespace kilolux {
 /// Carries the G-buffer from OpenGL to OpenCL as planes in one buffer.
 ///
 /// The staged copy works everywhere: OpenGL reads its attachments into a persistently mapped pixel
-/// buffer, whose memory a CPU device uses in place (no copy on the OpenCL side) and a GPU gets uploaded.
+/// buffer, whose memory a CPU device uses in place (no copy on the OpenCL side) and a GPU gets
+/// uploaded.
 class GBufferBridge {
-   public:
+ public:
     explicit GBufferBridge(const Gpu& gpu);
     ~GBufferBridge();
     GBufferBridge(GBufferBridge&&) noexcept;
     GBufferBridge& operator=(GBufferBridge&&) noexcept;
 
-    /// The planes of what was drawn to `targets`, on the device. Waits for OpenGL to finish, not for
-    /// OpenCL. Valid until the next call; the queue must be done with the last result before it.
-    /// `view`'s rows begin at row `first_row` of the targets.
+    /// The planes of what was drawn to `targets`, on the device. Waits for OpenGL to finish, not
+    /// for OpenCL. Valid until the next call; the queue must be done with the last result before
+    /// it. `view`'s rows begin at row `first_row` of the targets.
     GBuffer transfer(const GBufferTargets& targets, const GBufferNeeds& needs, const View& view,
                      int first_row = 0);
 
     /// Host time of the last transfer, OpenGL's reading included [ms].
     double last_ms() const { return last_ms_; }
 
-   private:
+ private:
     struct Staging;
     void make_staging(std::size_t bytes);
 

@@ -46,9 +46,7 @@ const std::vector<std::string>& columns() {
     return names;
 }
 
-std::int64_t integer(auto value) {
-    return static_cast<std::int64_t>(value);
-}
+std::int64_t integer(auto value) { return static_cast<std::int64_t>(value); }
 
 std::vector<Cell> cells_of(const BenchRow& r) {
     const SweepPoint& p = r.point;

@@ -23,9 +23,7 @@ constexpr const char* kModelNames[] = {"lambert", "blinn-phong", "pbr"};
 constexpr float kNearest = 2.0f, kFarthest = 20.0f;  // of the pixels [m]
 constexpr float kRange = 100.0f;                     // of the lights [m]
 
-std::set<int> lane_widths(const DeviceInfo& device) {
-    return {1, 4, 8, 16, device.lane_width};
-}
+std::set<int> lane_widths(const DeviceInfo& device) { return {1, 4, 8, 16, device.lane_width}; }
 
 // Numbers in [0, 1), the same on every machine.
 class Noise {
@@ -139,9 +137,8 @@ int shading_variants(const RenderSettings& settings) {
     return static_cast<int>(std::size(kModels) * lane_widths(device).size());
 }
 
-std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings,
-                                                DeviceLimits limits, int runs,
-                                                const std::function<void()>& on_run) {
+std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, DeviceLimits limits,
+                                                int runs, const std::function<void()>& on_run) {
     return in_stage("shading bench", [&] {
         const Gpu gpu = open_device(settings);
         const GBuffer gbuffer =

@@ -39,9 +39,8 @@ inline constexpr int kShadingLights = 64;
 /// each model with 1, 4, 8 and 16 lanes (and the device's own), in turns, so that what else the
 /// machine does hits all alike; between the runs the arithmetic limits are measured again, the best
 /// of all counts. `on_run` is called after every run and may throw to stop.
-std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings,
-                                                DeviceLimits limits, int runs,
-                                                const std::function<void()>& on_run);
+std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, DeviceLimits limits,
+                                                int runs, const std::function<void()>& on_run);
 
 /// Runs that measure_shading() makes for one of `runs`.
 int shading_variants(const RenderSettings& settings);

@@ -32,9 +32,9 @@ SurfaceSamples surface_samples(const DecodedSurfaces& decoded) {
     for (std::size_t y = 0; y < view.height; ++y) {
         for (std::size_t x = 0; x < view.width; ++x) {
             const std::size_t pixel = y * view.stride + x;
-            out.pixels[y * view.width + x] =
-                surface_sample([&](std::size_t i) { return double{decoded.planes[i * plane + pixel]}; },
-                               decoded.specular, decoded.unlit);
+            out.pixels[y * view.width + x] = surface_sample(
+                [&](std::size_t i) { return double{decoded.planes[i * plane + pixel]}; },
+                decoded.specular, decoded.unlit);
         }
     }
     return out;

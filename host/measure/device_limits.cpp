@@ -59,9 +59,7 @@ std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
     return limits;
 }
 
-void raise(double& limit, double measured) {
-    limit = std::max(limit, measured);
-}
+void raise(double& limit, double measured) { limit = std::max(limit, measured); }
 
 }  // namespace
 

@@ -25,7 +25,8 @@ std::vector<std::string> absent_features(const ScenePlan& plan);
 /// Whether a feature can be compiled in where the scene lacks it, and so measured.
 bool is_forceable(const std::string& feature);
 
-/// What is known of a left-out feature's cost without measuring: the bytes, and why there is no time.
+/// What is known of a left-out feature's cost without measuring: the bytes, and why there is no
+/// time.
 FeatureCost unmeasured_cost(const ScenePlan& plan, const std::string& feature);
 
 /// Compiles each left-out feature in, and each costlier shading model, and times the same frame

@@ -51,13 +51,9 @@ double lab_curve(double t) {
 
 }  // namespace
 
-Color3 xyz_from_linear(const Color3& rgb) {
-    return multiply(kXyzFromLinear, rgb);
-}
+Color3 xyz_from_linear(const Color3& rgb) { return multiply(kXyzFromLinear, rgb); }
 
-Color3 linear_from_xyz(const Color3& xyz) {
-    return multiply(kLinearFromXyz, xyz);
-}
+Color3 linear_from_xyz(const Color3& xyz) { return multiply(kLinearFromXyz, xyz); }
 
 Color3 ycxcz_from_linear(const Color3& rgb) {
     const Color3 xyz = xyz_from_linear(rgb);

@@ -50,9 +50,7 @@ RationalCurve curve_of(FlipToneMapper tone_mapper) {
     return kAces;
 }
 
-double luminance(const double* rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
+double luminance(const double* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
 // The positive x at which the curve reaches t: the larger root of the quadratic.
 double curve_inverse(const RationalCurve& curve, double t) {
@@ -64,9 +62,7 @@ double curve_inverse(const RationalCurve& curve, double t) {
     return std::max((-b + root) / (2.0 * a), (-b - root) / (2.0 * a));
 }
 
-double clamped01(double v) {
-    return v > 0.0 ? std::min(v, 1.0) : 0.0;
-}
+double clamped01(double v) { return v > 0.0 ? std::min(v, 1.0) : 0.0; }
 
 // A value large enough to overflow the quadratic is far beyond white.
 double tone_mapped(const RationalCurve& curve, double x) {

@@ -25,9 +25,7 @@ struct Perceived {
 };
 
 // NaN becomes 0, so that it does not spread through the filters.
-double clamped(double v) {
-    return v > 0.0 ? std::min(v, 1.0) : 0.0;
-}
+double clamped(double v) { return v > 0.0 ? std::min(v, 1.0) : 0.0; }
 
 Color3 color_at(const std::array<Plane, 3>& planes, std::size_t i) {
     return {planes[0].values[i], planes[1].values[i], planes[2].values[i]};

@@ -159,9 +159,7 @@ bool front_facing(const SurfaceHit& hit) {
     return glm::dot(corner_normal(hit.triangle), hit.ray.direction) * orientation(hit) < 0.0;
 }
 
-glm::dvec4 base_color_at(const SurfaceHit& hit) {
-    return base_color(hit, footprints(hit));
-}
+glm::dvec4 base_color_at(const SurfaceHit& hit) { return base_color(hit, footprints(hit)); }
 
 SurfaceSample surface_at(const SurfaceHit& hit) {
     const Material& material = material_of(hit);

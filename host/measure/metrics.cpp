@@ -14,9 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool same_value(double a, double b) {
-    return a == b || (std::isnan(a) && std::isnan(b));
-}
+bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 // A reference in double is rounded to what a float32 picture could hold at best.
 bool same_bits(double a, double b) {

@@ -13,6 +13,7 @@ using OnProgress = std::function<void(double)>;
 /// Calls `body(row)` once for every row in [0, count), on all cores, in no stated order.
 ///
 /// Rethrows the first exception of `body` or `progress` after all threads have stopped.
-void parallel_rows(int count, const std::function<void(int)>& body, const OnProgress& progress = {});
+void parallel_rows(int count, const std::function<void(int)>& body,
+                   const OnProgress& progress = {});
 
 }  // namespace kilolux

@@ -34,9 +34,7 @@ bool apart(double a, double b, double resolution) {
     return std::abs(a - b) > resolution * std::min(std::abs(a), std::abs(b));
 }
 
-bool less(double a, double b, double resolution) {
-    return a < b && apart(a, b, resolution);
-}
+bool less(double a, double b, double resolution) { return a < b && apart(a, b, resolution); }
 
 }  // namespace
 

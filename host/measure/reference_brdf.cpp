@@ -27,7 +27,8 @@ glm::dvec3 f0_of(const SurfaceSample& surface) {
     return glm::mix(surface.specular, surface.albedo, surface.metallic);
 }
 
-// What diffuse light loses: with the strongest channel of the dielectric's reflectance for all three.
+// What diffuse light loses: with the strongest channel of the dielectric's reflectance for all
+// three.
 glm::dvec3 diffuse_loss(const SurfaceSample& s, double schlick) {
     const double most = std::max({s.specular.x, s.specular.y, s.specular.z});
     const glm::dvec3 head_on = glm::mix(glm::dvec3(most), s.albedo, s.metallic);

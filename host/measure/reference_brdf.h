@@ -15,9 +15,9 @@ namespace kilolux {
 /// blinn_phong: (1 - metallic) albedo / pi + F0 (n + 2) / (8 pi) (n.h)^n, n = 2 / alpha^2 - 2.
 /// pbr:         glTF 2.0 appendix B: (1 - metallic) albedo / pi (1 - F) + F D V with GGX, the
 ///              height-correlated Smith V (Heitz 2014) and Schlick's F at v.h.
-/// F0 = mix(specular, albedo, metallic), F90 = mix(specular_f90, 1, metallic); diffuse light loses the
-/// dielectric part's strongest channel of F (KHR_materials_specular). alpha = max(roughness, 0.045)^2, n.v is at least 1e-4.
-/// `model` must not be Shading::automatic.
+/// F0 = mix(specular, albedo, metallic), F90 = mix(specular_f90, 1, metallic); diffuse light loses
+/// the dielectric part's strongest channel of F (KHR_materials_specular). alpha = max(roughness,
+/// 0.045)^2, n.v is at least 1e-4. `model` must not be Shading::automatic.
 glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye,
                           const glm::dvec3& to_light, Shading model);
 

@@ -7,9 +7,7 @@
 namespace kilolux {
 namespace {
 
-glm::dvec3 xyz(const float4& v) {
-    return {v.x, v.y, v.z};
-}
+glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
 
 ReferenceLight of_row(const ShadeLight& row) {
     return {.position = xyz(row.position_inv_range2),

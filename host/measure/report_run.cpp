@@ -16,9 +16,7 @@ constexpr double kErrorEvaluations = 3e8;  // of float64: seconds of a small CPU
 constexpr double kSettingMs = 10000.0;     // that the frames of a setting may take in a round
 constexpr double kSlowFrameMs = 20000.0;   // beyond which a frame is not timed at full size
 
-double pixels(const RenderSettings& s) {
-    return static_cast<double>(s.width) * s.height;
-}
+double pixels(const RenderSettings& s) { return static_cast<double>(s.width) * s.height; }
 
 std::array<int, 2> size_for_errors(const RenderSettings& s, std::size_t own_lights) {
     const double lights = static_cast<double>(s.lights.count + own_lights);

@@ -60,9 +60,7 @@ Cell sum_of(const ReportSpeed& speed, const std::vector<std::string>& names) {
     return any ? Cell(sum) : Cell();
 }
 
-Cell optional_cell(const std::optional<double>& value) {
-    return value ? Cell(*value) : Cell();
-}
+Cell optional_cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 
 std::string text_of(const ErrorDistribution& worst) {
     return std::to_string(worst.x) + "," + std::to_string(worst.y);

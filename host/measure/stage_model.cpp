@@ -17,9 +17,7 @@ constexpr double kBoundBytes = sizeof(float4);
 constexpr double kCounterBytes = sizeof(uint);
 constexpr int kPrefixSumLaunches = 3;
 
-double index_bytes(const StageCounts& c) {
-    return c.kernels.light_index_bits / 8;
-}
+double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8; }
 
 // Reads each count twice, writes each offset.
 StageWork prefix_sum_work(double counts) {
@@ -32,9 +30,7 @@ StageWork prefix_sum_work(double counts) {
 
 // The part of cone_reaches() that every light pays, point lights too: q 9, radius 7 and a square
 // root, q^2 3, the guard 4.
-LaneWork work_of_cone_guard() {
-    return {24.0, 0.0, 1.0, 0.0};
-}
+LaneWork work_of_cone_guard() { return {24.0, 0.0, 1.0, 0.0}; }
 
 StageWork prepare_work(const StageCounts& c) {
     StageWork work;
@@ -135,8 +131,8 @@ StageWork bloom_work(const StageCounts& c) {
     StageWork work;
     work.bytes_read = kLevels * (1.0 + 0.25 + 1.0) * kRadianceBytes * c.pixels;
     work.bytes_written = kLevels * (0.25 + 1.0) * kRadianceBytes * c.pixels;
-    // A channel of a coarse pixel: 4 rows of 4 bounded taps 3 and filter 4, their filter 4; of a fine
-    // one: 2 rows 2, wide 2, mix 2.
+    // A channel of a coarse pixel: 4 rows of 4 bounded taps 3 and filter 4, their filter 4; of a
+    // fine one: 2 rows 2, wide 2, mix 2.
     work.lanes = kLevels * 3.0 * c.pixels * (0.25 * LaneWork{68.0} + LaneWork{8.0});
     work.launches = 4;
     return work;
@@ -146,15 +142,15 @@ StageWork tonemap_work(const StageCounts& c) {
     StageWork work;
     work.bytes_read = kRadianceBytes * c.pixels;
     work.bytes_written = kDisplayBytes * c.pixels;
-    // Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest 6);
-    // packing 5. Tone curves differ: none is counted.
+    // Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest
+    // 6); packing 5. Tone curves differ: none is counted.
     work.lanes = c.pixels * LaneWork{74.0, 0.0, 6.0};
     work.launches = 1;
     return work;
 }
 
-// The fragments of the forward renderers: what they evaluate, and the picture. With `evaluations` of
-// all fragments, hidden ones too; the surfaces of hidden ones are not counted.
+// The fragments of the forward renderers: what they evaluate, and the picture. With `evaluations`
+// of all fragments, hidden ones too; the surfaces of hidden ones are not counted.
 StageWork forward_work(const StageCounts& c) {
     StageWork work;
     work.bytes_written = kRadianceBytes * c.pixels;
@@ -188,12 +184,18 @@ struct Model {
 };
 
 constexpr Model kModels[] = {
-    {"geometry", geometry_work},      {"gbuffer_bridge", bridge_work},
-    {"prepare_lights", prepare_work}, {"build_clusters", build_work},
-    {"cull_lights", cull_work},       {"bin_pixels", bin_work},
-    {"refine_lights", refine_work},   {"shade", shade_work},
-    {"bloom", bloom_work},            {"tonemap", tonemap_work},
-    {"forward", forward_work},        {"forward_plus", forward_work},
+    {"geometry", geometry_work},
+    {"gbuffer_bridge", bridge_work},
+    {"prepare_lights", prepare_work},
+    {"build_clusters", build_work},
+    {"cull_lights", cull_work},
+    {"bin_pixels", bin_work},
+    {"refine_lights", refine_work},
+    {"shade", shade_work},
+    {"bloom", bloom_work},
+    {"tonemap", tonemap_work},
+    {"forward", forward_work},
+    {"forward_plus", forward_work},
 };
 
 // What fits the cache moves at the cache's rate, the rest at memory's.

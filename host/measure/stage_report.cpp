@@ -16,9 +16,7 @@ double evaluations_of(const std::string& stage, const StageCounts& counts) {
 }
 
 // In 1e9 a second.
-double giga_rate(double amount, double ms) {
-    return ms > 0.0 ? amount / ms * 1e-6 : 0.0;
-}
+double giga_rate(double amount, double ms) { return ms > 0.0 ? amount / ms * 1e-6 : 0.0; }
 
 }  // namespace
 

@@ -43,9 +43,7 @@ TexelCoordinate split(double coordinate) {
     return {static_cast<int>(whole), clamped - whole};
 }
 
-std::size_t slot(TextureEncoding encoding) {
-    return encoding == TextureEncoding::srgb ? 1 : 0;
-}
+std::size_t slot(TextureEncoding encoding) { return encoding == TextureEncoding::srgb ? 1 : 0; }
 
 double footprint_length(const glm::dvec2& uv_step, int width, int height) {
     return std::hypot(uv_step.x * width, uv_step.y * height);

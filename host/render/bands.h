@@ -19,8 +19,8 @@ struct Band {
 /// tiles make the same bits. Bands of any height lie within them.
 constexpr int kRasterRows = 4096;
 
-/// Bands of at most `rows` rows, a multiple of FINE_TILE, from the top; none crosses a raster tile's
-/// edge. A picture that fits is one band.
+/// Bands of at most `rows` rows, a multiple of FINE_TILE, from the top; none crosses a raster
+/// tile's edge. A picture that fits is one band.
 std::vector<Band> make_bands(int height, int rows);
 
 /// The raster tile that a row lies in.

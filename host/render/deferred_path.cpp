@@ -87,7 +87,8 @@ void DeferredPath::blend(const SampleInput& sample, const Radiance& radiance, Fr
     HostCoarseLists lists;
     if (!all_lights_) lists = list_stages_.download_coarse(lists_);
     blended_->draw_blended(
-        crop(sample.camera, context_.settings.height, sample.band), view, surfaces_.targets(), planes,
+        crop(sample.camera, context_.settings.height, sample.band), view, surfaces_.targets(),
+        planes,
         forward_lights(sample.rows, context_.settings.ambient, all_lights_ ? nullptr : &lists));
     upload<float>(context_.gpu, radiance.planes, blended_->read_radiance(view.stride));
     add_stage_time(stats.stages, "blended", blended_->last_ms());

@@ -87,7 +87,8 @@ PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
 DecodedSurfaces ForwardPath::pixels(const Camera& camera) {
     if (!surfaces_) surfaces_.emplace(context_);
     std::vector<StageTime> untimed;
-    DecodedSurfaces out = surfaces_->decode(surfaces_->draw(camera, {0, context_.settings.height}, true, untimed), grid_);
+    DecodedSurfaces out = surfaces_->decode(
+        surfaces_->draw(camera, {0, context_.settings.height}, true, untimed), grid_);
     out.evaluated = evaluated(camera, out);
     return out;
 }

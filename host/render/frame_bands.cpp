@@ -39,8 +39,7 @@ void append_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::si
         }
     }
     for (std::size_t i = 0; i < band.size(); ++i) {
-        append_rows(whole[i].values, std::move(band[i].values),
-                    pixels * band[i].channels.size());
+        append_rows(whole[i].values, std::move(band[i].values), pixels * band[i].channels.size());
     }
 }
 

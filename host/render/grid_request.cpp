@@ -34,8 +34,9 @@ float position_pad(uint layout, const Box& box, const Camera& camera) {
     const glm::dvec3 world = glm::max(glm::abs(box.min), glm::abs(box.max));
     const double largest = std::max({world.x, world.y, world.z});
     const double reach = glm::length(box.size()) + glm::length(camera.position - box.center());
-    // Half: 11 bits round a coordinate by up to 2^-11 of itself, a position by sqrt(3) of that. Float32:
-    // vertices, their interpolation and turning to the world and back are some ulp (6e-8) of `reach`.
+    // Half: 11 bits round a coordinate by up to 2^-11 of itself, a position by sqrt(3) of that.
+    // Float32: vertices, their interpolation and turning to the world and back are some ulp (6e-8)
+    // of `reach`.
     if (layout == GBUFFER_HALF) return static_cast<float>(1.8 * largest * 0x1p-11 + 4e-6 * reach);
     const bool stored = layout == GBUFFER_FULL || layout == GBUFFER_OCT_2X4;
     return stored ? static_cast<float>(4e-6 * reach) : 0.0f;

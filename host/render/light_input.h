@@ -13,7 +13,7 @@ namespace kilolux {
 
 /// Lights relative to a camera, in the rows that kernels take.
 struct LightRows {
-    std::vector<Light> local;                   // point and spot lights
+    std::vector<Light> local;  // point and spot lights
     std::vector<DirectionalLight> directional;
     std::uint64_t rejected = 0;  // not finite, no range, or no light: counted, never silently lost
     bool has_spot = false;
@@ -22,10 +22,10 @@ struct LightRows {
 /// Whether a light can be used from this camera position: finite, with a range, and giving light.
 bool is_usable(const SceneLight& light, const glm::dvec3& camera_position);
 
-/// Positions meet the camera in double, so that a scene far from the origin keeps float32's accuracy
-/// about the camera: 1e6 m away, float32 world positions would be 6 cm apart. A light that cannot be
-/// used is left out and counted; the others are unaffected.
-/// Lights without a range must have got one (fill_missing_ranges).
+/// Positions meet the camera in double, so that a scene far from the origin keeps float32's
+/// accuracy about the camera: 1e6 m away, float32 world positions would be 6 cm apart. A light that
+/// cannot be used is left out and counted; the others are unaffected. Lights without a range must
+/// have got one (fill_missing_ranges).
 LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& camera_position);
 
 }  // namespace kilolux

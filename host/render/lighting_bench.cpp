@@ -176,9 +176,8 @@ LightingRun LightingBench::Parts::run(const LightingRequest& request) {
 
 LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
                              const Camera& camera, double time)
-    : parts_(in_stage("lighting bench", [&] {
-          return std::make_unique<Parts>(scene, settings, camera, time);
-      })) {}
+    : parts_(in_stage("lighting bench",
+                      [&] { return std::make_unique<Parts>(scene, settings, camera, time); })) {}
 LightingBench::~LightingBench() = default;
 LightingBench::LightingBench(LightingBench&&) noexcept = default;
 LightingBench& LightingBench::operator=(LightingBench&&) noexcept = default;
@@ -191,14 +190,8 @@ LightingRequest LightingBench::request() const {
     return {parts_->plan, choose_tuning(parts_->device, parts_->settings.kernels)};
 }
 
-const DeviceInfo& LightingBench::device() const {
-    return parts_->device;
-}
-const Scene& LightingBench::scene() const {
-    return parts_->scene;
-}
-const RenderSettings& LightingBench::settings() const {
-    return parts_->settings;
-}
+const DeviceInfo& LightingBench::device() const { return parts_->device; }
+const Scene& LightingBench::scene() const { return parts_->scene; }
+const RenderSettings& LightingBench::settings() const { return parts_->settings; }
 
 }  // namespace kilolux

@@ -45,7 +45,8 @@ std::string limit_text(const RenderSettings& settings) {
 Bytes scene_bytes(const Scene& scene) {
     Bytes bytes = 0;
     for (const Mesh& mesh : scene.meshes) {
-        constexpr Bytes kVertex = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2);
+        constexpr Bytes kVertex =
+            2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2);
         bytes += mesh.positions.size() * kVertex + mesh.indices.size() * sizeof(std::uint32_t);
     }
     for (const Image& image : scene.images) bytes += image.rgba.size() * 4 / 3;
@@ -62,8 +63,8 @@ Bytes target_pixel_bytes(const ScenePlan& plan) {
 }
 
 struct Need {
-    Bytes fixed = 0;      // whatever the bands
-    Bytes band_pixel = 0; // for each pixel of a band
+    Bytes fixed = 0;            // whatever the bands
+    Bytes band_pixel = 0;       // for each pixel of a band
     Bytes largest_element = 0;  // of a band's pixel in one buffer
 };
 
@@ -84,7 +85,8 @@ Bytes picture_pixel_bytes(const RenderSettings& settings) {
 Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan) {
     const Bytes width = static_cast<Bytes>(settings.width + FINE_TILE - 1) / FINE_TILE * FINE_TILE;
     const auto height = static_cast<Bytes>(settings.height);
-    const Bytes tile_rows = is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
+    const Bytes tile_rows =
+        is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
     const bool blends = has_blended_surfaces(scene);
     const bool decodes = !settings.aovs.empty() || settings.show != "lit";
     Need need;
@@ -101,7 +103,8 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
         need.band_pixel += 2 * SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + layer_bytes(settings);
     }
     if (blends) need.band_pixel += 3 * 3 * sizeof(float);
-    need.largest_element = decodes ? SURFACE_PLANES_WITH_SPECULAR * sizeof(float) : 3 * sizeof(float);
+    need.largest_element =
+        decodes ? SURFACE_PLANES_WITH_SPECULAR * sizeof(float) : 3 * sizeof(float);
     need.largest_element =
         std::max(need.largest_element, static_cast<Bytes>(plan.gbuffer_bytes_per_pixel));
     return need;
@@ -118,13 +121,11 @@ bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
 }
 
 std::string picture_text(const RenderSettings& settings) {
-    return std::to_string(settings.width) + "x" + std::to_string(settings.height) + " pixels with " +
-           std::to_string(settings.lights.count) + " generated lights";
+    return std::to_string(settings.width) + "x" + std::to_string(settings.height) +
+           " pixels with " + std::to_string(settings.lights.count) + " generated lights";
 }
 
-int multiple_of_tile(Bytes rows) {
-    return static_cast<int>(rows / FINE_TILE * FINE_TILE);
-}
+int multiple_of_tile(Bytes rows) { return static_cast<int>(rows / FINE_TILE * FINE_TILE); }
 
 }  // namespace
 
@@ -138,8 +139,8 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     const int lowest = needs_whole_tiles(scene, settings) ? tile : FINE_TILE;
     const Bytes row = width * need.band_pixel;
     const Bytes fitting = limit > need.fixed ? (limit - need.fixed) / row : 0;
-    const int rows = multiple_of_tile(std::min<Bytes>(
-        {fitting, most_rows(need, device, width), static_cast<Bytes>(tile)}));
+    const int rows = multiple_of_tile(
+        std::min<Bytes>({fitting, most_rows(need, device, width), static_cast<Bytes>(tile)}));
     if (rows < lowest) {
         throw Error("memory: " + picture_text(settings) + " need at least " +
                     mebibytes(need.fixed + static_cast<Bytes>(lowest) * row) + "; " +
@@ -150,8 +151,8 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
     // A CPU's buffers are memory like the rest: lights and bands as planned, and for lists what is
     // left.
-    out.device_bytes = device.is_cpu ? limit - need.fixed + settings.lights.count * kLight
-                                     : device.memory_bytes;
+    out.device_bytes =
+        device.is_cpu ? limit - need.fixed + settings.lights.count * kLight : device.memory_bytes;
     return out;
 }
 

@@ -12,14 +12,14 @@ namespace kilolux {
 
 /// How a picture is made within the memory there is.
 struct MemoryPlan {
-    int band_rows = 0;                    // rows made at once: a multiple of FINE_TILE
-    std::uint64_t bytes = 0;              // what that takes, light lists aside
-    std::uint64_t device_bytes = 0;       // that device buffers may take: GrowingBuffer's budget
+    int band_rows = 0;               // rows made at once: a multiple of FINE_TILE
+    std::uint64_t bytes = 0;         // what that takes, light lists aside
+    std::uint64_t device_bytes = 0;  // that device buffers may take: GrowingBuffer's budget
 };
 
-/// The highest bands that fit into settings.max_memory_bytes (0: most of what is available) and into
-/// the device's buffers. The picture's bits do not depend on it. Throws Error, before anything large
-/// is allocated, when even the lowest bands do not fit: what is needed, and what there is.
+/// The highest bands that fit into settings.max_memory_bytes (0: most of what is available) and
+/// into the device's buffers. The picture's bits do not depend on it. Throws Error, before anything
+/// large is allocated, when even the lowest bands do not fit: what is needed, and what there is.
 MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                        const DeviceInfo& device);
 

@@ -27,9 +27,7 @@ std::vector<DeviceInfo> list_devices() {
     return infos;
 }
 
-std::size_t display_stride(int width) {
-    return view_of(Camera{}, width, 1).stride;
-}
+std::size_t display_stride(int width) { return view_of(Camera{}, width, 1).stride; }
 
 // From the lights to a sample's radiance, by the path that was asked for.
 Radiance Renderer::Parts::light(const SampleInput& sample, FrameStats& stats) {
@@ -239,9 +237,7 @@ PixelProbe Renderer::Parts::probe(int x, int y) {
     return out;
 }
 
-const RenderSettings& Renderer::settings() const {
-    return parts_->settings;
-}
+const RenderSettings& Renderer::settings() const { return parts_->settings; }
 
 Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
     return in_stage("render", [&] { return parts_->render(camera, time, between); });
@@ -277,17 +273,9 @@ std::vector<ActiveCluster> Renderer::active_clusters() const {
     return in_stage("active clusters", [&] { return found->second.active_clusters(); });
 }
 
-const DeviceInfo& Renderer::device() const {
-    return parts_->gpu.info;
-}
-const ScenePlan& Renderer::plan() const {
-    return parts_->plan;
-}
-const MemoryPlan& Renderer::memory() const {
-    return parts_->memory;
-}
-const Gpu& Renderer::gpu() const {
-    return parts_->gpu;
-}
+const DeviceInfo& Renderer::device() const { return parts_->gpu.info; }
+const ScenePlan& Renderer::plan() const { return parts_->plan; }
+const MemoryPlan& Renderer::memory() const { return parts_->memory; }
+const Gpu& Renderer::gpu() const { return parts_->gpu; }
 
 }  // namespace kilolux

@@ -30,8 +30,8 @@ enum class GlSource {
 /// Pixels from a row of a display picture to the next, as render_to() writes them.
 std::size_t display_stride(int width);
 
-/// Renders one scene: the whole data flow, from meshes and lights to pixels. Between frames the scene
-/// may change as AnimatedScene changes it: what its revisions say is new is taken up.
+/// Renders one scene: the whole data flow, from meshes and lights to pixels. Between frames the
+/// scene may change as AnimatedScene changes it: what its revisions say is new is taken up.
 class Renderer {
  public:
     /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error

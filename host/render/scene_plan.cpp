@@ -35,7 +35,8 @@ bool is_metallic(const Material& m) { return !m.unlit && m.metallic > 0.0f; }
 bool reflects_otherwise(const Material& m) { return !m.unlit && has_own_reflectance(m); }
 
 bool has_gloss(const Material& m) {
-    return !m.unlit && (m.metallic > 0.0f || m.roughness < 1.0f || m.metallic_roughness_texture.present());
+    return !m.unlit &&
+           (m.metallic > 0.0f || m.roughness < 1.0f || m.metallic_roughness_texture.present());
 }
 
 int shading_of(Shading choice, const std::vector<Material>& materials) {
@@ -49,7 +50,8 @@ int shading_of(Shading choice, const std::vector<Material>& materials) {
         case Shading::automatic:
             break;
     }
-    return std::any_of(materials.begin(), materials.end(), has_gloss) ? SHADING_PBR : SHADING_LAMBERT;
+    return std::any_of(materials.begin(), materials.end(), has_gloss) ? SHADING_PBR
+                                                                      : SHADING_LAMBERT;
 }
 
 const char* shading_name(int shading) {
@@ -75,20 +77,26 @@ void check_forced(const std::vector<std::string>& names) {
 }  // namespace
 
 const std::vector<std::string>& forceable_features() {
-    static const std::vector<std::string> names = {"spot-lights", "directional-lights", "metallic", "emissive",
-                                                   "occlusion",   "specular", "unlit",   "wide-light-index",   "blinn-phong", "pbr"};
+    static const std::vector<std::string> names = {
+        "spot-lights", "directional-lights", "metallic",    "emissive", "occlusion", "specular",
+        "unlit",       "wide-light-index",   "blinn-phong", "pbr"};
     return names;
 }
 
-ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, std::uint64_t light_count) {
+ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
+                          std::uint64_t light_count) {
     const std::vector<Material> materials = materials_in_use(scene);
-    const auto any_material = [&](auto&& test) { return std::any_of(materials.begin(), materials.end(), test); };
+    const auto any_material = [&](auto&& test) {
+        return std::any_of(materials.begin(), materials.end(), test);
+    };
     const auto any_light = [&](LightType type) {
-        return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const SceneLight& l) { return l.type == type; });
+        return std::any_of(scene.lights.begin(), scene.lights.end(),
+                           [&](const SceneLight& l) { return l.type == type; });
     };
     check_forced(settings.force_features);
     const auto forced = [&](std::string_view name) {
-        return std::find(settings.force_features.begin(), settings.force_features.end(), name) != settings.force_features.end();
+        return std::find(settings.force_features.begin(), settings.force_features.end(), name) !=
+               settings.force_features.end();
     };
     ScenePlan plan;
     plan.kernels.shading = shading_of(settings.shading, materials);
@@ -102,22 +110,27 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
     const bool emissive = emission > 0.0f || forced("emissive");
     plan.gbuffer.material = plan.kernels.metallic || emissive;
     plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
-    plan.gbuffer.occlusion = (settings.ambient > 0.0f && any_material([](const Material& m) { return m.occlusion_texture.present(); })) ||
+    plan.gbuffer.occlusion = (settings.ambient > 0.0f && any_material([](const Material& m) {
+                                  return m.occlusion_texture.present();
+                              })) ||
                              forced("occlusion");
     plan.kernels.specular = (glossy && any_material(reflects_otherwise)) || forced("specular");
-    plan.kernels.unlit = (glossy && any_material([](const Material& m) { return m.unlit; })) || forced("unlit");
+    plan.kernels.unlit =
+        (glossy && any_material([](const Material& m) { return m.unlit; })) || forced("unlit");
     plan.gbuffer.specular = plan.kernels.specular;
     plan.gbuffer.unlit = plan.kernels.unlit;
     plan.kernels.gbuffer = settings.gbuffer;
     plan.kernels.material = plan.gbuffer.material;
     plan.kernels.occlusion = plan.gbuffer.occlusion;
     plan.kernels.spot_lights = any_light(LightType::spot) || forced("spot-lights");
-    plan.kernels.directional_lights = any_light(LightType::directional) || forced("directional-lights");
+    plan.kernels.directional_lights =
+        any_light(LightType::directional) || forced("directional-lights");
     plan.kernels.light_index_bits = light_count <= 65536 && !forced("wide-light-index") ? 16 : 32;
     plan.kernels.fast_relaxed_math = settings.kernels.math == MathMode::fast_relaxed;
     plan.kernels.native_math = settings.kernels.math == MathMode::native;
     plan.kernels.half_light_colors = settings.kernels.light_colors == LightColors::half;
-    plan.gbuffer_bytes_per_pixel = static_cast<int>(make_gbuffer_layout(plan.gbuffer, 16, 1).bytes_per_pixel);
+    plan.gbuffer_bytes_per_pixel =
+        static_cast<int>(make_gbuffer_layout(plan.gbuffer, 16, 1).bytes_per_pixel);
     plan.features.push_back(shading_name(plan.kernels.shading));
     const Feature features[] = {
         {"point-lights", light_count > 0},
@@ -129,11 +142,14 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, st
         {"specular", plan.kernels.specular},
         {"unlit", any_material([](const Material& m) { return m.unlit; }) || plan.kernels.unlit},
         {"normal-maps", any_material([](const Material& m) { return m.normal_texture.present(); })},
-        {"alpha-mask", any_material([](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
-        {"alpha-blend", any_material([](const Material& m) { return m.alpha_mode == AlphaMode::blend; })},
+        {"alpha-mask",
+         any_material([](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
+        {"alpha-blend",
+         any_material([](const Material& m) { return m.alpha_mode == AlphaMode::blend; })},
         {"wide-light-index", plan.kernels.light_index_bits == 32},
     };
-    for (const Feature& feature : features) (feature.needed ? plan.features : plan.left_out).emplace_back(feature.name);
+    for (const Feature& feature : features)
+        (feature.needed ? plan.features : plan.left_out).emplace_back(feature.name);
     return plan;
 }
 
@@ -142,7 +158,8 @@ int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature) {
     if (feature == "metallic" || feature == "emissive") needs.material = true;
     if (feature == "occlusion") needs.occlusion = true;
     if (feature == "specular") needs.specular = true;
-    return static_cast<int>(make_gbuffer_layout(needs, 16, 1).bytes_per_pixel) - plan.gbuffer_bytes_per_pixel;
+    return static_cast<int>(make_gbuffer_layout(needs, 16, 1).bytes_per_pixel) -
+           plan.gbuffer_bytes_per_pixel;
 }
 
 }  // namespace kilolux

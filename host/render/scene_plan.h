@@ -22,13 +22,14 @@ struct ScenePlan {
     bool operator==(const ScenePlan&) const = default;
 };
 
-/// What RenderSettings::force_features may name: features of kernels and G-buffer, and shading models.
-/// The others cost nothing where they are absent: each material's shader has its own.
+/// What RenderSettings::force_features may name: features of kernels and G-buffer, and shading
+/// models. The others cost nothing where they are absent: each material's shader has its own.
 const std::vector<std::string>& forceable_features();
 
-/// The plan for a scene under these settings. `light_count`: point and spot lights at most. Throws Error
-/// when settings.force_features names something else.
-ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings, std::uint64_t light_count);
+/// The plan for a scene under these settings. `light_count`: point and spot lights at most. Throws
+/// Error when settings.force_features names something else.
+ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
+                          std::uint64_t light_count);
 
 /// Bytes a pixel that the G-buffer would grow by with a feature that the plan leaves out.
 int added_bytes_per_pixel(const ScenePlan& plan, std::string_view feature);

@@ -40,21 +40,23 @@ enum class LightColors { single, half };
 
 /// How kernels are built and launched; 0: the tuning table's choice for the device.
 struct KernelSettings {
-    int lanes = 0;         // VW: 1, 2, 4, 8, 16
-    int group_height = 0;  // rows of a shading work-group
-    int chunks = 0;        // of lights in culling
-    MathMode math = MathMode::exact;                   // of shading; the forward renderers know only this
-    LightColors light_colors = LightColors::single;    // likewise
+    int lanes = 0;                    // VW: 1, 2, 4, 8, 16
+    int group_height = 0;             // rows of a shading work-group
+    int chunks = 0;                   // of lights in culling
+    MathMode math = MathMode::exact;  // of shading; the forward renderers know only this
+    LightColors light_colors = LightColors::single;  // likewise
     bool operator==(const KernelSettings&) const = default;
 };
 
-/// Everything that decides a picture, beside scene, camera and time: the command line's shared options.
+/// Everything that decides a picture, beside scene, camera and time: the command line's shared
+/// options.
 struct RenderSettings {
     RendererKind renderer = RendererKind::deferred;
     int width = 1920;   // [pixel]
     int height = 1080;  // [pixel]
     LightOptions lights;
-    double range_budget = kDefaultRangeBudget;  // for the scene's lights without a range, see range_of_light()
+    double range_budget =
+        kDefaultRangeBudget;  // for the scene's lights without a range, see range_of_light()
     uint gbuffer = GBUFFER_PACKED;
     Shading shading = Shading::automatic;
     float ambient = 0.02f;  // radiance that falls in from everywhere
@@ -66,11 +68,14 @@ struct RenderSettings {
     std::vector<std::string> aovs;
     GridSettings grid;
     KernelSettings kernels;
-    bool keep_bloomed = false;  // also Frame::bloomed, for whoever makes a display picture of their own
+    bool keep_bloomed =
+        false;  // also Frame::bloomed, for whoever makes a display picture of their own
     bool count_useful = false;  // also count k*, at the price of one more pass
-    std::vector<std::string> force_features;  // compiled in although the scene lacks them; see forceable_features()
-    std::uint64_t max_memory_bytes = 0;  // that a renderer may take in all; 0: most of what is available
-    int band_rows = 0;  // made at once at most, a multiple of FINE_TILE; 0: what memory allows
+    std::vector<std::string>
+        force_features;  // compiled in although the scene lacks them; see forceable_features()
+    std::uint64_t max_memory_bytes =
+        0;               // that a renderer may take in all; 0: most of what is available
+    int band_rows = 0;   // made at once at most, a multiple of FINE_TILE; 0: what memory allows
     std::string device;  // name, part of it, or index; empty: the best
     bool operator==(const RenderSettings&) const = default;
 };

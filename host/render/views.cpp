@@ -37,9 +37,7 @@ std::uint8_t code_of(double v) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255.0));
 }
 
-DisplayColor color_of(const glm::dvec3& v) {
-    return {code_of(v.x), code_of(v.y), code_of(v.z)};
-}
+DisplayColor color_of(const glm::dvec3& v) { return {code_of(v.x), code_of(v.y), code_of(v.z)}; }
 
 using Paint = std::function<DisplayColor(uint x, uint y)>;
 using Magnitude = std::function<double(uint x, uint y)>;

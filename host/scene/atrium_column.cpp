@@ -20,9 +20,7 @@ constexpr double kRadius = 0.30;
 constexpr int kFlutes = 18;
 
 // Entasis: the shaft thins towards the top, along a parabola.
-double shaft_radius(double share) {
-    return kRadius * (1.0 - 0.14 * share * share);
-}
+double shaft_radius(double share) { return kRadius * (1.0 - 0.14 * share * share); }
 
 // Depth of the fluting at an angle, and 0 where flutes run out at the ends of the shaft.
 double flute_depth(double angle, double share) {

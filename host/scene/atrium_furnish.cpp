@@ -15,9 +15,7 @@ using namespace atrium_plan;
 
 constexpr double kPotHeight = 0.56;  // [m] of the soil
 
-bool even(const Place& bay) {
-    return (bay.index + bay.side) % 2 == 0;
-}
+bool even(const Place& bay) { return (bay.index + bay.side) % 2 == 0; }
 
 void add_niche_things(Scene& scene) {
     const int urn_mesh = add_mesh(scene, atrium_mesh("urn", urn(), AtriumMaterial::terracotta));

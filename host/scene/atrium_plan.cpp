@@ -13,15 +13,11 @@ Place on_side(int side, double along, int index) {
     return {turn * placed({along, 0.0, depth}), side, index};
 }
 
-int bay_count(int side) {
-    return side % 2 == 0 ? kLongBays : kShortBays;
-}
+int bay_count(int side) { return side % 2 == 0 ? kLongBays : kShortBays; }
 
 }  // namespace
 
-double half_length(int side) {
-    return side % 2 == 0 ? kHalfX : kHalfZ;
-}
+double half_length(int side) { return side % 2 == 0 ? kHalfX : kHalfZ; }
 
 std::vector<Place> bays() {
     std::vector<Place> out;

@@ -17,9 +17,7 @@ struct Stone {
     glm::dvec2 inside;  // -0.5..0.5 across the stone
 };
 
-int floor_int(double x) {
-    return static_cast<int>(std::floor(x));
-}
+int floor_int(double x) { return static_cast<int>(std::floor(x)); }
 
 // Courses of equal stones, every other one shifted by half a stone.
 Stone running_bond(double u, double v, int columns, int rows) {

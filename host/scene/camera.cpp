@@ -55,15 +55,18 @@ Camera frame_box(const Box& box) {
     const double radius = std::max(0.5 * glm::length(box.size()), 1e-6);
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.35, 0.3, 1.0));
     const double distance = radius / std::sin(glm::radians(45.0) / 2);
-    Camera camera = look_at(box.center() + direction * distance, box.center(), {0, 1, 0}, glm::radians(45.0));
+    Camera camera =
+        look_at(box.center() + direction * distance, box.center(), {0, 1, 0}, glm::radians(45.0));
     camera.z_near = std::max(distance - 2 * radius, radius * 1e-3);
     return camera;
 }
 
 glm::dmat4 clip_from_view(const Camera& camera, int width, int height) {
     const glm::dvec2 extent = half_extent(camera, width, height);
-    // A sample right and below the centre sees what a shift of the picture left and up brings there.
-    const glm::dvec2 offset = camera.shear + glm::dvec2(-2.0 * camera.jitter.x / width, 2.0 * camera.jitter.y / height);
+    // A sample right and below the centre sees what a shift of the picture left and up brings
+    // there.
+    const glm::dvec2 offset =
+        camera.shear + glm::dvec2(-2.0 * camera.jitter.x / width, 2.0 * camera.jitter.y / height);
     const double n = camera.z_near;
     const double f = camera.z_far;
     glm::dmat4 m(0.0);
@@ -84,16 +87,20 @@ View view_of(const Camera& camera, int width, int height) {
     const glm::dvec2 extent = half_extent(camera, width, height);
     const glm::dmat4 clip = clip_from_view(camera, width, height);
     const glm::dvec2 offset = camera.orthographic ? glm::dvec2(clip[3]) : -glm::dvec2(clip[2]);
-    // ndc.x = 2 px / width - 1, ndc.y = 1 - 2 py / height (upper-left origin); x_view = (ndc.x - offset.x) * extent.x.
+    // ndc.x = 2 px / width - 1, ndc.y = 1 - 2 py / height (upper-left origin); x_view = (ndc.x -
+    // offset.x) * extent.x.
     View view{};
-    view.ray = {static_cast<float>(2.0 * extent.x / width), static_cast<float>((-1.0 - offset.x) * extent.x),
-                static_cast<float>(-2.0 * extent.y / height), static_cast<float>((1.0 - offset.y) * extent.y)};
+    view.ray = {static_cast<float>(2.0 * extent.x / width),
+                static_cast<float>((-1.0 - offset.x) * extent.x),
+                static_cast<float>(-2.0 * extent.y / height),
+                static_cast<float>((1.0 - offset.y) * extent.y)};
     const double n = camera.z_near;
     const double f = camera.z_far;
     if (camera.orthographic) {
         view.depth = {static_cast<float>(n - f), 0.0f, 0.0f, static_cast<float>(f)};
     } else {
-        view.depth = {static_cast<float>(1.0 / n - 1.0 / f), 0.0f, 0.0f, static_cast<float>(1.0 / f)};
+        view.depth = {static_cast<float>(1.0 / n - 1.0 / f), 0.0f, 0.0f,
+                      static_cast<float>(1.0 / f)};
     }
     view.width = static_cast<uint>(width);
     view.height = static_cast<uint>(height);

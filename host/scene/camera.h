@@ -10,7 +10,7 @@ namespace kilolux {
 
 /// A pinhole or parallel camera in the world, in double until it becomes a View.
 struct Camera {
-    glm::dvec3 position{0.0};  // [m]
+    glm::dvec3 position{0.0};         // [m]
     glm::dmat3 world_from_view{1.0};  // columns: right, up, backward; orthonormal
     bool orthographic = false;
     double y_fov = 0.785398163397448;  // vertical [rad]

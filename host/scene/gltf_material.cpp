@@ -16,19 +16,13 @@ FileTextureUse use_of(const Info& info) {
     return {info.index, info.texCoord, &info.extensions};
 }
 
-float unit(double value) {
-    return static_cast<float>(std::clamp(value, 0.0, 1.0));
-}
+float unit(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
 constexpr double kMaxFloat = std::numeric_limits<float>::max();
 
-float finite(double value) {
-    return static_cast<float>(std::clamp(value, -kMaxFloat, kMaxFloat));
-}
+float finite(double value) { return static_cast<float>(std::clamp(value, -kMaxFloat, kMaxFloat)); }
 
-float positive(double value) {
-    return finite(std::max(value, 0.0));
-}
+float positive(double value) { return finite(std::max(value, 0.0)); }
 
 AlphaMode convert_alpha_mode(const std::string& mode) {
     if (mode == "MASK") return AlphaMode::mask;

@@ -13,8 +13,9 @@ void derive_flat_normals(Mesh& mesh);
 /// triangles around, or +Z where those have no area.
 void mend_normals(Mesh& mesh);
 
-/// Whether a vector is unit but for float32's rounding. Such ones are left as they are: dividing again
-/// would move last bits, and a file that was written from a scene would not come back as it was.
+/// Whether a vector is unit but for float32's rounding. Such ones are left as they are: dividing
+/// again would move last bits, and a file that was written from a scene would not come back as it
+/// was.
 bool is_unit(const glm::dvec3& v);
 
 /// Some unit vector perpendicular to a unit normal, continuous almost everywhere.

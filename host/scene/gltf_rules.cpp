@@ -13,18 +13,10 @@ constexpr double kMaxBytes = 9007199254740992.0;
 constexpr double kMaxInt = 2147483647.0;
 constexpr double kMaxCount = 4294967294.0;  // indices are 32 bits, and one value is for restarts
 
-GltfRule object(std::string path) {
-    return {.path = std::move(path), .kind = JsonKind::object};
-}
-GltfRule text(std::string path) {
-    return {.path = std::move(path), .kind = JsonKind::text};
-}
-GltfRule boolean(std::string path) {
-    return {.path = std::move(path), .kind = JsonKind::boolean};
-}
-GltfRule number(std::string path) {
-    return {.path = std::move(path), .kind = JsonKind::number};
-}
+GltfRule object(std::string path) { return {.path = std::move(path), .kind = JsonKind::object}; }
+GltfRule text(std::string path) { return {.path = std::move(path), .kind = JsonKind::text}; }
+GltfRule boolean(std::string path) { return {.path = std::move(path), .kind = JsonKind::boolean}; }
+GltfRule number(std::string path) { return {.path = std::move(path), .kind = JsonKind::number}; }
 GltfRule integer(std::string path, double min, double max) {
     return {.path = std::move(path), .kind = JsonKind::integer, .min = min, .max = max};
 }

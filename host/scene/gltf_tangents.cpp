@@ -173,9 +173,9 @@ void mend_tangents(Mesh& mesh) {
         const glm::dvec3 direction(tangent);
         const double length = glm::length(direction);
         const bool usable = length > 0.0 && std::isfinite(length);
-        const glm::vec3 unit =
-            is_unit(direction) ? glm::vec3(tangent)
-            : usable ? glm::vec3(direction / length) : any_perpendicular(mesh.normals[v]);
+        const glm::vec3 unit = is_unit(direction) ? glm::vec3(tangent)
+                               : usable           ? glm::vec3(direction / length)
+                                                  : any_perpendicular(mesh.normals[v]);
         tangent = glm::vec4(unit, tangent.w < 0.0f ? -1.0f : 1.0f);
     }
 }

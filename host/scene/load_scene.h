@@ -14,9 +14,9 @@ struct LoadOptions {
 
 /// Reads a glTF 2.0 file (.gltf or .glb) with its buffers and images.
 ///
-/// Instances hold world transforms; meshes are triangle lists with normals, and tangents where a normal
-/// map needs them. Throws Error with file, place and value seen for anything broken or required and
-/// unsupported; names what is optional and unsupported once in a warning.
+/// Instances hold world transforms; meshes are triangle lists with normals, and tangents where a
+/// normal map needs them. Throws Error with file, place and value seen for anything broken or
+/// required and unsupported; names what is optional and unsupported once in a warning.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace kilolux

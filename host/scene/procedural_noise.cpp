@@ -43,13 +43,9 @@ double gradient(std::uint32_t bits, double dx, double dy) {
     return direction[0] * dx + direction[1] * dy;
 }
 
-double fade(double t) {
-    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-}
+double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
-double mix(double a, double b, double t) {
-    return a + (b - a) * t;
-}
+double mix(double a, double b, double t) { return a + (b - a) * t; }
 
 }  // namespace
 

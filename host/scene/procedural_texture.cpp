@@ -12,9 +12,7 @@ std::uint8_t to_byte(double x) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(x, 0.0, 1.0) * 255.0));
 }
 
-Image empty_image(const std::string& name, int size) {
-    return {name, size, size, {}};
-}
+Image empty_image(const std::string& name, int size) { return {name, size, size, {}}; }
 
 void push(Image& image, const glm::dvec3& c) {
     image.rgba.insert(image.rgba.end(), {to_byte(c.x), to_byte(c.y), to_byte(c.z), 255});

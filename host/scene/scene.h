@@ -13,8 +13,8 @@ namespace kilolux {
 /// An 8-bit RGBA image, row 0 on top. Whether it is sRGB is the using slot's business.
 struct Image {
     std::string name;
-    int width = 0;   // [pixel], > 0
-    int height = 0;  // [pixel], > 0
+    int width = 0;                   // [pixel], > 0
+    int height = 0;                  // [pixel], > 0
     std::vector<std::uint8_t> rgba;  // 4 * width * height
 };
 
@@ -37,8 +37,8 @@ struct Texture {
 
 /// A material's use of a texture.
 struct TextureUse {
-    int texture = -1;  // index into Scene::textures, -1 for none
-    int uv_set = 0;    // 0 or 1
+    int texture = -1;                  // index into Scene::textures, -1 for none
+    int uv_set = 0;                    // 0 or 1
     glm::mat3 uv_from_texcoord{1.0f};  // KHR_texture_transform
     bool present() const { return texture >= 0; }
 };
@@ -51,7 +51,7 @@ struct Material {
     glm::vec4 base_color{1.0f};
     TextureUse base_color_texture;  // sRGB
     float metallic = 1.0f;
-    float roughness = 1.0f;  // perceptual
+    float roughness = 1.0f;                 // perceptual
     TextureUse metallic_roughness_texture;  // linear; G roughness, B metallic
     TextureUse normal_texture;              // linear
     float normal_scale = 1.0f;
@@ -83,12 +83,13 @@ struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;  // [m], object space
     std::vector<glm::vec3> normals;    // unit; the loader derives flat ones when the file has none
-    std::vector<glm::vec4> tangents;   // xyz unit, w handedness +-1; present where the material has a normal map
+    std::vector<glm::vec4>
+        tangents;  // xyz unit, w handedness +-1; present where the material has a normal map
     std::array<std::vector<glm::vec2>, 2> texcoords;
     std::vector<glm::vec4> colors;       // linear, multiplies base_color
     std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()
-    int material = -1;  // index into Scene::materials, -1 for the default material
-    std::uint32_t revision = 0;  // grows whenever the vertices change
+    int material = -1;                   // index into Scene::materials, -1 for the default material
+    std::uint32_t revision = 0;          // grows whenever the vertices change
 };
 
 /// A mesh put into the world. Transforms stay double until they meet the camera.
@@ -114,10 +115,10 @@ struct SceneCamera {
     std::string name;
     glm::dmat4 world_from_camera{1.0};
     bool orthographic = false;
-    double y_fov = 0.785398163397448;  // vertical [rad], perspective
-    double y_extent = 1.0;             // half the height [m], orthographic
-    double aspect = 0.0;               // width / height; 0: the image's
-    double z_near = 0.1;               // [m]
+    double y_fov = 0.785398163397448;                        // vertical [rad], perspective
+    double y_extent = 1.0;                                   // half the height [m], orthographic
+    double aspect = 0.0;                                     // width / height; 0: the image's
+    double z_near = 0.1;                                     // [m]
     double z_far = std::numeric_limits<double>::infinity();  // [m]
 };
 
@@ -135,7 +136,8 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts them.
+/// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts
+/// them.
 struct Scene {
     std::string name;
     std::vector<Image> images;
@@ -145,8 +147,8 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<SceneLight> lights;
     std::vector<SceneCamera> cameras;
-    Box light_box;  // where generated lights go; empty: resting_bounds(scene)
-    Box still_box;  // of an animated scene at time 0; empty: it does not move
+    Box light_box;               // where generated lights go; empty: resting_bounds(scene)
+    Box still_box;               // of an animated scene at time 0; empty: it does not move
     std::uint32_t revision = 0;  // grows whenever instances, lights, cameras or vertices change
 };
 
@@ -156,8 +158,8 @@ Box bounds(const Scene& scene);
 /// Vertex normals without a direction (zero, or not finite): they are drawn as +Z of the view.
 std::size_t zero_normal_count(const Scene& scene);
 
-/// The box that does not move with the scene's animation: where generated lights go and what a camera
-/// that nobody placed frames.
+/// The box that does not move with the scene's animation: where generated lights go and what a
+/// camera that nobody placed frames.
 Box resting_bounds(const Scene& scene);
 
 /// Triangles that one frame draws: those of every instance.

@@ -11,27 +11,41 @@ constexpr std::string_view kStage = "bin_pixels";
 }  // namespace
 
 BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : gpu_(gpu), tuning_(tuning), program_(build_program(gpu, kStage, BuildOptions().define("GBUFFER", static_cast<int>(features.gbuffer)))),
-      prefix_sum_(gpu, tuning), counts_(gpu, kStage), offsets_(gpu, kStage), clusters_(gpu, kStage) {}
+    : gpu_(gpu),
+      tuning_(tuning),
+      program_(build_program(gpu, kStage,
+                             BuildOptions().define("GBUFFER", static_cast<int>(features.gbuffer)))),
+      prefix_sum_(gpu, tuning),
+      counts_(gpu, kStage),
+      offsets_(gpu, kStage),
+      clusters_(gpu, kStage) {}
 
-ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer) {
+ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& grid,
+                                  StageTimer& timer) {
     return in_stage(kStage, [&] {
         const View& view = gbuffer.view;
         ActiveClusters out;
-        out.tile_count = ((view.width + FINE_TILE - 1) / FINE_TILE) * ((view.height + FINE_TILE - 1) / FINE_TILE);
+        out.tile_count = ((view.width + FINE_TILE - 1) / FINE_TILE) *
+                         ((view.height + FINE_TILE - 1) / FINE_TILE);
         out.offsets = offsets_.reserve((out.tile_count + std::size_t{1}) * sizeof(uint));
         // Most tiles have one or two.
-        if (clusters_.bytes() == 0) clusters_.reserve(std::size_t{2} * out.tile_count * sizeof(ActiveCluster));
+        if (clusters_.bytes() == 0)
+            clusters_.reserve(std::size_t{2} * out.tile_count * sizeof(ActiveCluster));
         out.clusters = clusters_.get();
         out.capacity = static_cast<uint>(clusters_.bytes() / sizeof(ActiveCluster));
         const cl::Buffer& counts = counts_.reserve(out.tile_count * sizeof(uint));
         const auto group = static_cast<std::size_t>(tuning_.tile_group);
-        const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(out.tile_count, group)), cl::NDRange(group));
-        cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer> count(program_, "bin_pixels_count");
+        const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(out.tile_count, group)),
+                                    cl::NDRange(group));
+        cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer> count(
+            program_, "bin_pixels_count");
         timer.record(kStage, count(items, gbuffer.bytes, gbuffer.layout, view, grid, counts));
         prefix_sum_.enqueue(counts, out.tile_count, out.offsets, timer, kStage);
-        cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer, cl::Buffer, uint> fill(program_, "bin_pixels_fill");
-        timer.record(kStage, fill(items, gbuffer.bytes, gbuffer.layout, view, grid, out.offsets, out.clusters, out.capacity));
+        cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer, cl::Buffer,
+                          uint>
+            fill(program_, "bin_pixels_fill");
+        timer.record(kStage, fill(items, gbuffer.bytes, gbuffer.layout, view, grid, out.offsets,
+                                  out.clusters, out.capacity));
         return out;
     });
 }

@@ -13,7 +13,7 @@ namespace kilolux {
 
 /// Finds the active clusters: per fine tile, one for each slice among its pixels, with their box.
 class BinPixels {
-   public:
+ public:
     BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only.
@@ -25,7 +25,7 @@ class BinPixels {
     /// True if the last enqueue's clusters are complete; else makes room for the next. Blocks.
     bool fits();
 
-   private:
+ private:
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;

@@ -38,7 +38,11 @@ ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint heigh
 }
 
 BuildClusters::BuildClusters(const Gpu& gpu)
-    : gpu_(gpu), program_(build_program(gpu, kStage)), columns_(gpu, kStage), rows_(gpu, kStage), depths_(gpu, kStage) {}
+    : gpu_(gpu),
+      program_(build_program(gpu, kStage)),
+      columns_(gpu, kStage),
+      rows_(gpu, kStage),
+      depths_(gpu, kStage) {}
 
 ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, StageTimer& timer) {
     return in_stage(kStage, [&] {
@@ -48,10 +52,11 @@ ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, S
         out.columns = columns_.reserve(kInterval * grid.slices * grid.tiles_x);
         out.rows = rows_.reserve(kInterval * grid.slices * grid.tiles_y);
         out.depths = depths_.reserve(kInterval * grid.slices);
-        cl::KernelFunctor<View, ClusterGrid, cl::Buffer, cl::Buffer, cl::Buffer> kernel(program_, "build_clusters");
+        cl::KernelFunctor<View, ClusterGrid, cl::Buffer, cl::Buffer, cl::Buffer> kernel(
+            program_, "build_clusters");
         const cl::NDRange items(std::max(grid.tiles_x, grid.tiles_y), grid.slices);
-        timer.record(kStage, kernel(cl::EnqueueArgs(gpu_.queue, items, cl::NDRange(1, 1)),
-                                    view, grid, out.columns, out.rows, out.depths));
+        timer.record(kStage, kernel(cl::EnqueueArgs(gpu_.queue, items, cl::NDRange(1, 1)), view,
+                                    grid, out.columns, out.rows, out.depths));
         return out;
     });
 }

@@ -16,14 +16,15 @@ struct LightCounts {
 
 /// Counts what shading evaluates and what it needs. For statistics and views.
 class CountLights {
-   public:
+ public:
     CountLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only.
-    LightCounts enqueue(const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
-                        const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer);
+    LightCounts enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
+                        const ClusterGrid& grid, const ActiveClusters& clusters,
+                        const RefinedLists& lists, StageTimer& timer);
 
-   private:
+ private:
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;

@@ -13,19 +13,22 @@ namespace kilolux {
 
 /// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
 ///
-/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. No light is ever left out: the
-/// lists have as many entries as there are pairs. enqueue() works with the room of the last frame; when
-/// that was too little, fits() grows it and the caller enqueues the frame's lists again.
+/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. No light is ever left out:
+/// the lists have as many entries as there are pairs. enqueue() works with the room of the last
+/// frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
+/// again.
 class CullLights {
-   public:
+ public:
     CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only. Lists ascend by light index within a cluster, whatever the tuning.
     CoarseLists enqueue(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer);
 
-    /// The brute-force kernel: every light against every cluster's box; blocks. The oracle. Lists are
-    /// enqueue()'s plus lights that touch only the part of a box outside the cluster's part of the frustum.
-    CoarseLists brute_force(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer);
+    /// The brute-force kernel: every light against every cluster's box; blocks. The oracle. Lists
+    /// are enqueue()'s plus lights that touch only the part of a box outside the cluster's part of
+    /// the frustum.
+    CoarseLists brute_force(const PreparedLights& lights, const ClusterBoxes& boxes,
+                            StageTimer& timer);
 
     /// Pairs of the last enqueue; blocks until it is done.
     std::uint64_t pairs() const { return prefix_sum_.total(); }
@@ -34,7 +37,7 @@ class CullLights {
     /// Throws Error when the pairs exceed what 32-bit offsets or the device can hold.
     bool fits();
 
-   private:
+ private:
     CoarseLists make_lists(const ClusterGrid& grid);
 
     Gpu gpu_;

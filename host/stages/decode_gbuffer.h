@@ -10,16 +10,17 @@ namespace kilolux {
 
 /// The G-buffer as shading sees it, as float planes: for AOVs, views and references.
 class DecodeGBuffer {
-   public:
+ public:
     DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Returns float[plane_count()][height][stride], see kernels/shared/surface_planes.h. Enqueues only.
+    /// Returns float[plane_count()][height][stride], see kernels/shared/surface_planes.h. Enqueues
+    /// only.
     cl::Buffer enqueue(const GBuffer& gbuffer, StageTimer& timer);
 
     /// SURFACE_PLANES, or SURFACE_PLANES_WITH_SPECULAR where the features have it.
     uint plane_count() const { return plane_count_; }
 
-   private:
+ private:
     Gpu gpu_;
     Tuning tuning_;
     uint plane_count_;

@@ -10,13 +10,14 @@ namespace kilolux {
 
 /// Moves lights into view space and finds the part of the coarse grid that each can touch.
 class PrepareLights {
-   public:
+ public:
     PrepareLights(const Gpu& gpu, const Tuning& tuning);
 
     /// Enqueues only. `grid` must have fewer than 65536 tiles a side and slices.
-    PreparedLights enqueue(const LightInput& input, const View& view, const ClusterGrid& grid, StageTimer& timer);
+    PreparedLights enqueue(const LightInput& input, const View& view, const ClusterGrid& grid,
+                           StageTimer& timer);
 
-   private:
+ private:
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;

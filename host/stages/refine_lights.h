@@ -13,12 +13,13 @@ namespace kilolux {
 
 /// Refines the coarse list of each active cluster against the box of its pixels.
 class RefineLights {
-   public:
+ public:
     RefineLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Sets list_begin and list_count of every active cluster. Enqueues only.
-    RefinedLists enqueue(const PreparedLights& lights, const CoarseLists& coarse, const ActiveClusters& clusters,
-                         const View& view, const ClusterGrid& grid, StageTimer& timer);
+    RefinedLists enqueue(const PreparedLights& lights, const CoarseLists& coarse,
+                         const ActiveClusters& clusters, const View& view, const ClusterGrid& grid,
+                         StageTimer& timer);
 
     /// Lights that the last enqueue tested, once for each active cluster; blocks.
     std::uint64_t tests() const { return prefix_sum_.total(); }
@@ -26,7 +27,7 @@ class RefineLights {
     /// True if the last enqueue's lists are complete; else makes room for the next. Blocks.
     bool fits();
 
-   private:
+ private:
     Gpu gpu_;
     Tuning tuning_;
     std::size_t index_bytes_;

@@ -10,7 +10,7 @@ namespace kilolux {
 
 /// Linear radiance to 8-bit sRGB.
 class Tonemap {
-   public:
+ public:
     /// `tone_curve`: TONE_CURVE_*.
     Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve);
 
@@ -18,9 +18,10 @@ class Tonemap {
     cl::Buffer enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer);
 
     /// The same into the caller's `display`, which has room for all pixels. Enqueues only.
-    void enqueue_to(const cl::Buffer& display, const Radiance& radiance, float exposure_ev, StageTimer& timer);
+    void enqueue_to(const cl::Buffer& display, const Radiance& radiance, float exposure_ev,
+                    StageTimer& timer);
 
-   private:
+ private:
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;

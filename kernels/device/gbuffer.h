@@ -42,7 +42,9 @@ static inline FV load_depth01(GBuffer g, uint x, uint y) {
 static inline FV pixel_centers_x(uint x) { return to_float_lanes(lane_numbers + x) + 0.5f; }
 
 // In the picture, of row y of the planes.
-static inline FV pixel_center_y(View view, uint y) { return fv((float)(y + view.first_row) + 0.5f); }
+static inline FV pixel_center_y(View view, uint y) {
+    return fv((float)(y + view.first_row) + 0.5f);
+}
 
 // Linear value of each lane's sRGB code.
 static inline FV srgb_to_linear(global const float* table, UV code) {
@@ -65,20 +67,26 @@ static inline FV3 decode_srgb(global const float* table, UV rgba) {
 static inline FV unorm8(UV code) { return to_float_lanes(code) * (1.0f / 255.0f); }
 
 // [-1, 1] of a 16-bit UNORM.
-static inline FV snorm_of_unorm16(UV code) { return fma(to_float_lanes(code), fv(2.0f / 65535.0f), fv(-1.0f)); }
+static inline FV snorm_of_unorm16(UV code) {
+    return fma(to_float_lanes(code), fv(2.0f / 65535.0f), fv(-1.0f));
+}
 
 static inline FV3 rotate_to_view(View view, FV3 v) {
     float4 x = view.view_from_world_x;
     float4 y = view.view_from_world_y;
     float4 z = view.view_from_world_z;
-    return fv3(fma(fv(x.z), v.z, fma(fv(x.y), v.y, fv(x.x) * v.x)), fma(fv(y.z), v.z, fma(fv(y.y), v.y, fv(y.x) * v.x)),
+    return fv3(fma(fv(x.z), v.z, fma(fv(x.y), v.y, fv(x.x) * v.x)),
+               fma(fv(y.z), v.z, fma(fv(y.y), v.y, fv(y.x) * v.x)),
                fma(fv(z.z), v.z, fma(fv(z.y), v.y, fv(z.x) * v.x)));
 }
 
-static inline FV load_float(GBuffer g, uint plane, uint pixel) { return load_lanes(float_plane(g, plane, pixel)); }
+static inline FV load_float(GBuffer g, uint plane, uint pixel) {
+    return load_lanes(float_plane(g, plane, pixel));
+}
 
 static inline FV3 load_float3(GBuffer g, uint first_plane, uint pixel) {
-    return fv3(load_float(g, first_plane, pixel), load_float(g, first_plane + 1, pixel), load_float(g, first_plane + 2, pixel));
+    return fv3(load_float(g, first_plane, pixel), load_float(g, first_plane + 1, pixel),
+               load_float(g, first_plane + 2, pixel));
 }
 
 static inline FV load_half(GBuffer g, uint plane, uint pixel) {
@@ -110,7 +118,8 @@ static inline FV3 load_position(GBuffer g, uint x, uint y, FV z) {
     // World positions in half floats, as three WebGPU ancestors store them.
     uint pixel = y * g.view.stride + x;
     float4 camera = g.view.camera_position;
-    FV3 world = fv3(load_half(g, PLANE_POSITION_X, pixel) - camera.x, load_half(g, PLANE_POSITION_Y, pixel) - camera.y,
+    FV3 world = fv3(load_half(g, PLANE_POSITION_X, pixel) - camera.x,
+                    load_half(g, PLANE_POSITION_Y, pixel) - camera.y,
                     load_half(g, PLANE_POSITION_Z, pixel) - camera.z);
     return rotate_to_view(g.view, world);
 #else
@@ -122,7 +131,8 @@ static inline FV3 load_normal(GBuffer g, uint pixel) {
 #if GBUFFER == GBUFFER_FULL
     return load_float3(g, PLANE_NORMAL_X, pixel);
 #elif GBUFFER == GBUFFER_HALF
-    FV3 world = fv3(load_half(g, PLANE_NORMAL_X, pixel), load_half(g, PLANE_NORMAL_Y, pixel), load_half(g, PLANE_NORMAL_Z, pixel));
+    FV3 world = fv3(load_half(g, PLANE_NORMAL_X, pixel), load_half(g, PLANE_NORMAL_Y, pixel),
+                    load_half(g, PLANE_NORMAL_Z, pixel));
     FV3 n = rotate_to_view(g.view, world);
     return scale3(n, rsqrt(max(dot3(n, n), fv(1e-20f))));
 #elif GBUFFER == GBUFFER_OCT_2X4
@@ -178,7 +188,8 @@ static inline Surface load_optional_planes(GBuffer g, uint pixel, Surface s) {
 #if VW == 1
     uint code = (g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION])[pixel];
 #else
-    UV code = KX_CONCAT(convert_, UV)(load_lanes(g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION] + pixel));
+    UV code = KX_CONCAT(convert_,
+                        UV)(load_lanes(g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION] + pixel));
 #endif
     s.occlusion = unorm8(code);
 #endif

@@ -16,8 +16,9 @@
 #elif VW == 8
 #define LANES(T, f) ((T)(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)))
 #elif VW == 16
-#define LANES(T, f) \
-    ((T)(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)))
+#define LANES(T, f)                                                                              \
+    ((T)(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), \
+         f(14), f(15)))
 #endif
 
 #if VW > 1

@@ -11,16 +11,19 @@
 
 // Distance from c to the interval [lo, hi]; 0 inside. Rounding is monotone: never more than that of
 // any point of the interval computed the same way.
-static inline float interval_distance(float c, float lo, float hi) { return max(max(lo - c, c - hi), 0.0f); }
+static inline float interval_distance(float c, float lo, float hi) {
+    return max(max(lo - c, c - hi), 0.0f);
+}
 
-// The sphere of (x, y, z, 1/range^2) against a box, from the distances by axis (Arvo, Graphics Gems I,
-// p. 335). The sum is associated as in evaluate(), so that a box is never farther than its pixels.
+// The sphere of (x, y, z, 1/range^2) against a box, from the distances by axis (Arvo, Graphics Gems
+// I, p. 335). The sum is associated as in evaluate(), so that a box is never farther than its
+// pixels.
 static inline bool sphere_reaches(float dx, float dy, float dz, float inv_range2) {
     return fma(dz, dz, fma(dy, dy, dx * dx)) * inv_range2 <= CULL_LIMIT;
 }
 
-// A spot's cone against the bounding sphere of a box: false only if no point of the sphere is inside.
-// Distance from the centre to the cone's surface; valid for half angles up to 90 degrees.
+// A spot's cone against the bounding sphere of a box: false only if no point of the sphere is
+// inside. Distance from the centre to the cone's surface; valid for half angles up to 90 degrees.
 static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float3 q = 0.5f * (lo + hi) - light.position_inv_range2.xyz;
     float radius = 0.5f * length(hi - lo);

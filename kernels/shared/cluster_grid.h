@@ -10,8 +10,8 @@ namespace kilolux {
 // A fine tile: what one active cluster covers on the screen, and one work-group shades [pixel].
 #define FINE_TILE 16
 
-// cluster = (slice * tiles_y + tile_y) * tiles_x + tile_x. Tile edges are multiples of FINE_TILE, so
-// every fine tile lies in one coarse tile.
+// cluster = (slice * tiles_y + tile_y) * tiles_x + tile_x. Tile edges are multiples of FINE_TILE,
+// so every fine tile lies in one coarse tile.
 SHARED_STRUCT(ClusterGrid) {
     uint tiles_x, tiles_y, slices;
     uint slice_shift;   // 23 - log2(slices per octave): see slice_of_depth
@@ -19,15 +19,16 @@ SHARED_STRUCT(ClusterGrid) {
     uint tile_height;   // [pixel]
     uint z_first_bits;  // bits of z_first [m], the near end of slice 0
     uint cluster_count;
-    float position_pad;  // [m] how far a stored position may lie from its pixel's ray and depth
+    float position_pad;    // [m] how far a stored position may lie from its pixel's ray and depth
     uint fine_slice_bits;  // a coarse slice holds 2^this slices of the active clusters
     uint unused0, unused1;
 };
 SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 
 // Slice of a depth z [m]. The bits of a positive float are a piecewise linear log2 of it, exactly
-// monotone and the same on every device. Nearer than z_first (or negative) falls into slice 0, farther
-// than the last slice into the last: no pixel is lost. NaN, which max() leaves open, falls into either.
+// monotone and the same on every device. Nearer than z_first (or negative) falls into slice 0,
+// farther than the last slice into the last: no pixel is lost. NaN, which max() leaves open, falls
+// into either.
 SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
     LANE_UINT slice = (lane_bits(clamped) - grid.z_first_bits) >> grid.slice_shift;
@@ -51,7 +52,8 @@ SHARED_FN uint cluster_index(ClusterGrid grid, uint tile_x, uint tile_y, uint sl
 }
 
 // What a list test grants beyond the range, relative to range^2: more than float32's rounding of
-// distance^2 / range^2 (8 u = 5e-7), so that no light within its range by exact arithmetic is missing.
+// distance^2 / range^2 (8 u = 5e-7), so that no light within its range by exact arithmetic is
+// missing.
 #define CULL_LIMIT 1.000002f
 
 // Farther than any scene [m]: the far end of the last slice.

@@ -19,7 +19,7 @@ SHARED_ASSERT(light_extent_size, sizeof(LightExtent) == 16);
 // The pixels of one fine tile that lie in one fine slice, and the lights that reach their box.
 SHARED_STRUCT(ActiveCluster) {
     float min_x, min_y, min_z;  // box of the pixels' positions in view space [m]
-    uint slice;  // fine_slice_of_depth
+    uint slice;                 // fine_slice_of_depth
     float max_x, max_y, max_z;
     uint pixel_count;
     uint list_begin;  // in the refined list

@@ -2,14 +2,15 @@
 // What one light adds to one shading point: the only place where light meets surface, for the
 // OpenCL kernels (VW pixels at once) and for GLSL (one fragment).
 //
-//   pixel = emissive + ambient * occlusion * albedo + sum over lights of brdf * intensity * falloff * n.l
+//   pixel = emissive + ambient * occlusion * albedo + sum over lights of
+//           brdf * intensity * falloff * n.l
 //   falloff(d) = window(d / range) / max(d, LIGHT_D_MIN)^2,  window(x) = clamp(1 - x^4, 0, 1)
 //   (KHR_lights_punctual, "Range Property")
 //
 // The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
-// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
-// KHR_materials_specular), HAS_UNLIT, FAST_RSQRT: what the scene does not need is not in the code, and
-// is worth the same bits where it is.
+// Compile-time switches: SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior
+// and KHR_materials_specular), HAS_UNLIT, FAST_RSQRT: what the scene does not need is not in the
+// code, and is worth the same bits where it is.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -34,8 +35,8 @@
 #define HAS_UNLIT 0
 #endif
 #define F0_VARIES (HAS_METALLIC || HAS_SPECULAR)
-// Leave a light whose window is 0 in all lanes before its costly part: pays for all but lambert, where
-// the branch costs more than it saves.
+// Leave a light whose window is 0 in all lanes before its costly part: pays for all but lambert,
+// where the branch costs more than it saves.
 #ifndef EARLY_OUT
 #define EARLY_OUT (SHADING != SHADING_LAMBERT)
 #endif
@@ -53,7 +54,8 @@
 // Nearer than this the inverse square stops growing: light sources have a size [m] (Lagarde and de
 // Rousiers 2014, "Moving Frostbite to PBR", 3.1: max(d^2, 0.01^2)).
 #define LIGHT_D_MIN 0.01f
-// Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's limit).
+// Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's
+// limit).
 #define ROUGHNESS_MIN 0.045f
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
@@ -61,8 +63,9 @@
 #define N_DOT_V_MIN 1e-4f
 #define INV_PI 0.318309886f
 // Lights whose contributions are summed before they join the pixel's sum; by light index, so that a
-// light that contributes 0 changes no bit wherever it is listed. Error of k terms: (64 + k/64) u, where
-// one running sum has k u (Higham 2002, "Accuracy and Stability of Numerical Algorithms", 4.2).
+// light that contributes 0 changes no bit wherever it is listed. Error of k terms: (64 + k/64) u,
+// where one running sum has k u (Higham 2002, "Accuracy and Stability of Numerical
+// Algorithms", 4.2).
 #define SUM_BLOCK_LOG2 6
 
 #if defined(__cplusplus)
@@ -88,13 +91,13 @@ SHARED_PLAIN_STRUCT(Surface) {
 SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 position;
     FV3 normal;
-    FV3 to_eye;      // unit
+    FV3 to_eye;  // unit
     FV n_dot_v;
-    FV alpha2;       // pbr: roughness^4
-    FV ggx_slope;    // pbr: (1 - alpha2) / alpha
-    FV ggx_floor;    // pbr: alpha
-    FV smith_v;      // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
-    FV exponent;     // blinn-phong
+    FV alpha2;     // pbr: roughness^4
+    FV ggx_slope;  // pbr: (1 - alpha2) / alpha
+    FV ggx_floor;  // pbr: alpha
+    FV smith_v;    // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
+    FV exponent;   // blinn-phong
 #if F0_VARIES
     FV3 f0;  // pbr: reflectance head on
 #endif
@@ -128,7 +131,8 @@ SHARED_FN LightSum add_sums(LightSum a, LightSum b) {
 }
 
 SHARED_FN FV3 add_scaled(FV3 sum, FV weight, float4 color) {
-    return fv3(fma(weight, fv(color.x), sum.x), fma(weight, fv(color.y), sum.y), fma(weight, fv(color.z), sum.z));
+    return fv3(fma(weight, fv(color.x), sum.x), fma(weight, fv(color.y), sum.y),
+               fma(weight, fv(color.z), sum.z));
 }
 
 SHARED_FN FV clamped_alpha(FV roughness) {
@@ -140,7 +144,8 @@ SHARED_FN FV clamped_alpha(FV roughness) {
 SHARED_FN FV3 mixed_f0(Surface s, FV3 dielectric) {
 #if HAS_METALLIC
     FV rest = fv(1.0f) - s.metallic;
-    return fv3(fma(s.albedo.x, s.metallic, rest * dielectric.x), fma(s.albedo.y, s.metallic, rest * dielectric.y),
+    return fv3(fma(s.albedo.x, s.metallic, rest * dielectric.x),
+               fma(s.albedo.y, s.metallic, rest * dielectric.y),
                fma(s.albedo.z, s.metallic, rest * dielectric.z));
 #else
     return dielectric;
@@ -155,8 +160,8 @@ SHARED_FN FV3 dielectric_f0(Surface s) {
 #endif
 }
 
-// What diffuse light loses head on: the strongest channel's reflectance, so that a tinted one does not
-// colour the rest (KHR_materials_specular, implementation).
+// What diffuse light loses head on: the strongest channel's reflectance, so that a tinted one does
+// not colour the rest (KHR_materials_specular, implementation).
 SHARED_FN FV3 diffuse_f0(Surface s) {
     FV3 f0 = dielectric_f0(s);
     FV most = max(max(f0.x, f0.y), f0.z);
@@ -201,11 +206,15 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     return p;
 }
 
-// Adds light of `lit` = intensity's weight * falloff * n.l from the unit direction `v` * `inv_length`.
-SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l, FV lit, float4 color) {
+// Adds light of `lit` = intensity's weight * falloff * n.l from the unit direction `v` *
+// `inv_length`.
+SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l,
+                                FV lit, float4 color) {
 #if SHADING != SHADING_LAMBERT
-    FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y), fma(v.z, inv_length, p.to_eye.z));
-    // 1e-12: light from straight behind the view has no half vector, only rounding of one (1e-7 long).
+    FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y),
+                fma(v.z, inv_length, p.to_eye.z));
+    // 1e-12: light from straight behind the view has no half vector, only rounding of one (1e-7
+    // long).
     FV hh = max(dot3(h, h), fv(1e-12f));
 #endif
 #if SHADING == SHADING_LAMBERT
@@ -213,16 +222,17 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
 #elif SHADING == SHADING_BLINN_PHONG
     // cos = 1 - |n - h|^2 / 2 keeps the lobe that n.h rounds away at large exponents.
     FV inv_h = rsqrt(hh);
-    FV3 d = fv3(fma(-h.x, inv_h, p.normal.x), fma(-h.y, inv_h, p.normal.y), fma(-h.z, inv_h, p.normal.z));
+    FV3 d = fv3(fma(-h.x, inv_h, p.normal.x), fma(-h.y, inv_h, p.normal.y),
+                fma(-h.z, inv_h, p.normal.z));
     FV half_q = fv(0.5f) * dot3(d, d);
     // No lobe from behind: there pow_one_minus gives 1e-30^n, which is not small for n below 1.
     FV lobe = select_fv(half_q < fv(1.0f), pow_one_minus(half_q, p.exponent), fv(0.0f));
     sum.diffuse = add_scaled(sum.diffuse, lit, color);
     sum.specular = add_scaled(sum.specular, lit * lobe, color);
 #else
-    // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both sides of
-    // D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha, so that the
-    // peak of a mirror keeps the size it has in the end.
+    // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
+    // sides of D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha,
+    // so that the peak of a mirror keeps the size it has in the end.
     FV3 nxh = cross3(p.normal, h);
     FV ggx = fma(dot3(nxh, nxh), p.ggx_slope, p.ggx_floor * hh);
     FV smith_l = sqrt(fma(n_dot_l * n_dot_l, fv(1.0f) - p.alpha2, p.alpha2));
@@ -252,15 +262,18 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
 
 // The share of a spot light's intensity in the direction -`v` / distance.
 SHARED_FN FV cone_of(FV3 v, FV inv_distance, ShadeLight light) {
-    FV along = fma(v.x, fv(light.axis_cos.x), fma(v.y, fv(light.axis_cos.y), v.z * fv(light.axis_cos.z)));
+    FV along =
+        fma(v.x, fv(light.axis_cos.x), fma(v.y, fv(light.axis_cos.y), v.z * fv(light.axis_cos.z)));
     FV cos_axis = -along * inv_distance;
-    FV cone = min(max((cos_axis - fv(light.axis_cos.w)) * fv(light.color_scale.w), fv(0.0f)), fv(1.0f));
+    FV cone =
+        min(max((cos_axis - fv(light.axis_cos.w)) * fv(light.color_scale.w), fv(0.0f)), fv(1.0f));
     return cone * cone;
 }
 
 // Adds a point or spot light.
 SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
-    FV3 v = fv3(fv(light.position_inv_range2.x) - p.position.x, fv(light.position_inv_range2.y) - p.position.y,
+    FV3 v = fv3(fv(light.position_inv_range2.x) - p.position.x,
+                fv(light.position_inv_range2.y) - p.position.y,
                 fv(light.position_inv_range2.z) - p.position.z);
     FV d2 = dot3(v, v);
     FV x = d2 * fv(light.position_inv_range2.w);
@@ -301,7 +314,8 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
     FV k = fv(INV_PI);
     FV3 out_radiance;
 #if SHADING == SHADING_LAMBERT
-    out_radiance = fv3(albedo.x * k * sum.diffuse.x, albedo.y * k * sum.diffuse.y, albedo.z * k * sum.diffuse.z);
+    out_radiance = fv3(albedo.x * k * sum.diffuse.x, albedo.y * k * sum.diffuse.y,
+                       albedo.z * k * sum.diffuse.z);
 #else
     FV3 base = albedo;
 #if HAS_METALLIC
@@ -311,7 +325,8 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
 #if SHADING == SHADING_BLINN_PHONG
     FV3 f0 = mixed_f0(s, dielectric_f0(s));
     FV alpha = clamped_alpha(s.roughness);
-    // (n + 2) / (8 pi) with n = 2 / alpha2 - 2: Walter et al. 2007's match of exponent and roughness.
+    // (n + 2) / (8 pi) with n = 2 / alpha2 - 2: Walter et al. 2007's match of exponent and
+    // roughness.
     FV lobe = fv(0.25f * INV_PI) / (alpha * alpha);
     out_radiance = fv3(fma(base.x * k, sum.diffuse.x, f0.x * lobe * sum.specular.x),
                        fma(base.y * k, sum.diffuse.y, f0.y * lobe * sum.specular.y),
@@ -326,11 +341,13 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
 #endif
 #if HAS_UNLIT
     MASK lit = s.roughness > fv(0.0f);
-    out_radiance = fv3(select_fv(lit, out_radiance.x, fv(0.0f)), select_fv(lit, out_radiance.y, fv(0.0f)),
-                       select_fv(lit, out_radiance.z, fv(0.0f)));
+    out_radiance =
+        fv3(select_fv(lit, out_radiance.x, fv(0.0f)), select_fv(lit, out_radiance.y, fv(0.0f)),
+            select_fv(lit, out_radiance.z, fv(0.0f)));
 #endif
     FV a = s.occlusion * fv(ambient);
-    return fv3(fma(a, albedo.x, out_radiance.x) + s.emissive.x, fma(a, albedo.y, out_radiance.y) + s.emissive.y,
+    return fv3(fma(a, albedo.x, out_radiance.x) + s.emissive.x,
+               fma(a, albedo.y, out_radiance.y) + s.emissive.y,
                fma(a, albedo.z, out_radiance.z) + s.emissive.z);
 }
 

@@ -8,38 +8,52 @@ namespace kilolux {
 #endif
 
 // Layouts, by name on the command line.
-#define GBUFFER_PACKED 0     // depth f32 | normal 2x16 | albedo sRGB8 + roughness 8 (+ material, occlusion)
-#define GBUFFER_FULL 1       // float32 position, normal, linear albedo, ...: for error accounting
-#define GBUFFER_HALF 2       // float16 position and normal, 8-bit linear albedo (three WebGPU ancestors)
-#define GBUFFER_NORMAL_XY 3  // packed, but normal.xy only with z = +sqrt(1-x^2-y^2) (one WebGL ancestor)
-#define GBUFFER_OCT_2X4 4    // two float4: position + packed albedo, octahedral normal + ... (one WebGL ancestor)
+#define GBUFFER_PACKED \
+    0  // depth f32 | normal 2x16 | albedo sRGB8 + roughness 8 (+ material, occlusion)
+#define GBUFFER_FULL 1  // float32 position, normal, linear albedo, ...: for error accounting
+#define GBUFFER_HALF 2  // float16 position and normal, 8-bit linear albedo (three WebGPU ancestors)
+#define GBUFFER_NORMAL_XY \
+    3  // packed, but normal.xy only with z = +sqrt(1-x^2-y^2) (one WebGL ancestor)
+#define GBUFFER_OCT_2X4 \
+    4  // two float4: position + packed albedo, octahedral normal + ... (one WebGL ancestor)
 
-// Planes. Each is stride * height elements; a G-buffer is one buffer that holds its planes one after
-// the other. A layout has some of them; the scene plan leaves out what the scene does not need.
-#define PLANE_DEPTH 0          // all: float reversed-Z depth01, 0 = background
-#define PLANE_NORMAL 1         // packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half; normal-xy: its x and y
-#define PLANE_ALBEDO 2         // packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th; half: colour linear too
-#define PLANE_MATERIAL 3       // packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
-#define PLANE_OCCLUSION 4      // packed, optional: uchar, ambient occlusion, linear
-#define PLANE_POSITION_X 5     // full: float [m] view space; half: half [m] world space
+// Planes. Each is stride * height elements; a G-buffer is one buffer that holds its planes one
+// after the other. A layout has some of them; the scene plan leaves out what the scene does not
+// need.
+#define PLANE_DEPTH 0  // all: float reversed-Z depth01, 0 = background
+#define PLANE_NORMAL \
+    1  // packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half; normal-xy: its x
+       // and y
+#define PLANE_ALBEDO \
+    2  // packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th; half: colour linear
+       // too
+#define PLANE_MATERIAL \
+    3  // packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
+#define PLANE_OCCLUSION 4   // packed, optional: uchar, ambient occlusion, linear
+#define PLANE_POSITION_X 5  // full: float [m] view space; half: half [m] world space
 #define PLANE_POSITION_Y 6
 #define PLANE_POSITION_Z 7
-#define PLANE_NORMAL_X 8       // full: float, view space, unit; half: half, world space
+#define PLANE_NORMAL_X 8  // full: float, view space, unit; half: half, world space
 #define PLANE_NORMAL_Y 9
 #define PLANE_NORMAL_Z 10
-#define PLANE_ALBEDO_R 11      // full: float, linear Rec. 709
+#define PLANE_ALBEDO_R 11  // full: float, linear Rec. 709
 #define PLANE_ALBEDO_G 12
 #define PLANE_ALBEDO_B 13
-#define PLANE_ROUGHNESS 14     // full: float, perceptual
-#define PLANE_METALLIC 15      // full, optional: float
-#define PLANE_EMISSIVE_R 16    // full, optional: float, linear radiance
+#define PLANE_ROUGHNESS 14   // full: float, perceptual
+#define PLANE_METALLIC 15    // full, optional: float
+#define PLANE_EMISSIVE_R 16  // full, optional: float, linear radiance
 #define PLANE_EMISSIVE_G 17
 #define PLANE_EMISSIVE_B 18
-#define PLANE_OCCLUSION_F 19   // full, optional: float
-#define PLANE_ROW_0 20         // oct-2x4: float4, view-space position [m]; linear albedo: 8 bits a channel, red lowest, as the float's value
-#define PLANE_ROW_1 21         // oct-2x4: float4, octahedral view-space normal in [-1, 1]^2, roughness, metallic
-#define PLANE_SPECULAR 22      // all but full, optional: uchar4, square roots of the dielectric's reflectance head on; grazing in the 4th
-#define PLANE_SPECULAR_R 23    // full, optional: float, the reflectance head on
+#define PLANE_OCCLUSION_F 19  // full, optional: float
+#define PLANE_ROW_0 \
+    20  // oct-2x4: float4, view-space position [m]; linear albedo: 8 bits a channel, red lowest, as
+        // the float's value
+#define PLANE_ROW_1 \
+    21  // oct-2x4: float4, octahedral view-space normal in [-1, 1]^2, roughness, metallic
+#define PLANE_SPECULAR \
+    22  // all but full, optional: uchar4, square roots of the dielectric's reflectance head on;
+        // grazing in the 4th
+#define PLANE_SPECULAR_R 23  // full, optional: float, the reflectance head on
 #define PLANE_SPECULAR_G 24
 #define PLANE_SPECULAR_B 25
 #define PLANE_SPECULAR_F90 26  // full, optional: float, the reflectance at grazing angles
@@ -48,9 +62,11 @@ namespace kilolux {
 
 #if !defined(GL_core_profile)  // GLSL writes attachments, and `layout` is a word of its own
 SHARED_STRUCT(GBufferLayout) {
-    uint offset_bytes[PLANE_COUNT];  // of each plane in the buffer, a multiple of 256; PLANE_ABSENT if not there
+    uint offset_bytes[PLANE_COUNT];  // of each plane in the buffer, a multiple of 256; PLANE_ABSENT
+                                     // if not there
     uint layout;                     // GBUFFER_*
-    float emissive_scale;            // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative to it
+    float emissive_scale;  // largest emissive value of the scene, > 0: PLANE_MATERIAL is relative
+                           // to it
     uint bytes_per_pixel;
     uint unused0, unused1;
 };
@@ -58,7 +74,8 @@ SHARED_ASSERT(gbuffer_layout_size, sizeof(GBufferLayout) == 128);
 #endif
 
 // Octahedral coordinates in [-1, 1]^2 of a unit vector. Cigolle et al. 2014, "A Survey of Efficient
-// Representations for Independent Unit Vectors", listing 1. A zero vector maps to (0, 0), that is +z.
+// Representations for Independent Unit Vectors", listing 1. A zero vector maps to (0, 0), that is
+// +z.
 SHARED_FN FV3 octahedral_encode(FV3 n) {
     FV ax = max(n.x, -n.x);
     FV ay = max(n.y, -n.y);

@@ -10,8 +10,9 @@ namespace kilolux {
 // A point or spot light, camera-relative: world axes, camera at the origin.
 SHARED_STRUCT(Light) {
     float4 position_range;  // xyz: position - camera [m]; w: range [m], > 0
-    float4 color_scale;     // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
-    float4 axis_cos;        // xyz: unit spot axis (0 for a point light); w: cos_out (-1 for a point light)
+    float4 color_scale;  // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
+    float4
+        axis_cos;  // xyz: unit spot axis (0 for a point light); w: cos_out (-1 for a point light)
 };
 SHARED_ASSERT(light_size, sizeof(Light) == 48);
 
@@ -25,7 +26,8 @@ SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
 
 // A directional light: parallel, never culled.
 SHARED_STRUCT(DirectionalLight) {
-    float4 to_light;  // xyz: unit direction towards the light; camera-relative world axes from the host, view space on the device
+    float4 to_light;  // xyz: unit direction towards the light; camera-relative world axes from the
+                      // host, view space on the device
     float4 color;     // xyz: illuminance, linear Rec. 709 [lx]
 };
 SHARED_ASSERT(directional_light_size, sizeof(DirectionalLight) == 32);

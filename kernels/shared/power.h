@@ -8,10 +8,11 @@
 namespace kilolux {
 #endif
 
-// c^n for c in [1e-30, 1], n >= 0; `c_less_1` is c - 1 as exactly as the caller knows it, which counts
-// where a large n magnifies it. Absolute error below 2e-7 at any n.
+// c^n for c in [1e-30, 1], n >= 0; `c_less_1` is c - 1 as exactly as the caller knows it, which
+// counts where a large n magnifies it. Absolute error below 2e-7 at any n.
 SHARED_FN FV pow_of_unit(FV c, FV c_less_1, FV n) {
-    // c = m 2^e with m in [sqrt(1/2), sqrt(2)): the constant is the bits of 1 less those of sqrt(1/2).
+    // c = m 2^e with m in [sqrt(1/2), sqrt(2)): the constant is the bits of 1 less those of
+    // sqrt(1/2).
     LANE_UINT biased = (lane_bits(c) + 0x4afb0du) >> 23u;
     FV e = lane_float_of(biased) - fv(127.0f);
     FV m = lane_float(lane_bits(c) - ((biased - 127u) << 23u));
@@ -19,9 +20,11 @@ SHARED_FN FV pow_of_unit(FV c, FV c_less_1, FV n) {
     // log2(1 + f) = 2 / ln 2 * atanh(t), |t| < 0.172; minimax, relative error 8e-10.
     FV t = f / (fv(2.0f) + f);
     FV t2 = t * t;
-    FV slope = fma(t2, fma(t2, fma(t2, fv(0.430996776f), fv(0.576752663f)), fv(0.96179831f)), fv(2.88539008f));
+    FV slope = fma(t2, fma(t2, fma(t2, fv(0.430996776f), fv(0.576752663f)), fv(0.96179831f)),
+                   fv(2.88539008f));
     FV x = n * fma(t, slope, e);
-    // 2^-60 is nothing beside the lobe's peak, and keeps denormals, which are slow, out of what follows.
+    // 2^-60 is nothing beside the lobe's peak, and keeps denormals, which are slow, out of what
+    // follows.
     x = max(x, fv(-60.0f));
     LANE_UINT i = lane_uint_of(x - fv(0.5f));  // to nearest, as x <= 0 and conversion truncates
     FV g = x - lane_float_of(i);

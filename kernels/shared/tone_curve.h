@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Display: tone curves and the sRGB transfer function. Display only; files of linear light never see it.
+// Display: tone curves and the sRGB transfer function. Display only; files of linear light never
+// see it.
 #ifndef KILOLUX_SHARED_TONE_CURVE_H
 #define KILOLUX_SHARED_TONE_CURVE_H
 #include "kernels/shared/types.h"
@@ -8,8 +9,8 @@
 #define TONE_CURVE_NEUTRAL 1  // Khronos PBR Neutral
 #define TONE_CURVE_ACES 2     // S. Hill's fit of the ACES RRT and sRGB ODT
 
-// Linear light by equal steps of the float's bits, 128 an octave from 2^-13 to 1: so fine that a bucket
-// holds at most one boundary between two 8-bit sRGB codes. Below 2^-13 the code is 0.
+// Linear light by equal steps of the float's bits, 128 an octave from 2^-13 to 1: so fine that a
+// bucket holds at most one boundary between two 8-bit sRGB codes. Below 2^-13 the code is 0.
 #define SRGB_BUCKET_SHIFT 16
 #define SRGB_FIRST_BITS 0x39000000u
 #define SRGB_BUCKETS 1665
@@ -36,7 +37,8 @@ SHARED_FN FV3 neutral_tone_curve(FV3 c) {
 }
 
 SHARED_FN FV aces_rational(FV v) {
-    return (v * (v + fv(0.0245786f)) - fv(0.000090537f)) / (v * fma(fv(0.983729f), v, fv(0.4329510f)) + fv(0.238081f));
+    return (v * (v + fv(0.0245786f)) - fv(0.000090537f)) /
+           (v * fma(fv(0.983729f), v, fv(0.4329510f)) + fv(0.238081f));
 }
 
 // Stephen Hill, "ACES Fitted" (BakingLab, 2016): input matrix, rational fit, output matrix.

@@ -4,16 +4,16 @@
 // A shared struct is a sequence of 16-byte rows: one float4 or uint4, or four 32-bit scalars. Then
 // C++ alignment, OpenCL C and std430 agree by construction; tests/layout_test.cpp asks the devices.
 //
-// A shared function is written on the lane type FV: one float in C++ and GLSL, VW floats in OpenCL C
-// (VW is the device's lane width, set at build time). MASK is what comparing two FV gives. Such a
-// function uses only + - * /, fma, min, max, sqrt, select_fv and the functions of this file, so that
-// its text means the same in the three languages.
+// A shared function is written on the lane type FV: one float in C++ and GLSL, VW floats in OpenCL
+// C (VW is the device's lane width, set at build time). MASK is what comparing two FV gives. Such a
+// function uses only + - * /, fma, min, max, sqrt, select_fv and the functions of this file, so
+// that its text means the same in the three languages.
 #ifndef KILOLUX_SHARED_TYPES_H
 #define KILOLUX_SHARED_TYPES_H
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
-#define SHARED_STRUCT(Name)    \
-    typedef struct Name Name;  \
+#define SHARED_STRUCT(Name)   \
+    typedef struct Name Name; \
     struct __attribute__((aligned(16))) Name
 #define SHARED_PLAIN_STRUCT(Name) \
     typedef struct Name Name;     \

@@ -130,11 +130,7 @@ void Gui::draw() {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-bool Gui::wants_mouse() const {
-    return ImGui::GetIO().WantCaptureMouse;
-}
-bool Gui::wants_keys() const {
-    return ImGui::GetIO().WantTextInput;
-}
+bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Gui::wants_keys() const { return ImGui::GetIO().WantTextInput; }
 
 }  // namespace kilolux

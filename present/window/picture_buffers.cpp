@@ -56,13 +56,9 @@ std::optional<std::size_t> PictureBuffers::acquire(std::size_t pixels) {
     return std::nullopt;
 }
 
-std::span<uint> PictureBuffers::pixels(std::size_t slot) {
-    return slots_.at(slot).pixels;
-}
+std::span<uint> PictureBuffers::pixels(std::size_t slot) { return slots_.at(slot).pixels; }
 
-void PictureBuffers::release(std::size_t slot) {
-    slots_.at(slot).used = false;
-}
+void PictureBuffers::release(std::size_t slot) { slots_.at(slot).used = false; }
 
 void PictureBuffers::show(std::size_t index, int width, int height) {
     Slot& slot = slots_.at(index);

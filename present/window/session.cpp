@@ -186,9 +186,7 @@ bool ViewSession::is_moving() const {
     return std::chrono::duration<double>(Clock::now() - last_change_).count() < kRestSeconds;
 }
 
-float ViewSession::panel_width() const {
-    return state_.show_panel ? gui_.scaled(360.0f) : 0.0f;
-}
+float ViewSession::panel_width() const { return state_.show_panel ? gui_.scaled(360.0f) : 0.0f; }
 
 Area ViewSession::picture_area() const {
     const auto size = window_.size();

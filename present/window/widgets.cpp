@@ -16,9 +16,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-std::string hidden(const char* label) {
-    return std::string("##") + label;
-}
+std::string hidden(const char* label) { return std::string("##") + label; }
 
 ImGuiSliderFlags flags_of(const SliderRange& range) {
     return ImGuiSliderFlags_AlwaysClamp | (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
@@ -34,12 +32,8 @@ double WidgetPlace::x_of(double value) const {
     return x0 + margin + std::clamp(t, 0.0, 1.0) * (static_cast<double>(x1 - x0) - 2.0 * margin);
 }
 
-void Widgets::begin_frame() {
-    coming_.clear();
-}
-void Widgets::end_frame() {
-    places_.swap(coming_);
-}
+void Widgets::begin_frame() { coming_.clear(); }
+void Widgets::end_frame() { places_.swap(coming_); }
 
 WidgetPlace& Widgets::note(const std::string& name) {
     const ImVec2 low = ImGui::GetItemRectMin();

@@ -45,9 +45,7 @@ WindowSystem::WindowSystem() {
                 (named ? ")" : "; neither DISPLAY nor WAYLAND_DISPLAY is set)") + kWithoutWindow);
 }
 
-WindowSystem::~WindowSystem() {
-    glfwTerminate();
-}
+WindowSystem::~WindowSystem() { glfwTerminate(); }
 
 Window::Window(std::array<int, 2> size, const std::string& title, bool visible) {
     set_hints(visible);
@@ -62,9 +60,7 @@ Window::Window(std::array<int, 2> size, const std::string& title, bool visible) 
     install_callbacks();
 }
 
-Window::~Window() {
-    glfwDestroyWindow(window_);
-}
+Window::~Window() { glfwDestroyWindow(window_); }
 
 void Window::install_callbacks() {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int code, int action, int modifiers) {
@@ -86,9 +82,7 @@ void Window::install_callbacks() {
     });
 }
 
-void Window::make_current() const {
-    glfwMakeContextCurrent(window_);
-}
+void Window::make_current() const { glfwMakeContextCurrent(window_); }
 
 void Window::wait_events(double seconds) const {
     if (seconds > 0.0) {
@@ -98,18 +92,10 @@ void Window::wait_events(double seconds) const {
     }
 }
 
-bool Window::should_close() const {
-    return glfwWindowShouldClose(window_) == GLFW_TRUE;
-}
-void Window::close() const {
-    glfwSetWindowShouldClose(window_, GLFW_TRUE);
-}
-void Window::swap() const {
-    glfwSwapBuffers(window_);
-}
-void Window::show() const {
-    glfwShowWindow(window_);
-}
+bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
+void Window::close() const { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+void Window::swap() const { glfwSwapBuffers(window_); }
+void Window::show() const { glfwShowWindow(window_); }
 
 std::array<int, 2> Window::size() const {
     std::array<int, 2> out{};
@@ -135,22 +121,14 @@ bool Window::is_minimised() const {
            pixels[1] == 0;
 }
 
-bool Window::has_focus() const {
-    return glfwGetWindowAttrib(window_, GLFW_FOCUSED) == GLFW_TRUE;
-}
-void Window::resize(std::array<int, 2> size) const {
-    glfwSetWindowSize(window_, size[0], size[1]);
-}
+bool Window::has_focus() const { return glfwGetWindowAttrib(window_, GLFW_FOCUSED) == GLFW_TRUE; }
+void Window::resize(std::array<int, 2> size) const { glfwSetWindowSize(window_, size[0], size[1]); }
 void Window::set_title(const std::string& title) const {
     glfwSetWindowTitle(window_, title.c_str());
 }
-void Window::set_vsync(bool on) const {
-    glfwSwapInterval(on ? 1 : 0);
-}
+void Window::set_vsync(bool on) const { glfwSwapInterval(on ? 1 : 0); }
 
-bool Window::is_full_screen() const {
-    return glfwGetWindowMonitor(window_) != nullptr;
-}
+bool Window::is_full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
 
 void Window::set_full_screen(bool on) {
     if (on == is_full_screen()) return;
@@ -175,8 +153,6 @@ void Window::set_clipboard(const std::string& text) const {
     glfwSetClipboardString(window_, text.c_str());
 }
 
-void wake_windows() {
-    glfwPostEmptyEvent();
-}
+void wake_windows() { glfwPostEmptyEvent(); }
 
 }  // namespace kilolux

@@ -37,9 +37,7 @@ class FaultLayer {
 };
 
 // Loads OpenCL, and with it the layer.
-void start_opencl() {
-    choose_device("");
-}
+void start_opencl() { choose_device(""); }
 
 RenderSettings faulty_settings() {
     RenderSettings settings = small_settings(64, 48, 200);

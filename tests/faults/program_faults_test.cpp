@@ -108,7 +108,8 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
 }
 
 TEST_F(Faults, FileSizeLimitAndFullDisk) {
-    // Room for what the OpenCL compiler writes (its preprocessed headers, 0.9 MB), but not for the picture.
+    // Room for what the OpenCL compiler writes (its preprocessed headers, 0.9 MB), but not for the
+    // picture.
     const Words large = {"--resolution", "4000,2500"};
     ASSERT_EQ(run_child(render_words({}, elsewhere_ / "a.png", large)).code, 0);
     ASSERT_GT(fs::file_size(elsewhere_ / "a.png"), 1'700'000u);

@@ -82,13 +82,9 @@ void expect_no_crash(Target target, const std::vector<std::string>& corpus, int 
     EXPECT_LT(obeyed, count);
 }
 
-TEST(Fuzz, LoadScene) {
-    expect_no_crash(fuzz_load_scene, load_scene_corpus(), 3000);
-}
+TEST(Fuzz, LoadScene) { expect_no_crash(fuzz_load_scene, load_scene_corpus(), 3000); }
 
-TEST(Fuzz, Options) {
-    expect_no_crash(fuzz_options, options_corpus(), 3000);
-}
+TEST(Fuzz, Options) { expect_no_crash(fuzz_options, options_corpus(), 3000); }
 
 }  // namespace
 }  // namespace kilolux

@@ -14,9 +14,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-bool any(const RayHit&) {
-    return true;
-}
+bool any(const RayHit&) { return true; }
 
 glm::dvec3 random_point(std::mt19937& random, double size) {
     std::uniform_real_distribution<double> unit(-size, size);

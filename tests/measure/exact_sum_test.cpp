@@ -66,9 +66,7 @@ TEST(ExactSum, InfinityAndNanShow) {
     EXPECT_TRUE(std::isnan(nan.value()));
 }
 
-TEST(ExactSum, OfNothingIsZero) {
-    EXPECT_EQ(ExactSum{}.value(), 0.0);
-}
+TEST(ExactSum, OfNothingIsZero) { EXPECT_EQ(ExactSum{}.value(), 0.0); }
 
 }  // namespace
 }  // namespace kilolux

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kDeviceStages[] = {"prepare_lights", "build_clusters", "cull_lights",
                                          "bin_pixels",     "refine_lights",  "shade",
-                                         "bloom", "tonemap"};
+                                         "bloom",          "tonemap"};
 
 // Round numbers, so that times can be worked out by hand.
 DeviceLimits round_limits() {
@@ -163,9 +163,9 @@ TEST(StageModel, IsMonotoneInEveryCount) {
                                            &StageCounts::refined_pairs,
                                            &StageCounts::evaluations,
                                            &StageCounts::gbuffer_bytes_per_pixel};
-    for (const char* stage : {"geometry", "gbuffer_bridge", "prepare_lights", "build_clusters",
-                              "cull_lights", "bin_pixels", "refine_lights", "shade", "bloom",
-                              "tonemap"}) {
+    for (const char* stage :
+         {"geometry", "gbuffer_bridge", "prepare_lights", "build_clusters", "cull_lights",
+          "bin_pixels", "refine_lights", "shade", "bloom", "tonemap"}) {
         bool grew = false;
         for (double StageCounts::*const field : fields) {
             // More tiles leave fewer further clusters: a tile's first cluster costs less than its

@@ -39,10 +39,9 @@ double made_up_ms(const StoredTuning& t) {
 }
 
 TEST(Tune, FindsTheFastest) {
-    const TuningResult result =
-        tune(eight_lanes(), two_cores(), [](const StoredTuning& t) {
-            return TuningMeasurement{made_up_ms(t), 1};
-        });
+    const TuningResult result = tune(eight_lanes(), two_cores(), [](const StoredTuning& t) {
+        return TuningMeasurement{made_up_ms(t), 1};
+    });
     EXPECT_EQ(result.best.lanes, 16);
     EXPECT_EQ(result.best.tuning.shade_rows, 4);
     EXPECT_EQ(result.best.tuning.cull_chunks, 32);
@@ -76,20 +75,18 @@ TEST(Tune, DoesNotTrustOneSlowRunOfTheStart) {
 }
 
 TEST(Tune, RefusesAnotherPicture) {
-    const TuningResult result =
-        tune(eight_lanes(), two_cores(), [](const StoredTuning& t) {
-            return TuningMeasurement{made_up_ms(t), t.lanes == 16 ? 2u : 1u};
-        });
+    const TuningResult result = tune(eight_lanes(), two_cores(), [](const StoredTuning& t) {
+        return TuningMeasurement{made_up_ms(t), t.lanes == 16 ? 2u : 1u};
+    });
     EXPECT_NE(result.best.lanes, 16);
     EXPECT_FALSE(result.same_pictures());
 }
 
 TEST(Tune, GoesOnWhereTheDeviceRefuses) {
-    const TuningResult result =
-        tune(eight_lanes(), two_cores(), [](const StoredTuning& t) {
-            if (t.lanes == 16) throw Error("shade: out of resources");
-            return TuningMeasurement{made_up_ms(t), 1};
-        });
+    const TuningResult result = tune(eight_lanes(), two_cores(), [](const StoredTuning& t) {
+        if (t.lanes == 16) throw Error("shade: out of resources");
+        return TuningMeasurement{made_up_ms(t), 1};
+    });
     EXPECT_EQ(result.best.lanes, 8);
     EXPECT_EQ(result.best.tuning.cull_chunks, 32);
     bool told = false;
@@ -169,8 +166,8 @@ TEST(FeatureCosts, NameEveryLeftOutFeature) {
         EXPECT_EQ(costs[i].feature, plan.left_out[i]);
     for (const FeatureCost& cost : costs) {
         EXPECT_NE(cost.measured, !cost.why.empty()) << cost.feature;
-        const bool plane = cost.feature == "emissive" || cost.feature == "metallic" ||
-                           cost.feature == "specular";
+        const bool plane =
+            cost.feature == "emissive" || cost.feature == "metallic" || cost.feature == "specular";
         EXPECT_EQ(cost.bytes_per_pixel, plane                         ? 4
                                         : cost.feature == "occlusion" ? 1
                                                                       : 0)

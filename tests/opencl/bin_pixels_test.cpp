@@ -103,9 +103,7 @@ void expect_case(const Case& c) {
 }
 
 // From in front of slice 0 to beyond the last, 30 % background.
-DepthOf wide_noise() {
-    return noise_depth(0.2, 90.0, 0.3, 11);
-}
+DepthOf wide_noise() { return noise_depth(0.2, 90.0, 0.3, 11); }
 
 TEST(BinPixels, AgreesWithAMapOfPixelsAtEverySize) {
     for (const auto& [width, height] :

@@ -82,9 +82,7 @@ Pairs expect_none_missing(const CullCase& c, const ReachTest& test, const HostLi
     return pairs;
 }
 
-double interval_distance(double c, double lo, double hi) {
-    return std::max({lo - c, c - hi, 0.0});
-}
+double interval_distance(double c, double lo, double hi) { return std::max({lo - c, c - hi, 0.0}); }
 
 // Whoever is listed reaches the box of the pixels, but for rounding.
 void expect_no_idlers(const CullCase& c, const ReachTest& test, const HostLists& lists) {

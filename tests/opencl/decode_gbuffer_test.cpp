@@ -172,10 +172,10 @@ TEST(DecodeGBuffer, FullLayoutIsReadAsItIs) {
     Synthetic image = make_synthetic(make_view({83, 31}), features, noise_depth(0.3, 60.0, 0.2, 3));
     const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
     const std::pair<uint, uint> pairs[] = {
-        {SURFACE_POSITION, PLANE_POSITION_X},  {SURFACE_NORMAL, PLANE_NORMAL_X},
-        {SURFACE_ALBEDO, PLANE_ALBEDO_R},      {SURFACE_ROUGHNESS, PLANE_ROUGHNESS},
-        {SURFACE_METALLIC, PLANE_METALLIC},    {SURFACE_EMISSIVE, PLANE_EMISSIVE_R},
-        {SURFACE_OCCLUSION, PLANE_OCCLUSION_F}, {SURFACE_SPECULAR, PLANE_SPECULAR_R},
+        {SURFACE_POSITION, PLANE_POSITION_X},      {SURFACE_NORMAL, PLANE_NORMAL_X},
+        {SURFACE_ALBEDO, PLANE_ALBEDO_R},          {SURFACE_ROUGHNESS, PLANE_ROUGHNESS},
+        {SURFACE_METALLIC, PLANE_METALLIC},        {SURFACE_EMISSIVE, PLANE_EMISSIVE_R},
+        {SURFACE_OCCLUSION, PLANE_OCCLUSION_F},    {SURFACE_SPECULAR, PLANE_SPECULAR_R},
         {SURFACE_SPECULAR_F90, PLANE_SPECULAR_F90}};
     for_drawn(image, [&](uint x, uint y) {
         for (const auto& [surface, plane] : pairs) {

@@ -48,9 +48,9 @@ kernel void probe(global const float* h, global const float* n, global float* ou
 )";
 
 std::vector<float> rows_of(const SurfaceD& s) {
-    const double values[] = {s.position.x, s.position.y, s.position.z, s.normal.x, s.normal.y,
-                             s.normal.z,   s.albedo.x,   s.albedo.y,   s.albedo.z, s.emissive.x,
-                             s.emissive.y, s.emissive.z, s.roughness,  s.metallic, s.occlusion,
+    const double values[] = {s.position.x, s.position.y, s.position.z, s.normal.x,    s.normal.y,
+                             s.normal.z,   s.albedo.x,   s.albedo.y,   s.albedo.z,    s.emissive.x,
+                             s.emissive.y, s.emissive.z, s.roughness,  s.metallic,    s.occlusion,
                              s.specular.x, s.specular.y, s.specular.z, s.specular_f90};
     std::vector<float> rows;
     for (const double value : values) rows.push_back(static_cast<float>(value));

@@ -14,8 +14,8 @@ struct ProbeResult {
 };
 
 /// Shades each surface by every light with kernels/shared/evaluate.h on the device, without a
-/// G-buffer between. lighting.shading chooses the model; spots, metals and dielectrics of their own are
-/// compiled in.
+/// G-buffer between. lighting.shading chooses the model; spots, metals and dielectrics of their own
+/// are compiled in.
 ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting,
                            int lanes = 0);
 

@@ -17,9 +17,7 @@ constexpr double kTolerance = 1e-5;
 
 constexpr int kShadings[] = {SHADING_LAMBERT, SHADING_BLINN_PHONG, SHADING_PBR};
 
-float f(double x) {
-    return static_cast<float>(x);
-}
+float f(double x) { return static_cast<float>(x); }
 
 ShadeLight light_at(Vec3d p, double range, Vec3d intensity) {
     return {{f(p.x), f(p.y), f(p.z), f(1 / (range * range))},
@@ -60,7 +58,8 @@ SurfaceD random_surface(Random& random, double roughness_min) {
     s.metallic = random.below(3) * 0.5;
     s.occlusion = random.unit();
     if (random.below(2) == 0) return s;
-    // As KHR_materials_specular and KHR_materials_ior can make it: tinted, weighted, up to a mirror.
+    // As KHR_materials_specular and KHR_materials_ior can make it: tinted, weighted, up to a
+    // mirror.
     s.specular_f90 = random.below(4) * (1.0 / 3.0);
     s.specular = Vec3d{random.unit(), random.unit(), random.unit()} * s.specular_f90;
     return s;

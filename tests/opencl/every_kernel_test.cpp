@@ -6,8 +6,6 @@
 #include "host/measure/synthetic/light_sets.h"
 #include "host/measure/synthetic/stage_run.h"
 #include "host/stages/bloom.h"
-#include "host/measure/synthetic/light_sets.h"
-#include "host/measure/synthetic/stage_run.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
@@ -104,9 +102,7 @@ void run_every_kernel(const Variant& v) {
     EXPECT_GT(download_lists(gpu, features, grid, lists).refined.size(), 100u);
 }
 
-TEST(EveryKernel, OneItemAGroup) {
-    run_every_kernel({});
-}
+TEST(EveryKernel, OneItemAGroup) { run_every_kernel({}); }
 
 TEST(EveryKernel, LargeGroupsAndSeveralBatches) {
     run_every_kernel({1, 64, 4, 16, 32, GBUFFER_FULL, SHADING_LAMBERT, 150});
@@ -134,13 +130,9 @@ void run_bloom(int lanes) {
     EXPECT_NEAR(glowing[view.stride + 1], 1.0f, 1e-5f);
 }
 
-TEST(EveryKernel, BloomOneLane) {
-    run_bloom(1);
-}
+TEST(EveryKernel, BloomOneLane) { run_bloom(1); }
 
-TEST(EveryKernel, BloomLanes) {
-    run_bloom(8);
-}
+TEST(EveryKernel, BloomLanes) { run_bloom(8); }
 
 }  // namespace
 }  // namespace kilolux

@@ -19,14 +19,10 @@ struct Measure {
     std::size_t expected;
 };
 
-#define SIZE_OF(Type)                     \
-    Measure {                             \
-        "sizeof(" #Type ")", sizeof(Type) \
-    }
-#define OFFSET_OF(Type, member)                                     \
-    Measure {                                                       \
-        "OFFSET_OF(" #Type ", " #member ")", offsetof(Type, member) \
-    }
+#define SIZE_OF(Type) \
+    Measure { "sizeof(" #Type ")", sizeof(Type) }
+#define OFFSET_OF(Type, member) \
+    Measure { "OFFSET_OF(" #Type ", " #member ")", offsetof(Type, member) }
 
 std::vector<Measure> light_measures() {
     return {SIZE_OF(Light),
@@ -112,17 +108,11 @@ void expect_equal(const std::vector<Measure>& measures) {
     }
 }
 
-TEST(Layout, LightsAgreeWithTheDevice) {
-    expect_equal(light_measures());
-}
+TEST(Layout, LightsAgreeWithTheDevice) { expect_equal(light_measures()); }
 
-TEST(Layout, ViewAndGBufferAgreeWithTheDevice) {
-    expect_equal(view_measures());
-}
+TEST(Layout, ViewAndGBufferAgreeWithTheDevice) { expect_equal(view_measures()); }
 
-TEST(Layout, ClustersAgreeWithTheDevice) {
-    expect_equal(cluster_measures());
-}
+TEST(Layout, ClustersAgreeWithTheDevice) { expect_equal(cluster_measures()); }
 
 TEST(Layout, StructsPassedByValueArriveWhole) {
     Gpu gpu = test_gpu();

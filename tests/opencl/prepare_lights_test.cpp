@@ -36,9 +36,7 @@ Prepared prepare(int lanes, int group, const LightInput& input, const View& view
             download<DirectionalLight>(gpu, out.directional, out.directional_count)};
 }
 
-Vec3d vec(float4 v) {
-    return {v.x, v.y, v.z};
-}
+Vec3d vec(float4 v) { return {v.x, v.y, v.z}; }
 
 void expect_rotated(const View& view, const std::vector<Light>& lights, const Prepared& found) {
     for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -103,8 +103,7 @@ TEST(GrowingBuffer, MoreThanTheDeviceAllocatesIsAnErrorAndKeepsWhatThereIs) {
     const std::size_t limit = gpu.info.max_allocation_bytes;
     const std::string message = error_of([&] { buffer.reserve(limit + 1); });
     expect_contains(message, "cull_lights: needs a buffer of ");
-    expect_contains(message,
-                    gpu.info.name + " allocates at most " + mebibytes(limit));
+    expect_contains(message, gpu.info.name + " allocates at most " + mebibytes(limit));
     EXPECT_EQ(buffer.bytes(), 64u);
     EXPECT_EQ(buffer.get().getInfo<CL_MEM_SIZE>(), 64u);
 }

@@ -15,13 +15,9 @@ constexpr double kNearest = 0.01;     // [m] light sources have a size
 constexpr double kSmoothest = 0.045;  // perceptual roughness
 constexpr double kSmallestNdotV = 1e-4;
 
-Vec3d vec(float4 v) {
-    return {v.x, v.y, v.z};
-}
+Vec3d vec(float4 v) { return {v.x, v.y, v.z}; }
 
-double clamp01(double x) {
-    return std::clamp(x, 0.0, 1.0);
-}
+double clamp01(double x) { return std::clamp(x, 0.0, 1.0); }
 
 double alpha_of(double roughness) {
     const double r = std::max(roughness, kSmoothest);

@@ -55,9 +55,7 @@ std::vector<uint> display_of(int lanes, int curve, const Colors& colors, float e
                           view.width);
 }
 
-int channel(uint display, int index) {
-    return static_cast<int>(display >> (8 * index) & 255u);
-}
+int channel(uint display, int index) { return static_cast<int>(display >> (8 * index) & 255u); }
 
 // Every boundary between two codes and the floats beside it; each value comes in all three
 // channels.
@@ -137,8 +135,9 @@ TEST(Tonemap, CurvesAgreeWithDouble) {
                    static_cast<float>(size * random.unit()),
                    static_cast<float>(size * random.unit()));
     }
-    for (const auto& [lanes, curve] : {std::pair(1, TONE_CURVE_NEUTRAL), std::pair(1, TONE_CURVE_ACES),
-                                       std::pair(0, TONE_CURVE_NEUTRAL), std::pair(0, TONE_CURVE_ACES)}) {
+    for (const auto& [lanes, curve] :
+         {std::pair(1, TONE_CURVE_NEUTRAL), std::pair(1, TONE_CURVE_ACES),
+          std::pair(0, TONE_CURVE_NEUTRAL), std::pair(0, TONE_CURVE_ACES)}) {
         const auto display = display_of(lanes, curve, colors);
         int different = 0;
         for (std::size_t i = 0; i < display.size(); ++i) {

@@ -28,9 +28,7 @@ Scene make_scene(int cameras) {
     return scene;
 }
 
-glm::dvec3 forward(const Camera& camera) {
-    return -camera.world_from_view[2];
-}
+glm::dvec3 forward(const Camera& camera) { return -camera.world_from_view[2]; }
 
 void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
     EXPECT_LT(glm::length(a - b), 1e-12) << a.x << " " << a.y << " " << a.z;

@@ -113,7 +113,8 @@ TEST(Bench, CullingComparesWithBruteForce) {
     const ChildResult result = run_kilolux(
         small_bench({"--culling", "--lights", "0,1,100,70000", "-o", folder.path().string()}));
     ASSERT_EQ(result.code, 0) << result.err;
-    EXPECT_TRUE(contains(result.err, "the lists equal brute force's, entry by entry")) << result.err;
+    EXPECT_TRUE(contains(result.err, "the lists equal brute force's, entry by entry"))
+        << result.err;
     const Json rows = Json::parse(text_of_file(folder / "culling.json")).at("rows");
     ASSERT_EQ(rows.size(), 4u);
     for (const Json& row : rows) {

@@ -23,7 +23,9 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
         const char* message;
     } cases[] = {
         {{}, "no command given"},
-        {{"redner"}, "'redner' is no command; there are render, view, bench, report, info, export; did you mean 'render'?"},
+        {{"redner"},
+         "'redner' is no command; there are render, view, bench, report, info, export; did you "
+         "mean 'render'?"},
         {{"--frobnicate"}, "unknown option --frobnicate"},
         {{"render"}, "--output: needs a file"},
         {{"render", "--ligths", "5", "-o", "a.png"},

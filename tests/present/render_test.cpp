@@ -43,6 +43,10 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     EXPECT_EQ(stats.at("lights").at("dropped"), 0);
     EXPECT_GE(stats.at("lights").at("given"), 20);
     EXPECT_TRUE(stats.at("evaluations").at("useful_per_pixel").is_number());
+    for (const Json& stage : stats.at("stages")) {
+        const bool modelled = stage.at("name") != "light_input";  // that runs on the host
+        EXPECT_EQ(stage.at("limit_ms").is_number(), modelled) << stage;
+    }
     EXPECT_FALSE(stats.at("stages").empty());
     EXPECT_EQ(folder.names(), (std::set<std::string>{"a.exr"}));
 }

@@ -14,9 +14,7 @@ constexpr int kWidth = 75;
 constexpr int kHeight = 41;
 constexpr uint kStride = 80;
 
-Camera panes_camera() {
-    return front_camera(6);
-}
+Camera panes_camera() { return front_camera(6); }
 
 std::vector<float> draw(const Scene& scene) {
     const GpuScene gpu(scene);

@@ -62,9 +62,7 @@ Scene boxes_scene() {
     return scene;
 }
 
-Camera boxes_camera() {
-    return look_at({1, 1.5, 6}, {0, 0, 0}, {0, 1, 0}, glm::radians(60.0));
-}
+Camera boxes_camera() { return look_at({1, 1.5, 6}, {0, 0, 0}, {0, 1, 0}, glm::radians(60.0)); }
 
 struct Lights {
     std::vector<Light> local;

@@ -28,9 +28,7 @@ Camera tilted_camera() {
     return camera;
 }
 
-GBufferNeeds needs_of(uint layout) {
-    return {layout, true, true, 2.0f};
-}
+GBufferNeeds needs_of(uint layout) { return {layout, true, true, 2.0f}; }
 
 HostGBuffer draw(uint layout) {
     return draw_gbuffer(tilted_scene(), tilted_camera(), kWidth, kHeight, needs_of(layout));

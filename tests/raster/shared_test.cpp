@@ -29,10 +29,8 @@ struct SharedStruct {
     std::string use;  // a float of element 1, so that the block is active
 };
 
-#define MEMBER(Struct, member)            \
-    Member {                              \
-#member, offsetof(Struct, member) \
-    }
+#define MEMBER(Struct, member) \
+    Member { #member, offsetof(Struct, member) }
 
 std::vector<SharedStruct> shared_structs() {
     return {
@@ -68,7 +66,8 @@ std::vector<SharedStruct> shared_structs() {
           MEMBER(ClusterGrid, slice_shift), MEMBER(ClusterGrid, tile_width),
           MEMBER(ClusterGrid, tile_height), MEMBER(ClusterGrid, z_first_bits),
           MEMBER(ClusterGrid, cluster_count), MEMBER(ClusterGrid, position_pad),
-          MEMBER(ClusterGrid, unused0), MEMBER(ClusterGrid, unused1), MEMBER(ClusterGrid, fine_slice_bits)},
+          MEMBER(ClusterGrid, unused0), MEMBER(ClusterGrid, unused1),
+          MEMBER(ClusterGrid, fine_slice_bits)},
          "cluster_count"},
         {"MaterialRow",
          "raster/shaders/draw_rows.h",

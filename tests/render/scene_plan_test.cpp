@@ -31,9 +31,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string options_of(const ScenePlan& plan) {
-    return feature_options(plan.kernels).text();
-}
+std::string options_of(const ScenePlan& plan) { return feature_options(plan.kernels).text(); }
 
 ScenePlan plan_of(const Scene& scene, const RenderSettings& settings) {
     return make_scene_plan(scene, settings, settings.lights.count + scene.lights.size());

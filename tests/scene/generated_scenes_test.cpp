@@ -184,9 +184,7 @@ TEST(Plain, NeedsNothing) {
     }
 }
 
-TEST(Corridor, IsLong) {
-    EXPECT_NEAR(bounds(scene_of("corridor")).size().z, 500.0, 1e-3);
-}
+TEST(Corridor, IsLong) { EXPECT_NEAR(bounds(scene_of("corridor")).size().z, 500.0, 1e-3); }
 
 }  // namespace
 }  // namespace kilolux

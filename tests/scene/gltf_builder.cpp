@@ -63,9 +63,7 @@ std::string array_defect(const std::vector<V>& array, const Mesh& mesh, const ch
     return "";
 }
 
-bool is_unit(const glm::vec3& v) {
-    return std::abs(glm::length(v) - 1.0f) < 1e-4f;
-}
+bool is_unit(const glm::vec3& v) { return std::abs(glm::length(v) - 1.0f) < 1e-4f; }
 
 std::string mesh_defect(const Mesh& mesh, std::size_t material_count) {
     const std::string defects[] = {array_defect(mesh.positions, mesh, "positions"),
@@ -103,9 +101,7 @@ TempFolder::TempFolder() {
     path_ = name;
 }
 
-TempFolder::~TempFolder() {
-    std::filesystem::remove_all(path_);
-}
+TempFolder::~TempFolder() { std::filesystem::remove_all(path_); }
 
 void write_file(const std::filesystem::path& file, const Blob& bytes) {
     std::ofstream out(file, std::ios::binary);

@@ -39,9 +39,7 @@ std::uint64_t fingerprint(const std::vector<SceneLight>& lights) {
     return hash;
 }
 
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
+double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 // Mean over `points` of how many lights reach a point of the box.
 double coverage(const std::vector<SceneLight>& lights, const Box& box, int points) {

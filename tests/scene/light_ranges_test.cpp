@@ -11,9 +11,7 @@ namespace kilolux {
 namespace {
 
 // Radiance of a white Lambert surface that faces the light.
-double unwindowed(double intensity, double d) {
-    return intensity / (M_PI * d * d);
-}
+double unwindowed(double intensity, double d) { return intensity / (M_PI * d * d); }
 
 double windowed(double intensity, double d, double range) {
     return unwindowed(intensity, d) * std::clamp(1.0 - std::pow(d / range, 4.0), 0.0, 1.0);
@@ -35,9 +33,7 @@ TEST(LightRanges, ErrorIsNowhereAboveTheBudget) {
     }
 }
 
-TEST(LightRanges, DarkLightReachesNothing) {
-    EXPECT_EQ(range_of_light(0.0), 0.0);
-}
+TEST(LightRanges, DarkLightReachesNothing) { EXPECT_EQ(range_of_light(0.0), 0.0); }
 
 TEST(LightRanges, FillsOnlyWhatIsMissing) {
     std::vector<SceneLight> lights(4);

@@ -9,9 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path scenes() {
-    return fs::path(KILOLUX_ROOT) / ".." / "shared" / "scenes";
-}
+fs::path scenes() { return fs::path(KILOLUX_ROOT) / ".." / "shared" / "scenes"; }
 
 std::vector<fs::path> gltf_files(const fs::path& folder) {
     std::vector<fs::path> files;

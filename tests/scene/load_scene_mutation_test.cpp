@@ -125,9 +125,7 @@ std::size_t peak_memory_kib() {
     return 0;
 }
 
-void reset_peak_memory() {
-    std::ofstream("/proc/self/clear_refs") << "5";
-}
+void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 using Mutation = Blob (*)(Random&, const GltfBuilder&);
 
@@ -163,21 +161,13 @@ void expect_loads_or_errors(Mutation mutate, unsigned random_seed) {
     EXPECT_LT(peak_memory_kib(), kMaxMemoryKiB);
 }
 
-TEST(LoadSceneMutation, FlippedBits) {
-    expect_loads_or_errors(flip_bits, 1);
-}
+TEST(LoadSceneMutation, FlippedBits) { expect_loads_or_errors(flip_bits, 1); }
 
-TEST(LoadSceneMutation, TruncatedFiles) {
-    expect_loads_or_errors(truncate, 2);
-}
+TEST(LoadSceneMutation, TruncatedFiles) { expect_loads_or_errors(truncate, 2); }
 
-TEST(LoadSceneMutation, ScribbledBuffers) {
-    expect_loads_or_errors(scribble_on_buffer, 3);
-}
+TEST(LoadSceneMutation, ScribbledBuffers) { expect_loads_or_errors(scribble_on_buffer, 3); }
 
-TEST(LoadSceneMutation, ChangedJson) {
-    expect_loads_or_errors(change_json, 4);
-}
+TEST(LoadSceneMutation, ChangedJson) { expect_loads_or_errors(change_json, 4); }
 
 }  // namespace
 }  // namespace kilolux

@@ -10,9 +10,7 @@
 namespace kilolux {
 namespace {
 
-Box cube() {
-    return {glm::dvec3(-10.0), glm::dvec3(10.0)};
-}
+Box cube() { return {glm::dvec3(-10.0), glm::dvec3(10.0)}; }
 
 CameraRig rig_at(const glm::dvec3& position) {
     return CameraRig(look_at(position, {0, 0, 0}, {0, 1, 0}, 0.8), cube());

@@ -10,9 +10,7 @@
 namespace kilolux {
 namespace {
 
-bool nothing_given(const std::string&) {
-    return false;
-}
+bool nothing_given(const std::string&) { return false; }
 
 ViewState unusual_state() {
     ViewState state;

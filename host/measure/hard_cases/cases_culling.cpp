@@ -18,9 +18,7 @@ ViewShape small_shape() {
     return shape;
 }
 
-Shot usual_shot() {
-    return noise_shot(small_shape(), noise_depth(0.3, 60.0, 0.1, 4));
-}
+Shot usual_shot() { return noise_shot(small_shape(), noise_depth(0.3, 60.0, 0.1, 4)); }
 
 // Where the device sees a pixel's surface.
 Vec3d point_of(const Planes& planes, uint pixel) {
@@ -58,9 +56,7 @@ Vec3d grid_corner(const View& view, const ClusterGrid& grid, Random& random) {
             (row * double{view.ray.z} + view.ray.w) * z, -z};
 }
 
-int within_four_ulp(Random& random) {
-    return static_cast<int>(random.below(9)) - 4;
-}
+int within_four_ulp(Random& random) { return static_cast<int>(random.below(9)) - 4; }
 
 // A sphere on a face, edge or corner of cells whose surface touches another of them, or a pixel.
 Light touching_light(const View& view, const ClusterGrid& grid, Vec3d pixel, uint kind,

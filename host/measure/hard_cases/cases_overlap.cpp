@@ -50,9 +50,7 @@ bool is_inside(const Cell& cell, Vec3d p, double slack) {
     });
 }
 
-Vec3d on_plane(const Plane& a, Vec3d p) {
-    return p - a.normal * (dot(a.normal, p) - a.offset);
-}
+Vec3d on_plane(const Plane& a, Vec3d p) { return p - a.normal * (dot(a.normal, p) - a.offset); }
 
 // The point of two planes' line that is nearest to p; none if they are parallel.
 std::optional<Vec3d> on_line(const Plane& a, const Plane& b, Vec3d p) {

@@ -139,9 +139,7 @@ void compare(Findings& findings, const DenormalOutput& a, const DenormalOutput& 
 // --- 21 ---
 
 // IEC 61966-2-1 at each boundary between two codes.
-double boundary_above(int code) {
-    return srgb_to_linear((code + 0.5) / 255.0);
-}
+double boundary_above(int code) { return srgb_to_linear((code + 0.5) / 255.0); }
 
 int code_of(double linear) {
     return static_cast<int>(std::lround(255.0 * linear_to_srgb(std::clamp(linear, 0.0, 1.0))));
@@ -320,9 +318,7 @@ std::vector<float4> decoded_by_device(Gpu gpu, std::vector<uint> codes) {
     return normals;
 }
 
-glm::dvec3 xyz(const float4& v) {
-    return {v.x, v.y, v.z};
-}
+glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
 
 double angle_rad(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));

@@ -88,9 +88,7 @@ std::vector<Light> lights_of_all_sizes(uint count) {
 }
 
 // Blocks of 64 by light index: 64 u within a block, k/64 u over the blocks, and 8 u for a term.
-double sum_bound(double k) {
-    return (64.0 + k / 64.0 + 8.0) * kUlp;
-}
+double sum_bound(double k) { return (64.0 + k / 64.0 + 8.0) * kUlp; }
 
 void check_sum(Findings& findings, const Gpu& gpu, const Shot& shot) {
     const Exposure e = expose(gpu, shot);
@@ -158,9 +156,7 @@ void check_lobe(Findings& findings, const Gpu& gpu, int shading, double roughnes
 }
 
 // Roughness whose exponent 2/alpha^2 - 2 is n.
-double roughness_of(double exponent) {
-    return std::pow(2.0 / (exponent + 2.0), 0.25);
-}
+double roughness_of(double exponent) { return std::pow(2.0 / (exponent + 2.0), 0.25); }
 
 }  // namespace
 

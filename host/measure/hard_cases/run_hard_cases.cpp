@@ -15,9 +15,7 @@ std::string number(double value) {
     return {text, end.ptr};
 }
 
-bool is_count(const Finding& f) {
-    return f.limit == 0.0 && f.worst == std::floor(f.worst);
-}
+bool is_count(const Finding& f) { return f.limit == 0.0 && f.worst == std::floor(f.worst); }
 
 // The worst of two runs of a case at different lane widths.
 void merge(Findings& into, const Findings& from) {

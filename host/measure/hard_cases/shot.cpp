@@ -37,9 +37,7 @@ Shading model_of(int shading) {
     return shading == SHADING_BLINN_PHONG ? Shading::blinn_phong : Shading::lambert;
 }
 
-glm::dvec3 to_glm(Vec3d v) {
-    return {v.x, v.y, v.z};
-}
+glm::dvec3 to_glm(Vec3d v) { return {v.x, v.y, v.z}; }
 
 SurfaceSample decoded_at(const Planes& planes, uint x, uint y) {
     SurfaceSample s;

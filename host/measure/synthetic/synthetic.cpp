@@ -156,8 +156,8 @@ DepthOf no_depth() {
 
 Synthetic make_synthetic(const View& view, const KernelFeatures& features, const DepthOf& depth,
                          std::uint32_t seed) {
-    const GBufferNeeds needs{features.gbuffer, features.material, features.occlusion,
-                             2.5f,             features.specular, features.unlit};
+    const GBufferNeeds needs{features.gbuffer,  features.material, features.occlusion, 2.5f,
+                             features.specular, features.unlit};
     Synthetic image{view, make_gbuffer_layout(needs, view.stride, view.height), {}};
     image.bytes.resize(gbuffer_bytes(image.layout, view.stride, view.height));
     Random random(seed);

@@ -12,27 +12,13 @@ struct Vec3d {
     double x = 0, y = 0, z = 0;
 };
 
-inline Vec3d operator+(Vec3d a, Vec3d b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec3d operator-(Vec3d a, Vec3d b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vec3d operator*(Vec3d a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
-inline Vec3d operator*(Vec3d a, Vec3d b) {
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-inline double dot(Vec3d a, Vec3d b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline double length(Vec3d a) {
-    return std::sqrt(dot(a, a));
-}
-inline Vec3d normalized(Vec3d a) {
-    return a * (1.0 / length(a));
-}
+inline Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3d operator*(Vec3d a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Vec3d operator*(Vec3d a, Vec3d b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double length(Vec3d a) { return std::sqrt(dot(a, a)); }
+inline Vec3d normalized(Vec3d a) { return a * (1.0 / length(a)); }
 inline Vec3d cross(Vec3d a, Vec3d b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
