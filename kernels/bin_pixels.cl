@@ -4,8 +4,12 @@
 // pixels belong to none, and tiles of background only cost nothing afterwards.
 //   bin_pixels_count  active clusters of each tile
 //   (prefix_sum over tiles)
-//   bin_pixels_fill   the clusters
+//   bin_pixels_fill   the clusters, and each tile's pixels in their order
 // One work-item takes one tile, VW pixels of a row at a time.
+//
+// In that order, a vector of neighbours lies in one cluster, but for a few at the clusters' ends:
+// shading sums one list a vector. In the order of rows it would sum the list of each cluster that
+// the row crosses.
 #include "kernels/device/gbuffer.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
@@ -19,30 +23,34 @@ typedef struct TileSlices {
     uint first, last;  // smallest and largest; first = NO_SLICE if there is none
 } TileSlices;
 
-static inline UV slices_of_strip(GBuffer g, ClusterGrid grid, uint x, uint y) {
-    FV depth01 = load_depth01(g, x, y);
-    FV z = view_depth(g.view, pixel_centers_x(x), pixel_center_y(g.view, y), depth01);
-    UV slice = fine_slice_of_depth(grid, z);
-    MASK drawn = (depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(g.view.width));
-    return select((UV)(NO_SLICE), slice, full_mask(drawn));
+static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels) {
+    FV depth01 = load_depth01(g, pixels);
+    UV slice = fine_slice_of_depth(grid, view_depth(g.view, pixels.x, pixels.y, depth01));
+    MASK drawn = full_mask(depth01 > fv(0.0f)) & within_width(g.view, pixels);
+    return select((UV)(NO_SLICE), slice, drawn);
+}
+
+static inline uint rows_of_tile(View view, uint tile_y) {
+    return min((uint)FINE_TILE, view.height - tile_y * FINE_TILE);
+}
+
+static inline Pixels strip_pixels(View view, uint tile_x, uint tile_y, uint strip) {
+    return row_pixels(view, tile_x * FINE_TILE + strip % STRIPS * VW,
+                      tile_y * FINE_TILE + strip / STRIPS);
 }
 
 static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint tile_y,
                                TileSlices* out) {
     UV first = (UV)(NO_SLICE);
     UV last = (UV)(0u);
-    uint rows = min((uint)FINE_TILE, g.view.height - tile_y * FINE_TILE);
-    for (uint row = 0; row < FINE_TILE; ++row) {
-        for (uint strip = 0; strip < STRIPS; ++strip) {
-            UV slice = (UV)(NO_SLICE);
-            if (row < rows)
-                slice = slices_of_strip(g, grid, tile_x * FINE_TILE + strip * VW,
-                                        tile_y * FINE_TILE + row);
-            out->slice[row * STRIPS + strip] = slice;
-            first = min(first, slice);
-            // NO_SLICE + 1 wraps to 0.
-            last = max(last, slice + 1u);
-        }
+    uint strips = rows_of_tile(g.view, tile_y) * STRIPS;
+    for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
+        UV slice = (UV)(NO_SLICE);
+        if (i < strips) slice = slices_of_pixels(g, grid, strip_pixels(g.view, tile_x, tile_y, i));
+        out->slice[i] = slice;
+        first = min(first, slice);
+        // NO_SLICE + 1 wraps to 0.
+        last = max(last, slice + 1u);
     }
     out->first = min_lane_uint(first);
     out->last = ~min_lane_uint(~last) - 1u;
@@ -83,11 +91,8 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
     for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
         MASK mask = full_mask(tile->slice[i] == (UV)(slice));
         if (!any_lane(mask)) continue;
-        uint x = tile_x * FINE_TILE + i % STRIPS * VW;
-        uint y = tile_y * FINE_TILE + i / STRIPS;
-        FV z = view_depth(g.view, pixel_centers_x(x), pixel_center_y(g.view, y),
-                          load_depth01(g, x, y));
-        FV3 p = load_position(g, x, y, z);
+        Pixels at = strip_pixels(g.view, tile_x, tile_y, i);
+        FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
         lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)),
                  min(lo.z, select_fv(mask, p.z, lo.z)));
         hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)),
@@ -110,11 +115,34 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
     return c;
 }
 
+// Appends the pixels of one slice (row * FINE_TILE + column) to the tile's order; returns how many
+// there are then.
+static inline uint append_pixels(const TileSlices* tile, uint slice, uint strips,
+                                 global uchar* order, uint count) {
+    for (uint i = 0; i < strips; ++i) {
+        UV mine = KX_CONCAT(as_, UV)(full_mask(tile->slice[i] == (UV)(slice))) & 1u;
+        uint in_slice = sum_lanes(mine);
+        if (in_slice == VW) {
+            for (uint lane = 0; lane < VW; ++lane) order[count + lane] = (uchar)(i * VW + lane);
+        } else if (in_slice > 0u) {
+            uint flag[VW];
+            store_lanes(mine, flag);
+            uint place = count;
+            for (uint lane = 0; lane < VW; ++lane) {
+                if (flag[lane]) order[place++] = (uchar)(i * VW + lane);
+            }
+        }
+        count += in_slice;
+    }
+    return count;
+}
+
 kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
                             ClusterGrid grid,
                             global const uint* restrict offsets,      // [tiles + 1]
                             global ActiveCluster* restrict clusters,  // out [capacity]
-                            uint capacity) {
+                            uint capacity,
+                            global uchar* restrict order) {  // out [tiles][FINE_TILE_PIXELS]
     uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
     uint tile = get_global_id(0);
     uint tile_y = tile / tiles_x;
@@ -124,9 +152,14 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
     GBuffer g = {gbuffer, layout, view, 0};
     TileSlices slices;
     load_slices(g, grid, tile % tiles_x, tile_y, &slices);
+    uint strips = rows_of_tile(view, tile_y) * STRIPS;
+    global uchar* tile_order = order + tile * FINE_TILE_PIXELS;
+    uint ordered = 0;
     for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
         if (place < capacity)
             clusters[place] = cluster_of_slice(g, tile % tiles_x, tile_y, &slices, slice);
+        ordered = append_pixels(&slices, slice, strips, tile_order, ordered);
         ++place;
     }
+    append_pixels(&slices, NO_SLICE, strips, tile_order, ordered);
 }

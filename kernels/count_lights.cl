@@ -32,14 +32,14 @@ kernel void count_lights(
     uint y = get_global_id(1);
     if (y >= view.height) return;
     GBuffer g = {gbuffer, layout, view, 0};
-    FV depth01 = load_depth01(g, x, y);
-    MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
+    Pixels pixels = row_pixels(view, x, y);
+    FV depth01 = load_depth01(g, pixels);
+    MASK drawn = full_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
     UV k = (UV)(~0u);
     UV k_star = (UV)(~0u);
     if (any_lane(drawn)) {
-        FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y),
-                          select_fv(drawn, depth01, fv(1.0f)));
-        FV3 p = load_position(g, x, y, z);
+        FV z = view_depth(view, pixels.x, pixels.y, select_fv(drawn, depth01, fv(1.0f)));
+        FV3 p = load_position(g, pixels, z);
         UV slice = fine_slice_of_depth(grid, z);
         uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
         uint end = min(cluster_offsets[tile + 1], cluster_capacity);
@@ -53,7 +53,6 @@ kernel void count_lights(
                        KX_CONCAT(as_, UV)(mine));
         }
     }
-    uint pixel = y * view.stride + x;
-    store_lanes(k, evaluated + pixel);
-    store_lanes(k_star, covering + pixel);
+    store_lanes(k, evaluated + pixels.first);
+    store_lanes(k_star, covering + pixels.first);
 }

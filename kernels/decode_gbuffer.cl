@@ -13,11 +13,11 @@ kernel void decode_gbuffer(
     uint y = get_global_id(1);
     if (y >= view.height) return;
     GBuffer g = {gbuffer, layout, view, srgb};
-    FV depth01 = load_depth01(g, x, y);
-    MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
-    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, y),
-                      select_fv(drawn, depth01, fv(1.0f)));
-    Surface s = load_surface(g, x, y, z);
+    Pixels pixels = row_pixels(view, x, y);
+    FV depth01 = load_depth01(g, pixels);
+    MASK drawn = full_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
+    FV z = view_depth(view, pixels.x, pixels.y, select_fv(drawn, depth01, fv(1.0f)));
+    Surface s = load_surface(g, pixels, z);
 #if HAS_SPECULAR
 #define PLANES SURFACE_PLANES_WITH_SPECULAR
 #define SPECULAR , s.specular.x, s.specular.y, s.specular.z, s.specular_f90
@@ -41,9 +41,8 @@ kernel void decode_gbuffer(
                          s.emissive.y,
                          s.emissive.z,
                          s.occlusion SPECULAR};
-    uint pixel = y * view.stride + x;
     uint plane = view.stride * view.height;
     for (uint i = 0; i < PLANES; ++i) {
-        store_lanes(select_fv(drawn, values[i], fv(0.0f)), planes + i * plane + pixel);
+        store_lanes(select_fv(drawn, values[i], fv(0.0f)), planes + i * plane + pixels.first);
     }
 }

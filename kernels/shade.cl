@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance of every pixel: the sum of evaluate() over the lights of its active cluster, or, with
 // ALL_LIGHTS, over every light (the reference that lists must not change by a bit).
-// One work-item shades VW neighbouring pixels of a row; a work-group lies within one fine tile.
+// One work-item shades VW pixels: neighbours in the order of their tile's clusters (bin_pixels) or,
+// with ALL_LIGHTS, in a row. A work-group lies within one fine tile.
 // NATIVE_MATH: roots and quotients as the device's hardware makes them, of unstated accuracy.
 #if NATIVE_MATH
 #undef sqrt
@@ -10,14 +11,15 @@
 #define rsqrt native_rsqrt
 #define DIVIDE(a, b) ((a)*native_recip(b))
 #endif
+#ifndef ALL_LIGHTS
+#define ALL_LIGHTS 0
+#endif
+#define ORDERED_PIXELS (!ALL_LIGHTS)
 #include "kernels/device/gbuffer.h"
 #include "kernels/device/light_index.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 
-#ifndef ALL_LIGHTS
-#define ALL_LIGHTS 0
-#endif
 #ifndef HAS_DIRECTIONAL_LIGHTS
 #define HAS_DIRECTIONAL_LIGHTS 0
 #endif
@@ -166,12 +168,23 @@ static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
     return a;
 }
 
-static inline void store_radiance(global float* radiance, View view, uint x, uint y, FV3 color) {
-    uint pixel = y * view.stride + x;
+static inline void store_plane(global float* plane, Pixels pixels, FV value) {
+#if ORDERED_PIXELS
+    if (!pixels.in_row) {
+        float lanes[VW];
+        store_lanes(value, lanes);
+        for (uint i = 0; i < VW; ++i) plane[pixels.place[i]] = lanes[i];
+        return;
+    }
+#endif
+    store_lanes(value, plane + pixels.first);
+}
+
+static inline void store_radiance(global float* radiance, View view, Pixels pixels, FV3 color) {
     uint plane = view.stride * view.height;
-    store_lanes(color.x, radiance + pixel);
-    store_lanes(color.y, radiance + plane + pixel);
-    store_lanes(color.z, radiance + 2 * plane + pixel);
+    store_plane(radiance, pixels, color.x);
+    store_plane(radiance + plane, pixels, color.y);
+    store_plane(radiance + 2 * plane, pixels, color.z);
 }
 
 kernel void shade(
@@ -183,7 +196,9 @@ kernel void shade(
     uint light_count, ClusterGrid grid,
     global const uint* restrict cluster_offsets,    // [tiles + 1]
     global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-    uint cluster_capacity, global const LIGHT_INDEX* restrict lists, float ambient,
+    uint cluster_capacity,
+    global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
+    global const LIGHT_INDEX* restrict lists, float ambient,
     global float* restrict radiance) {  // out [3][height][stride]
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
@@ -195,20 +210,31 @@ kernel void shade(
 #else
     if (!inside) return;
 #endif
-    GBuffer g = {gbuffer, layout, view, srgb};
     uint row = inside ? y : view.height - 1u;  // rows below the image only help to stage
-    FV depth01 = load_depth01(g, x, row);
-    MASK drawn = full_mask((depth01 > fv(0.0f)) & ((lane_numbers + x) < (UV)(view.width)));
+#if ALL_LIGHTS
+    Pixels pixels = row_pixels(view, x, row);
+#else
+    uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
+    if (cluster_offsets[tile] == cluster_offsets[tile + 1]) {  // background, for the whole group
+        if (inside) store_radiance(radiance, view, row_pixels(view, x, row), zero3());
+        return;
+    }
+    Pixels pixels = ordered_pixels(
+        view, x / FINE_TILE * FINE_TILE, y / FINE_TILE * FINE_TILE,
+        order + tile * FINE_TILE_PIXELS + row % FINE_TILE * FINE_TILE + x % FINE_TILE);
+#endif
+    GBuffer g = {gbuffer, layout, view, srgb};
+    FV depth01 = load_depth01(g, pixels);
+    MASK drawn = full_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
     bool any_drawn = inside && any_lane(drawn);
 #if STAGE == 0
     if (!any_drawn) {
-        store_radiance(radiance, view, x, y, zero3());
+        store_radiance(radiance, view, pixels, zero3());
         return;
     }
 #endif
-    FV z = view_depth(view, pixel_centers_x(x), pixel_center_y(view, row),
-                      select_fv(drawn, depth01, fv(1.0f)));
-    Surface s = load_surface(g, x, row, z);
+    FV z = view_depth(view, pixels.x, pixels.y, select_fv(drawn, depth01, fv(1.0f)));
+    Surface s = load_surface(g, pixels, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     LightSum sum = zero_sum();
 #if HAS_DIRECTIONAL_LIGHTS
@@ -219,7 +245,6 @@ kernel void shade(
     sum = sum_lights(sum, any_drawn, p, lights, lists, light_count STAGED_ARGUMENT);
 #else
     UV slice = fine_slice_of_depth(grid, z);
-    uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
     uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     LightSum unlit = sum;
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
@@ -231,5 +256,5 @@ kernel void shade(
     }
 #endif
     FV3 color = finish_shading(s, sum, ambient);
-    if (inside) store_radiance(radiance, view, x, y, select3(drawn, color, zero3()));
+    if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
 }

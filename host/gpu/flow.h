@@ -60,6 +60,9 @@ struct ActiveClusters {
     cl::Buffer clusters;  // ActiveCluster[capacity]
     uint capacity = 0;
     uint tile_count = 0;
+    // uchar[tile_count][FINE_TILE_PIXELS]: row * FINE_TILE + column of a tile's pixels, cluster by
+    // cluster and then those of none; of no meaning in tiles without clusters.
+    cl::Buffer order;
 };
 
 /// Lists of the active clusters, where ActiveCluster::list_begin and list_count say.

@@ -13,6 +13,7 @@ namespace {
 constexpr double kTilePixels = FINE_TILE * FINE_TILE;
 constexpr double kRadianceBytes = 12.0;  // three floats a pixel
 constexpr double kDisplayBytes = 4.0;
+constexpr double kOrderBytes = 1.0;  // of a pixel within its tile
 constexpr double kBoundBytes = sizeof(float4);
 constexpr double kCounterBytes = sizeof(uint);
 constexpr int kPrefixSumLaunches = 3;
@@ -86,13 +87,15 @@ double position_bytes(uint gbuffer) {
 StageWork bin_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.tiles);
     work.bytes_read += 4.0 * c.pixels + (4.0 + position_bytes(c.kernels.gbuffer)) * c.drawn_pixels;
-    work.bytes_written += kCounterBytes * c.tiles + sizeof(ActiveCluster) * c.active_clusters;
+    work.bytes_written += kCounterBytes * c.tiles + sizeof(ActiveCluster) * c.active_clusters +
+                          kOrderBytes * c.pixels;
     // A slice: pixel centre 2, depth 2 and a division, slice 4, mask 4, selection 1, extremes 3;
     // for both launches. Then the box: mask 1, centre 2, depth 3, position 3, extremes 12, count 1.
-    // A tile's further clusters each search the tile's slices, 3 a pixel, in both launches.
+    // Each pixel is placed in order (2). A tile's further clusters each search the tile's slices, 3
+    // a pixel, in both launches.
     const double further = std::max(c.active_clusters - c.tiles, 0.0);
     work.lanes = (c.pixels + c.drawn_pixels) * LaneWork{17.0, 0.0, 0.0, 1.0} +
-                 c.drawn_pixels * LaneWork{22.0, 0.0, 0.0, 1.0} +
+                 c.drawn_pixels * LaneWork{24.0, 0.0, 0.0, 1.0} +
                  2.0 * kTilePixels * further * LaneWork{3.0};
     work.launches += 2;
     return work;
@@ -113,8 +116,7 @@ StageWork refine_work(const StageCounts& c) {
 
 StageWork shade_work(const StageCounts& c) {
     StageWork work;
-    // Background pixels read their depth only.
-    work.bytes_read = 4.0 * c.pixels + (c.gbuffer_bytes_per_pixel - 4.0) * c.drawn_pixels +
+    work.bytes_read = (c.gbuffer_bytes_per_pixel + kOrderBytes) * c.drawn_pixels +
                       sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
     work.bytes_written = kRadianceBytes * c.pixels;
     work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) +

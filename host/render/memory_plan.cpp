@@ -23,8 +23,9 @@ constexpr Bytes kLight = 2 * sizeof(SceneLight) + 4 * 48 + 48;
 constexpr Bytes kHostPixel = 2 * (3 * sizeof(float) + 4);
 // Radiance and display picture on the device, and twice on the host: as planes and pixels.
 constexpr Bytes kBandPixel = 3 * (3 * sizeof(float) + 4);
-// Active clusters, their lists and the sums of both; about two clusters a fine tile.
-constexpr Bytes kListsPixel = 1;
+// Active clusters, their lists and the sums of both, about two clusters a fine tile; and the order
+// of the tiles' pixels.
+constexpr Bytes kListsPixel = 2;
 // Kernels count the elements of a picture's planes in 32 bits.
 constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULAR - 1;
 // OpenCL drivers and images of the files leave a share of what is available unused.

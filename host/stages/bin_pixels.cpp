@@ -18,7 +18,8 @@ BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
       prefix_sum_(gpu, tuning),
       counts_(gpu, kStage),
       offsets_(gpu, kStage),
-      clusters_(gpu, kStage) {}
+      clusters_(gpu, kStage),
+      order_(gpu, kStage) {}
 
 ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& grid,
                                   StageTimer& timer) {
@@ -33,6 +34,7 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
             clusters_.reserve(std::size_t{2} * out.tile_count * sizeof(ActiveCluster));
         out.clusters = clusters_.get();
         out.capacity = static_cast<uint>(clusters_.bytes() / sizeof(ActiveCluster));
+        out.order = order_.reserve(std::size_t{out.tile_count} * FINE_TILE_PIXELS);
         const cl::Buffer& counts = counts_.reserve(out.tile_count * sizeof(uint));
         const auto group = static_cast<std::size_t>(tuning_.tile_group);
         const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(out.tile_count, group)),
@@ -42,10 +44,10 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
         timer.record(kStage, count(items, gbuffer.bytes, gbuffer.layout, view, grid, counts));
         prefix_sum_.enqueue(counts, out.tile_count, out.offsets, timer, kStage);
         cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer, cl::Buffer,
-                          uint>
+                          uint, cl::Buffer>
             fill(program_, "bin_pixels_fill");
         timer.record(kStage, fill(items, gbuffer.bytes, gbuffer.layout, view, grid, out.offsets,
-                                  out.clusters, out.capacity));
+                                  out.clusters, out.capacity, out.order));
         return out;
     });
 }

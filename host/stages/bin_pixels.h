@@ -12,6 +12,7 @@
 namespace kilolux {
 
 /// Finds the active clusters: per fine tile, one for each slice among its pixels, with their box.
+/// And puts the tile's pixels in their order.
 class BinPixels {
  public:
     BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
@@ -30,7 +31,7 @@ class BinPixels {
     Tuning tuning_;
     cl::Program program_;
     PrefixSum prefix_sum_;
-    GrowingBuffer counts_, offsets_, clusters_;
+    GrowingBuffer counts_, offsets_, clusters_, order_;
 };
 
 }  // namespace kilolux

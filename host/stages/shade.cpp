@@ -55,7 +55,7 @@ Radiance Shade::enqueue_all_lights(const GBuffer& gbuffer, const PreparedLights&
                                    StageTimer& timer) {
     const cl::Program program =
         build_program(gpu_, kStage, options_of(gpu_, tuning_, features_).define("ALL_LIGHTS", 1));
-    const ActiveClusters no_clusters{empty_.get(), empty_.get(), 0, 0};
+    const ActiveClusters no_clusters{empty_.get(), empty_.get(), 0, 0, empty_.get()};
     return launch(program, gbuffer, lights, ClusterGrid{}, no_clusters,
                   RefinedLists{empty_.get(), 0}, timer);
 }
@@ -88,15 +88,15 @@ Radiance Shade::launch(const cl::Program& program, const GBuffer& gbuffer,
         const cl::NDRange items(view.stride / FINE_TILE * items_per_tile,
                                 round_up(view.height, rows));
         cl::KernelFunctor<cl::Buffer, GBufferLayout, View, cl::Buffer, cl::Buffer, uint, cl::Buffer,
-                          uint, ClusterGrid, cl::Buffer, cl::Buffer, uint, cl::Buffer, float,
-                          cl::Buffer>
+                          uint, ClusterGrid, cl::Buffer, cl::Buffer, uint, cl::Buffer, cl::Buffer,
+                          float, cl::Buffer>
             kernel(program, "shade");
-        timer.record(
-            kStage,
-            kernel(cl::EnqueueArgs(gpu_.queue, items, cl::NDRange(items_per_tile, rows)),
-                   gbuffer.bytes, gbuffer.layout, view, srgb_.get(), lights.directional,
-                   lights.directional_count, stored, lights.count, grid, clusters.offsets,
-                   clusters.clusters, clusters.capacity, lists.lists, ambient_, out.planes));
+        timer.record(kStage,
+                     kernel(cl::EnqueueArgs(gpu_.queue, items, cl::NDRange(items_per_tile, rows)),
+                            gbuffer.bytes, gbuffer.layout, view, srgb_.get(), lights.directional,
+                            lights.directional_count, stored, lights.count, grid, clusters.offsets,
+                            clusters.clusters, clusters.capacity, clusters.order, lists.lists,
+                            ambient_, out.planes));
         return out;
     });
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes VW neighbouring pixels of a G-buffer. GBUFFER, HAS_MATERIAL, HAS_OCCLUSION and
-// HAS_SPECULAR say what it holds.
+// Decodes VW pixels of a G-buffer. GBUFFER, HAS_MATERIAL, HAS_OCCLUSION and HAS_SPECULAR say what
+// it holds. With ORDERED_PIXELS the pixels may be any of a tile's, else they are neighbours in a
+// row.
 #ifndef KILOLUX_DEVICE_GBUFFER_H
 #define KILOLUX_DEVICE_GBUFFER_H
 #include "kernels/device/lanes.h"
+#include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/evaluate.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/view.h"
@@ -17,6 +19,9 @@
 #ifndef HAS_OCCLUSION
 #define HAS_OCCLUSION 0
 #endif
+#ifndef ORDERED_PIXELS
+#define ORDERED_PIXELS 0
+#endif
 
 // What a kernel needs to read a G-buffer.
 typedef struct GBuffer {
@@ -26,24 +31,75 @@ typedef struct GBuffer {
     global const float* srgb;  // [256] linear value of an sRGB code
 } GBuffer;
 
-static inline global const float* float_plane(GBuffer g, uint plane, uint pixel) {
-    return (global const float*)(g.bytes + g.layout.offset_bytes[plane]) + pixel;
+// Where VW pixels are.
+typedef struct Pixels {
+    FV x, y;     // centres in the picture [pixel]
+    uint first;  // lane 0's place in a plane
+#if ORDERED_PIXELS
+    bool in_row;     // lane i's place is first + i
+    uint place[VW];  // each lane's place in a plane
+#endif
+} Pixels;
+
+#if ORDERED_PIXELS
+#define PLACE(pixels, lane) (pixels).place[lane]
+#define LOAD_PLANE(T, plane, pixels) \
+    ((pixels).in_row ? load_lanes((plane) + (pixels).first) : LANES(T, PLANE_AT))
+#else
+#define PLACE(pixels, lane) ((pixels).first + (lane))
+#define LOAD_PLANE(T, plane, pixels) load_lanes((plane) + (pixels).first)
+#endif
+#define PLANE_AT(i) plane[PLACE(pixels, i)]
+
+// VW neighbours of a row of the planes from (x, y) on.
+static inline Pixels row_pixels(View view, uint x, uint y) {
+    Pixels pixels;
+    pixels.x = to_float_lanes(lane_numbers + x) + 0.5f;
+    pixels.y = fv((float)(y + view.first_row) + 0.5f);
+    pixels.first = y * view.stride + x;
+#if ORDERED_PIXELS
+    pixels.in_row = true;
+    for (uint i = 0; i < VW; ++i) pixels.place[i] = pixels.first + i;
+#endif
+    return pixels;
 }
 
-static inline UV load_uint_plane(GBuffer g, uint plane, uint pixel) {
-    return load_lanes((global const uint*)(g.bytes + g.layout.offset_bytes[plane]) + pixel);
+#if ORDERED_PIXELS
+// The VW pixels that `order` names, of the tile whose first pixel is (tile_x, tile_y): row *
+// FINE_TILE + column each.
+static inline Pixels ordered_pixels(View view, uint tile_x, uint tile_y,
+                                    global const uchar* order) {
+    Pixels pixels;
+    UV code = KX_CONCAT(convert_, UV)(load_lanes(order));
+    UV x = code % FINE_TILE + tile_x;
+    UV y = code / FINE_TILE + tile_y;
+    pixels.x = to_float_lanes(x) + 0.5f;
+    pixels.y = to_float_lanes(y + view.first_row) + 0.5f;
+    UV place = y * view.stride + x;
+    store_lanes(place, pixels.place);
+    pixels.first = pixels.place[0];
+    pixels.in_row = !any_lane(full_mask(place != lane_numbers + pixels.first));
+    return pixels;
+}
+#endif
+
+static inline MASK within_width(View view, Pixels pixels) {
+    return full_mask(pixels.x < fv((float)view.width));
 }
 
-// Depth buffer values of VW pixels from pixel (x, y) on; 0: background.
-static inline FV load_depth01(GBuffer g, uint x, uint y) {
-    return load_lanes(float_plane(g, PLANE_DEPTH, y * g.view.stride + x));
+static inline FV load_float(GBuffer g, uint plane_index, Pixels pixels) {
+    global const float* plane = (global const float*)(g.bytes + g.layout.offset_bytes[plane_index]);
+    return LOAD_PLANE(FV, plane, pixels);
 }
 
-static inline FV pixel_centers_x(uint x) { return to_float_lanes(lane_numbers + x) + 0.5f; }
+static inline UV load_uint(GBuffer g, uint plane_index, Pixels pixels) {
+    global const uint* plane = (global const uint*)(g.bytes + g.layout.offset_bytes[plane_index]);
+    return LOAD_PLANE(UV, plane, pixels);
+}
 
-// In the picture, of row y of the planes.
-static inline FV pixel_center_y(View view, uint y) {
-    return fv((float)(y + view.first_row) + 0.5f);
+// Depth buffer values; 0: background.
+static inline FV load_depth01(GBuffer g, Pixels pixels) {
+    return load_float(g, PLANE_DEPTH, pixels);
 }
 
 // Linear value of each lane's sRGB code.
@@ -80,66 +136,65 @@ static inline FV3 rotate_to_view(View view, FV3 v) {
                fma(fv(z.z), v.z, fma(fv(z.y), v.y, fv(z.x) * v.x)));
 }
 
-static inline FV load_float(GBuffer g, uint plane, uint pixel) {
-    return load_lanes(float_plane(g, plane, pixel));
+static inline FV3 load_float3(GBuffer g, uint first_plane, Pixels pixels) {
+    return fv3(load_float(g, first_plane, pixels), load_float(g, first_plane + 1, pixels),
+               load_float(g, first_plane + 2, pixels));
 }
 
-static inline FV3 load_float3(GBuffer g, uint first_plane, uint pixel) {
-    return fv3(load_float(g, first_plane, pixel), load_float(g, first_plane + 1, pixel),
-               load_float(g, first_plane + 2, pixel));
-}
-
-static inline FV load_half(GBuffer g, uint plane, uint pixel) {
-    global const half* p = (global const half*)(g.bytes + g.layout.offset_bytes[plane]) + pixel;
-#if VW == 1
-    return vload_half(0, p);
-#else
-    return KX_CONCAT(vload_half, VW)(0, p);
+static inline FV load_half(GBuffer g, uint plane_index, Pixels pixels) {
+    global const half* plane = (global const half*)(g.bytes + g.layout.offset_bytes[plane_index]);
+#define HALF_AT(i) vload_half(PLACE(pixels, i), plane)
+#if VW > 1
+#if ORDERED_PIXELS
+    if (!pixels.in_row) return LANES(FV, HALF_AT);
 #endif
+    return KX_CONCAT(vload_half, VW)(0, plane + pixels.first);
+#else
+    return HALF_AT(0);
+#endif
+#undef HALF_AT
 }
 
-// The rows of VW pixels of a plane of float4.
-static inline global const float4* load_rows(GBuffer g, uint plane, uint pixel) {
-    return (global const float4*)(g.bytes + g.layout.offset_bytes[plane]) + pixel;
+static inline global const float4* row_plane(GBuffer g, uint plane_index) {
+    return (global const float4*)(g.bytes + g.layout.offset_bytes[plane_index]);
 }
-#define ROW_X(i) rows[i].x
-#define ROW_Y(i) rows[i].y
-#define ROW_Z(i) rows[i].z
-#define ROW_W(i) rows[i].w
+#define ROW_X(i) rows[PLACE(pixels, i)].x
+#define ROW_Y(i) rows[PLACE(pixels, i)].y
+#define ROW_Z(i) rows[PLACE(pixels, i)].z
+#define ROW_W(i) rows[PLACE(pixels, i)].w
 
-// Position in view space of VW pixels with depth z [m].
-static inline FV3 load_position(GBuffer g, uint x, uint y, FV z) {
+// Positions in view space of pixels with depth z [m].
+static inline FV3 load_position(GBuffer g, Pixels pixels, FV z) {
 #if GBUFFER == GBUFFER_FULL
-    return load_float3(g, PLANE_POSITION_X, y * g.view.stride + x);
+    return load_float3(g, PLANE_POSITION_X, pixels);
 #elif GBUFFER == GBUFFER_OCT_2X4
-    global const float4* rows = load_rows(g, PLANE_ROW_0, y * g.view.stride + x);
+    global const float4* rows = row_plane(g, PLANE_ROW_0);
     return fv3(LANES(FV, ROW_X), LANES(FV, ROW_Y), LANES(FV, ROW_Z));
 #elif GBUFFER == GBUFFER_HALF
     // World positions in half floats, as three WebGPU ancestors store them.
-    uint pixel = y * g.view.stride + x;
     float4 camera = g.view.camera_position;
-    FV3 world = fv3(load_half(g, PLANE_POSITION_X, pixel) - camera.x,
-                    load_half(g, PLANE_POSITION_Y, pixel) - camera.y,
-                    load_half(g, PLANE_POSITION_Z, pixel) - camera.z);
+    FV3 world = fv3(load_half(g, PLANE_POSITION_X, pixels) - camera.x,
+                    load_half(g, PLANE_POSITION_Y, pixels) - camera.y,
+                    load_half(g, PLANE_POSITION_Z, pixels) - camera.z);
     return rotate_to_view(g.view, world);
 #else
-    return view_position(g.view, pixel_centers_x(x), pixel_center_y(g.view, y), z);
+    return view_position(g.view, pixels.x, pixels.y, z);
 #endif
 }
 
-static inline FV3 load_normal(GBuffer g, uint pixel) {
+static inline FV3 load_normal(GBuffer g, Pixels pixels) {
 #if GBUFFER == GBUFFER_FULL
-    return load_float3(g, PLANE_NORMAL_X, pixel);
+    return load_float3(g, PLANE_NORMAL_X, pixels);
 #elif GBUFFER == GBUFFER_HALF
-    FV3 world = fv3(load_half(g, PLANE_NORMAL_X, pixel), load_half(g, PLANE_NORMAL_Y, pixel),
-                    load_half(g, PLANE_NORMAL_Z, pixel));
+    FV3 world = fv3(load_half(g, PLANE_NORMAL_X, pixels), load_half(g, PLANE_NORMAL_Y, pixels),
+                    load_half(g, PLANE_NORMAL_Z, pixels));
     FV3 n = rotate_to_view(g.view, world);
     return scale3(n, rsqrt(max(dot3(n, n), fv(1e-20f))));
 #elif GBUFFER == GBUFFER_OCT_2X4
-    global const float4* rows = load_rows(g, PLANE_ROW_1, pixel);
+    global const float4* rows = row_plane(g, PLANE_ROW_1);
     return octahedral_decode(LANES(FV, ROW_X), LANES(FV, ROW_Y));
 #else
-    UV packed = load_uint_plane(g, PLANE_NORMAL, pixel);
+    UV packed = load_uint(g, PLANE_NORMAL, pixels);
     FV nx = snorm_of_unorm16(packed & 0xffffu);
     FV ny = snorm_of_unorm16(packed >> 16);
 #if GBUFFER == GBUFFER_NORMAL_XY
@@ -150,19 +205,19 @@ static inline FV3 load_normal(GBuffer g, uint pixel) {
 #endif
 }
 
-static inline Surface load_float_material(GBuffer g, uint pixel, Surface s) {
-    s.albedo = load_float3(g, PLANE_ALBEDO_R, pixel);
-    s.roughness = load_float(g, PLANE_ROUGHNESS, pixel);
+static inline Surface load_float_material(GBuffer g, Pixels pixels, Surface s) {
+    s.albedo = load_float3(g, PLANE_ALBEDO_R, pixels);
+    s.roughness = load_float(g, PLANE_ROUGHNESS, pixels);
 #if HAS_MATERIAL
-    s.metallic = load_float(g, PLANE_METALLIC, pixel);
-    s.emissive = load_float3(g, PLANE_EMISSIVE_R, pixel);
+    s.metallic = load_float(g, PLANE_METALLIC, pixels);
+    s.emissive = load_float3(g, PLANE_EMISSIVE_R, pixels);
 #endif
 #if HAS_OCCLUSION
-    s.occlusion = load_float(g, PLANE_OCCLUSION_F, pixel);
+    s.occlusion = load_float(g, PLANE_OCCLUSION_F, pixels);
 #endif
 #if HAS_SPECULAR
-    s.specular = load_float3(g, PLANE_SPECULAR_R, pixel);
-    s.specular_f90 = load_float(g, PLANE_SPECULAR_F90, pixel);
+    s.specular = load_float3(g, PLANE_SPECULAR_R, pixels);
+    s.specular_f90 = load_float(g, PLANE_SPECULAR_F90, pixels);
 #endif
     return s;
 }
@@ -178,23 +233,21 @@ static inline FV3 unorm8_color(UV rgba) {
 }
 
 // The 8-bit planes that all layouts but `full` may have.
-static inline Surface load_optional_planes(GBuffer g, uint pixel, Surface s) {
+static inline Surface load_optional_planes(GBuffer g, Pixels pixels, Surface s) {
 #if HAS_MATERIAL
-    UV material = load_uint_plane(g, PLANE_MATERIAL, pixel);
+    UV material = load_uint(g, PLANE_MATERIAL, pixels);
     s.emissive = scale3(decode_srgb(g.srgb, material), fv(g.layout.emissive_scale));
     s.metallic = unorm8(material >> 24);
 #endif
 #if HAS_OCCLUSION
-#if VW == 1
-    uint code = (g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION])[pixel];
-#else
-    UV code = KX_CONCAT(convert_,
-                        UV)(load_lanes(g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION] + pixel));
-#endif
+    global const uchar* plane = g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION];
+#define OCCLUSION_AT(i) ((uint)plane[PLACE(pixels, i)])
+    UV code = LANES(UV, OCCLUSION_AT);
+#undef OCCLUSION_AT
     s.occlusion = unorm8(code);
 #endif
 #if HAS_SPECULAR
-    UV specular = load_uint_plane(g, PLANE_SPECULAR, pixel);
+    UV specular = load_uint(g, PLANE_SPECULAR, pixels);
     s.specular = fv3(reflectance_of(specular & 255u), reflectance_of((specular >> 8) & 255u),
                      reflectance_of((specular >> 16) & 255u));
     s.specular_f90 = unorm8(specular >> 24);
@@ -202,22 +255,22 @@ static inline Surface load_optional_planes(GBuffer g, uint pixel, Surface s) {
     return s;
 }
 
-static inline Surface load_packed_material(GBuffer g, uint pixel, Surface s) {
-    UV rgba = load_uint_plane(g, PLANE_ALBEDO, pixel);
+static inline Surface load_packed_material(GBuffer g, Pixels pixels, Surface s) {
+    UV rgba = load_uint(g, PLANE_ALBEDO, pixels);
 #if GBUFFER == GBUFFER_HALF
     s.albedo = unorm8_color(rgba);
 #else
     s.albedo = decode_srgb(g.srgb, rgba);
 #endif
     s.roughness = unorm8(rgba >> 24);
-    return load_optional_planes(g, pixel, s);
+    return load_optional_planes(g, pixels, s);
 }
 
-static inline Surface load_row_material(GBuffer g, uint pixel, Surface s) {
-    global const float4* rows = load_rows(g, PLANE_ROW_0, pixel);
+static inline Surface load_row_material(GBuffer g, Pixels pixels, Surface s) {
+    global const float4* rows = row_plane(g, PLANE_ROW_0);
     s.albedo = unorm8_color(to_uint_lanes(LANES(FV, ROW_W)));
-    s = load_optional_planes(g, pixel, s);
-    rows = load_rows(g, PLANE_ROW_1, pixel);
+    s = load_optional_planes(g, pixels, s);
+    rows = row_plane(g, PLANE_ROW_1);
     s.roughness = LANES(FV, ROW_Z);
 #if HAS_MATERIAL
     s.metallic = LANES(FV, ROW_W);
@@ -225,21 +278,20 @@ static inline Surface load_row_material(GBuffer g, uint pixel, Surface s) {
     return s;
 }
 
-// The surfaces of VW pixels from (x, y) on at depths z [m].
-static inline Surface load_surface(GBuffer g, uint x, uint y, FV z) {
-    uint pixel = y * g.view.stride + x;
+// The surfaces of pixels at depths z [m].
+static inline Surface load_surface(GBuffer g, Pixels pixels, FV z) {
     Surface s;
-    s.position = load_position(g, x, y, z);
-    s.normal = load_normal(g, pixel);
+    s.position = load_position(g, pixels, z);
+    s.normal = load_normal(g, pixels);
     s.metallic = fv(0.0f);
     s.occlusion = fv(1.0f);
     s.emissive = zero3();
 #if GBUFFER == GBUFFER_FULL
-    return load_float_material(g, pixel, s);
+    return load_float_material(g, pixels, s);
 #elif GBUFFER == GBUFFER_OCT_2X4
-    return load_row_material(g, pixel, s);
+    return load_row_material(g, pixels, s);
 #else
-    return load_packed_material(g, pixel, s);
+    return load_packed_material(g, pixels, s);
 #endif
 }
 #endif

@@ -9,6 +9,7 @@ namespace kilolux {
 
 // A fine tile: what one active cluster covers on the screen, and one work-group shades [pixel].
 #define FINE_TILE 16
+#define FINE_TILE_PIXELS (FINE_TILE * FINE_TILE)
 
 // cluster = (slice * tiles_y + tile_y) * tiles_x + tile_x. Tile edges are multiples of FINE_TILE,
 // so every fine tile lies in one coarse tile.

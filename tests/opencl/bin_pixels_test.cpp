@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <vector>
 
 #include "host/measure/synthetic/stage_run.h"
 #include "host/measure/synthetic/synthetic.h"
@@ -68,6 +70,40 @@ void expect_clusters(const Gpu& gpu, const ActiveClusters& found, const BoxMap& 
     }
 }
 
+// Each tile's pixels once, cluster by cluster in ascending order, then those of none.
+void expect_order(const Gpu& gpu, const ActiveClusters& found, const ClusterGrid& grid,
+                  const Planes& planes) {
+    const View& view = planes.view;
+    const auto offsets = download<uint>(gpu, found.offsets, std::size_t{found.tile_count} + 1);
+    const auto order =
+        download<std::uint8_t>(gpu, found.order, std::size_t{found.tile_count} * FINE_TILE_PIXELS);
+    const uint tiles_x = view.stride / FINE_TILE;
+    constexpr uint kNoCluster = 0xffffffffu;
+    for (uint tile = 0; tile < found.tile_count; ++tile) {
+        if (offsets[tile] == offsets[tile + 1]) continue;
+        const uint first_y = tile / tiles_x * FINE_TILE;
+        const uint count = std::min<uint>(FINE_TILE, view.height - first_y) * FINE_TILE;
+        std::vector<std::pair<uint, uint>> expected;  // (slice, code), sorted
+        std::vector<std::pair<uint, uint>> got;
+        for (uint code = 0; code < FINE_TILE_PIXELS; ++code) {
+            const auto key = [&](uint pixel) {
+                const uint x = tile % tiles_x * FINE_TILE + pixel % FINE_TILE;
+                const uint y = first_y + pixel / FINE_TILE;
+                if (x >= view.width || y >= view.height) return std::pair(kNoCluster, pixel);
+                const Vec3d normal = planes.vector(SURFACE_NORMAL, x, y);
+                if (dot(normal, normal) == 0.0) return std::pair(kNoCluster, pixel);
+                const float z = planes.at(SURFACE_DEPTH, x, y);
+                return std::pair(slice_by_search(fine_grid(grid), z), pixel);
+            };
+            if (code >= count) break;
+            expected.push_back(key(code));
+            got.push_back(key(order[tile * FINE_TILE_PIXELS + code]));
+        }
+        std::sort(expected.begin(), expected.end());
+        ASSERT_EQ(got, expected) << "tile " << tile;
+    }
+}
+
 struct Case {
     const char* name;
     uint width, height;
@@ -99,7 +135,9 @@ void expect_case(const Case& c) {
     ActiveClusters found = stage.enqueue(gbuffer, grid, timer);
     if (!stage.fits()) found = stage.enqueue(gbuffer, grid, timer);
     ASSERT_TRUE(stage.fits());
-    expect_clusters(gpu, found, expected_boxes(grid, decode(gpu, features, gbuffer)));
+    const Planes planes = decode(gpu, features, gbuffer);
+    expect_clusters(gpu, found, expected_boxes(grid, planes));
+    expect_order(gpu, found, grid, planes);
 }
 
 // From in front of slice 0 to beyond the last, 30 % background.
