@@ -12,12 +12,10 @@ namespace {
 
 constexpr std::string_view kStage = "gbuffer_bridge";
 
-void wait_for_gl() {
+void wait_for(GLsync fence) {
     constexpr GLuint64 kSecond = 1'000'000'000;
-    GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond) == GL_TIMEOUT_EXPIRED) {
     }
-    glDeleteSync(fence);
 }
 
 }  // namespace
@@ -29,6 +27,8 @@ struct GBufferBridge::Staging {
     std::size_t bytes = 0;
     cl::Buffer device;
 };
+
+void GBufferBridge::DeleteFence::operator()(GLsync fence) const { glDeleteSync(fence); }
 
 GBufferBridge::GBufferBridge(const Gpu& gpu) : gpu_(gpu) {}
 GBufferBridge::~GBufferBridge() = default;
@@ -56,6 +56,30 @@ void GBufferBridge::make_staging(std::size_t bytes) {
     staging_ = std::move(staging);
 }
 
+// OpenGL reads every plane into the pixel buffer.
+std::vector<GBufferBridge::PlaneCopy> GBufferBridge::start_reads(const GBufferTargets& targets,
+                                                                 const GBufferLayout& layout,
+                                                                 const View& view, int first_row) {
+    std::vector<PlaneCopy> copies;
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
+    for (const PlaneRead& read : targets.reads()) {
+        const std::size_t offset = layout.offset_bytes[read.plane];
+        read_plane(targets, read, view.stride, {first_row, static_cast<int>(view.height)},
+                   reinterpret_cast<void*>(offset));
+        const std::size_t element = plane_element_bytes(layout.layout, read.plane);
+        copies.push_back({offset, element * view.stride * view.height,
+                          Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0))});
+    }
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    return copies;
+}
+
+// While OpenGL reads the next plane.
+void GBufferBridge::upload(const PlaneCopy& copy) {
+    const auto* plane = static_cast<const std::byte*>(staging_->mapping) + copy.offset;
+    gpu_.queue.enqueueWriteBuffer(staging_->device, CL_FALSE, copy.offset, copy.bytes, plane);
+}
+
 GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs,
                                 const View& view, int first_row) {
     return in_stage(kStage, [&] {
@@ -65,22 +89,17 @@ GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeed
         out.view = view;
         const std::size_t bytes = gbuffer_bytes(out.layout, view.stride, view.height);
         if (!staging_ || staging_->bytes < bytes) make_staging(bytes);
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
-        for (const PlaneRead& read : targets.reads()) {
-            const std::size_t offset = out.layout.offset_bytes[read.plane];
-            read_plane(targets, read, view.stride, {first_row, static_cast<int>(view.height)},
-                       reinterpret_cast<void*>(offset));
+        const std::vector<PlaneCopy> copies = start_reads(targets, out.layout, view, first_row);
+        for (const PlaneCopy& copy : copies) {
+            wait_for(copy.read.get());
+            if (!gpu_.info.is_cpu) upload(copy);
         }
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-        wait_for_gl();
         check_gl_errors(kStage);
         if (gpu_.info.is_cpu) {
             // Tells the device that the memory behind its buffer has changed.
             void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE,
                                                        CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
             gpu_.queue.enqueueUnmapMemObject(staging_->device, mapped);
-        } else {
-            gpu_.queue.enqueueWriteBuffer(staging_->device, CL_FALSE, 0, bytes, staging_->mapping);
         }
         out.bytes = staging_->device;
         last_ms_ =

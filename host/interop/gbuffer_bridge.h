@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
+#include <vector>
 
 #include "host/base/gbuffer_layout.h"
 #include "host/gpu/device.h"
@@ -14,7 +16,7 @@ namespace kilolux {
 ///
 /// The staged copy works everywhere: OpenGL reads its attachments into a persistently mapped pixel
 /// buffer, whose memory a CPU device uses in place (no copy on the OpenCL side) and a GPU gets
-/// uploaded.
+/// uploaded, a plane while OpenGL reads the next.
 class GBufferBridge {
  public:
     explicit GBufferBridge(const Gpu& gpu);
@@ -33,7 +35,19 @@ class GBufferBridge {
 
  private:
     struct Staging;
+    struct DeleteFence {
+        using pointer = GLsync;
+        void operator()(GLsync fence) const;
+    };
+    using Fence = std::unique_ptr<std::remove_pointer_t<GLsync>, DeleteFence>;
+    struct PlaneCopy {
+        std::size_t offset, bytes;
+        Fence read;  // signalled once the plane is in the pixel buffer
+    };
     void make_staging(std::size_t bytes);
+    std::vector<PlaneCopy> start_reads(const GBufferTargets& targets, const GBufferLayout& layout,
+                                       const View& view, int first_row);
+    void upload(const PlaneCopy& copy);
 
     Gpu gpu_;
     std::unique_ptr<Staging> staging_;
