@@ -23,7 +23,7 @@ constexpr const char* kModelNames[] = {"lambert", "blinn-phong", "pbr"};
 constexpr float kNearest = 2.0f, kFarthest = 20.0f;  // of the pixels [m]
 constexpr float kRange = 100.0f;                     // of the lights [m]
 
-std::set<int> lane_widths(const DeviceInfo& device) { return {1, 4, 8, 16, device.lane_width}; }
+std::set<int> lane_widths(const DeviceInfo& device) { return {1, 2, 4, 8, 16, device.lane_width}; }
 
 // Numbers in [0, 1), the same on every machine.
 class Noise {
