@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"limits", 1};
+constexpr CacheKind kKind = {"limits", 2};
 
 struct Field {
     const char* name;
@@ -83,6 +83,8 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         LimitKernels kernels(natural);
         DeviceLimits limits;
         limits.lanes = info.lane_width;
+        // Again after the memory and after the transfers: other work on the machine, and clocks
+        // that have not yet risen, only ever make a rate too low.
         raise_arithmetic_limits(limits, kernels);
         limits.one_lane_fma_flops =
             info.lane_width == 1
@@ -93,6 +95,7 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         limits.read_bandwidth = large.read;
         limits.write_bandwidth = large.write;
         limits.copy_bandwidth = large.copy;
+        raise_arithmetic_limits(limits, kernels);
         const MemoryRates small = kernels.memory_rates(cached_buffer_bytes(info));
         // A cache is at least as fast as the memory behind it, whatever a disturbed run says.
         limits.cached_read_bandwidth = std::max(small.read, large.read);
@@ -101,6 +104,7 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         const TransferRates transfer = kernels.transfer_rates();
         limits.upload_bandwidth = transfer.upload;
         limits.download_bandwidth = transfer.download;
+        raise_arithmetic_limits(limits, kernels);
         const LaunchTimes launch = kernels.launch_times();
         limits.launch_latency_ms = launch.finish_ms;
         limits.launch_event_ms = launch.event_ms;

@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"limits", 1};
+constexpr CacheKind kKind = {"limits", 2};
 
 class DeviceLimitsTest : public CacheSandbox {
  protected:
