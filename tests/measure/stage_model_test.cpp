@@ -103,7 +103,7 @@ TEST(LaneWork, OfAPixelGrowsWithWhatItHolds) {
 TEST(StageModel, ShadeBytesAreThePlanesTheListsAndTheImage) {
     const StageCounts c = some_counts();
     const StageWork work = *stage_work("shade", c);
-    EXPECT_DOUBLE_EQ(work.bytes_read, 4.0 * c.pixels + 8.0 * 2e6 + 48.0 * 10000.0 + 2.0 * 40000.0);
+    EXPECT_DOUBLE_EQ(work.bytes_read, (12.0 + 1.0) * 2e6 + 48.0 * 10000.0 + 2.0 * 40000.0);
     EXPECT_DOUBLE_EQ(work.bytes_written, 12.0 * c.pixels);
     EXPECT_DOUBLE_EQ(work.lanes.instructions, 2e6 * 64.0 + 8e6 * 21.0);
     EXPECT_DOUBLE_EQ(work.lanes.rsqrts, 0.0);
