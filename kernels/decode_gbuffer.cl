@@ -4,11 +4,10 @@
 #include "kernels/device/gbuffer.h"
 #include "kernels/shared/surface_planes.h"
 
-kernel void decode_gbuffer(
-    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-    global const float* restrict srgb,  // [256]
-    global float* restrict planes) {  // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for
-                                      // background
+kernel void decode_gbuffer(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+                           global const float* restrict srgb,  // [256]
+                           // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for background
+                           global float* restrict planes) {
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     if (y >= view.height) return;

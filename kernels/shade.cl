@@ -41,8 +41,8 @@
 // bytes instead of 48 without spot lights.
 typedef struct StoredLight {
     float4 position_inv_range2;
-    uint4
-        color_scale;  // xy: half4 of the colour / z; z: that power of two; w: 1/(cos_in - cos_out)
+    // xy: half4 of the colour / z; z: that power of two; w: 1/(cos_in - cos_out)
+    uint4 color_scale;
 #if HAS_SPOT_LIGHTS
     float4 axis_cos;
 #endif

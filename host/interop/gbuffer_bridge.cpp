@@ -65,7 +65,7 @@ std::vector<GBufferBridge::PlaneCopy> GBufferBridge::start_reads(const GBufferTa
     for (const PlaneRead& read : targets.reads()) {
         const std::size_t offset = layout.offset_bytes[read.plane];
         read_plane(targets, read, view.stride, {first_row, static_cast<int>(view.height)},
-                   reinterpret_cast<void*>(offset));
+                   reinterpret_cast<void*>(offset));  // NOLINT(performance-no-int-to-ptr)
         const std::size_t element = plane_element_bytes(layout.layout, read.plane);
         copies.push_back({offset, element * view.stride * view.height,
                           Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0))});

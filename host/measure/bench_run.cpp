@@ -31,6 +31,7 @@ std::vector<double> times_of(const std::vector<FrameStats>& frames, const std::s
 BenchRow frame_row(BenchRow row, const std::vector<FrameStats>& frames,
                    const std::vector<BenchRow>& stages) {
     std::vector<double> times;
+    times.reserve(frames.size());
     for (const FrameStats& frame : frames) times.push_back(frame.frame_ms);
     row.stage = kFrameStage;
     row.ms = statistics(times);
@@ -142,7 +143,8 @@ std::size_t BenchRun::frame_count(const std::vector<SweepPoint>& points,
         covered.emplace(p.resolution, p.lights, p.gbuffer);
         compared.emplace(error_point(p).resolution, p.lights, p.gbuffer);
     }
-    const auto each = static_cast<std::size_t>(frames.warm_up + frames.measured + 1);
+    const auto each =
+        static_cast<std::size_t>(frames.warm_up) + static_cast<std::size_t>(frames.measured) + 1;
     return points.size() * each + counted + covered.size() + compared.size();
 }
 

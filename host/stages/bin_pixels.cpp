@@ -34,7 +34,7 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
             clusters_.reserve(std::size_t{2} * out.tile_count * sizeof(ActiveCluster));
         out.clusters = clusters_.get();
         out.capacity = static_cast<uint>(clusters_.bytes() / sizeof(ActiveCluster));
-        out.order = order_.reserve(std::size_t{out.tile_count} * FINE_TILE_PIXELS);
+        out.order = order_.reserve(std::size_t{FINE_TILE} * FINE_TILE * out.tile_count);
         const cl::Buffer& counts = counts_.reserve(out.tile_count * sizeof(uint));
         const auto group = static_cast<std::size_t>(tuning_.tile_group);
         const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(out.tile_count, group)),
