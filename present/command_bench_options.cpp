@@ -118,8 +118,7 @@ std::vector<std::array<int, 2>> parse_resolutions(const std::string& option,
 std::vector<std::array<int, 3>> parse_grids(const std::string& option, const std::string& text) {
     auto grids = parse_tuples<3>(option, text, "X,Y,SLICES_PER_OCTAVE", {1, kMostTiles});
     for (const auto& grid : grids) {
-        parse_name(option + ": slices per octave", std::to_string(grid[2]),
-                   {"1", "2", "4", "8", "16", "32", "64"});
+        parse_count(option + ": slices per octave", std::to_string(grid[2]), {1, 64});
     }
     return grids;
 }

@@ -116,8 +116,7 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto grid = [&s](const std::string& name, const std::string& text) {
         const auto v = parse_counts(name, text, "X,Y,SLICES_PER_OCTAVE", {1, 4096});
-        parse_name(name + ": slices per octave", std::to_string(v[2]),
-                   {"1", "2", "4", "8", "16", "32", "64"});
+        parse_count(name + ": slices per octave", std::to_string(v[2]), {1, 64});
         s.grid = {v[0], v[1], v[2]};
     };
     const auto lanes = [&s](const std::string& name, const std::string& text) {

@@ -3,6 +3,7 @@
 // and queue of its own, and writes the picture: light_gbuffer PICTURE.ppm
 #include <kilolux/kilolux.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -32,7 +33,7 @@ std::vector<std::byte> draw_floor(const GBufferLayout& layout, const View& view)
     };
     const FV3 up = octahedral_encode(fv3(0.0f, 1.0f, 0.0f));
     const auto unorm16 = [](float v) {
-        return static_cast<uint>((v * 0.5f + 0.5f) * 65535.0f + 0.5f);
+        return static_cast<uint>(std::lround((v * 0.5f + 0.5f) * 65535.0f));
     };
     for (uint y = kHeight / 2; y < kHeight; ++y) {
         const float z = kEyeHeight / -(view.ray.z * (static_cast<float>(y) + 0.5f) + view.ray.w);

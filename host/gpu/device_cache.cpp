@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // then a "key value" line for each number, and last the checksum of all before it.
 constexpr std::string_view kFormat = "kilolux-cache 1";
 constexpr std::string_view kChecksum = "checksum ";
-constexpr std::size_t kLargestEntry = 64 * 1024;  // [byte]; ours have about one KiB
+constexpr std::size_t kLargestEntry = std::size_t{64} * 1024;  // [byte]; ours have about one KiB
 
 fs::path absolute_folder(const char* variable) {
     const char* value = std::getenv(variable);

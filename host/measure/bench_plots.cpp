@@ -48,7 +48,8 @@ std::string curve_name(const SweepPoint& point, const std::vector<std::string>& 
         const bool varies = std::find(varying.begin(), varying.end(), field) != varying.end();
         if (!varies || field == but) continue;
         const bool bare = field == "renderer" || field == "resolution" || field == "gbuffer";
-        name += (name.empty() ? "" : ", ") + (bare ? text : field + " " + text);
+        if (!name.empty()) name += ", ";
+        name += bare ? text : field + " " + text;
     }
     return name;
 }

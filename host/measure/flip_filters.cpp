@@ -66,7 +66,8 @@ FeatureTaps feature_taps(double pixels_per_degree) {
     const int radius = static_cast<int>(std::ceil(3.0 * sigma));
     FeatureTaps taps{gaussian_taps(sigma, radius), {}, {}};
     for (int x = -radius; x <= radius; ++x) {
-        const double g = taps.smooth[static_cast<std::size_t>(x + radius)];
+        const int place = x + radius;
+        const double g = taps.smooth[static_cast<std::size_t>(place)];
         taps.first.push_back(-x * g);
         taps.second.push_back((x * x / (sigma * sigma) - 1.0) * g);
     }

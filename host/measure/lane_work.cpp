@@ -12,13 +12,13 @@ namespace {
 constexpr LaneWork kAddScaled = {3.0};
 // Half vector 3, its length's square 3, at least 1.
 constexpr LaneWork kHalfVector = {7.0};
-// pow_one_minus(): 1 - h and its sign 3, exponent and mantissa 7, f 3, logarithm 7 and a division,
-// product 1, exponential 14.
-constexpr LaneWork kPowOneMinus = {36.0, 0.0, 0.0, 1.0};
+// pow_of_cos2(): near the peak or not 2, quotient 1 and a division, exponent and mantissa 6,
+// logarithm 12, product 1, exponential 13.
+constexpr LaneWork kPowOfCos2 = {36.0, 0.0, 0.0, 1.0};
 
 LaneWork blinn_phong_work() {
-    // Inverse root 1, d 3, its square 3, half of it 1, none from behind 2; weight 1.
-    return kHalfVector + LaneWork{11.0, 1.0} + kPowOneMinus + 2.0 * kAddScaled;
+    // n.h 3 and its square 1, n x h 6 and its square 3, none from behind 2; weight 1.
+    return kHalfVector + LaneWork{16.0} + kPowOfCos2 + 2.0 * kAddScaled;
 }
 
 LaneWork pbr_work(const KernelFeatures& kernels) {
@@ -47,14 +47,14 @@ LaneWork incident_work(const KernelFeatures& kernels) {
 // From the distance's square and n.v to a unit direction's n.l and falloff.
 LaneWork falloff_work(const KernelFeatures& kernels) {
     // At least d_min 1; root 1, cube 1, product 1, division 1.
-    if (kernels.shading == SHADING_LAMBERT) return {5.0, 0.0, 1.0, 1.0};
+    if (kernels.shading != SHADING_PBR) return {5.0, 0.0, 1.0, 1.0};
     // At least d_min 1, inverse root 1, n.l 1, products 3.
     return {6.0, 1.0};
 }
 
-// Cone 3 + 1 + 4, its square 1, window 1; Lambert divides for the inverse distance.
+// Cone 3 + 1 + 4, its square 1, window 1; all but PBR divide for the inverse distance.
 LaneWork cone_work(const KernelFeatures& kernels) {
-    if (kernels.shading == SHADING_LAMBERT) return {11.0, 0.0, 0.0, 1.0};
+    if (kernels.shading != SHADING_PBR) return {11.0, 0.0, 0.0, 1.0};
     return {10.0};
 }
 

@@ -131,10 +131,10 @@ PlotFiles write_plot(const Plot& plot, const fs::path& stem) {
     write_text(work.path() / (name + ".dat"), plot_data(ready));
     write_text(work.path() / (name + ".gnuplot"), plot_script(ready, name));
     run_gnuplot(work.path(), name + ".gnuplot", stem);
-    const PlotFiles out{.script = with_extension(stem, ".gnuplot"),
-                        .data = with_extension(stem, ".dat"),
-                        .png = with_extension(stem, ".png"),
-                        .svg = with_extension(stem, ".svg")};
+    PlotFiles out{.script = with_extension(stem, ".gnuplot"),
+                  .data = with_extension(stem, ".dat"),
+                  .png = with_extension(stem, ".png"),
+                  .svg = with_extension(stem, ".svg")};
     for (const fs::path& file : {out.script, out.data, out.png, out.svg}) {
         move_into_place(work.path() / file.filename(), file);
     }

@@ -50,8 +50,8 @@ class Variants {
 };
 
 void add_gbuffers(Variants& v) {
-    for (const uint layout :
-         {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
+    for (const uint layout : std::initializer_list<uint>{GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF,
+                                                         GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
         if (layout == v.base().gbuffer) continue;
         v.add(Trade::gbuffer, std::string("gbuffer ") + gbuffer_layout_name(layout),
               [&](RenderSettings& s) { s.gbuffer = layout; });

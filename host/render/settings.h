@@ -26,8 +26,9 @@ enum class ToneCurve { none, neutral, aces };
 struct GridSettings {
     int tiles_x = 16;
     int tiles_y = 9;
-    int slices_per_octave = 4;  // 1, 2, 4, ... 64
-    int fine_per_octave = 16;   // of active clusters: slices_per_octave ... 64
+    int slices_per_octave = 4;  // 1 ... 64
+    /// Of active clusters, up to 64; rounded down to slices_per_octave times a power of two.
+    int fine_per_octave = 16;
     bool operator==(const GridSettings&) const = default;
 };
 

@@ -23,15 +23,15 @@ ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint heigh
     grid.tile_height = tile_edge(height, request.tiles_y);
     grid.tiles_x = (width + grid.tile_width - 1) / grid.tile_width;
     grid.tiles_y = (height + grid.tile_height - 1) / grid.tile_height;
-    const uint per_octave = std::bit_floor(std::clamp(request.slices_per_octave, 1u, 64u));
-    grid.slice_shift = 23u - static_cast<uint>(std::countr_zero(per_octave));
-    const uint fine = std::bit_floor(std::clamp(request.fine_per_octave, per_octave, 64u));
-    grid.fine_slice_bits = static_cast<uint>(std::countr_zero(fine / per_octave));
+    grid.slices_per_octave = std::clamp(request.slices_per_octave, 1u, 64u);
+    const uint fine = std::clamp(request.fine_per_octave, grid.slices_per_octave, 64u);
+    grid.fine_slice_bits = static_cast<uint>(std::bit_width(fine / grid.slices_per_octave)) - 1u;
     // 2^-100: far from denormals, which devices may flush.
     const float first = std::clamp(request.z_first, 0x1p-100f, 0x1p100f);
     const float last = std::clamp(request.z_last, first, 0x1p100f);
     grid.z_first_bits = std::bit_cast<uint>(first);
-    grid.slices = ((std::bit_cast<uint>(last) - grid.z_first_bits) >> grid.slice_shift) + 1u;
+    grid.slices = ~0u;  // while the last one's number is asked for
+    grid.slices = slice_of_depth(grid, last) + 1u;
     grid.cluster_count = grid.tiles_x * grid.tiles_y * grid.slices;
     grid.position_pad = request.position_pad;
     return grid;

@@ -12,11 +12,12 @@ namespace kilolux {
 struct GridRequest {
     uint tiles_x = 16;  // wanted; tile edges become multiples of 16 pixels
     uint tiles_y = 9;
-    uint slices_per_octave = 4;  // a power of two, 1..64
+    uint slices_per_octave = 4;  // 1..64
     float z_first = 0.1f;   // [m] > 0: where the slices start to grow; nearer pixels share slice 0
     float z_last = 100.0f;  // [m]: farther pixels share the last slice
     float position_pad = 0.0f;  // [m]: see ClusterGrid
-    uint fine_per_octave = 16;  // slices of active clusters, a power of two, slices_per_octave..64
+    /// Slices of active clusters: rounded down to slices_per_octave times a power of two.
+    uint fine_per_octave = 16;
 };
 
 /// The grid for an image. Never fails: values out of range are clamped to the nearest that works.

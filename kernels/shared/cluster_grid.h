@@ -15,10 +15,10 @@ namespace kilolux {
 // so every fine tile lies in one coarse tile.
 SHARED_STRUCT(ClusterGrid) {
     uint tiles_x, tiles_y, slices;
-    uint slice_shift;   // 23 - log2(slices per octave): see slice_of_depth
-    uint tile_width;    // [pixel]
-    uint tile_height;   // [pixel]
-    uint z_first_bits;  // bits of z_first [m], the near end of slice 0
+    uint slices_per_octave;  // 1 .. 64: see slice_of_depth
+    uint tile_width;         // [pixel]
+    uint tile_height;        // [pixel]
+    uint z_first_bits;       // bits of z_first [m], the near end of slice 0
     uint cluster_count;
     float position_pad;    // [m] how far a stored position may lie from its pixel's ray and depth
     uint fine_slice_bits;  // a coarse slice holds 2^this slices of the active clusters
@@ -26,26 +26,36 @@ SHARED_STRUCT(ClusterGrid) {
 };
 SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 
+// Steps of a float from one depth to its double.
+#define OCTAVE_BITS 23
+#define OCTAVE_MASK ((1u << OCTAVE_BITS) - 1u)
+
 // Slice of a depth z [m]. The bits of a positive float are a piecewise linear log2 of it, exactly
-// monotone and the same on every device. Nearer than z_first (or negative) falls into slice 0,
-// farther than the last slice into the last: no pixel is lost. NaN, which max() leaves open, falls
-// into either.
+// monotone and the same on every device: slice = steps from z_first * slices_per_octave / 2^23,
+// rounded down, the octave and what is within it apart, so that 32 bits hold the product. Nearer
+// than z_first (or negative) falls into slice 0, farther than the last slice into the last: no
+// pixel is lost. NaN, which max() leaves open, falls into either.
 SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
-    LANE_UINT slice = (lane_bits(clamped) - grid.z_first_bits) >> grid.slice_shift;
+    LANE_UINT steps = lane_bits(clamped) - grid.z_first_bits;
+    LANE_UINT within = ((steps & OCTAVE_MASK) * grid.slices_per_octave) >> OCTAVE_BITS;
+    LANE_UINT slice = (steps >> OCTAVE_BITS) * grid.slices_per_octave + within;
     return min(slice, lane_uints(grid.slices - 1u));
 }
 
 // The same for the finer slices of active clusters; a coarse slice is fine >> grid.fine_slice_bits.
 SHARED_FN LANE_UINT fine_slice_of_depth(ClusterGrid grid, FV z) {
-    grid.slice_shift -= grid.fine_slice_bits;
+    grid.slices_per_octave <<= grid.fine_slice_bits;
     grid.slices <<= grid.fine_slice_bits;
     return slice_of_depth(grid, z);
 }
 
-// Depth [m] at which a slice begins, exactly representable. Slice 0 also takes what is nearer.
+// The nearest depth [m] of a slice. Slice 0 also takes what is nearer.
 SHARED_FN float depth_of_slice(ClusterGrid grid, uint slice) {
-    return bits_float(grid.z_first_bits + (slice << grid.slice_shift));
+    uint octave = slice / grid.slices_per_octave;
+    uint part = (slice - octave * grid.slices_per_octave) << OCTAVE_BITS;
+    uint within = (part + grid.slices_per_octave - 1u) / grid.slices_per_octave;
+    return bits_float(grid.z_first_bits + (octave << OCTAVE_BITS) + within);
 }
 
 SHARED_FN uint cluster_index(ClusterGrid grid, uint tile_x, uint tile_y, uint slice) {

@@ -91,13 +91,13 @@ SHARED_PLAIN_STRUCT(Surface) {
 SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 position;
     FV3 normal;
-    FV3 to_eye;  // unit
-    FV n_dot_v;
+    FV3 to_eye;    // unit
+    FV n_dot_v;    // pbr
     FV alpha2;     // pbr: roughness^4
     FV ggx_slope;  // pbr: (1 - alpha2) / alpha
     FV ggx_floor;  // pbr: alpha
     FV smith_v;    // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
-    FV exponent;   // blinn-phong
+    FV exponent;   // blinn-phong: of cos^2
 #if F0_VARIES
     FV3 f0;  // pbr: reflectance head on
 #endif
@@ -190,9 +190,12 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
         FV inv_distance = rsqrt(max(dot3(s.position, s.position), fv(1e-30f)));
         p.to_eye = scale3(s.position, -inv_distance);
     }
+#endif
+#if SHADING == SHADING_BLINN_PHONG
+    p.exponent = fv(1.0f) / p.alpha2 - fv(1.0f);
+#elif SHADING == SHADING_PBR
     p.n_dot_v = max(dot3(s.normal, p.to_eye), fv(N_DOT_V_MIN));
     p.smith_v = sqrt(fma(p.n_dot_v * p.n_dot_v, fv(1.0f) - p.alpha2, p.alpha2));
-    p.exponent = fv(2.0f) / p.alpha2 - fv(2.0f);
 #endif
 #if F0_VARIES
     p.f0 = mixed_f0(s, dielectric_f0(s));
@@ -206,30 +209,33 @@ SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
     return p;
 }
 
-// Adds light of `lit` = intensity's weight * falloff * n.l from the unit direction `v` *
-// `inv_length`.
-SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l,
-                                FV lit, float4 color) {
-#if SHADING != SHADING_LAMBERT
+#if SHADING == SHADING_BLINN_PHONG
+// Light of `lit` = intensity's weight * falloff * n.l from the direction `v`, `distance` long.
+SHARED_FN LightSum add_blinn_phong(LightSum sum, ShadingPoint p, FV3 v, FV distance, FV lit,
+                                   float4 color) {
+    // The half vector, `distance` times as long: that saves normalising v before it is needed.
+    FV3 h = fv3(fma(p.to_eye.x, distance, v.x), fma(p.to_eye.y, distance, v.y),
+                fma(p.to_eye.z, distance, v.z));
+    FV hh = max(dot3(h, h), fv(1e-30f));  // light from straight behind the view has none
+    FV n_dot_h = dot3(p.normal, h);
+    // |n x h|^2 keeps the lobe that n.h rounds away at large exponents.
+    FV3 nxh = cross3(p.normal, h);
+    FV lobe = pow_of_cos2(n_dot_h * n_dot_h, dot3(nxh, nxh), hh, p.exponent);
+    lobe = select_fv(n_dot_h > fv(0.0f), lobe, fv(0.0f));
+    sum.diffuse = add_scaled(sum.diffuse, lit, color);
+    sum.specular = add_scaled(sum.specular, lit * lobe, color);
+    return sum;
+}
+
+#elif SHADING == SHADING_PBR
+// Light of `lit` = intensity's weight * falloff * n.l from the unit direction `v` * `inv_length`.
+SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, FV n_dot_l, FV lit,
+                           float4 color) {
     FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y),
                 fma(v.z, inv_length, p.to_eye.z));
     // 1e-12: light from straight behind the view has no half vector, only rounding of one (1e-7
     // long).
     FV hh = max(dot3(h, h), fv(1e-12f));
-#endif
-#if SHADING == SHADING_LAMBERT
-    sum.diffuse = add_scaled(sum.diffuse, lit, color);
-#elif SHADING == SHADING_BLINN_PHONG
-    // cos = 1 - |n - h|^2 / 2 keeps the lobe that n.h rounds away at large exponents.
-    FV inv_h = rsqrt(hh);
-    FV3 d = fv3(fma(-h.x, inv_h, p.normal.x), fma(-h.y, inv_h, p.normal.y),
-                fma(-h.z, inv_h, p.normal.z));
-    FV half_q = fv(0.5f) * dot3(d, d);
-    // No lobe from behind: there pow_one_minus gives 1e-30^n, which is not small for n below 1.
-    FV lobe = select_fv(half_q < fv(1.0f), pow_one_minus(half_q, p.exponent), fv(0.0f));
-    sum.diffuse = add_scaled(sum.diffuse, lit, color);
-    sum.specular = add_scaled(sum.specular, lit * lobe, color);
-#else
     // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
     // sides of D's fraction are multiplied by h^2, which saves normalising h, and divided by alpha,
     // so that the peak of a mirror keeps the size it has in the end.
@@ -256,9 +262,9 @@ SHARED_FN LightSum add_incident(LightSum sum, ShadingPoint p, FV3 v, FV inv_leng
 #else
     sum.specular = add_scaled(sum.specular, lobe * fma(g, fv(DIELECTRIC_F0), f), color);
 #endif
-#endif
     return sum;
 }
+#endif
 
 // The share of a spot light's intensity in the direction -`v` / distance.
 SHARED_FN FV cone_of(FV3 v, FV inv_distance, ShadeLight light) {
@@ -283,29 +289,45 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
 #endif
     FV e2 = max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN));
     FV n_dot_v = max(dot3(p.normal, v), fv(0.0f));  // n.l times the distance
-#if SHADING == SHADING_LAMBERT && !FAST_RSQRT
-    // One root and one division, and no product more than they need.
-    FV distance = sqrt(e2);
-#if HAS_SPOT_LIGHTS
-    window = window * cone_of(v, fv(1.0f) / distance, light);
-#endif
-    FV lit = DIVIDE(window * n_dot_v, e2 * distance);
-    return add_incident(sum, p, v, fv(0.0f), fv(0.0f), lit, light.color_scale);
-#else
+#if SHADING == SHADING_PBR || FAST_RSQRT
     FV inv_d = rsqrt(e2);
 #if HAS_SPOT_LIGHTS
     window = window * cone_of(v, inv_d, light);
 #endif
     FV n_dot_l = n_dot_v * inv_d;
     FV lit = window * (inv_d * inv_d) * n_dot_l;
-    return add_incident(sum, p, v, inv_d, n_dot_l, lit, light.color_scale);
+#else
+    // One root and one division, and no product more than they need.
+    FV distance = sqrt(e2);
+#if HAS_SPOT_LIGHTS
+    window = window * cone_of(v, fv(1.0f) / distance, light);
+#endif
+    FV lit = DIVIDE(window * n_dot_v, e2 * distance);
+#endif
+#if SHADING == SHADING_PBR
+    return add_pbr(sum, p, v, inv_d, n_dot_l, lit, light.color_scale);
+#elif SHADING == SHADING_BLINN_PHONG
+#if FAST_RSQRT
+    FV distance = e2 * inv_d;
+#endif
+    return add_blinn_phong(sum, p, v, distance, lit, light.color_scale);
+#else
+    sum.diffuse = add_scaled(sum.diffuse, lit, light.color_scale);
+    return sum;
 #endif
 }
 
 SHARED_FN LightSum evaluate_directional(LightSum sum, ShadingPoint p, DirectionalLight light) {
     FV3 to_light = fv3(fv(light.to_light.x), fv(light.to_light.y), fv(light.to_light.z));
     FV n_dot_l = max(dot3(p.normal, to_light), fv(0.0f));
-    return add_incident(sum, p, to_light, fv(1.0f), n_dot_l, n_dot_l, light.color);
+#if SHADING == SHADING_PBR
+    return add_pbr(sum, p, to_light, fv(1.0f), n_dot_l, n_dot_l, light.color);
+#elif SHADING == SHADING_BLINN_PHONG
+    return add_blinn_phong(sum, p, to_light, fv(1.0f), n_dot_l, light.color);
+#else
+    sum.diffuse = add_scaled(sum.diffuse, n_dot_l, light.color);
+    return sum;
+#endif
 }
 
 // Radiance of the surface from the sums over its lights.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Powers on lanes. Written out rather than pow(): that is 10 times slower in vectors, and devices
-// differ in it. 2^x: the polynomial of Cephes exp2f (Moshier 1989).
+// differ in it. Polynomials are minimax fits (Remez), evaluated in pairs (Estrin), since what is
+// waited for costs more here than what is computed.
 #ifndef KILOLUX_SHARED_POWER_H
 #define KILOLUX_SHARED_POWER_H
 #include "kernels/shared/types.h"
@@ -8,38 +9,45 @@
 namespace kilolux {
 #endif
 
-// c^n for c in [1e-30, 1], n >= 0; `c_less_1` is c - 1 as exactly as the caller knows it, which
-// counts where a large n magnifies it. Absolute error below 2e-7 at any n.
-SHARED_FN FV pow_of_unit(FV c, FV c_less_1, FV n) {
-    // c = m 2^e with m in [sqrt(1/2), sqrt(2)): the constant is the bits of 1 less those of
-    // sqrt(1/2).
-    LANE_UINT biased = (lane_bits(c) + 0x4afb0du) >> 23u;
-    FV e = lane_float_of(biased) - fv(127.0f);
-    FV m = lane_float(lane_bits(c) - ((biased - 127u) << 23u));
-    FV f = select_fv(e == fv(0.0f), c_less_1, m - fv(1.0f));
-    // log2(1 + f) = 2 / ln 2 * atanh(t), |t| < 0.172; minimax, relative error 8e-10.
-    FV t = f / (fv(2.0f) + f);
-    FV t2 = t * t;
-    FV slope = fma(t2, fma(t2, fma(t2, fv(0.430996776f), fv(0.576752663f)), fv(0.96179831f)),
-                   fv(2.88539008f));
-    FV x = n * fma(t, slope, e);
-    // 2^-60 is nothing beside the lobe's peak, and keeps denormals, which are slow, out of what
-    // follows.
-    x = max(x, fv(-60.0f));
-    LANE_UINT i = lane_uint_of(x - fv(0.5f));  // to nearest, as x <= 0 and conversion truncates
-    FV g = x - lane_float_of(i);
-    FV q = fv(1.535336188e-4f);
-    q = fma(q, g, fv(1.339887440e-3f));
-    q = fma(q, g, fv(9.618437358e-3f));
-    q = fma(q, g, fv(5.550332471e-2f));
-    q = fma(q, g, fv(2.402264791e-1f));
-    q = fma(q, g, fv(6.931472029e-1f));
-    q = fma(q, g, fv(1.0f));
-    return q * lane_float((i + 127u) << 23u);
+#define ONE_BITS 0x3f800000u
+#define SQRT_HALF_BITS 0x3f3504f3u
+#define EXPONENT_MASK 0xff800000u
+
+// -log2(1 - f) / f for f in [1 - sqrt(2), 1 - sqrt(1/2)], relative error 1.7e-7.
+SHARED_FN FV log2_slope(FV f) {
+    FV f2 = f * f;
+    FV low = fma(fma(f, fv(0.360239634f), fv(0.480923243f)), f2,
+                 fma(f, fv(0.721352788f), fv(1.44269496f)));
+    FV high = fma(fma(f, fv(0.1458116f), fv(0.234042506f)), f2,
+                  fma(f, fv(0.248876936f), fv(0.287098686f)));
+    return fma(high, f2 * f2, low);
 }
 
-// (1 - h)^n for h in [0, 1], n >= 0: 1 - h itself would round h away.
-SHARED_FN FV pow_one_minus(FV h, FV n) { return pow_of_unit(max(fv(1.0f) - h, fv(1e-30f)), -h, n); }
+// 2^x for x <= 0, relative error 9.2e-8 and exactly 1 at 0. Below 2^-60 it is that: nothing beside
+// a lobe's peak, and denormals, which are slow, stay out of what follows.
+SHARED_FN FV exp2_of_negative(FV x) {
+    x = max(x, fv(-60.0f));
+    LANE_UINT i = lane_uint_of(x - fv(0.5f));  // to nearest, as conversion truncates
+    FV g = x - lane_float_of(i);
+    FV g2 = g * g;
+    FV q = fma(fma(fma(g, fv(1.32647546e-3f), fv(9.67149799e-3f)), g2,
+                   fma(g, fv(5.55073346e-2f), fv(0.240222424f))),
+               g2, fma(g, fv(0.693146978f), fv(1.0f)));
+    return lane_float(lane_bits(q) + (i << 23u));
+}
+
+// cos^(2n) for an angle in [0, pi/2], of which cos2 / scale is cos^2 and sin2 / scale is sin^2, and
+// n >= 0. Near the peak, where a large n magnifies what cos^2 rounds away, sin^2 counts, else
+// cos^2. Absolute error below 3e-7 at any n.
+SHARED_FN FV pow_of_cos2(FV cos2, FV sin2, FV scale, FV n) {
+    MASK near = sin2 * fv(3.41421356f) < scale;  // cos^2 > sqrt(1/2)
+    FV q = select_fv(near, sin2, cos2) / scale;
+    FV c = select_fv(near, fv(1.0f), q);
+    // c = m 2^e with m in [sqrt(1/2), sqrt(2)).
+    LANE_UINT e = (lane_bits(c) - SQRT_HALF_BITS) & EXPONENT_MASK;           // times 2^23
+    FV f = select_fv(near, q, fma(-c, lane_float(ONE_BITS - e), fv(1.0f)));  // 1 - m
+    return exp2_of_negative(n * fma(-f, log2_slope(f), lane_float_of(e) * fv(1.1920929e-7f)));
+}
 
 #if defined(__cplusplus)
 }  // namespace kilolux

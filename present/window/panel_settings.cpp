@@ -68,13 +68,10 @@ void Panel::clusters() const {
     GridSettings& grid = state.settings.grid;
     ui.slider("Tiles across", grid.tiles_x, {1, 64, true, "%.0f"});
     ui.slider("Tiles down", grid.tiles_y, {1, 64, true, "%.0f"});
-    const std::vector<std::string> steps = {"1", "2", "4", "8", "16", "32", "64"};
-    int slices = static_cast<int>(std::lround(std::log2(grid.slices_per_octave)));
-    if (ui.choice("Slices", slices, steps)) grid.slices_per_octave = 1 << slices;
+    ui.slider("Slices", grid.slices_per_octave, {1, 64, true, "%.0f"});
     ui.tip("Depth slices for each doubling of the distance");
-    int fine = static_cast<int>(std::lround(std::log2(grid.fine_per_octave)));
-    if (ui.choice("Fine slices", fine, steps)) grid.fine_per_octave = 1 << fine;
-    ui.tip("Of the active clusters");
+    ui.slider("Fine slices", grid.fine_per_octave, {1, 64, true, "%.0f"});
+    ui.tip("Of the active clusters: the nearest below that is the slices times a power of two");
     const std::vector<std::string> lanes = {"auto", "1", "2", "4", "8", "16"};
     int lane = state.settings.kernels.lanes;
     lane = lane == 0 ? 0 : 1 + static_cast<int>(std::lround(std::log2(lane)));

@@ -87,15 +87,6 @@ void as_word(Visitor& visitor, const char* name, const char* option, Enum& value
     value = static_cast<Enum>(parse_name(name, word, known));
 }
 
-// A power of two from 1 to 64.
-template <typename Visitor>
-void as_power(Visitor& visitor, const char* name, const char* option, int& value) {
-    const std::vector<std::string> known = {"1", "2", "4", "8", "16", "32", "64"};
-    std::string word = std::to_string(value);
-    visitor.word(name, option, word, known);
-    value = std::stoi(word);
-}
-
 template <typename Visitor>
 void visit_picture(Visitor& v, RenderSettings& s) {
     as_word(v, "renderer", "--renderer", s.renderer, renderer_names());
@@ -113,8 +104,8 @@ void visit_picture(Visitor& v, RenderSettings& s) {
     as_number(v, "light_intensity", "--light-intensity", s.lights.intensity, {0.0, 1e9});
     as_number(v, "tiles_x", "--grid", s.grid.tiles_x, {1, 4096});
     as_number(v, "tiles_y", "--grid", s.grid.tiles_y, {1, 4096});
-    as_power(v, "slices", "--grid", s.grid.slices_per_octave);
-    as_power(v, "fine_slices", "--grid", s.grid.fine_per_octave);
+    as_number(v, "slices", "--grid", s.grid.slices_per_octave, {1, 64});
+    as_number(v, "fine_slices", "--grid", s.grid.fine_per_octave, {1, 64});
     v.flag("count_useful", s.count_useful);
 }
 

@@ -168,7 +168,7 @@ TEST(BuildClusters, GridNeverFails) {
         EXPECT_LT((grid.tiles_y - 1) * grid.tile_height, height);
         EXPECT_EQ(grid.tile_width % FINE_TILE + grid.tile_height % FINE_TILE, 0u);
         EXPECT_EQ(grid.slices, 1u);
-        EXPECT_EQ(grid.slice_shift, 23u - 6u);
+        EXPECT_EQ(grid.slices_per_octave, 64u);
         EXPECT_EQ(grid.cluster_count, grid.tiles_x * grid.tiles_y * grid.slices);
     }
 }

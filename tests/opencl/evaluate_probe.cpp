@@ -41,9 +41,13 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
 }
 )";
 constexpr std::string_view kPowProbe = R"(
-kernel void probe(global const float* h, global const float* n, global float* out) {
+kernel void probe(global const float* cos2, global const float* sin2, global const float* n,
+                  global float* out) {
     uint i = get_global_id(0) * VW;
-    store_lanes(pow_one_minus(load_lanes(h + i), load_lanes(n + i)), out + i);
+    FV unit = fv(4.0f);
+    store_lanes(pow_of_cos2(unit * load_lanes(cos2 + i), unit * load_lanes(sin2 + i), unit,
+                            load_lanes(n + i)),
+                out + i);
 }
 )";
 
@@ -109,21 +113,24 @@ ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting
     return result;
 }
 
-std::vector<float> probe_pow_one_minus(const std::vector<float>& h, const std::vector<float>& n,
-                                       int lanes) {
+std::vector<float> probe_pow_of_cos2(const std::vector<float>& sin2, const std::vector<float>& n,
+                                     int lanes) {
     Gpu gpu = test_gpu(lanes);
-    const std::size_t count = round_up(h.size(), 16);
-    std::vector<float> padded_h = h;
+    const std::size_t count = round_up(sin2.size(), 16);
+    std::vector<float> padded_sin2 = sin2;
     std::vector<float> padded_n = n;
-    padded_h.resize(count, 0.0f);
+    padded_sin2.resize(count, 0.0f);
     padded_n.resize(count, 0.0f);
+    std::vector<float> cos2;
+    cos2.reserve(count);
+    for (const float s : padded_sin2) cos2.push_back(static_cast<float>(1.0 - double{s}));
     const cl::Program program = build_probe(gpu, kHeaders, kPowProbe);
     const cl::Buffer out = new_buffer(gpu, std::vector<float>(count));
-    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer>(program, "probe")(
+    cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer>(program, "probe")(
         cl::EnqueueArgs(gpu.queue,
                         cl::NDRange(count / static_cast<std::size_t>(gpu.info.lane_width))),
-        new_buffer(gpu, padded_h), new_buffer(gpu, padded_n), out);
-    return download<float>(gpu, out, h.size());
+        new_buffer(gpu, cos2), new_buffer(gpu, padded_sin2), new_buffer(gpu, padded_n), out);
+    return download<float>(gpu, out, sin2.size());
 }
 
 }  // namespace kilolux

@@ -19,8 +19,8 @@ struct ProbeResult {
 ProbeResult probe_evaluate(const std::vector<SurfaceD>& surfaces, const Lighting& lighting,
                            int lanes = 0);
 
-/// (1 - h)^n on the device.
-std::vector<float> probe_pow_one_minus(const std::vector<float>& h, const std::vector<float>& n,
-                                       int lanes = 0);
+/// (1 - sin2)^n on the device, by pow_of_cos2().
+std::vector<float> probe_pow_of_cos2(const std::vector<float>& sin2, const std::vector<float>& n,
+                                     int lanes = 0);
 
 }  // namespace kilolux

@@ -231,30 +231,30 @@ TEST(Evaluate, SpecularPeaksKeepTheirShape) {
         expect_lobe(SHADING_BLINN_PHONG, roughness, 1e-5);
 }
 
-TEST(Evaluate, PowersOfOneMinusAreAccurateAtAnyExponent) {
+TEST(Evaluate, PowersOfCosinesAreAccurateAtAnyExponent) {
     Random random(8);
-    std::vector<float> h, n;
+    std::vector<float> sin2, n;
     for (const double exponent : {0.0, 1e-3, 0.5, 1.0, 2.0, 3.7, 32.0, 1e3, 1e4, 1e5}) {
         for (const double base : {0.0, 1e-38, 1e-10, 0.25, 0.29289, 0.5, 0.999999, 1.0}) {
-            h.push_back(f(base));
+            sin2.push_back(f(base));
             n.push_back(f(exponent));
         }
         for (int i = 0; i < 2000; ++i) {
             // Where the power falls from 1 to 1e-9, and anywhere.
             const double slope = std::min(1.0, 20 * random.unit() / std::max(exponent, 1.0));
-            h.push_back(f(i % 2 == 0 ? slope : random.unit()));
+            sin2.push_back(f(i % 2 == 0 ? slope : random.unit()));
             n.push_back(f(exponent));
         }
     }
     for (const int lanes : {1, 8}) {
-        const std::vector<float> found = probe_pow_one_minus(h, n, lanes);
-        for (std::size_t i = 0; i < h.size(); ++i) {
+        const std::vector<float> found = probe_pow_of_cos2(sin2, n, lanes);
+        for (std::size_t i = 0; i < sin2.size(); ++i) {
             const long double expected =
-                n[i] == 0.0f ? 1.0L : std::pow(1.0L - h[i], static_cast<long double>(n[i]));
-            // At h = 1 the power is 0 but for tiny exponents, where 1 - h is clamped to 1e-30.
-            if (h[i] == 1.0f && n[i] < 1.0f) continue;
+                n[i] == 0.0f ? 1.0L : std::pow(1.0L - sin2[i], static_cast<long double>(n[i]));
+            // At 90 degrees the power is 0 but for tiny exponents: of 0 it is 2^-130n here.
+            if (sin2[i] == 1.0f && n[i] < 1.0f) continue;
             ASSERT_NEAR(found[i], static_cast<double>(expected), 2e-7)
-                << "h = " << h[i] << ", n = " << n[i];
+                << "sin^2 = " << sin2[i] << ", n = " << n[i];
             ASSERT_LE(found[i], 1.0f + 2e-7f);
             ASSERT_GE(found[i], 0.0f);
         }

@@ -63,7 +63,7 @@ std::vector<Measure> cluster_measures() {
             OFFSET_OF(ClusterGrid, tiles_x),
             OFFSET_OF(ClusterGrid, tiles_y),
             OFFSET_OF(ClusterGrid, slices),
-            OFFSET_OF(ClusterGrid, slice_shift),
+            OFFSET_OF(ClusterGrid, slices_per_octave),
             OFFSET_OF(ClusterGrid, tile_width),
             OFFSET_OF(ClusterGrid, tile_height),
             OFFSET_OF(ClusterGrid, z_first_bits),

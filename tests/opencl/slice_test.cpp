@@ -24,10 +24,11 @@ kernel void slices(ClusterGrid grid, global const float* z, global uint* out) {
 )";
 
 std::vector<GridRequest> requests() {
-    return {{16, 9, 4, 0.1f, 100.0f, 0.0f},    {16, 9, 1, 1.0f, 1024.0f, 0.0f},
-            {4, 4, 64, 0.3f, 1e7f, 0.0f},      {8, 8, 4, 1e-3f, 1e4f, 0.0f},
-            {1, 1, 8, 5.0f, 5.0f, 0.0f},       {1, 1, 2, 1e-35f, 1e35f, 0.0f},
-            {1, 1, 16, 0x1.8p-3f, 70.0f, 0.0f}};
+    return {{16, 9, 4, 0.1f, 100.0f, 0.0f},        {16, 9, 1, 1.0f, 1024.0f, 0.0f},
+            {4, 4, 64, 0.3f, 1e7f, 0.0f},          {8, 8, 4, 1e-3f, 1e4f, 0.0f},
+            {1, 1, 8, 5.0f, 5.0f, 0.0f},           {1, 1, 2, 1e-35f, 1e35f, 0.0f},
+            {1, 1, 16, 0x1.8p-3f, 70.0f, 0.0f},    {3, 3, 3, 0.1f, 100.0f, 0.0f},
+            {4, 4, 7, 0x1.fffffep-1f, 1e4f, 0.0f}, {1, 1, 63, 1e-3f, 50.0f, 0.0f}};
 }
 
 std::vector<uint> device_slices(int lanes, const ClusterGrid& grid, std::vector<float> z) {
@@ -116,7 +117,7 @@ TEST(Slice, HostAndDeviceAgreeOnAMillionRandomDepths) {
 TEST(Slice, DepthsDoubleEveryOctaveAndGrowInBetween) {
     for (const GridRequest& request : requests()) {
         const ClusterGrid grid = make_cluster_grid(request, 640, 480);
-        const uint per_octave = 1u << (23u - grid.slice_shift);
+        const uint per_octave = grid.slices_per_octave;
         ASSERT_EQ(depth_of_slice(grid, 0),
                   request.z_first < 0x1p-100f ? 0x1p-100f : request.z_first);
         for (uint slice = 0; slice < grid.slices; ++slice) {

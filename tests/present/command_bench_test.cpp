@@ -155,7 +155,7 @@ TEST(Bench, RefusesWhatCannotBeObeyed) {
         const char* message;
     } cases[] = {
         {{"--lights", "5:1:1"}, 2, "--lights: '5:1:1' is no list"},
-        {{"--grid", "3,3,3"}, 2, "--grid: slices per octave: '3' is none of"},
+        {{"--grid", "3,3,3;3,3,65"}, 2, "--grid: slices per octave: '65' is not a whole number"},
         {{"--grid", "3,3"}, 2, "--grid: '3,3' is not X,Y,SLICES_PER_OCTAVE"},
         {{"--resolution", "64,36;"}, 2, "--resolution: '' is not W,H"},
         {{"--renderer", "deferred,backward"}, 2, "--renderer: 'backward' is none of"},

@@ -215,7 +215,7 @@ TEST(Options, BadValuesAreRefusedWithTheOptionTheValueAndWhatIsAllowed) {
         {"--camera-view-up 0,1", "--camera-view-up: '0,1'"},
         {"--camera-view-angle 180", "--camera-view-angle: '180' is not a number between 0 and 180"},
         {"--grid 16,9", "--grid: '16,9' is not X,Y,SLICES_PER_OCTAVE"},
-        {"--grid 16,9,3", "--grid: slices per octave: '3' is none of 1, 2, 4, 8, 16, 32, 64"},
+        {"--grid 16,9,65", "--grid: slices per octave: '65' is not a whole number from 1 to 64"},
         {"--grid 0,9,4", "--grid: '0,9,4'"},
         {"--lanes 3", "--lanes: '3' is none of auto, 1, 2, 4, 8, 16"},
         {"--frames 9:3", "--frames: '9:3' is not A:B"},

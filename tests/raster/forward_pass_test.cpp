@@ -191,7 +191,7 @@ ClusterLists exact_lists(const Scene& scene, const Lights& lights) {
     out.grid.tiles_y = 3;
     out.grid.tile_width = out.grid.tile_height = 16;
     out.grid.slices = 12;
-    out.grid.slice_shift = 21;
+    out.grid.slices_per_octave = 4;
     out.grid.z_first_bits = float_bits(2.0f);
     out.grid.cluster_count = 5 * 3 * 12;
     std::vector<std::vector<bool>> reached(out.grid.cluster_count,

@@ -63,7 +63,7 @@ std::vector<SharedStruct> shared_structs() {
          "kernels/shared/cluster_grid.h",
          sizeof(ClusterGrid),
          {MEMBER(ClusterGrid, tiles_x), MEMBER(ClusterGrid, tiles_y), MEMBER(ClusterGrid, slices),
-          MEMBER(ClusterGrid, slice_shift), MEMBER(ClusterGrid, tile_width),
+          MEMBER(ClusterGrid, slices_per_octave), MEMBER(ClusterGrid, tile_width),
           MEMBER(ClusterGrid, tile_height), MEMBER(ClusterGrid, z_first_bits),
           MEMBER(ClusterGrid, cluster_count), MEMBER(ClusterGrid, position_pad),
           MEMBER(ClusterGrid, unused0), MEMBER(ClusterGrid, unused1),
@@ -128,12 +128,12 @@ TEST_F(SharedTest, StructsHaveTheSameLayout) {
     }
 }
 
-ClusterGrid grid_of(float z_first, uint slices_log2, uint slices) {
+ClusterGrid grid_of(float z_first, uint slices_per_octave, uint slices) {
     ClusterGrid grid{};
     grid.tiles_x = 3;
     grid.tiles_y = 2;
     grid.slices = slices;
-    grid.slice_shift = 23u - slices_log2;
+    grid.slices_per_octave = slices_per_octave;
     grid.z_first_bits = std::bit_cast<uint>(z_first);
     grid.cluster_count = 6 * slices;
     return grid;
@@ -142,7 +142,7 @@ ClusterGrid grid_of(float z_first, uint slices_log2, uint slices) {
 std::vector<uint> depths_to_try(const ClusterGrid& grid) {
     std::vector<uint> bits;
     for (uint slice = 0; slice <= grid.slices; ++slice) {
-        const uint boundary = grid.z_first_bits + (slice << grid.slice_shift);
+        const uint boundary = std::bit_cast<uint>(depth_of_slice(grid, slice));
         for (uint ulp = 0; ulp <= 400; ++ulp) bits.push_back(boundary - 200u + ulp);
     }
     std::mt19937 random(5);
@@ -169,7 +169,8 @@ TEST_F(SharedTest, SlicesOfDepthAreTheSameInGlsl) {
                         "uintBitsToFloat(z_bits[i]));\n"
                         "}\n");
     for (const ClusterGrid& grid :
-         {grid_of(0.1f, 2, 94), grid_of(1e-3f, 3, 187), grid_of(0.37f, 0, 5), grid_of(1, 6, 24)}) {
+         {grid_of(0.1f, 4, 94), grid_of(1e-3f, 8, 187), grid_of(0.37f, 1, 5), grid_of(1, 64, 24),
+          grid_of(0.2f, 3, 50), grid_of(1.7f, 63, 400)}) {
         const GlBuffer buffer = storage_buffer(2, &grid, sizeof(grid));
         const std::vector<uint> bits = depths_to_try(grid);
         const std::vector<uint> slices = run_compute<uint>(program, bits);

@@ -156,7 +156,8 @@ void try_slice_boundaries(const Gpu& gpu, Findings& findings) {
     bool first = true;
     for (const GridRequest& request :
          {GridRequest{16, 9, 4, 0.1f, 1000.0f, 0.0f}, GridRequest{4, 4, 64, 0.3f, 1e7f, 0.0f},
-          GridRequest{1, 1, 2, 1e-30f, 1e30f, 0.0f}, GridRequest{1, 1, 8, 5.0f, 5.0f, 0.0f}}) {
+          GridRequest{1, 1, 2, 1e-30f, 1e30f, 0.0f}, GridRequest{1, 1, 8, 5.0f, 5.0f, 0.0f},
+          GridRequest{3, 3, 3, 0.1f, 1000.0f, 0.0f}, GridRequest{4, 4, 63, 0.3f, 1e3f, 0.0f}}) {
         const ClusterGrid grid = make_cluster_grid(request, 640, 480);
         const std::vector<float> z = depths_to_slice(grid, first);
         first = false;

@@ -125,7 +125,8 @@ void try_other_grids(const Gpu& gpu, Findings& findings) {
     findings.tried("lit values", lit_values(expected), 1000);
     for (const GridRequest& request :
          {GridRequest{1, 1, 1, 0.1f, 0.1f, 0.0f}, GridRequest{64, 64, 64, 0.01f, 1e4f, 0.0f},
-          GridRequest{3, 5, 2, 5.0f, 9.0f, 0.0f}, GridRequest{2, 1, 8, 0.3f, 60.0f, 0.0f, 64}}) {
+          GridRequest{3, 5, 2, 5.0f, 9.0f, 0.0f}, GridRequest{2, 1, 8, 0.3f, 60.0f, 0.0f, 64},
+          GridRequest{3, 3, 3, 0.2f, 80.0f, 0.0f}}) {
         shot.request = request;
         findings.at_most("bits changed by the grid",
                          different_bits(expose(gpu, shot).listed, expected.listed), 0.0);

@@ -114,7 +114,8 @@ std::vector<uint> drawn_pixels(const Synthetic& image, Random& random) {
     const auto* depth =
         reinterpret_cast<const float*>(image.bytes.data() + image.layout.offset_bytes[PLANE_DEPTH]);
     for (uint i = 0; i < view.width * view.height; ++i) {
-        if (depth[i / view.width * view.stride + i % view.width] > 0.0f) pixels.push_back(i);
+        if (depth[std::size_t{i / view.width} * view.stride + i % view.width] > 0.0f)
+            pixels.push_back(i);
     }
     if (pixels.size() <= 2 * kPixelSample) return pixels;
     std::vector<uint> sample;

@@ -93,7 +93,7 @@ Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbu
 }
 
 ClusterGrid fine_grid(ClusterGrid grid) {
-    grid.slice_shift -= grid.fine_slice_bits;
+    grid.slices_per_octave <<= grid.fine_slice_bits;
     grid.slices <<= grid.fine_slice_bits;
     return grid;
 }

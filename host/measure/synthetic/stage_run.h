@@ -75,7 +75,7 @@ struct Planes {
 
     float at(uint plane, uint x, uint y) const {
         const std::size_t size = std::size_t{view.stride} * view.height;
-        return values[plane * size + y * view.stride + x];
+        return values[plane * size + std::size_t{y} * view.stride + x];
     }
     Vec3d vector(uint plane, uint x, uint y) const {
         return {at(plane, x, y), at(plane + 1, x, y), at(plane + 2, x, y)};
