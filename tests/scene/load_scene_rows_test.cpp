@@ -76,6 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Files, LoadSceneRows,
                                          Stored{"tiff", 3, 1}, Stored{"tiff", 3, 7},
                                          Stored{"tiff", 4, 1000}, Stored{"tiff", 3, 0, 32},
                                          Stored{"openexr", 3, 0, 0, 0, OIIO::TypeDesc::FLOAT},
+                                         Stored{"openexr", 3, 0, 32, 0, OIIO::TypeDesc::FLOAT},
                                          Stored{"openexr", 3, 0, 0, 40, OIIO::TypeDesc::FLOAT},
                                          Stored{"openexr", 3, 0, 0, -40, OIIO::TypeDesc::FLOAT}),
                          [](const auto& stored) {
