@@ -148,9 +148,10 @@ std::vector<std::uint8_t> read_rgba(OIIO::ImageInput& input, const OIIO::ImageSp
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4 * width * static_cast<std::size_t>(spec.height));
     std::vector<std::uint8_t> rows;
-    const bool tiled = spec.tile_width != 0;
-    const int strip = std::max(spec.get_int_attribute("tiff:RowsPerStrip", kRows), 1);
-    const int step = tiled ? spec.height : std::min(strip, spec.height);
+    const bool tiled =
+        spec.tile_width != 0;  // has no rows: 2.4 divides by zero when asked for them
+    const int strip = spec.get_int_attribute("tiff:RowsPerStrip", kRows);
+    const int step = tiled ? spec.height : std::min(strip > 0 ? strip : kRows, spec.height);
     for (int y = 0; y < spec.height; y += step) {
         const int end = y + std::min(step, spec.height - y);
         rows.resize(static_cast<std::size_t>(end - y) * row_bytes);
