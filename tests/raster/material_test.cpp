@@ -4,6 +4,7 @@
 
 #include "gl_fixture.h"
 #include "host/base/error.h"
+#include "texture_reference.h"
 
 namespace kilolux {
 namespace {
@@ -11,11 +12,6 @@ namespace {
 using MaterialTest = GlTest;
 
 constexpr GBufferNeeds kFull{GBUFFER_FULL, true, true, 1.0f};
-
-double linear_of(int srgb) {
-    const double c = srgb / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 // A quad that fills 16 x 16 pixels exactly, so that a pixel (x, y) has texture coordinates
 // ((x + 0.5) / 16, (y + 0.5) / 16).
