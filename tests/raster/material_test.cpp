@@ -61,6 +61,21 @@ TEST_F(MaterialTest, OcclusionHasItsOwnTextureAndStrength) {
     EXPECT_NEAR(draw_filled(scene).at<float>(PLANE_OCCLUSION_F, 8, 8), 0.6, 1e-5);
 }
 
+TEST_F(MaterialTest, SpecularTexturesColourAndWeighTheReflectance) {
+    Scene scene = one_object(quad_mesh());
+    Material& material = scene.materials[0];
+    material.specular = 0.5f;
+    material.specular_color = {1.0f, 0.5f, 100.0f};
+    // The weight is the alpha of its texture, linear; the colour is sRGB.
+    material.specular_texture = add_texture(scene, 1, 1, {255, 255, 255, 51});
+    material.specular_color_texture = add_texture(scene, 1, 1, {128, 255, 255, 0});
+    const GBufferNeeds needs{GBUFFER_FULL, true, true, 1.0f, true};
+    const HostGBuffer g = draw_gbuffer(scene, front_camera(1), 16, 16, needs);
+    const glm::dvec3 head_on(0.04 * linear_of(128), 0.04 * 0.5, 1.0);
+    expect_near(g.vector(PLANE_SPECULAR_R, 8, 8), 0.1 * head_on, 1e-4, "limited, then weighed");
+    EXPECT_NEAR(g.at<float>(PLANE_SPECULAR_F90, 8, 8), 0.1, 1e-5);
+}
+
 TEST_F(MaterialTest, MipmapsAverageLightNotCodes) {
     Scene scene = one_object(quad_mesh(0.01f));  // the whole texture in less than a pixel
     std::vector<std::uint8_t> rgba;

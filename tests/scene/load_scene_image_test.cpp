@@ -78,6 +78,23 @@ TEST(LoadSceneImage, ReadsWebpThroughItsExtension) {
     EXPECT_EQ(image.rgba[3], 64);
 }
 
+TEST(LoadSceneImage, TakesWebpWhereTheFileOffersBoth) {
+    GltfBuilder file = triangle_file();
+    const int texture = file.add_texture(encode_image("png", 1, 3, {1, 2, 3}), "image/png");
+    file.add("materials", {{"emissiveTexture", {{"index", texture}}}});
+    const int webp =
+        file.add("images", {{"bufferView", file.add_view(kWebp)}, {"mimeType", "image/webp"}});
+    file.root["extensionsUsed"] = {"EXT_texture_webp"};
+    EXPECT_EQ(load(file).images.at(0).width, 1) << "this texture does not use it";
+    file.root["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", webp}}}};
+    EXPECT_EQ(load(file).images.at(0).width, 4);
+    EXPECT_EQ(load(file).images.size(), 1u) << "the PNG is not decoded";
+    file.root["textures"][0].erase("source");
+    EXPECT_EQ(load(file).images.at(0).width, 4);
+    file.root["textures"][0].erase("extensions");
+    EXPECT_FALSE(load(file).materials.at(0).emissive_texture.present()) << "no image at all";
+}
+
 TEST(LoadSceneImage, ReadsFilesWithSpacesAndEscapes) {
     const TempFolder folder;
     const Blob png = encode_image("png", 1, 3, {1, 2, 3});
