@@ -11,6 +11,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/gltf_parallel.h"
+#include "host/scene/png_chunks.h"
 
 namespace kilolux {
 namespace {
@@ -181,8 +182,12 @@ void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
 Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
     const std::string name = name_of(document, index);
     const tinygltf::Image& source = document.model.images[static_cast<std::size_t>(index)];
-    const EncodedImage encoded = read_encoded(document, index);
+    EncodedImage encoded = read_encoded(document, index);
     const std::string format = format_of(encoded.bytes, source.uri);
+    if (format == "png") {
+        encoded.owned = essential_png(encoded.bytes, document.base.file + ": " + name);
+        encoded.bytes = encoded.owned;
+    }
     auto input = format.empty() ? nullptr : OIIO::ImageInput::create(format);
     if (!input) {
         const std::string ignored = OIIO::geterror();
