@@ -149,8 +149,8 @@ std::vector<std::uint8_t> read_rgba(OIIO::ImageInput& input, const OIIO::ImageSp
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4 * width * static_cast<std::size_t>(spec.height));
     std::vector<std::uint8_t> rows;
-    const bool tiled =
-        spec.tile_width != 0;  // has no rows: 2.4 divides by zero when asked for them
+    // OpenImageIO 2.4 divides by zero when asked for rows of a tiled TIFF.
+    const bool tiled = spec.tile_width != 0;
     const int strip = spec.get_int_attribute("tiff:RowsPerStrip", kRows);
     const int step = tiled ? spec.height : std::min(strip > 0 ? strip : kRows, spec.height);
     for (int y = 0; y < spec.height; y += step) {
@@ -182,12 +182,9 @@ void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
 Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
     const std::string name = name_of(document, index);
     const tinygltf::Image& source = document.model.images[static_cast<std::size_t>(index)];
-    EncodedImage encoded = read_encoded(document, index);
+    const EncodedImage encoded = read_encoded(document, index);
     const std::string format = format_of(encoded.bytes, source.uri);
-    if (format == "png") {
-        encoded.owned = essential_png(encoded.bytes, document.base.file + ": " + name);
-        encoded.bytes = encoded.owned;
-    }
+    if (format == "png") check_png(encoded.bytes, document.base.file + ": " + name);
     auto input = format.empty() ? nullptr : OIIO::ImageInput::create(format);
     if (!input) {
         const std::string ignored = OIIO::geterror();

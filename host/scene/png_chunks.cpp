@@ -18,8 +18,6 @@ constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', 13, 10
 constexpr std::size_t kFrameBytes = 12;  // of a chunk: length, type, checksum
 // What pixels depend on: the critical chunks and transparency.
 constexpr std::array<std::string_view, 5> kNeeded = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS"};
-constexpr std::array<unsigned char, kFrameBytes> kEnd = {0,   0,   0,    0,    'I',  'E',
-                                                         'N', 'D', 0xae, 0x42, 0x60, 0x82};
 
 // CRC-32 of ISO 3309, as PNG (W3C, 2003, annex D) computes it.
 constexpr std::array<std::uint32_t, 256> make_crc_table() {
@@ -70,10 +68,10 @@ Chunk chunk_at(Span png, std::size_t offset, const std::string& where) {
                 what);
 }
 
-// Whether a decoder must read it; throws when it cannot.
-bool is_needed(const Chunk& chunk, const std::string& where) {
+// Throws when a decoder must read it and cannot. What else is wrong is skipped without a word.
+void check_chunk(const Chunk& chunk, const std::string& where) {
     if (std::find(kNeeded.begin(), kNeeded.end(), chunk.type) == kNeeded.end()) {
-        if (std::islower(static_cast<unsigned char>(chunk.type[0]))) return false;
+        if (std::islower(static_cast<unsigned char>(chunk.type[0]))) return;
         fail(chunk, where, "is of no type that PNG decoders know");
     }
     const Span bytes = chunk.bytes;
@@ -83,29 +81,23 @@ bool is_needed(const Chunk& chunk, const std::string& where) {
     if ((chunk.offset == kSignature.size()) != (chunk.type == "IHDR")) {
         fail(chunk, where, "is out of place: IHDR is the first chunk and no other");
     }
-    return true;
 }
 
 }  // namespace
 
-Bytes essential_png(Span png, const std::string& where) {
+void check_png(Span png, const std::string& where) {
     const bool starts = png.size() >= kSignature.size() &&
                         std::equal(kSignature.begin(), kSignature.end(), png.begin());
     if (!starts) throw Error(where + ": does not start as a PNG file does");
-    Bytes out(kSignature.begin(), kSignature.end());
-    out.reserve(png.size() + kFrameBytes);
     bool has_pixels = false;
     for (std::size_t offset = kSignature.size(); offset < png.size();) {
         const Chunk chunk = chunk_at(png, offset, where);
-        offset += chunk.bytes.size();
-        if (!is_needed(chunk, where)) continue;
+        check_chunk(chunk, where);
         if (chunk.type == "IEND") break;
         has_pixels = has_pixels || chunk.type == "IDAT";
-        out.insert(out.end(), chunk.bytes.begin(), chunk.bytes.end());
+        offset += chunk.bytes.size();
     }
     if (!has_pixels) throw Error(where + ": has no chunk IDAT, which holds a PNG's pixels");
-    out.insert(out.end(), kEnd.begin(), kEnd.end());
-    return out;
 }
 
 }  // namespace kilolux

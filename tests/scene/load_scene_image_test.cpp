@@ -180,7 +180,7 @@ TEST(LoadSceneImage, BrokenPngsSayNothingButTheirError) {
     EXPECT_GT(refused, good.size());
 }
 
-TEST(LoadSceneImage, TakesOnlyWhatPixelsAreMadeFromOutOfAPng) {
+TEST(LoadSceneImage, PassesWhatIsWrongBesideAPngsPixels) {
     const Blob good = encode_image("png", 2, 4, {200, 100, 50, 64, 9, 8, 7, 0});
     // After the header of 8 + 25 bytes: a gamma with a wrong checksum, and text that is none.
     Blob odd(good.begin(), good.begin() + 33);
