@@ -4,6 +4,7 @@
 
 #include "gl_fixture.h"
 #include "host/base/error.h"
+#include "texture_reference.h"
 
 namespace kilolux {
 namespace {
@@ -11,11 +12,6 @@ namespace {
 using MaterialTest = GlTest;
 
 constexpr GBufferNeeds kFull{GBUFFER_FULL, true, true, 1.0f};
-
-double linear_of(int srgb) {
-    const double c = srgb / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
 
 // A quad that fills 16 x 16 pixels exactly, so that a pixel (x, y) has texture coordinates
 // ((x + 0.5) / 16, (y + 0.5) / 16).
@@ -63,6 +59,21 @@ TEST_F(MaterialTest, OcclusionHasItsOwnTextureAndStrength) {
     scene.materials[0].metallic_roughness_texture = add_texture(scene, 1, 1, {255, 255, 255, 255});
     scene.materials[0].occlusion_strength = 0.5f;
     EXPECT_NEAR(draw_filled(scene).at<float>(PLANE_OCCLUSION_F, 8, 8), 0.6, 1e-5);
+}
+
+TEST_F(MaterialTest, SpecularTexturesColourAndWeighTheReflectance) {
+    Scene scene = one_object(quad_mesh());
+    Material& material = scene.materials[0];
+    material.specular = 0.5f;
+    material.specular_color = {1.0f, 0.5f, 100.0f};
+    // The weight is the alpha of its texture, linear; the colour is sRGB.
+    material.specular_texture = add_texture(scene, 1, 1, {255, 255, 255, 51});
+    material.specular_color_texture = add_texture(scene, 1, 1, {128, 255, 255, 0});
+    const GBufferNeeds needs{GBUFFER_FULL, true, true, 1.0f, true};
+    const HostGBuffer g = draw_gbuffer(scene, front_camera(1), 16, 16, needs);
+    const glm::dvec3 head_on(0.04 * linear_of(128), 0.04 * 0.5, 1.0);
+    expect_near(g.vector(PLANE_SPECULAR_R, 8, 8), 0.1 * head_on, 1e-4, "limited, then weighed");
+    EXPECT_NEAR(g.at<float>(PLANE_SPECULAR_F90, 8, 8), 0.1, 1e-5);
 }
 
 TEST_F(MaterialTest, MipmapsAverageLightNotCodes) {

@@ -78,6 +78,23 @@ TEST(LoadSceneImage, ReadsWebpThroughItsExtension) {
     EXPECT_EQ(image.rgba[3], 64);
 }
 
+TEST(LoadSceneImage, TakesWebpWhereTheFileOffersBoth) {
+    GltfBuilder file = triangle_file();
+    const int texture = file.add_texture(encode_image("png", 1, 3, {1, 2, 3}), "image/png");
+    file.add("materials", {{"emissiveTexture", {{"index", texture}}}});
+    const int webp =
+        file.add("images", {{"bufferView", file.add_view(kWebp)}, {"mimeType", "image/webp"}});
+    file.root["extensionsUsed"] = {"EXT_texture_webp"};
+    EXPECT_EQ(load(file).images.at(0).width, 1) << "this texture does not use it";
+    file.root["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", webp}}}};
+    EXPECT_EQ(load(file).images.at(0).width, 4);
+    EXPECT_EQ(load(file).images.size(), 1u) << "the PNG is not decoded";
+    file.root["textures"][0].erase("source");
+    EXPECT_EQ(load(file).images.at(0).width, 4);
+    file.root["textures"][0].erase("extensions");
+    EXPECT_FALSE(load(file).materials.at(0).emissive_texture.present()) << "no image at all";
+}
+
 TEST(LoadSceneImage, ReadsFilesWithSpacesAndEscapes) {
     const TempFolder folder;
     const Blob png = encode_image("png", 1, 3, {1, 2, 3});
@@ -142,6 +159,49 @@ TEST(LoadSceneImage, RefusesBrokenImages) {
     EXPECT_TRUE(contains(error_of_view(half), "images[0]")) << error_of_view(half);
     const Blob noise = {1, 2, 3, 4, 5, 6, 7, 8};
     EXPECT_TRUE(contains(error_of_view(noise), "images[0]: is of no image format"));
+}
+
+// libpng has its own words for standard error, which is for us.
+TEST(LoadSceneImage, BrokenPngsSayNothingButTheirError) {
+    const Blob good = encode_image("png", 5, 3, Blob(3 * 25, 77));
+    std::size_t refused = 0;
+    testing::internal::CaptureStderr();
+    for (std::size_t i = 1; i < good.size(); ++i) {
+        const Blob cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(i));
+        Blob bent = good;
+        bent[i] = static_cast<unsigned char>(bent[i] ^ 0x11u);
+        for (const Blob& broken : {cut, bent}) {
+            const std::string error = error_of_view(broken);
+            refused += error.empty() ? 0 : 1;
+            EXPECT_TRUE(error.empty() || contains(error, "images[0]: ")) << i << ": " << error;
+        }
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_GT(refused, good.size());
+}
+
+TEST(LoadSceneImage, PassesWhatIsWrongBesideAPngsPixels) {
+    const Blob good = encode_image("png", 2, 4, {200, 100, 50, 64, 9, 8, 7, 0});
+    // After the header of 8 + 25 bytes: a gamma with a wrong checksum, and text that is none.
+    Blob odd(good.begin(), good.begin() + 33);
+    for (const char* type : {"gAMA", "zTXt"}) {
+        odd.insert(odd.end(), {0, 0, 0, 4});
+        odd.insert(odd.end(), type, type + 4);
+        odd.insert(odd.end(), 8, 0xee);
+    }
+    odd.insert(odd.end(), good.begin() + 33, good.end() - 12);  // and no end
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(image_from_view(odd).rgba, (Blob{200, 100, 50, 64, 9, 8, 7, 0}));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    Blob critical = odd;
+    critical[33 + 4] = 'G';  // a chunk that decoders must know
+    EXPECT_TRUE(
+        contains(error_of_view(critical), "images[0]: chunk GAMA at byte 33 is of no type"));
+    Blob bent = good;
+    bent[20] ^= 1;
+    EXPECT_TRUE(contains(error_of_view(bent), "images[0]: chunk IHDR at byte 8 is damaged"));
+    const Blob cut(good.begin(), good.end() - 14);
+    EXPECT_TRUE(contains(error_of_view(cut), "images[0]: is cut off in the chunk at byte "));
 }
 
 TEST(LoadSceneImage, RefusesAbsurdSizesBeforeDecoding) {
