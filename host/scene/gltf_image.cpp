@@ -6,7 +6,6 @@
 #include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
-#include <cstring>
 #include <mutex>
 
 #include "host/base/error.h"
@@ -115,53 +114,17 @@ void check_size(const GltfDocument& document, const std::string& name, const OII
     }
 }
 
-constexpr std::uint8_t kOpaque = 255;
-
-constexpr bool has_alpha(std::size_t channels) { return channels % 2 == 0; }
-
-// `count` pixels of kChannels channels as RGBA; one or two channels are grey.
-template <std::size_t kChannels>
-void expand(const std::uint8_t* in, std::size_t count, std::uint8_t* out) {
-    for (std::size_t i = 0; i < count; ++i, in += kChannels, out += 4) {
-        const std::array<std::uint8_t, 4> pixel = {
-            in[0], in[kChannels < 3 ? 0 : 1], in[kChannels < 3 ? 0 : 2],
-            has_alpha(kChannels) ? in[kChannels - 1] : kOpaque};
-        std::memcpy(out, pixel.data(), 4);  // one store; byte by byte takes twice the time
-    }
-}
-
-void append_rgba(const std::vector<std::uint8_t>& pixels, std::size_t channels,
-                 std::vector<std::uint8_t>& rgba) {
+// Pixels of `channels` channels as RGBA; one or two channels are grey.
+std::vector<std::uint8_t> to_rgba(const std::vector<std::uint8_t>& pixels, std::size_t channels) {
     const std::size_t count = pixels.size() / channels;
-    const std::size_t old = rgba.size();
-    rgba.resize(old + 4 * count);
-    constexpr std::array kExpand = {expand<1>, expand<2>, expand<3>, expand<4>};
-    kExpand[channels - 1](pixels.data(), count, rgba.data() + old);
-}
-
-// Reads the image some rows at a time, so that what is decoded is still in the cache when it is
-// expanded, and only the RGBA pixels take memory.
-std::vector<std::uint8_t> read_rgba(OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
-    constexpr int kRows = 64;  // what OpenImageIO itself reads at a time
-    const int channels = std::min(spec.nchannels, 4);
-    const auto width = static_cast<std::size_t>(spec.width);
-    const auto row_bytes = static_cast<std::size_t>(channels) * width;
-    std::vector<std::uint8_t> rgba;
-    rgba.reserve(4 * width * static_cast<std::size_t>(spec.height));
-    std::vector<std::uint8_t> rows;
-    // OpenImageIO 2.4 divides by zero when asked for rows of a tiled TIFF.
-    const bool tiled = spec.tile_width != 0;
-    const int strip = spec.get_int_attribute("tiff:RowsPerStrip", kRows);
-    const int step = tiled ? spec.height : std::min(strip > 0 ? strip : kRows, spec.height);
-    for (int y = 0; y < spec.height; y += step) {
-        const int end = y + std::min(step, spec.height - y);
-        rows.resize(static_cast<std::size_t>(end - y) * row_bytes);
-        const bool good =
-            tiled ? input.read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, rows.data())
-                  : input.read_scanlines(0, 0, spec.y + y, spec.y + end, 0, 0, channels,
-                                         OIIO::TypeDesc::UINT8, rows.data());
-        if (!good) return {};
-        append_rgba(rows, static_cast<std::size_t>(channels), rgba);
+    std::vector<std::uint8_t> rgba(4 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* in = &pixels[channels * i];
+        std::uint8_t* out = &rgba[4 * i];
+        out[0] = in[0];
+        out[1] = channels < 3 ? in[0] : in[1];
+        out[2] = channels < 3 ? in[0] : in[2];
+        out[3] = channels == 2 ? in[1] : channels >= 4 ? in[3] : std::uint8_t{255};
     }
     return rgba;
 }
@@ -201,10 +164,16 @@ Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
     check_size(document, name, spec, encoded.bytes.size());
     memory.charge(4 * static_cast<std::uint64_t>(spec.width),
                   static_cast<std::uint64_t>(spec.height), document.base.file + ": " + name);
-    Image out{source.name, spec.width, spec.height, read_rgba(*input, spec)};
-    if (out.rgba.empty()) document.fail(name, reason(input->geterror()));
-    const bool associated = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
-    if (associated && spec.nchannels != 1 && spec.nchannels != 3) undo_associated_alpha(out.rgba);
+    const auto channels = static_cast<std::size_t>(std::min(spec.nchannels, 4));
+    std::vector<std::uint8_t> pixels(channels * static_cast<std::size_t>(spec.width) *
+                                     static_cast<std::size_t>(spec.height));
+    if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8,
+                           pixels.data())) {
+        document.fail(name, reason(input->geterror()));
+    }
+    Image out{source.name, spec.width, spec.height, {}};
+    out.rgba = channels == 4 ? std::move(pixels) : to_rgba(pixels, channels);
+    if (spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0) undo_associated_alpha(out.rgba);
     return out;
 }
 

@@ -49,9 +49,9 @@ Blob as_rgba(const Blob& pixels, std::size_t channels) {
     return out;
 }
 
-class LoadSceneRows : public testing::TestWithParam<Stored> {};
+class LoadSceneLayouts : public testing::TestWithParam<Stored> {};
 
-TEST_P(LoadSceneRows, AllArrive) {
+TEST_P(LoadSceneLayouts, AllArrive) {
     const Stored& how = GetParam();
     const auto channels = static_cast<std::size_t>(how.channels);
     std::mt19937 random(3);
@@ -70,7 +70,7 @@ TEST_P(LoadSceneRows, AllArrive) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, LoadSceneRows,
+INSTANTIATE_TEST_SUITE_P(Files, LoadSceneLayouts,
                          testing::Values(Stored{"png", 1}, Stored{"png", 2}, Stored{"png", 3},
                                          Stored{"png", 4}, Stored{"bmp", 3}, Stored{"tiff", 3},
                                          Stored{"tiff", 3, 1}, Stored{"tiff", 3, 7},
