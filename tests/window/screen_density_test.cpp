@@ -78,8 +78,8 @@ TEST(ScreenDensity, WindowPanelAndFontsAreTwiceAsLarge) {
     const Gray small = gray_of(folder / "usual.png", kPanel, 420);
     const Gray large = gray_of(folder / "dense.png", 2 * kPanel, 840);
     // Letters of 15 and of 30 pixels are hinted differently.
-    EXPECT_LT(mean_difference(small, halved(large)), 0.02);
-    EXPECT_GT(mean_difference(small, gray_of(folder / "dense.png", kPanel, 420)), 0.05);
+    EXPECT_LT(mean_difference(small, halved(large)), 0.04);
+    EXPECT_GT(mean_difference(small, gray_of(folder / "dense.png", kPanel, 420)), 0.06);
 }
 
 TEST(ScreenDensity, ControlsAreHitAndThePictureHasEveryPixel) {
