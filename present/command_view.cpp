@@ -86,8 +86,9 @@ void add_view_command(Program& program) {
     Registrar(command, "Window")
         .flag("--fresh", options->fresh,
               "Begin with the defaults instead of what the last window was left with; keep nothing")
-        .count({"--exit-after", "N", "", "Leave when N pictures have been shown"},
-               options->exit_after, {1, 1'000'000'000})
+        .count(
+            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
+            options->exit_after, {1, 1'000'000'000})
         .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
               options->screenshot)
         .text(

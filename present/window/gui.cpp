@@ -63,7 +63,7 @@ void set_style(float scale) {
     style = ImGuiStyle();
     set_colors();
     style.WindowPadding = {12.0f, 10.0f};
-    style.FramePadding = {7.0f, 3.5f};
+    style.FramePadding = {7.0f, 3.0f};
     style.ItemSpacing = {8.0f, 5.0f};
     style.FrameRounding = 4.0f;
     style.GrabRounding = 4.0f;
@@ -129,6 +129,8 @@ void Gui::draw() {
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
+
+void Gui::skip() { ImGui::EndFrame(); }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::wants_keys() const { return ImGui::GetIO().WantTextInput; }

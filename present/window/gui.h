@@ -27,6 +27,8 @@ class Gui {
 
     /// Draws what was described since begin() to the current framebuffer.
     void draw();
+    /// Instead of draw(), while nobody sees it.
+    void skip();
 
     /// Whether the mouse is on a panel, and whether keys belong to a text field.
     bool wants_mouse() const;

@@ -22,6 +22,7 @@ constexpr double kIdleSeconds = 0.25;  // signals are looked for that often
 constexpr double kRestSeconds = 0.25;  // without a change until a picture is made in full
 constexpr int kLivelyFrames = 4;
 constexpr std::size_t kFewestPixels = 16;  // of a picture's edge
+constexpr int kFewestToKeep = 64;          // [pixel] of the window's edges, from run to run
 
 std::string text_of(GLenum name) {
     const GLubyte* text = glGetString(name);
@@ -78,7 +79,6 @@ ViewSession::ViewSession(const Scene& scene, SessionOptions options, Window& win
       scale_(state_.target_ms),
       news_(std::make_shared<SessionNews>()) {
     window_.on_event([this](const InputEvent& event) { take_event(event); });
-    window_.set_vsync(state_.vsync);
     worker_ = std::make_unique<RenderWorker>(scene, wanted().settings, context);
     if (!options_.script.empty()) {
         script_ = std::make_unique<ScriptPlayer>(
@@ -103,12 +103,19 @@ void ViewSession::run() {
         obey_input();
         describe();
         request_picture();
-        paint();
+        if (window_.is_minimised()) {
+            gui_.skip();
+        } else {
+            paint();
+        }
         finish_frame();
         if (options_.exit_after > 0 && shown_ >= options_.exit_after) break;
         if (script_ && script_->is_done()) break;
     }
     if (!options_.screenshot.empty()) save_window(options_.screenshot);
+    // Saved states with less are not read.
+    const auto size = window_.size_to_keep();
+    state_.window_size = {std::max(size[0], kFewestToKeep), std::max(size[1], kFewestToKeep)};
 }
 
 void ViewSession::wait() {
@@ -119,6 +126,7 @@ void ViewSession::wait() {
         --lively_frames_;
         seconds = kFrameSeconds;
     }
+    if (is_resting()) seconds = kIdleSeconds;
     if (script_) seconds = script_->is_settling() ? 0.01 : 0.0;
     window_.wait_events(seconds);
     const Clock::time_point now = Clock::now();
@@ -186,6 +194,11 @@ bool ViewSession::is_moving() const {
     return std::chrono::duration<double>(Clock::now() - last_change_).count() < kRestSeconds;
 }
 
+// Nobody looks at it, and nobody waits for it.
+bool ViewSession::is_resting() const {
+    return window_.is_minimised() && !script_ && options_.exit_after == 0;
+}
+
 float ViewSession::panel_width() const { return state_.show_panel ? gui_.scaled(360.0f) : 0.0f; }
 
 Area ViewSession::picture_area() const {
@@ -213,7 +226,7 @@ PictureRequest ViewSession::wanted() const {
 }
 
 void ViewSession::request_picture() {
-    if (window_.is_minimised()) return;
+    if (is_resting()) return;
     if (state_.lights_move) time_ += state_.light_speed * frame_seconds_;
     scale_.set_target(state_.target_ms);
     PictureRequest next = wanted();
@@ -245,6 +258,7 @@ void ViewSession::paint() {
 }
 
 void ViewSession::finish_frame() {
+    window_.set_vsync(state_.vsync);
     if (!window_.is_minimised()) window_.swap();
     input_.end_frame();
 }

@@ -45,6 +45,8 @@ class ViewSession {
     ~ViewSession();
 
     /// Until the window is closed, exit_after pictures are shown, or a signal comes: Interrupted.
+    /// Nothing is rendered while it is minimised, unless something waits for the pictures: a script
+    /// or exit_after.
     void run();
 
     const ViewState& state() const { return state_; }
@@ -68,10 +70,12 @@ class ViewSession {
     CameraWish camera_wish();
     void steer();
     void obey_wishes(const PanelWishes& wishes);
+    void reset_settings();
 
     // Pictures.
     PictureRequest wanted() const;
     bool is_moving() const;
+    bool is_resting() const;
     bool is_settled() const;
     void post_startup_jobs();
     void save_picture(const std::string& extension);

@@ -94,8 +94,19 @@ void ViewSession::obey_wishes(const PanelWishes& wishes) {
     if (wishes.save_exr) save_picture(".exr");
     if (wishes.help) show_help_ = !show_help_;
     if (wishes.dismiss_failure) facts_.failure.clear();
+    if (wishes.reset_settings) reset_settings();
     if (wishes.full_screen) full_screen_ = !full_screen_;
     window_.set_full_screen(full_screen_);
+}
+
+// The program's, whatever the command line said; the device was chosen for the run.
+void ViewSession::reset_settings() {
+    ViewState fresh;
+    fresh.settings = SharedOptions().settings;
+    fresh.settings.device = state_.settings.device;
+    fresh.window_size = state_.window_size;
+    fresh.folder = state_.folder;
+    state_ = std::move(fresh);
 }
 
 void ViewSession::copy(const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <GLFW/glfw3.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "host/base/error.h"
@@ -32,6 +33,8 @@ void set_hints(bool visible) {
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     if (visible) glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    // In full screen it goes on being seen while a window on another monitor has the focus.
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
 }
 
 }  // namespace
@@ -126,7 +129,12 @@ void Window::resize(std::array<int, 2> size) const { glfwSetWindowSize(window_, 
 void Window::set_title(const std::string& title) const {
     glfwSetWindowTitle(window_, title.c_str());
 }
-void Window::set_vsync(bool on) const { glfwSwapInterval(on ? 1 : 0); }
+
+void Window::set_vsync(bool on) {
+    if (vsync_ == on) return;
+    vsync_ = on;
+    glfwSwapInterval(on ? 1 : 0);
+}
 
 bool Window::is_full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
 
@@ -143,6 +151,15 @@ void Window::set_full_screen(bool on) {
     if (monitor == nullptr) return;
     const GLFWvidmode* mode = glfwGetVideoMode(monitor);
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+std::array<int, 2> Window::size_to_keep() const {
+    const auto& p = windowed_place_;
+    const auto pixels = is_full_screen() ? std::array{p[2], p[3]} : size();
+    const auto usual = [scale = content_scale()](int edge) {
+        return static_cast<int>(std::lround(static_cast<float>(edge) / scale));
+    };
+    return {usual(pixels[0]), usual(pixels[1])};
 }
 
 void Window::grab_mouse(bool on) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -57,9 +58,13 @@ class Window {
     bool has_focus() const;
     void resize(std::array<int, 2> size) const;
     void set_title(const std::string& title) const;
-    void set_vsync(bool on) const;
+    /// Costs nothing where it is so already. The window's context is current.
+    void set_vsync(bool on);
     void set_full_screen(bool on);
     bool is_full_screen() const;
+    /// What Window() makes this window of again: its size, or the one before full screen, on a
+    /// screen of usual density.
+    std::array<int, 2> size_to_keep() const;
     /// Hides the mouse and lets it move without end.
     void grab_mouse(bool on) const;
     void set_clipboard(const std::string& text) const;
@@ -73,6 +78,7 @@ class Window {
     std::unique_ptr<GlMessages> messages_;
     std::function<void(const InputEvent&)> take_;
     std::array<int, 4> windowed_place_{};  // x, y, width, height before full screen
+    std::optional<bool> vsync_;            // as it was set last
 };
 
 /// Wakes wait_events() from any thread.

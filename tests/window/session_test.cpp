@@ -1,100 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // `kilolux view` as a person uses it: real window, real events, pictures of the screen. Under Xvfb.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/render/views.h"
-#include "present/image_file.h"
 #include "present/names.h"
-#include "tests/present/child.h"
+#include "tests/window/scripted_window.h"
 
 namespace kilolux {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr int kPanel = 360;     // [pixel] of the window are the panel's
-constexpr int kUnderlay = 120;  // [pixel] from the top: the overlay with its times ends above
-
-using Variables = std::vector<std::string>;  // "NAME=value"; "-uNAME" takes one away
-
-// Runs the program in a virtual display of its own.
-ChildResult view_in_display(const Variables& variables, std::vector<std::string> arguments) {
-    std::vector<std::string> words = {"/usr/bin/env"};
-    words.insert(words.end(), variables.begin(), variables.end());
-    words.emplace_back(KILOLUX_ROOT "/tests/window/with_display");
-    words.emplace_back(KILOLUX_PROGRAM);
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return run_child(words);
-}
-
-// A window that begins as new, small enough for any machine.
-std::vector<std::string> small_window(const std::string& script) {
-    return {"view",     "plain", "--fresh", "--resolution", "700,420",
-            "--lights", "150",   "--quiet", "--script",     script};
-}
-
-// The part of a picture where the scene is.
-struct ScenePart {
-    int width = 0, height = 0;  // of the window [pixel]
-    std::vector<float> values;
-};
-
-ScenePart scene_part(const fs::path& file, int left = kPanel) {
-    const FloatImage image = read_image(file);
-    ScenePart out{image.width, image.height, {}};
-    const std::size_t channels = image.channels.size();
-    for (int y = kUnderlay; y < image.height; ++y) {
-        for (int x = left; x < image.width; ++x) {
-            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                               static_cast<std::size_t>(x);
-            for (std::size_t c = 0; c < 3; ++c) {
-                out.values.push_back(image.values[pixel * channels + c]);
-            }
-        }
-    }
-    return out;
-}
-
-double mean_of(const ScenePart& a) {
-    double sum = 0.0;
-    for (const float v : a.values) sum += static_cast<double>(v);
-    return sum / static_cast<double>(a.values.size());
-}
-
-double mean_difference(const ScenePart& a, const ScenePart& b) {
-    EXPECT_EQ(a.values.size(), b.values.size());
-    double sum = 0.0;
-    for (std::size_t i = 0; i < std::min(a.values.size(), b.values.size()); ++i) {
-        sum += std::abs(static_cast<double>(a.values[i]) - static_cast<double>(b.values[i]));
-    }
-    return sum / static_cast<double>(a.values.size());
-}
-
-class Script {
- public:
-    explicit Script(const TemporaryFolder& folder) : folder_(folder) {}
-    Script& line(const std::string& text) {
-        text_ += text + "\n";
-        return *this;
-    }
-    Script& shot(const std::string& name) {
-        return line("settle").line("screenshot " + (folder_ / (name + ".png")).string());
-    }
-    std::string write() const {
-        write_text(folder_ / "script", text_);
-        return (folder_ / "script").string();
-    }
-
- private:
-    const TemporaryFolder& folder_;
-    std::string text_;
-};
 
 // Goes through a session and expects that neither OpenGL, OpenCL nor the program complains: what
 // fails while a script plays ends it with a message.
@@ -251,6 +168,28 @@ TEST(Window, KeepsItsValues) {
     // A view of normals is nothing like the lit picture: blue is never 0 on what faces the camera.
     EXPECT_GT(mean_of(scene_part(again)), 0.1);
     EXPECT_EQ(read_image(again).width, 700);
+}
+
+TEST(Window, GoesBackToItsDefaults) {
+    const auto kept_after = [](const std::vector<std::string>& lines) {
+        const TemporaryFolder folder;
+        Script script(folder);
+        script.line("settle");
+        for (const std::string& line : lines) script.line(line);
+        const ChildResult result = view_in_display(
+            {"XDG_CONFIG_HOME=" + folder.path().string()},
+            {"view", "plain", "-q", "--resolution", "700,420", "--script", script.write()});
+        EXPECT_EQ(result.code, 0) << result.err;
+        return nlohmann::json::parse(text_of_file(folder / "kilolux" / "view.json"));
+    };
+    const std::vector<std::string> changes = {"type lights 77", "choose show normal",
+                                              "choose tone map aces", "open window", "click vsync"};
+    std::vector<std::string> changes_and_back = changes;
+    changes_and_back.emplace_back("click all settings to their defaults");
+    changes_and_back.emplace_back("settle");
+    const auto untouched = kept_after({"frames 1"});
+    EXPECT_NE(kept_after(changes), untouched);
+    EXPECT_EQ(kept_after(changes_and_back), untouched);
 }
 
 TEST(Window, SaysInOneLineWhatIsMissing) {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/present/child.h"
+
+namespace kilolux {
+
+/// Asks again and again until `is_so`; throws std::runtime_error that names `what` after a minute.
+void wait_for(const std::string& what, const std::function<bool()>& is_so);
+
+/// "env" with these variables ("NAME=value") before `words`.
+std::vector<std::string> with_variables(const std::vector<std::string>& variables,
+                                        const std::vector<std::string>& words);
+
+/// A program that runs beside the test. Its standard input ends when this does.
+class Background {
+ public:
+    /// The first word is found in PATH. Throws std::runtime_error when it cannot be started.
+    explicit Background(std::vector<std::string> words);
+    /// Closes its input and ends it.
+    ~Background();
+    Background(const Background&) = delete;
+    Background& operator=(const Background&) = delete;
+
+    void signal(int number) const;
+    bool has_ended() const;
+    /// Until it ends by itself; throws std::runtime_error after a minute.
+    ChildResult result();
+
+ private:
+    TemporaryFolder folder_;
+    pid_t pid_ = -1;
+    int input_ = -1;
+};
+
+}  // namespace kilolux

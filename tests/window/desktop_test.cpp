@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window among others: a window manager minimises it, gives the focus to another, and lets it
+// fill the screen. Keys are the X server's, pictures what its screen shows.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/window/desktop.h"
+#include "tests/window/scripted_window.h"
+
+namespace kilolux {
+namespace {
+
+// Another window, in the lower right corner of the screen. It takes the focus.
+class OtherWindow {
+ public:
+    OtherWindow(const Desktop& desktop, const Viewer& viewer)
+        : program_(with_variables({desktop.variable()}, {"xev", "-geometry", "60x60+920+620"})) {
+        wait_for("the focus of another window", [&] {
+            if (program_.has_ended()) throw std::runtime_error("xev: " + program_.result().err);
+            return !viewer.has_focus();
+        });
+    }
+
+ private:
+    Background program_;
+};
+
+void leave(Viewer& viewer) {
+    viewer.key("ctrl+q");
+    const ChildResult result = viewer.program().result();
+    EXPECT_EQ(result.code, 0) << result.signal;
+    EXPECT_EQ(result.err, "");
+}
+
+TEST(Desktop, RestsWhileMinimised) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    viewer.settled();
+    viewer.key("space");  // the lights move
+    viewer.wait_for_change();
+    viewer.minimise();
+    viewer.wait_for_rest();
+    const std::size_t rest = viewer.record().size();
+    wait_for("more of it", [&] { return viewer.record().size() >= rest + 6; });
+    // Neither drawn nor rendered, and no hurry.
+    const std::vector<std::string> calls = viewer.record();
+    for (std::size_t i = rest; i < calls.size(); ++i) EXPECT_EQ(calls[i], "wait 0.250") << i;
+    viewer.activate();
+    viewer.wait_for_change();
+    viewer.key("space");
+    leave(viewer);
+}
+
+TEST(Desktop, ComesBackFromMinimisedAsItWas) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    const Seen before = viewer.settled();
+    const Place picture = viewer.picture();
+    viewer.minimise();
+    viewer.wait_for_rest();
+    EXPECT_NE(desktop.see(picture), before);
+    viewer.activate();
+    viewer.wait_for_picture(before);
+    leave(viewer);
+}
+
+TEST(Desktop, CountsItsPicturesWhileMinimised) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "end.png";
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop, {"--exit-after", "120", "--screenshot", file.string()});
+    // So that it cannot end before it is minimised.
+    viewer.program().signal(SIGSTOP);
+    viewer.minimise();
+    viewer.program().signal(SIGCONT);
+    const ChildResult result = viewer.program().result();
+    EXPECT_EQ(result.code, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_GE(viewer.count("wake"), 120u);
+    const ScenePart end = scene_part(file);
+    EXPECT_EQ(end.width, 560);
+    EXPECT_EQ(end.height, 330);
+    EXPECT_GT(mean_of(end), 0.01);
+}
+
+TEST(Desktop, LetsKeysGoWithTheFocus) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    const Seen start = viewer.settled();
+    desktop.tool({"xdotool", "keydown", "w"});
+    viewer.wait_for_change();
+    const OtherWindow other(desktop, viewer);
+    // The key is down still, but not ours: the camera comes to rest.
+    const Seen flown = viewer.settled();
+    EXPECT_NE(flown, start);
+    desktop.tool({"xdotool", "keyup", "w"});
+    EXPECT_EQ(viewer.settled(), flown);
+    viewer.activate();
+    EXPECT_EQ(viewer.settled(), flown);
+    viewer.key("r");
+    viewer.wait_for_picture(start);
+    leave(viewer);
+}
+
+TEST(Desktop, GoesOnWithoutTheFocus) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    viewer.settled();
+    viewer.key("space");
+    viewer.wait_for_change();
+    {
+        const OtherWindow other(desktop, viewer);
+        const std::size_t pictures = viewer.count("wake");
+        wait_for("more pictures", [&] { return viewer.count("wake") > pictures + 10; });
+        viewer.wait_for_change();
+    }
+    viewer.activate();
+    viewer.key("space");
+    viewer.settled();
+    leave(viewer);
+}
+
+class FullScreen : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(FullScreen, FillsTheScreenAndComesBack) {
+    const Desktop desktop(GetParam());
+    Viewer viewer(desktop);
+    desktop.tool({"xdotool", "windowmove", "--sync", viewer.window(), "150", "90"});
+    const Seen before = viewer.settled();
+    const Place windowed = viewer.place();
+    viewer.key("F11");
+    wait_for("full screen", [&] { return viewer.place() == desktop.place(); });
+    const Seen full = viewer.settled();
+    const Place screen = desktop.place();
+    EXPECT_EQ(full.width, screen.width - kPanel);
+    // The picture reaches the screen's right and lower edges.
+    const Seen right = desktop.see({screen.width - 4, kUnderlay, 4, screen.height - kUnderlay});
+    const Seen lower = desktop.see({kPanel, screen.height - 4, screen.width - kPanel, 4});
+    EXPECT_GT(count_colours(right), 30u);
+    EXPECT_GT(count_colours(lower), 30u);
+    viewer.key("F11");
+    wait_for("the window's place", [&] { return viewer.place() == windowed; });
+    viewer.wait_for_picture(before);
+    leave(viewer);
+}
+
+INSTANTIATE_TEST_SUITE_P(Desktop, FullScreen,
+                         testing::Values(std::vector<std::string>{},
+                                         std::vector<std::string>{"--manager"}),
+                         [](const auto& about) {
+                             return about.param.empty() ? "Bare" : "WithWindowManager";
+                         });
+
+TEST(Desktop, StaysInFullScreenWithoutTheFocus) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    viewer.settled();
+    viewer.key("F11");
+    wait_for("full screen", [&] { return viewer.place() == desktop.place(); });
+    viewer.settled();
+    const OtherWindow other(desktop, viewer);
+    viewer.settled();
+    EXPECT_FALSE(viewer.is_minimised());
+    viewer.activate();
+    leave(viewer);
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions of `kilolux view` that a script plays, under Xvfb, and the pictures they leave.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "present/image_file.h"
+#include "tests/present/child.h"
+
+namespace kilolux {
+
+namespace fs = std::filesystem;
+
+inline constexpr int kPanel = 360;     // [pixel] of the window are the panel's
+inline constexpr int kUnderlay = 120;  // [pixel] from the top: the overlay ends above
+
+using Variables = std::vector<std::string>;  // "NAME=value"; "-uNAME" takes one away
+
+/// Runs the program in a virtual display of its own; `display`: what else with_display is told.
+inline ChildResult view_in_display(const Variables& variables,
+                                   const std::vector<std::string>& arguments,
+                                   const std::vector<std::string>& display = {}) {
+    std::vector<std::string> words = {"/usr/bin/env"};
+    words.insert(words.end(), variables.begin(), variables.end());
+    words.emplace_back(KILOLUX_ROOT "/tests/window/with_display");
+    words.insert(words.end(), display.begin(), display.end());
+    words.emplace_back(KILOLUX_PROGRAM);
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_child(words);
+}
+
+/// A program with sanitizers wants to be loaded before the recorder, but can do without.
+inline std::string recorder_asan_options() {
+    const char* given = std::getenv("ASAN_OPTIONS");
+    return std::string("ASAN_OPTIONS=") + (given == nullptr ? "" : given) +
+           ":verify_asan_link_order=0";
+}
+
+/// A window that begins as new, small enough for any machine.
+inline std::vector<std::string> small_window(const std::string& script) {
+    return {"view",     "plain", "--fresh", "--resolution", "700,420",
+            "--lights", "150",   "--quiet", "--script",     script};
+}
+
+/// The part of a picture where the scene is.
+struct ScenePart {
+    int width = 0, height = 0;  // of the window [pixel]
+    std::vector<float> values;
+};
+
+inline ScenePart scene_part(const fs::path& file, int left = kPanel) {
+    const FloatImage image = read_image(file);
+    ScenePart out{image.width, image.height, {}};
+    const std::size_t channels = image.channels.size();
+    for (int y = kUnderlay; y < image.height; ++y) {
+        for (int x = left; x < image.width; ++x) {
+            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                               static_cast<std::size_t>(x);
+            for (std::size_t c = 0; c < 3; ++c) {
+                out.values.push_back(image.values[pixel * channels + c]);
+            }
+        }
+    }
+    return out;
+}
+
+inline double mean_of(const ScenePart& a) {
+    double sum = 0.0;
+    for (const float v : a.values) sum += static_cast<double>(v);
+    return sum / static_cast<double>(a.values.size());
+}
+
+inline double mean_difference(const ScenePart& a, const ScenePart& b) {
+    EXPECT_EQ(a.values.size(), b.values.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < std::min(a.values.size(), b.values.size()); ++i) {
+        sum += std::abs(static_cast<double>(a.values[i]) - static_cast<double>(b.values[i]));
+    }
+    return sum / static_cast<double>(a.values.size());
+}
+
+/// A script and the pictures it leaves, in a folder.
+class Script {
+ public:
+    explicit Script(const TemporaryFolder& folder) : folder_(folder) {}
+    Script& line(const std::string& text) {
+        text_ += text + "\n";
+        return *this;
+    }
+    Script& shot(const std::string& name) {
+        return line("settle").line("screenshot " + (folder_ / (name + ".png")).string());
+    }
+    std::string write() const {
+        write_text(folder_ / "script", text_);
+        return (folder_ / "script").string();
+    }
+
+ private:
+    const TemporaryFolder& folder_;
+    std::string text_;
+};
+
+}  // namespace kilolux
