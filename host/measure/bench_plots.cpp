@@ -49,7 +49,8 @@ std::string curve_name(const SweepPoint& point, const std::vector<std::string>& 
         if (!varies || field == but) continue;
         const bool bare = field == "renderer" || field == "resolution" || field == "gbuffer";
         if (!name.empty()) name += ", ";
-        name += bare ? text : field + " " + text;
+        if (!bare) name += field + " ";
+        name += text;
     }
     return name;
 }

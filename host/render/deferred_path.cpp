@@ -23,7 +23,7 @@ Radiance DeferredPath::light(const SampleInput& sample, StageTimer& timer, Frame
     gbuffer_ = surfaces_.draw(sample.camera, sample.band, sample.redraw, stats.stages);
     grid_ = coarse_grid(context_, sample.camera, stats);
     local_lights_ = sample.lights.count;
-    const Radiance radiance =
+    Radiance radiance =
         all_lights_ ? light_from_all(sample, timer, stats) : light_from_lists(sample, timer, stats);
     if (blended_) blend(sample, radiance, stats);
     return radiance;

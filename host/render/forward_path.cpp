@@ -35,7 +35,7 @@ Radiance ForwardPath::light(const SampleInput& sample, StageTimer& timer, FrameS
     forward_.draw(sample.camera, settings.width, settings.height,
                   forward_lights(sample.rows, settings.ambient, clustered_ ? &lists_ : nullptr));
     const std::vector<float> planes = forward_.read_radiance(view.stride);
-    const Radiance radiance{radiance_.reserve(planes.size() * sizeof(float)), view};
+    Radiance radiance{radiance_.reserve(planes.size() * sizeof(float)), view};
     upload<float>(context_.gpu, radiance.planes, planes);
     add_stage_time(stats.stages, clustered_ ? "forward_plus" : "forward", forward_.last_ms());
     stats.evaluations_per_pixel = -1.0;

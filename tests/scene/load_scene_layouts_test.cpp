@@ -7,7 +7,7 @@
 
 #include "tests/scene/gltf_builder.h"
 
-// Images are read some rows at a time: all rows arrive, whatever the file's own rows are.
+// All rows of an image arrive, whatever way its file keeps them.
 
 namespace kilolux {
 namespace {

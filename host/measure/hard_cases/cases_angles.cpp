@@ -74,7 +74,7 @@ std::uint64_t pixels_lit_from_behind(const Gpu& gpu, std::uint64_t& pixels) {
     const glm::dvec3 l = glm::normalize(glm::dvec3(v.x, v.y, v.z));
     Random random(23);
     auto* normals = shot.image.plane<uint>(PLANE_NORMAL);
-    pixels = shot.image.view.stride * shot.image.view.height;
+    pixels = std::size_t{shot.image.view.stride} * shot.image.view.height;
     for (std::size_t i = 0; i < pixels; ++i) {
         normals[i] = packed_normal(tilted(l, -std::sin(1e-4), random));
     }

@@ -92,7 +92,7 @@ void try_huge_ranges(const Gpu& gpu, Findings& findings) {
     }
     const Exposure exposure = expose(gpu, shot);
     const std::uint64_t pairs = check_none_missing(findings, shot, exposure);
-    findings.tried("pairs that reach", pairs, 400 * 300);
+    findings.tried("pairs that reach", pairs, 120000);  // of 400 lights
     check_exact(findings, shot, exposure);
     std::uint64_t short_lists = 0;
     for (const ActiveCluster& c : exposure.lists.clusters) short_lists += c.list_count != 400;

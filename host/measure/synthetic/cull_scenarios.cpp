@@ -117,7 +117,7 @@ std::vector<uint> drawn_pixels(const Synthetic& image, Random& random) {
         if (depth[std::size_t{i / view.width} * view.stride + i % view.width] > 0.0f)
             pixels.push_back(i);
     }
-    if (pixels.size() <= 2 * kPixelSample) return pixels;
+    if (pixels.size() <= std::size_t{2} * kPixelSample) return pixels;
     std::vector<uint> sample;
     for (uint i = 0; i < kPixelSample; ++i) {
         sample.push_back(pixels[random.below(static_cast<uint>(pixels.size()))]);
