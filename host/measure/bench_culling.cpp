@@ -8,6 +8,7 @@
 #include "host/render/grid_request.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/light_input.h"
+#include "host/render/light_order.h"
 #include "host/stages/build_clusters.h"
 #include "host/stages/cull_lights.h"
 #include "host/stages/prepare_lights.h"
@@ -143,7 +144,9 @@ CullingMeasurement measure_culling(const Scene& scene, const RenderSettings& set
                                    const DeviceLimits& limits, int runs) {
     LightOptions options = settings.lights;
     options.count = light_count;
-    const LightRows rows = make_light_rows(generate_lights(options, scene, time), camera.position);
+    std::vector<SceneLight> lights = generate_lights(options, scene, time);
+    sort_by_place(lights);
+    const LightRows rows = make_light_rows(lights, camera.position);
     const Gpu gpu = open_device(settings);
     LightInput input;
     input.count = static_cast<uint>(rows.local.size());

@@ -2,6 +2,7 @@
 #include "host/render/light_source.h"
 
 #include "host/base/log.h"
+#include "host/render/light_order.h"
 #include "host/scene/light_ranges.h"
 
 namespace kilolux {
@@ -17,14 +18,20 @@ std::vector<SceneLight> lights_with_ranges(const Scene& scene, double budget) {
     return lights;
 }
 
+std::vector<SceneLight> with_generated(std::vector<SceneLight> lights, const LightOptions& options,
+                                       const Scene& scene, double time) {
+    const std::vector<SceneLight> generated = generate_lights(options, scene, time);
+    lights.insert(lights.end(), generated.begin(), generated.end());
+    sort_by_place(lights);
+    return lights;
+}
+
 }  // namespace
 
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time) {
     std::vector<SceneLight> lights = scene.lights;
     fill_missing_ranges(lights, settings.range_budget);
-    const std::vector<SceneLight> generated = generate_lights(settings.lights, scene, time);
-    lights.insert(lights.end(), generated.begin(), generated.end());
-    return lights;
+    return with_generated(std::move(lights), settings.lights, scene, time);
 }
 
 LightSource::LightSource(const Gpu& gpu, const Scene& scene, const RenderSettings& settings)
@@ -55,9 +62,7 @@ void LightSource::take_up_changes() {
 LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) {
     take_up_changes();
     if (time_ != time) {
-        const std::vector<SceneLight> generated = generate_lights(generated_, scene_, time);
-        lights_ = own_;
-        lights_.insert(lights_.end(), generated.begin(), generated.end());
+        lights_ = with_generated(own_, generated_, scene_, time);
         time_ = time;
     }
     LightRows rows = make_light_rows(lights_, camera_position);

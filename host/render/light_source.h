@@ -13,7 +13,8 @@
 
 namespace kilolux {
 
-/// All lights of a scene at `time` [s], its own and then the generated ones, each with a range.
+/// All lights of a scene at `time` [s], its own and the generated ones, each with a range, in the
+/// order in which kernels go through them (light_order.h).
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time);
 
 /// All lights of a scene, its own and the generated ones, at any time.

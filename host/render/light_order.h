@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// Puts lights into the order in which kernels go through them: neighbours in space beside each
+/// other, along a Morton curve (Morton 1966) of cubes an eighth of the range wide, so that a
+/// pixel's lights are near each other in memory and in few blocks of its sum. Which of two lights
+/// comes first depends on these two alone; equal places keep their order. Directional lights and
+/// what is not finite come last.
+void sort_by_place(std::vector<SceneLight>& lights);
+
+}  // namespace kilolux

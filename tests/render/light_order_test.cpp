@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// The order in which kernels go through lights.
+#include "host/render/light_order.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace kilolux {
+namespace {
+
+std::vector<SceneLight> random_lights(std::size_t count, float range = 2.0f) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-20.0, 20.0);
+    std::vector<SceneLight> lights(count);
+    for (SceneLight& light : lights) {
+        light.position = {place(random), place(random), place(random)};
+        light.range = range;
+    }
+    return lights;
+}
+
+std::vector<SceneLight> sorted(std::vector<SceneLight> lights) {
+    sort_by_place(lights);
+    return lights;
+}
+
+bool same_places(const std::vector<SceneLight>& a, const std::vector<SceneLight>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& x, const auto& y) { return x.position == y.position; });
+}
+
+double mean_step(const std::vector<SceneLight>& lights) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < lights.size(); ++i) {
+        sum += glm::length(lights[i].position - lights[i - 1].position);
+    }
+    return sum / static_cast<double>(lights.size() - 1);
+}
+
+TEST(LightOrder, NeighboursInSpaceAreNeighbours) {
+    const std::vector<SceneLight> lights = random_lights(5000);
+    EXPECT_GT(mean_step(lights), 20.0);
+    // 5000 lights in 40^3 m^3: 2.3 m from one to the next if they stood on a lattice.
+    EXPECT_LT(mean_step(sorted(lights)), 4.0);
+}
+
+// No two in one cell of the curve.
+std::vector<SceneLight> lattice_lights(std::size_t count) {
+    constexpr std::size_t kEdge = 70;
+    std::vector<SceneLight> lights(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        lights[i].position = {i % kEdge, i / kEdge % kEdge, i / (kEdge * kEdge)};
+        lights[i].range = 2.0f;
+    }
+    return lights;
+}
+
+// Threads sort parts of many lights: whatever order they come in, one order comes out.
+TEST(LightOrder, DependsOnPlacesAlone) {
+    for (const std::size_t count : {100u, 70001u, 300000u}) {
+        std::vector<SceneLight> lights = lattice_lights(count);
+        const std::vector<SceneLight> expected = sorted(lights);
+        EXPECT_FALSE(same_places(expected, lights));
+        std::shuffle(lights.begin(), lights.end(), std::mt19937(9));
+        EXPECT_TRUE(same_places(sorted(lights), expected)) << count << " lights";
+    }
+}
+
+TEST(LightOrder, OfTwoLightsDependsOnNoThird) {
+    const std::vector<SceneLight> all = sorted(random_lights(2000));
+    std::vector<SceneLight> some = random_lights(2000);
+    some.erase(some.begin(), some.begin() + 700);
+    std::vector<SceneLight> expected;
+    for (const SceneLight& light : all) {
+        const bool stays = std::any_of(some.begin(), some.end(), [&](const SceneLight& s) {
+            return s.position == light.position;
+        });
+        if (stays) expected.push_back(light);
+    }
+    EXPECT_TRUE(same_places(sorted(some), expected));
+}
+
+TEST(LightOrder, IsTheSameInAWorldTwiceAsLarge) {
+    std::vector<SceneLight> expected = sorted(random_lights(2000));
+    std::vector<SceneLight> doubled = random_lights(2000);
+    for (SceneLight& light : expected) light.position *= 2.0;
+    for (SceneLight& light : doubled) {
+        light.position *= 2.0;
+        light.range *= 2.0f;
+    }
+    EXPECT_TRUE(same_places(sorted(doubled), expected));
+}
+
+TEST(LightOrder, PutsLightsWithoutAPlaceLastInTheirOrder) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<SceneLight> lights = random_lights(10);
+    lights[2].type = LightType::directional;
+    lights[2].inner_cone = 1.0f;
+    lights[3].position.y = kNan;
+    lights[5].range = 0.0f;
+    lights[6].position.x = std::numeric_limits<double>::infinity();
+    const std::vector<SceneLight> out = sorted(lights);
+    ASSERT_EQ(out.size(), 10u);
+    EXPECT_EQ(out[6].inner_cone, 1.0f);
+    EXPECT_TRUE(std::isnan(out[7].position.y));
+    EXPECT_EQ(out[8].range, 0.0f);
+    EXPECT_TRUE(std::isinf(out[9].position.x));
+}
+
+TEST(LightOrder, KeepsTheOrderOfEqualPlacesAndFarOnes) {
+    std::vector<SceneLight> lights(6);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        lights[i].range = 1.0f;
+        lights[i].position = glm::dvec3(i < 3 ? 1e12 * static_cast<double>(i + 1) : 1.0);
+        lights[i].inner_cone = static_cast<float>(i);
+    }
+    const std::vector<SceneLight> out = sorted(lights);
+    for (const std::size_t i : {0u, 1u, 2u})
+        EXPECT_EQ(out[i].inner_cone, static_cast<float>(i + 3));
+    for (const std::size_t i : {3u, 4u, 5u})
+        EXPECT_EQ(out[i].inner_cone, static_cast<float>(i - 3));
+}
+
+TEST(LightOrder, OfNoLightIsNone) { EXPECT_TRUE(sorted({}).empty()); }
+
+}  // namespace
+}  // namespace kilolux
