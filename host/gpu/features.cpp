@@ -21,7 +21,7 @@ BuildOptions feature_options(const KernelFeatures& features) {
 Tuning default_tuning(const DeviceInfo& device) {
     Tuning tuning;
     if (device.is_cpu) {
-        tuning.cull_chunks = 4 * device.compute_units;
+        tuning.cull_chunks = 16 * device.compute_units;
         tuning.light_group = 16;
         return tuning;
     }
