@@ -70,10 +70,10 @@ TEST(LaneWork, OfAnEvaluationIsAsCountedByHand) {
     // along 3, inverse distance 1, cos 1, cone 1 + 1 + 2, square 1, window 1.
     EXPECT_EQ(work_of_evaluation(features_of(SHADING_LAMBERT, false, true)),
               (LaneWork{32.0, 0.0, 1.0, 2.0}));
-    // 13; max 1, rsqrt 1, n.l 1, lit 3; h 3, h2 3, max 1; rsqrt 1, d 3, d2 3, half 1, none from
-    // behind 2, pow 36, weight 1; sums 6.
+    // 13; max 1, root 1, cube 1, product 1, division 1; h 3, h2 3, max 1; n.h 3, square 1, cross 6,
+    // square 3, none from behind 2, pow 36 with a division, weight 1; sums 6.
     EXPECT_EQ(work_of_evaluation(features_of(SHADING_BLINN_PHONG)),
-              (LaneWork{79.0, 2.0, 0.0, 1.0}));
+              (LaneWork{83.0, 0.0, 1.0, 2.0}));
     // 19; half vector 7; cross 6, square 3, ggx 2; smith_l 2 + sqrt 1, smith 2; h4 1, lobe 3 +
     // division 1; schlick 3 + rsqrt 1 + 2, powers 3, g 1; diffuse 1 + 3; specular 2 + 3.
     EXPECT_EQ(work_of_evaluation(features_of(SHADING_PBR)), (LaneWork{66.0, 2.0, 1.0, 1.0}));
