@@ -141,7 +141,7 @@ LightLists LightingBench::Parts::light(Stages& stages, Radiance& radiance) {
     const GridRequest request = grid_request(settings.grid, camera, box,
                                              position_pad(geometry->needs().layout, box, camera));
     const ClusterGrid grid = make_cluster_grid(request, gbuffer.view.width, gbuffer.view.height);
-    const LightLists lists = stages.lists.enqueue(lights, gbuffer, grid, timer);
+    LightLists lists = stages.lists.enqueue(lights, gbuffer, grid, timer);
     radiance =
         stages.shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
     stages.tonemap.enqueue(radiance, settings.exposure, timer);

@@ -25,7 +25,7 @@ Radiance RadianceSum::mean() {
     for (std::size_t i = 0; i < planes.size(); ++i) {
         planes[i] = static_cast<float>(sums_[i] / count_);
     }
-    const Radiance out{mean_.reserve(planes.size() * sizeof(float)), view_};
+    Radiance out{mean_.reserve(planes.size() * sizeof(float)), view_};
     upload<float>(gpu_, out.planes, planes);
     return out;
 }

@@ -149,7 +149,7 @@ LightInput Renderer::Parts::begin(const Camera& camera, double time, Frame& fram
     frame.stats.zero_normals = scene->zero_normals();
     rows = lights.at(time, camera.position, frame.stats);
     add_stage_time(frame.stats.stages, "light_input", ms_since(start));
-    const LightInput input = lights.upload(rows);
+    LightInput input = lights.upload(rows);
     frame.stats.frame_ms = ms_since(start);
     return input;
 }
