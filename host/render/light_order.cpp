@@ -32,15 +32,30 @@ std::uint64_t cell_of(double x, double edge) {
         std::clamp(std::floor(x / edge) + kMiddle, 0.0, 2.0 * kMiddle - 1.0));
 }
 
+std::uint64_t reversed(std::uint64_t x) {
+    x = (x & 0x5555555555555555) << 1 | (x >> 1 & 0x5555555555555555);
+    x = (x & 0x3333333333333333) << 2 | (x >> 2 & 0x3333333333333333);
+    x = (x & 0x0f0f0f0f0f0f0f0f) << 4 | (x >> 4 & 0x0f0f0f0f0f0f0f0f);
+    return __builtin_bswap64(x);
+}
+
+// Along the curve within a cube; cubes by the reversed bits of their number, so that neighbours are
+// far from each other: lights near the camera cost more than others, and consecutive ones are
+// culled by one work-group.
+std::uint64_t scatter_cubes(std::uint64_t morton) {
+    constexpr int kCubeBits = 3 * 5;  // of the cells in a cube
+    const std::uint64_t cell = morton & ((std::uint64_t{1} << kCubeBits) - 1);
+    return reversed(morton >> kCubeBits << (kCubeBits + 1)) << kCubeBits | cell;
+}
+
 struct Place {
     int range_exponent = std::numeric_limits<int>::max();
-    std::uint64_t morton = 0;
+    std::uint64_t key = 0;
     std::uint32_t light = 0;
 };
 
 bool operator<(const Place& a, const Place& b) {
-    return std::tie(a.range_exponent, a.morton, a.light) <
-           std::tie(b.range_exponent, b.morton, b.light);
+    return std::tie(a.range_exponent, a.key, a.light) < std::tie(b.range_exponent, b.key, b.light);
 }
 
 Place place_of(const SceneLight& light, std::uint32_t number) {
@@ -51,8 +66,8 @@ Place place_of(const SceneLight& light, std::uint32_t number) {
     const int exponent = std::ilogb(light.range);
     const double edge = std::ldexp(0.125, exponent);
     return {exponent,
-            spread(cell_of(p.x, edge)) | spread(cell_of(p.y, edge)) << 1 |
-                spread(cell_of(p.z, edge)) << 2,
+            scatter_cubes(spread(cell_of(p.x, edge)) | spread(cell_of(p.y, edge)) << 1 |
+                          spread(cell_of(p.z, edge)) << 2),
             number};
 }
 

@@ -8,7 +8,7 @@
 namespace kilolux {
 
 /// Puts lights into the order in which kernels go through them: neighbours in space beside each
-/// other, along a Morton curve (Morton 1966) of cubes an eighth of the range wide, so that a
+/// other, along a Morton curve (Morton 1966) within cubes two to four ranges wide, so that a
 /// pixel's lights are near each other in memory and in few blocks of its sum. Which of two lights
 /// comes first depends on these two alone; equal places keep their order. Directional lights and
 /// what is not finite come last.

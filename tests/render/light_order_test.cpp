@@ -44,7 +44,7 @@ TEST(LightOrder, NeighboursInSpaceAreNeighbours) {
     const std::vector<SceneLight> lights = random_lights(5000);
     EXPECT_GT(mean_step(lights), 20.0);
     // 5000 lights in 40^3 m^3: 2.3 m from one to the next if they stood on a lattice.
-    EXPECT_LT(mean_step(sorted(lights)), 4.0);
+    EXPECT_LT(mean_step(sorted(lights)), 5.0);
 }
 
 // No two in one cell of the curve.
