@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
+#include "host/base/error.h"
 #include "raster/shaders/draw_rows.h"
 
 namespace kilolux {
@@ -20,12 +22,17 @@ float4 rotated(const View& view, const float4& v, float w) {
 }
 
 // New contents; never empty, since an empty buffer cannot be bound.
-template <typename Row>
-void refill(const GlBuffer& buffer, std::span<const Row> rows) {
+void refill_buffer(const GlBuffer& buffer, std::span<const std::byte> bytes) {
     constexpr std::array<std::byte, 64> kNothing{};
-    const void* bytes = rows.empty() ? static_cast<const void*>(kNothing.data()) : rows.data();
-    const std::size_t size = rows.empty() ? kNothing.size() : rows.size_bytes();
-    glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(size), bytes, GL_STREAM_DRAW);
+    if (bytes.empty()) bytes = kNothing;
+    glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
+                      GL_STREAM_DRAW);
+}
+
+std::size_t most_texels() {
+    GLint texels = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+    return static_cast<std::size_t>(texels);
 }
 
 }  // namespace
@@ -40,12 +47,30 @@ ShadeLight shade_light(const View& view, const Light& light) {
     return out;
 }
 
+BufferTexture::BufferTexture(GLenum format, std::size_t texel_bytes, const char* name)
+    : buffer_(make_buffer()),
+      view_(make_texture(GL_TEXTURE_BUFFER)),
+      format_(format),
+      texel_bytes_(texel_bytes),
+      name_(name) {}
+
+void BufferTexture::refill(std::span<const std::byte> bytes) {
+    const std::size_t texels = bytes.size() / texel_bytes_;
+    if (texels > most_texels()) {
+        throw Error("forward renderer: " + std::string(name_) + " need " + std::to_string(texels) +
+                    " texels of a buffer texture; OpenGL has at most " +
+                    std::to_string(most_texels()) + " here");
+    }
+    refill_buffer(buffer_, bytes);
+    glTextureBuffer(view_.name(), format_, buffer_.name());
+}
+
 ForwardLightBuffers::ForwardLightBuffers()
     : frame_(make_buffer()),
-      lights_(make_buffer()),
       directional_(make_buffer()),
-      cluster_offsets_(make_buffer()),
-      light_lists_(make_buffer()) {}
+      light_rows_(GL_RGBA32F, sizeof(float4), "lights"),
+      cluster_offsets_(GL_R32UI, sizeof(uint), "clusters"),
+      light_lists_(GL_R32UI, sizeof(uint), "light lists") {}
 
 void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) {
     std::vector<ShadeLight> local;
@@ -61,19 +86,19 @@ void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) 
     frame.light_count = static_cast<uint>(local.size());
     frame.directional_count = static_cast<uint>(directional.size());
     frame.ambient = lights.ambient;
-    refill(frame_, std::span<const ForwardRow>(&frame, 1));
-    refill(lights_, std::span<const ShadeLight>(local));
-    refill(directional_, std::span<const DirectionalLight>(directional));
-    refill(cluster_offsets_, lights.cluster_offsets);
-    refill(light_lists_, lights.light_lists);
+    refill_buffer(frame_, std::as_bytes(std::span(&frame, 1)));
+    refill_buffer(directional_, std::as_bytes(std::span(directional)));
+    light_rows_.refill(std::as_bytes(std::span(local)));
+    cluster_offsets_.refill(std::as_bytes(lights.cluster_offsets));
+    light_lists_.refill(std::as_bytes(lights.light_lists));
 }
 
 void ForwardLightBuffers::bind() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, frame_.name());
-    GLuint binding = 0;
-    for (const GlBuffer* buffer : {&lights_, &directional_, &cluster_offsets_, &light_lists_}) {
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding++, buffer->name());
-    }
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, directional_.name());
+    light_rows_.bind(LIGHT_ROWS_UNIT);
+    cluster_offsets_.bind(CLUSTER_OFFSETS_UNIT);
+    light_lists_.bind(LIGHT_LISTS_UNIT);
 }
 
 }  // namespace kilolux

@@ -19,6 +19,11 @@ namespace kilolux {
 #define USE_SPECULAR_COLOR 6
 #define USE_COUNT 7
 
+// Texture units of what forward shading reads of lights.
+#define LIGHT_ROWS_UNIT 8
+#define CLUSTER_OFFSETS_UNIT 9
+#define LIGHT_LISTS_UNIT 10
+
 SHARED_STRUCT(MaterialRow) {
     float4 base_color;       // linear Rec. 709, alpha
     float4 emissive_cutoff;  // xyz: linear radiance; w: alpha cutoff

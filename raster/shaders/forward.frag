@@ -6,13 +6,14 @@
 #include "raster/shaders/material.glsl"
 
 layout(std140, binding = 1) uniform ForwardBlock { ForwardRow frame; };
-layout(std430, binding = 0) readonly buffer Lights { ShadeLight lights[]; };  // view space
-layout(std430, binding = 1) readonly buffer DirectionalLights {
+layout(std430, binding = 0) readonly buffer DirectionalLights {
     DirectionalLight directional_lights[];
 };
+// Buffer textures, not storage buffers: see raster/forward_lights.h.
+layout(binding = LIGHT_ROWS_UNIT) uniform samplerBuffer light_rows;  // ShadeLight, view space
 #ifdef CLUSTERED
-layout(std430, binding = 2) readonly buffer ClusterOffsets { uint cluster_offsets[]; };
-layout(std430, binding = 3) readonly buffer LightLists { uint light_lists[]; };
+layout(binding = CLUSTER_OFFSETS_UNIT) uniform usamplerBuffer cluster_offsets;
+layout(binding = LIGHT_LISTS_UNIT) uniform usamplerBuffer light_lists;
 #endif
 
 layout(location = 0) out vec4 out_radiance;  // linear; alpha for materials that blend
@@ -50,10 +51,22 @@ uvec2 light_range(float z) {
 #ifdef CLUSTERED
     uvec2 tile = uvec2(fragment_pixel()) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
     uint cluster = cluster_index(frame.grid, tile.x, tile.y, slice_of_depth(frame.grid, z));
-    return uvec2(cluster_offsets[cluster], cluster_offsets[cluster + 1u]);
+    return uvec2(texelFetch(cluster_offsets, int(cluster)).x,
+                 texelFetch(cluster_offsets, int(cluster) + 1).x);
 #else
     return uvec2(0u, frame.light_count);
 #endif
+}
+
+ShadeLight light_at(uint light) {
+    int row = 3 * int(light);
+    ShadeLight out_light;
+    out_light.position_inv_range2 = texelFetch(light_rows, row);
+    out_light.color_scale = texelFetch(light_rows, row + 1);
+#if HAS_SPOT_LIGHTS
+    out_light.axis_cos = texelFetch(light_rows, row + 2);
+#endif
+    return out_light;
 }
 
 // Blocked by light index as in kernels/shade.cl, so that a light that adds nothing changes nothing.
@@ -62,7 +75,7 @@ LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
     uint current = 0u;
     for (uint i = range.x; i < range.y; ++i) {
 #ifdef CLUSTERED
-        uint light = light_lists[i];
+        uint light = texelFetch(light_lists, int(i)).x;
 #else
         uint light = i;
 #endif
@@ -71,7 +84,7 @@ LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
             total = add_sums(total, block);
             block = zero_sum();
         }
-        block = evaluate(block, p, lights[light]);
+        block = evaluate(block, p, light_at(light));
     }
     return add_sums(total, block);
 }

@@ -5,6 +5,8 @@
 #include <random>
 
 #include "gl_fixture.h"
+#include "host/base/error.h"
+#include "raster/forward_lights.h"
 
 // The host's evaluate(), for what the fragments should be.
 #define SHADING 2
@@ -255,6 +257,30 @@ TEST_F(ForwardPassTest, NoLightsLeaveEmissionAndAmbient) {
     EXPECT_EQ(radiance[plane], 0.5f);
     EXPECT_EQ(radiance[2 * plane], 4.125f);
     EXPECT_EQ(radiance[kWidth], 0.0f) << "past the width";
+}
+
+using BufferTextureTest = GlTest;
+
+TEST_F(BufferTextureTest, RefusesMoreTexelsThanItHolds) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    ASSERT_GT(most, 0);
+    BufferTexture texture(GL_R32UI, sizeof(uint), "light lists");
+    // Not memory: what is refused is not read.
+    const std::byte* nothing = nullptr;
+    const std::span<const std::byte> too_many(nothing,
+                                              sizeof(uint) * (static_cast<std::size_t>(most) + 1));
+    std::string message;
+    try {
+        texture.refill(too_many);
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    EXPECT_EQ(message, "forward renderer: light lists need " +
+                           std::to_string(most + std::int64_t{1}) +
+                           " texels of a buffer texture; OpenGL has at most " +
+                           std::to_string(most) + " here");
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
 }  // namespace

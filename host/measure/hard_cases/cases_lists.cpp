@@ -54,7 +54,11 @@ std::vector<Gpu> gpus_by_threads(const Gpu& gpu) {
     } catch (const cl::Error&) {
         return gpus;
     }
-    if (!parts.empty()) gpus.emplace_back(parts.front(), gpu.info.lane_width);
+    if (parts.empty()) return gpus;
+    // One reference is never given back: PoCL 3.1 frees a part of a device with the last handle to
+    // it, while a worker thread may still have to release the last event of the part's queue.
+    clRetainDevice(parts.front()());
+    gpus.emplace_back(parts.front(), gpu.info.lane_width);
     return gpus;
 }
 
