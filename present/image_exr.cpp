@@ -26,7 +26,7 @@ void describe_camera(OIIO::ImageSpec& spec, const Camera& camera, const Frame& f
                clip_from_view(camera, frame.width, frame.height) * view_from_world);
 }
 
-void add_channel(OIIO::ImageSpec& spec, const std::string& name, OIIO::TypeDesc format) {
+void add_channel(OIIO::ImageSpec& spec, const std::string& name, const OIIO::TypeDesc& format) {
     for (const std::string& known : spec.channelnames) {
         if (known == name) throw Error("EXR: two layers have a channel '" + name + "'");
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -90,7 +91,8 @@ std::vector<unsigned char> codes_of(const std::vector<float>& colours) {
     constexpr double kLargest = std::numeric_limits<Code>::max();
     std::vector<unsigned char> bytes(colours.size() * sizeof(Code));
     for (std::size_t i = 0; i < colours.size(); ++i) {
-        const auto code = static_cast<Code>(static_cast<double>(colours[i]) * kLargest + 0.5);
+        const auto code =
+            static_cast<Code>(std::lround(static_cast<double>(colours[i]) * kLargest));
         std::memcpy(&bytes[i * sizeof(Code)], &code, sizeof(Code));
     }
     return bytes;

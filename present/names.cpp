@@ -20,9 +20,9 @@ std::vector<std::string> light_color_names() { return {"float", "half"}; }
 
 std::vector<std::string> gbuffer_names() {
     std::vector<std::string> names;
-    for (const uint layout :
+    for (const int layout :
          {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
-        names.push_back(gbuffer_layout_name(layout));
+        names.push_back(gbuffer_layout_name(static_cast<uint>(layout)));
     }
     return names;
 }

@@ -42,8 +42,8 @@ class Registrar {
 
     /// One of `names`, which stand in the order of the enumeration; `text.form` is made of them.
     template <typename Enum>
-    Registrar& choice(OptionText text, Enum& out, const std::vector<std::string>& names) {
-        return place(std::move(text), names, [&out](std::size_t i) { out = static_cast<Enum>(i); });
+    Registrar& choice(const OptionText& text, Enum& out, const std::vector<std::string>& names) {
+        return place(text, names, [&out](std::size_t i) { out = static_cast<Enum>(i); });
     }
     Registrar& choice(OptionText text, std::string& out, const std::vector<std::string>& names);
 

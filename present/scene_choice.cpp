@@ -15,7 +15,7 @@ namespace {
 
 // The file that a name which is no generated scene's stands for.
 std::filesystem::path scene_file(const std::string& name_or_file) {
-    const std::filesystem::path file(name_or_file);
+    std::filesystem::path file(name_or_file);
     if (std::filesystem::is_directory(file)) {
         throw Error(name_or_file + ": is a folder, not a scene file");
     }

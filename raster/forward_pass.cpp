@@ -2,6 +2,7 @@
 #include "raster/forward_pass.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 
 #include "raster/gl_debug.h"
@@ -27,7 +28,7 @@ Defines defines_of(const ForwardFeatures& features) {
 TargetPlan radiance_plan() {
     TargetPlan plan;
     plan.color_formats = {GL_RGBA32F};
-    for (const GLenum component : {GL_RED, GL_GREEN, GL_BLUE}) {
+    for (const GLenum component : std::initializer_list<GLenum>{GL_RED, GL_GREEN, GL_BLUE}) {
         plan.reads.push_back({component - GL_RED, GL_COLOR_ATTACHMENT0, component, GL_FLOAT});
     }
     return plan;

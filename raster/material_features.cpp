@@ -18,7 +18,7 @@ bool same_lookup(const TextureUse& a, const TextureUse& b) {
 
 // GLSL that gives the coordinates with which a use's texture is read.
 std::string uv_expression(uint features, int use) {
-    const std::string texcoord =
+    std::string texcoord =
         (features & (kFeatureTexcoord1 << use)) != 0 ? "v_texcoord1" : "v_texcoord0";
     if ((features & (kFeatureTransform << use)) == 0) return texcoord;
     return "transformed(" + std::to_string(use) + ", " + texcoord + ")";

@@ -40,8 +40,8 @@ void draw_faces(const GpuMesh& mesh, const Material& material) {
 
 }  // namespace
 
-ScenePrograms::ScenePrograms(const GpuScene& scene, std::string fragment, Defines common, uint mask,
-                             bool blended)
+ScenePrograms::ScenePrograms(const GpuScene& scene, const std::string& fragment,
+                             const Defines& common, uint mask, bool blended)
     : mask_(mask) {
     for (const GpuMesh& mesh : scene.meshes()) {
         if ((scene.material(mesh.material).alpha_mode == AlphaMode::blend) != blended) continue;

@@ -16,8 +16,8 @@ class ScenePrograms {
  public:
     /// `common`: defines of every variant. `mask`: features that this pass looks at. `blended`: for
     /// the materials that blend, or for those that do not.
-    ScenePrograms(const GpuScene& scene, std::string fragment, Defines common, uint mask,
-                  bool blended = false);
+    ScenePrograms(const GpuScene& scene, const std::string& fragment, const Defines& common,
+                  uint mask, bool blended = false);
 
     std::size_t size() const { return programs_.size(); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/atrium_court.h"
 
+#include <cmath>
+
 #include "host/scene/atrium_plan.h"
 
 namespace kilolux {
@@ -116,7 +118,7 @@ MeshBuilder fountain_water() {
         const std::vector<SweepFrame> frames =
             round_frames(center, 32, 0.0, 6.283185307179586, 1.0);
         builder.patch(32, 1, [&](double u, double v) {
-            const SweepFrame& f = frames[static_cast<std::size_t>(u * 32 + 0.5)];
+            const SweepFrame& f = frames[static_cast<std::size_t>(std::lround(u * 32))];
             const glm::dvec3 p = center + (v * bowl.x) * f.axis_x;
             return SurfacePoint{p, {0, 1, 0}, {p.x, p.z}};
         });

@@ -65,7 +65,7 @@ cl::Buffer Shade::stored_lights(const cl::Program& program, const PreparedLights
                                 StageTimer& timer) {
     if (!features_.half_light_colors || lights.count == 0) return lights.lights;
     const std::size_t rows = kStoredLightRows + (features_.spot_lights ? 1 : 0);
-    const cl::Buffer stored = stored_.reserve(lights.count * rows * sizeof(float4));
+    cl::Buffer stored = stored_.reserve(lights.count * rows * sizeof(float4));
     cl::KernelFunctor<cl::Buffer, cl::Buffer> kernel(program, "store_lights");
     timer.record(kStage, kernel(cl::EnqueueArgs(gpu_.queue, cl::NDRange(lights.count)),
                                 lights.lights, stored));

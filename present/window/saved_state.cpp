@@ -82,6 +82,7 @@ void as_number(Visitor& visitor, const char* name, const char* option, T& value,
 template <typename Visitor, typename Enum>
 void as_word(Visitor& visitor, const char* name, const char* option, Enum& value,
              const std::vector<std::string>& known) {
+    // What reads a file changes it. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
     std::string word = known.at(static_cast<std::size_t>(value));
     visitor.word(name, option, word, known);
     value = static_cast<Enum>(parse_name(name, word, known));
@@ -129,7 +130,7 @@ void visit_window(Visitor& v, ViewState& state) {
 
 Json parse_file(const fs::path& file) {
     std::ifstream in(file);
-    const Json json = Json::parse(in, nullptr, false);
+    Json json = Json::parse(in, nullptr, false);
     if (!json.is_object()) throw Error("it is no JSON object");
     if (json.value("version", 0) != kVersion) throw Error("it is of another version");
     return json;

@@ -20,7 +20,7 @@ fs::path free_file(const fs::path& folder, const std::string& extension) {
     for (int i = 1;; ++i) {
         char number[16];
         std::snprintf(number, sizeof number, "%03d", i);
-        const fs::path file = folder / ("kilolux-" + std::string(number) + extension);
+        fs::path file = folder / ("kilolux-" + std::string(number) + extension);
         if (!fs::exists(file)) return file;
     }
 }

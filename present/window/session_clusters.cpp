@@ -120,6 +120,7 @@ void ViewSession::paint_boxes() const {
 void ViewSession::describe_picture() {
     if (buffers_.width() == 0) return;
     const ScreenPlace place = picture_place();
+    // Dear ImGui passes names of textures as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     const auto texture = reinterpret_cast<ImTextureID>(std::uintptr_t{buffers_.texture()});
     ImGui::GetBackgroundDrawList()->AddImage(texture, {place.x0, place.y0}, {place.x1, place.y1});
 }
