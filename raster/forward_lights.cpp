@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "raster/gl_context.h"
 #include "raster/shaders/draw_rows.h"
 
 namespace kilolux {
@@ -47,28 +48,40 @@ ShadeLight shade_light(const View& view, const Light& light) {
     return out;
 }
 
-BufferTexture::BufferTexture(GLenum format, std::size_t texel_bytes, const char* name)
+LightAccess faster_light_access() {
+    return is_software_renderer() ? LightAccess::texture : LightAccess::storage;
+}
+
+LightArray::LightArray(GLenum format, std::size_t texel_bytes, const char* name)
     : buffer_(make_buffer()),
-      view_(make_texture(GL_TEXTURE_BUFFER)),
+      texture_(make_texture(GL_TEXTURE_BUFFER)),
       format_(format),
       texel_bytes_(texel_bytes),
       name_(name) {}
 
-void BufferTexture::refill(std::span<const std::byte> bytes) {
+void LightArray::refill(std::span<const std::byte> bytes, LightAccess access) {
     const std::size_t texels = bytes.size() / texel_bytes_;
-    if (texels > most_texels()) {
+    if (access == LightAccess::texture && texels > most_texels()) {
         throw Error("forward renderer: " + std::string(name_) + " need " + std::to_string(texels) +
                     " texels of a buffer texture; OpenGL has at most " +
                     std::to_string(most_texels()) + " here");
     }
     refill_buffer(buffer_, bytes);
-    glTextureBuffer(view_.name(), format_, buffer_.name());
+    if (access == LightAccess::texture) {
+        glTextureBuffer(texture_.name(), format_, buffer_.name());
+    }
 }
 
-ForwardLightBuffers::ForwardLightBuffers()
-    : frame_(make_buffer()),
+void LightArray::bind(GLuint storage_block, GLuint texture_unit) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, storage_block, buffer_.name());
+    glBindTextureUnit(texture_unit, texture_.name());
+}
+
+ForwardLightBuffers::ForwardLightBuffers(LightAccess access)
+    : access_(access),
+      frame_(make_buffer()),
       directional_(make_buffer()),
-      light_rows_(GL_RGBA32F, sizeof(float4), "lights"),
+      lights_(GL_RGBA32F, sizeof(float4), "lights"),
       cluster_offsets_(GL_R32UI, sizeof(uint), "clusters"),
       light_lists_(GL_R32UI, sizeof(uint), "light lists") {}
 
@@ -88,17 +101,17 @@ void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) 
     frame.ambient = lights.ambient;
     refill_buffer(frame_, std::as_bytes(std::span(&frame, 1)));
     refill_buffer(directional_, std::as_bytes(std::span(directional)));
-    light_rows_.refill(std::as_bytes(std::span(local)));
-    cluster_offsets_.refill(std::as_bytes(lights.cluster_offsets));
-    light_lists_.refill(std::as_bytes(lights.light_lists));
+    lights_.refill(std::as_bytes(std::span(local)), access_);
+    cluster_offsets_.refill(std::as_bytes(lights.cluster_offsets), access_);
+    light_lists_.refill(std::as_bytes(lights.light_lists), access_);
 }
 
 void ForwardLightBuffers::bind() const {
     glBindBufferBase(GL_UNIFORM_BUFFER, 1, frame_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, directional_.name());
-    light_rows_.bind(LIGHT_ROWS_UNIT);
-    cluster_offsets_.bind(CLUSTER_OFFSETS_UNIT);
-    light_lists_.bind(LIGHT_LISTS_UNIT);
+    lights_.bind(1, LIGHTS_UNIT);
+    cluster_offsets_.bind(2, CLUSTER_OFFSETS_UNIT);
+    light_lists_.bind(3, LIGHT_LISTS_UNIT);
 }
 
 }  // namespace kilolux

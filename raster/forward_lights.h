@@ -26,20 +26,27 @@ struct ForwardLights {
 /// A light in view space, as kernels/prepare_lights.cl makes it.
 ShadeLight shade_light(const View& view, const Light& light);
 
-/// An array that shaders read through a texture unit. llvmpipe reads a storage buffer lane by lane,
-/// which took six times as long as all arithmetic of a light together; a texel it reads at once.
-class BufferTexture {
+/// How shaders read lights and lists, to the same bits. llvmpipe reads a storage buffer lane by
+/// lane, which took six times as long as a light's arithmetic, and a texel at once; an NVIDIA H200
+/// takes a quarter longer with textures.
+enum class LightAccess { storage, texture };
+
+/// The faster one for the current context.
+LightAccess faster_light_access();
+
+/// An array for shaders, as a storage block and as a texture.
+class LightArray {
  public:
     /// Texels of `format`, each of `texel_bytes`; `name` stands in error messages.
-    BufferTexture(GLenum format, std::size_t texel_bytes, const char* name);
+    LightArray(GLenum format, std::size_t texel_bytes, const char* name);
 
-    /// New contents. Throws Error when OpenGL's buffer textures hold fewer texels.
-    void refill(std::span<const std::byte> bytes);
-    void bind(GLuint unit) const { glBindTextureUnit(unit, view_.name()); }
+    /// New contents. Throws Error when textures shall be read and OpenGL's hold fewer texels.
+    void refill(std::span<const std::byte> bytes, LightAccess access);
+    void bind(GLuint storage_block, GLuint texture_unit) const;
 
  private:
     GlBuffer buffer_;
-    GlTexture view_;
+    GlTexture texture_;
     GLenum format_;
     std::size_t texel_bytes_;
     const char* name_;
@@ -48,18 +55,18 @@ class BufferTexture {
 /// Lights in buffers that forward.frag reads.
 class ForwardLightBuffers {
  public:
-    ForwardLightBuffers();
+    explicit ForwardLightBuffers(LightAccess access);
 
-    /// Throws Error when there are more lights, clusters or list entries than a buffer texture
-    /// holds.
+    /// Throws Error when there are more lights, clusters or list entries than can be read.
     void upload(const ForwardLights& lights, const View& view);
 
-    /// Binds uniform block 1, storage block 0 and the texture units that draw_rows.h names.
+    /// Binds uniform block 1, storage blocks 0 to 3 and the texture units that draw_rows.h names.
     void bind() const;
 
  private:
+    LightAccess access_;
     GlBuffer frame_, directional_;
-    BufferTexture light_rows_, cluster_offsets_, light_lists_;
+    LightArray lights_, cluster_offsets_, light_lists_;
 };
 
 }  // namespace kilolux

@@ -14,12 +14,18 @@ namespace {
 constexpr const char* kForward = "raster/shaders/forward.frag";
 constexpr const char* kDepth = "raster/shaders/depth.frag";
 
+LightAccess light_access(const ForwardFeatures& features) {
+    return features.light_access.value_or(faster_light_access());
+}
+
 Defines defines_of(const ForwardFeatures& features) {
+    const bool textures = light_access(features) == LightAccess::texture;
     Defines defines = {{"SHADING", std::to_string(features.shading)},
                        {"HAS_SPOT_LIGHTS", features.spot_lights ? "1" : "0"},
                        {"HAS_METALLIC", features.metallic ? "1" : "0"},
                        {"HAS_SPECULAR", features.specular ? "1" : "0"},
-                       {"HAS_UNLIT", features.unlit ? "1" : "0"}};
+                       {"HAS_UNLIT", features.unlit ? "1" : "0"},
+                       {"LIGHT_TEXTURES", textures ? "1" : "0"}};
     if (features.directional_lights) defines.emplace_back("HAS_DIRECTIONAL_LIGHTS", "1");
     if (features.clustered) defines.emplace_back("CLUSTERED", "1");
     return defines;
@@ -53,9 +59,9 @@ void load_radiance(const GBufferTargets& targets, std::span<const float> planes)
 
 ForwardPass::ForwardPass(const GpuScene& scene, const ForwardFeatures& features)
     : scene_(scene),
-      features_(features),
       draw_list_(scene.scene()),
-      blended_(scene, kForward, defines_of(features), ~0u, true) {
+      blended_(scene, kForward, defines_of(features), ~0u, true),
+      light_buffers_(light_access(features)) {
     if (features.opaque) opaque_.emplace(scene, kForward, defines_of(features), ~0u);
     if (features.opaque && features.clustered) {
         depth_.emplace(scene, kDepth, Defines{{"NO_SURFACE", "1"}}, coverage_features());

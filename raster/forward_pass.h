@@ -23,6 +23,7 @@ struct ForwardFeatures {
     bool unlit = false;      // unlit materials among glossy ones
     bool clustered = false;  // forward-plus: lights of the coarse cluster; else all of them
     bool opaque = true;      // false: only what blends, over a picture that another renderer made
+    std::optional<LightAccess> light_access;  // none: the faster one here
 };
 
 /// Shades a scene where it is drawn, in linear HDR. `forward`: objects in the scene's order, every
@@ -56,7 +57,6 @@ class ForwardPass {
     void draw_transparent(const Camera& camera) const;
 
     const GpuScene& scene_;
-    ForwardFeatures features_;
     DrawList draw_list_;
     std::optional<ScenePrograms> depth_, opaque_;
     ScenePrograms blended_;

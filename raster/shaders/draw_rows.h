@@ -19,8 +19,8 @@ namespace kilolux {
 #define USE_SPECULAR_COLOR 6
 #define USE_COUNT 7
 
-// Texture units of what forward shading reads of lights.
-#define LIGHT_ROWS_UNIT 8
+// Texture units of what forward shading reads of lights, where it does so from textures.
+#define LIGHTS_UNIT 8
 #define CLUSTER_OFFSETS_UNIT 9
 #define LIGHT_LISTS_UNIT 10
 

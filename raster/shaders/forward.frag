@@ -9,11 +9,32 @@ layout(std140, binding = 1) uniform ForwardBlock { ForwardRow frame; };
 layout(std430, binding = 0) readonly buffer DirectionalLights {
     DirectionalLight directional_lights[];
 };
-// Buffer textures, not storage buffers: see raster/forward_lights.h.
-layout(binding = LIGHT_ROWS_UNIT) uniform samplerBuffer light_rows;  // ShadeLight, view space
-#ifdef CLUSTERED
+// Lights (view space) and lists; LIGHT_TEXTURES: see LightAccess in raster/forward_lights.h.
+#if LIGHT_TEXTURES
+layout(binding = LIGHTS_UNIT) uniform samplerBuffer lights;  // rows of ShadeLight
 layout(binding = CLUSTER_OFFSETS_UNIT) uniform usamplerBuffer cluster_offsets;
 layout(binding = LIGHT_LISTS_UNIT) uniform usamplerBuffer light_lists;
+
+ShadeLight light_at(uint light) {
+    int row = 3 * int(light);
+    ShadeLight read;
+    read.position_inv_range2 = texelFetch(lights, row);
+    read.color_scale = texelFetch(lights, row + 1);
+#if HAS_SPOT_LIGHTS
+    read.axis_cos = texelFetch(lights, row + 2);
+#endif
+    return read;
+}
+uint cluster_offset(uint cluster) { return texelFetch(cluster_offsets, int(cluster)).x; }
+uint listed_light(uint entry) { return texelFetch(light_lists, int(entry)).x; }
+#else
+layout(std430, binding = 1) readonly buffer Lights { ShadeLight lights[]; };
+layout(std430, binding = 2) readonly buffer ClusterOffsets { uint cluster_offsets[]; };
+layout(std430, binding = 3) readonly buffer LightLists { uint light_lists[]; };
+
+ShadeLight light_at(uint light) { return lights[light]; }
+uint cluster_offset(uint cluster) { return cluster_offsets[cluster]; }
+uint listed_light(uint entry) { return light_lists[entry]; }
 #endif
 
 layout(location = 0) out vec4 out_radiance;  // linear; alpha for materials that blend
@@ -51,22 +72,10 @@ uvec2 light_range(float z) {
 #ifdef CLUSTERED
     uvec2 tile = uvec2(fragment_pixel()) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
     uint cluster = cluster_index(frame.grid, tile.x, tile.y, slice_of_depth(frame.grid, z));
-    return uvec2(texelFetch(cluster_offsets, int(cluster)).x,
-                 texelFetch(cluster_offsets, int(cluster) + 1).x);
+    return uvec2(cluster_offset(cluster), cluster_offset(cluster + 1u));
 #else
     return uvec2(0u, frame.light_count);
 #endif
-}
-
-ShadeLight light_at(uint light) {
-    int row = 3 * int(light);
-    ShadeLight out_light;
-    out_light.position_inv_range2 = texelFetch(light_rows, row);
-    out_light.color_scale = texelFetch(light_rows, row + 1);
-#if HAS_SPOT_LIGHTS
-    out_light.axis_cos = texelFetch(light_rows, row + 2);
-#endif
-    return out_light;
 }
 
 // Blocked by light index as in kernels/shade.cl, so that a light that adds nothing changes nothing.
@@ -75,7 +84,7 @@ LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
     uint current = 0u;
     for (uint i = range.x; i < range.y; ++i) {
 #ifdef CLUSTERED
-        uint light = texelFetch(light_lists, int(i)).x;
+        uint light = listed_light(i);
 #else
         uint light = i;
 #endif

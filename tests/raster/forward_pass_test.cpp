@@ -224,7 +224,7 @@ ClusterLists exact_lists(const Scene& scene, const Lights& lights) {
     return out;
 }
 
-TEST_F(ForwardPassTest, ForwardPlusIsForwardBitForBit) {
+TEST_F(ForwardPassTest, ForwardPlusIsForwardBitForBitHoweverItReadsLights) {
     const Scene scene = boxes_scene();
     const Lights lights = some_lights(300);
     const ClusterLists clusters = exact_lists(scene, lights);
@@ -232,13 +232,21 @@ TEST_F(ForwardPassTest, ForwardPlusIsForwardBitForBit) {
     for (const int shading : {SHADING_LAMBERT, SHADING_BLINN_PHONG, SHADING_PBR}) {
         ForwardFeatures features = all_features();
         features.shading = shading;
+        features.light_access = LightAccess::storage;
         const std::vector<float> forward = draw(scene, features, lights.all());
-        features.clustered = true;
         ForwardLights listed = lights.all();
         listed.grid = clusters.grid;
         listed.cluster_offsets = clusters.offsets;
         listed.light_lists = clusters.lists;
-        EXPECT_EQ(draw(scene, features, listed), forward) << "shading " << shading;
+        for (const LightAccess access : {LightAccess::storage, LightAccess::texture}) {
+            SCOPED_TRACE("shading " + std::to_string(shading) + ", access " +
+                         std::to_string(static_cast<int>(access)));
+            features.light_access = access;
+            features.clustered = false;
+            EXPECT_EQ(draw(scene, features, lights.all()), forward);
+            features.clustered = true;
+            EXPECT_EQ(draw(scene, features, listed), forward);
+        }
         EXPECT_TRUE(std::all_of(forward.begin(), forward.end(),
                                 [](float v) { return v >= 0 && v < 1e3f; }));
         EXPECT_TRUE(std::any_of(forward.begin(), forward.end(), [](float v) { return v > 0.1f; }));
@@ -259,20 +267,20 @@ TEST_F(ForwardPassTest, NoLightsLeaveEmissionAndAmbient) {
     EXPECT_EQ(radiance[kWidth], 0.0f) << "past the width";
 }
 
-using BufferTextureTest = GlTest;
+using LightArrayTest = GlTest;
 
-TEST_F(BufferTextureTest, RefusesMoreTexelsThanItHolds) {
+TEST_F(LightArrayTest, RefusesMoreTexelsThanATextureHolds) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     ASSERT_GT(most, 0);
-    BufferTexture texture(GL_R32UI, sizeof(uint), "light lists");
+    LightArray array(GL_R32UI, sizeof(uint), "light lists");
     // Not memory: what is refused is not read.
     const std::byte* nothing = nullptr;
     const std::span<const std::byte> too_many(nothing,
                                               sizeof(uint) * (static_cast<std::size_t>(most) + 1));
     std::string message;
     try {
-        texture.refill(too_many);
+        array.refill(too_many, LightAccess::texture);
     } catch (const Error& error) {
         message = error.what();
     }
