@@ -6,6 +6,7 @@
 #include "host/base/log.h"
 #include "host/measure/bench_culling.h"
 #include "host/measure/bench_shading.h"
+#include "host/measure/limit_watch.h"
 #include "host/measure/tune.h"
 #include "present/command_bench.h"
 #include "present/frame_summary.h"
@@ -22,10 +23,6 @@ using Json = nlohmann::ordered_json;
 RenderSettings single_settings(const BenchOptions& options) {
     const std::vector<SweepPoint> points = bench_points(options);
     return settings_at(options.shared.settings, points.front());
-}
-
-DeviceLimits limits_of(const RenderSettings& settings) {
-    return cached_device_limits(Gpu(choose_device(settings.device)));
 }
 
 // What the modes begin with.
@@ -89,7 +86,7 @@ TuningResult search(LightingBench& bench, int runs) {
 
 void run_culling(const BenchOptions& options) {
     const Bench bench(options);
-    const DeviceLimits limits = limits_of(bench.settings);
+    const DeviceLimits limits = LimitWatch(choose_device(bench.settings.device)).limits();
     const std::vector<std::uint64_t> standard = {1000, 5000, 10000, 100000, 1000000};
     const std::vector<std::uint64_t> counts = options.axes.lights.value_or(standard);
     std::vector<CullingMeasurement> measured;

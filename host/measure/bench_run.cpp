@@ -75,11 +75,12 @@ BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera
       camera_(camera),
       time_(time),
       gl_(gl),
-      limits_(cached_device_limits(Gpu(choose_device(base_.device)))) {
+      watch_(choose_device(base_.device)) {
     base_.aovs.clear();
 }
 
 std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFrames& frames) {
+    watch_.look_again();
     const RenderSettings settings = settings_at(base_, point);
     std::vector<FrameStats> measured;
     FrameSetup setup;
@@ -120,7 +121,7 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     row.useful_k = covered.useful_k;
     row.error = error_of(point);
     std::vector<BenchRow> rows;
-    for (const StageReport& report : stage_reports(stats, limits_, setup)) {
+    for (const StageReport& report : stage_reports(stats, limits(), setup)) {
         BenchRow stage = row;
         stage.stage = report.stage;
         stage.ms = statistics(times_of(frames, report.stage));

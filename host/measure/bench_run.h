@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/measure/bench_row.h"
-#include "host/measure/device_limits.h"
+#include "host/measure/limit_watch.h"
 #include "host/measure/rgb_image.h"
 #include "host/measure/stage_model.h"
 #include "host/render/frame.h"
@@ -47,7 +47,8 @@ class BenchRun {
     /// Frames that measure() of these points renders in all.
     std::size_t frame_count(const std::vector<SweepPoint>& points, const BenchFrames& frames) const;
 
-    const DeviceLimits& limits() const { return limits_; }
+    /// As high as they were seen so far.
+    const DeviceLimits& limits() const { return watch_.limits(); }
 
  private:
     // What does not depend on how the lights are found.
@@ -69,7 +70,7 @@ class BenchRun {
     Camera camera_;
     double time_;
     GlSource gl_;
-    DeviceLimits limits_;
+    LimitWatch watch_;
     std::function<void()> on_frame_ = [] {};
     std::map<SceneKey, Coverage> coverages_;
     std::map<SceneKey, RgbImage> references_;

@@ -2,6 +2,7 @@
 #include "host/measure/device_limits.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "host/base/error.h"
@@ -12,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"limits", 2};
+constexpr CacheKind kKind = {"limits", 3};
 
 struct Field {
     const char* name;
@@ -59,20 +60,37 @@ std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
     return limits;
 }
 
-void raise(double& limit, double measured) { limit = std::max(limit, measured); }
+// Keeps the better one; whether that is better by more than a hundredth.
+bool raise(double& limit, double measured) {
+    const bool better = measured > 1.01 * limit;
+    limit = std::max(limit, measured);
+    return better;
+}
 
 }  // namespace
 
-void raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
+bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
     const auto rate = [&](const char* kernel, int operations) {
         return kernels.lane_operations_per_s(kernel, operations);
     };
-    raise(limits.fma_flops, 2.0 * rate("fma_rate", kFmaChains));
-    raise(limits.lane_instructions_per_s, limits.fma_flops / 2.0);
-    raise(limits.lane_instructions_per_s, rate("instruction_rate", kFmaChains + kAddChains));
-    raise(limits.rsqrt_per_s, rate("rsqrt_rate", kFmaChains));
-    raise(limits.sqrt_per_s, rate("sqrt_rate", kFmaChains));
-    raise(limits.divisions_per_s, rate("division_rate", kFmaChains));
+    bool rose = raise(limits.fma_flops, 2.0 * rate("fma_rate", kFmaChains));
+    rose |= raise(limits.lane_instructions_per_s, limits.fma_flops / 2.0);
+    rose |=
+        raise(limits.lane_instructions_per_s, rate("instruction_rate", kFmaChains + kAddChains));
+    rose |= raise(limits.rsqrt_per_s, rate("rsqrt_rate", kFmaChains));
+    rose |= raise(limits.sqrt_per_s, rate("sqrt_rate", kFmaChains));
+    rose |= raise(limits.divisions_per_s, rate("division_rate", kFmaChains));
+    return rose;
+}
+
+void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
+    constexpr int kQuietRounds = 3;
+    constexpr std::chrono::seconds kBudget(3);
+    const auto start = std::chrono::steady_clock::now();
+    int quiet = 0;
+    while (quiet < kQuietRounds && std::chrono::steady_clock::now() - start < kBudget) {
+        quiet = raise_arithmetic_limits(limits, kernels) ? 0 : quiet + 1;
+    }
 }
 
 DeviceLimits measure_device_limits(const Gpu& gpu) {
@@ -83,9 +101,7 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         LimitKernels kernels(natural);
         DeviceLimits limits;
         limits.lanes = info.lane_width;
-        // Again after the memory and after the transfers: other work on the machine, and clocks
-        // that have not yet risen, only ever make a rate too low.
-        raise_arithmetic_limits(limits, kernels);
+        settle_arithmetic_limits(limits, kernels);
         limits.one_lane_fma_flops =
             info.lane_width == 1
                 ? limits.fma_flops
@@ -95,7 +111,6 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         limits.read_bandwidth = large.read;
         limits.write_bandwidth = large.write;
         limits.copy_bandwidth = large.copy;
-        raise_arithmetic_limits(limits, kernels);
         const MemoryRates small = kernels.memory_rates(cached_buffer_bytes(info));
         // A cache is at least as fast as the memory behind it, whatever a disturbed run says.
         limits.cached_read_bandwidth = std::max(small.read, large.read);
@@ -104,6 +119,8 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         const TransferRates transfer = kernels.transfer_rates();
         limits.upload_bandwidth = transfer.upload;
         limits.download_bandwidth = transfer.download;
+        // Other work on the machine, and clocks that have not yet risen, only ever make a rate too
+        // low.
         raise_arithmetic_limits(limits, kernels);
         const LaunchTimes launch = kernels.launch_times();
         limits.launch_latency_ms = launch.finish_ms;
@@ -120,12 +137,16 @@ DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again) {
         }
     }
     const DeviceLimits limits = measure_device_limits(gpu);
+    keep_device_limits(info, limits);
+    return limits;
+}
+
+void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits) {
     try {
-        write_device_cache(info, kKind, values_of(limits));
+        write_device_cache(device, kKind, values_of(limits));
     } catch (const Error& error) {
         warn(std::string(error.what()) + "; the device's limits will be measured again");
     }
-    return limits;
 }
 
 }  // namespace kilolux

@@ -40,13 +40,20 @@ struct DeviceLimits {
     }
 };
 
-/// Measures the device; about a second. The best of several runs counts, as other work on the
+/// Measures the device; one to four seconds. The best of several runs counts, as other work on the
 /// machine can only slow it. Throws Error when a kernel fails.
 DeviceLimits measure_device_limits(const Gpu& gpu);
 
 /// Measures the arithmetic again and keeps what is better: between the runs of a benchmark, so that
-/// limits and runs see the same machine.
-void raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
+/// limits and runs see the same machine. Whether a rate rose by more than a hundredth.
+bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
+
+/// The same until it raises nothing three times in a row; three seconds at most. One measurement
+/// alone was 1.9 times too low once, on a machine with other work, and so every ratio to it wrong.
+void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
+
+/// Keeps limits in the user's cache folder; a warning says so where that cannot be.
+void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits);
 
 /// The limits kept in the user's cache folder, or measured and kept. Where they cannot be kept, a
 /// warning says so and they are measured anew the next time. `measure_again`: ignore what is kept.

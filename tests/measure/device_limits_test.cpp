@@ -8,12 +8,13 @@
 
 #include "host/gpu/device_cache.h"
 #include "host/measure/limit_kernels.h"
+#include "host/measure/limit_watch.h"
 #include "tests/measure/cache_sandbox.h"
 
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"limits", 2};
+constexpr CacheKind kKind = {"limits", 3};
 
 class DeviceLimitsTest : public CacheSandbox {
  protected:
@@ -92,6 +93,23 @@ TEST_F(DeviceLimitsTest, AreMeasuredAgainWhenAnEntryCannotBeTrue) {
     expect_plausible(cached_device_limits(gpu_));
     std::ofstream(device_cache_file(gpu_.info, kKind)) << "damaged";
     expect_plausible(cached_device_limits(gpu_));
+}
+
+TEST_F(DeviceLimitsTest, RiseWhileABenchmarkWatchesAndNeverFall) {
+    const DeviceLimits measured = cached_device_limits(gpu_);
+    auto values = *read_device_cache(gpu_.info, kKind);
+    values["sqrt_per_s"] = 1.0;         // as on a busy machine
+    values["divisions_per_s"] = 1e300;  // no measurement reaches that
+    write_device_cache(gpu_.info, kKind, values);
+    LimitWatch watch(gpu_.device);
+    EXPECT_GT(watch.limits().sqrt_per_s, 1e-3 * measured.sqrt_per_s);
+    EXPECT_EQ(watch.limits().divisions_per_s, 1e300);
+    EXPECT_EQ(watch.limits().read_bandwidth, measured.read_bandwidth);
+    EXPECT_EQ(cached_device_limits(gpu_), watch.limits()) << "not kept";
+    const DeviceLimits before = watch.limits();
+    watch.look_again();
+    EXPECT_GE(watch.limits().sqrt_per_s, before.sqrt_per_s);
+    EXPECT_EQ(watch.limits().divisions_per_s, 1e300);
 }
 
 TEST_F(DeviceLimitsTest, WorkWithoutACacheFolder) {
