@@ -2,7 +2,7 @@
 // Active clusters: for every fine tile, one for each depth slice that occurs among its pixels, with
 // the box of just those pixels (Olsson, Billeter, Assarsson 2012: explicit bounds). Background
 // pixels belong to none, and tiles of background only cost nothing afterwards.
-//   bin_pixels_count  active clusters of each tile
+//   bin_pixels_count  active clusters of each tile, and where in the coarse grid there are any
 //   (prefix_sum over tiles)
 //   bin_pixels_fill   the clusters, and each tile's pixels in their order
 // One work-item takes one tile, VW pixels of a row at a time.
@@ -10,6 +10,7 @@
 // In that order, a vector of neighbours lies in one cluster, but for a few at the clusters' ends:
 // shading sums one list a vector. In the order of rows it would sum the list of each cluster that
 // the row crosses.
+#include "kernels/device/coarse_tile.h"
 #include "kernels/device/gbuffer.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
@@ -67,9 +68,11 @@ static inline uint next_slice(const TileSlices* tile, uint slice) {
     return min_lane_uint(next);
 }
 
-kernel void bin_pixels_count(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                             ClusterGrid grid,
-                             global uint* restrict counts) {  // out [tiles]: active clusters
+kernel void bin_pixels_count(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view, ClusterGrid grid,
+    global uint* restrict counts,  // out [tiles]: active clusters
+    // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
+    global uchar* restrict occupied) {  // [cluster_count]
     uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
     uint tile = get_global_id(0);
     uint tile_y = tile / tiles_x;
@@ -77,8 +80,12 @@ kernel void bin_pixels_count(global const uchar* restrict gbuffer, GBufferLayout
     GBuffer g = {gbuffer, layout, view, 0};
     TileSlices slices;
     load_slices(g, grid, tile % tiles_x, tile_y, &slices);
+    CoarseTile coarse = coarse_tile(view, grid, tile);
     uint count = 0;
-    for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) ++count;
+    for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
+        ++count;
+        occupied[cluster_index(grid, coarse.column, coarse.row, slice >> grid.fine_slice_bits)] = 1;
+    }
     counts[tile] = count;
 }
 

@@ -17,6 +17,8 @@ typedef struct ClusterBoxes {
     global const float2* columns;  // [slices][tiles_x]
     global const float2* rows;     // [slices][tiles_y]
     global const float2* depths;   // [slices]
+    // [cluster_count]: 0 for clusters that need no list; null: all do
+    global const uchar* occupied;
 } ClusterBoxes;
 
 // Where pairs go: counted, or filled in.
@@ -42,11 +44,30 @@ typedef struct Candidate {
     LightExtent extent;
 } Candidate;
 
-// Distances of the light by axis to a row of clusters (one slice, one tile row).
+// A row of clusters (one slice, one tile row), its columns first .. end - 1 that may need lists,
+// and the light's distances to the row by axis.
 typedef struct ClusterRow {
     uint slice, row;
+    uint first, end;
     float dy, dz;
 } ClusterRow;
+
+static inline bool needs_list(ClusterBoxes boxes, uint cluster) {
+    return !boxes.occupied || boxes.occupied[cluster] != 0;
+}
+
+static inline ClusterRow cluster_row(ClusterGrid grid, ClusterBoxes boxes, LightExtent extent,
+                                     uint slice, uint row) {
+    uint base = cluster_index(grid, 0u, row, slice);
+    ClusterRow r;
+    r.slice = slice;
+    r.row = row;
+    r.first = extent.columns & 0xffffu;
+    r.end = (extent.columns >> 16) + 1u;
+    while (r.first < r.end && !needs_list(boxes, base + r.first)) ++r.first;
+    while (r.first < r.end && !needs_list(boxes, base + r.end - 1u)) --r.end;
+    return r;
+}
 
 static inline bool reaches_column(Candidate c, ClusterGrid grid, ClusterBoxes boxes, ClusterRow r,
                                   uint column) {
@@ -70,13 +91,13 @@ static inline bool cone_reaches_column(Candidate c, ClusterGrid grid, ClusterBox
 // find both ends, and all between belong.
 static inline void walk_row(Candidate c, ClusterGrid grid, ClusterBoxes boxes, ClusterRow r,
                             PairSink sink, bool fill) {
-    uint first = c.extent.columns & 0xffffu;
-    uint end = (c.extent.columns >> 16) + 1u;
+    uint first = r.first;
+    uint end = r.end;
     while (first < end && !reaches_column(c, grid, boxes, r, first)) ++first;
     while (first < end && !reaches_column(c, grid, boxes, r, end - 1u)) --end;
     uint base = cluster_index(grid, 0u, r.row, r.slice);
     for (uint column = first; column < end; ++column) {
-        if (cone_reaches_column(c, grid, boxes, r, column))
+        if (needs_list(boxes, base + column) && cone_reaches_column(c, grid, boxes, r, column))
             put_pair(sink, base + column, c.light, fill);
     }
 }
@@ -88,9 +109,9 @@ static inline void walk_light(Candidate c, ClusterGrid grid, ClusterBoxes boxes,
     uint row_count = (c.extent.rows >> 16) + 1u - first_row;
     uint total = ((c.extent.slices >> 16) + 1u - first_slice) * row_count;
     for (uint i = get_local_id(0); i < total; i += get_local_size(0)) {
-        ClusterRow r;
-        r.slice = first_slice + i / row_count;
-        r.row = first_row + i % row_count;
+        ClusterRow r = cluster_row(grid, boxes, c.extent, first_slice + i / row_count,
+                                   first_row + i % row_count);
+        if (r.first >= r.end) continue;
         float2 y = boxes.rows[r.slice * grid.tiles_y + r.row];
         float2 z = boxes.depths[r.slice];
         r.dy = interval_distance(c.bound.y, y.x, y.y);
@@ -142,8 +163,9 @@ kernel void cull_lights_count(
     global const float2* restrict columns,  // [slices][tiles_x]
     global const float2* restrict rows,     // [slices][tiles_y]
     global const float2* restrict depths,   // [slices]
+    global const uchar* restrict occupied,  // [cluster_count], or null
     global uint* restrict cursors) {        // out [groups][cluster_count]: pairs
-    ClusterBoxes boxes = {columns, rows, depths};
+    ClusterBoxes boxes = {columns, rows, depths, occupied};
     PairSink sink = {cursors + get_group_id(0) * grid.cluster_count, 0, 0, 0u};
     for (uint i = get_local_id(0); i < grid.cluster_count; i += get_local_size(0))
         sink.cursors[i] = 0u;
@@ -173,12 +195,12 @@ kernel void cull_lights_fill(
     global const ShadeLight* restrict lights, global const float4* restrict bounds,
     global const LightExtent* restrict extents, uint count, ClusterGrid grid,
     global const float2* restrict columns, global const float2* restrict rows,
-    global const float2* restrict depths,
+    global const float2* restrict depths, global const uchar* restrict occupied,
     global uint* restrict cursors,        // in: starts [groups][cluster_count]; used up
     global const uint* restrict offsets,  // [cluster_count + 1], of the lists
     global LIGHT_INDEX* restrict lists,   // out [capacity]
     uint capacity) {
-    ClusterBoxes boxes = {columns, rows, depths};
+    ClusterBoxes boxes = {columns, rows, depths, occupied};
     PairSink sink = {cursors + get_group_id(0) * grid.cluster_count, offsets, lists, capacity};
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, true);
 }

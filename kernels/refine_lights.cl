@@ -4,6 +4,7 @@
 //   (prefix_sum over tiles)
 //   refine_lights          the lists, ascending, one after the other within the tile's reserve
 // One work-group takes one tile; its GROUP work-items test VW lights each at a time.
+#include "kernels/device/coarse_tile.h"
 #include "kernels/device/lanes.h"
 #include "kernels/device/light_index.h"
 #include "kernels/device/light_reach.h"
@@ -18,10 +19,8 @@
 
 // The coarse cluster that holds a fine tile's fine slice.
 static inline uint coarse_cluster(View view, ClusterGrid grid, uint tile, uint slice) {
-    uint fine_tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
-    uint column = tile % fine_tiles_x * FINE_TILE / grid.tile_width;
-    uint row = (tile / fine_tiles_x * FINE_TILE + view.first_row) / grid.tile_height;
-    return cluster_index(grid, column, row, slice >> grid.fine_slice_bits);
+    CoarseTile coarse = coarse_tile(view, grid, tile);
+    return cluster_index(grid, coarse.column, coarse.row, slice >> grid.fine_slice_bits);
 }
 
 kernel void refine_lights_reserve(

@@ -86,9 +86,10 @@ int main(int argc, char** argv) try {
     Radiance radiance;
     do {
         timer.take();
-        const PreparedLights lights = prepare.enqueue(input, view, grid, timer);
-        const CoarseLists coarse = cull.enqueue(lights, build.enqueue(view, grid, timer), timer);
         const ActiveClusters active = bin.enqueue(gbuffer, grid, timer);
+        const PreparedLights lights = prepare.enqueue(input, view, grid, timer);
+        const CoarseLists coarse = cull.enqueue(lights, build.enqueue(view, grid, timer), timer,
+                                                active.occupied);
         const RefinedLists refined = refine.enqueue(lights, coarse, active, view, grid, timer);
         radiance = shade.enqueue(gbuffer, lights, grid, active, refined, timer);
     } while (!cull.fits() || !bin.fits() ||

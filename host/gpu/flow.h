@@ -63,6 +63,7 @@ struct ActiveClusters {
     // uchar[tile_count][FINE_TILE_PIXELS]: row * FINE_TILE + column of a tile's pixels, cluster by
     // cluster and then those of none; of no meaning in tiles without clusters.
     cl::Buffer order;
+    cl::Buffer occupied;  // uchar[cluster_count]: 1 for coarse clusters with active ones
 };
 
 /// Lists of the active clusters, where ActiveCluster::list_begin and list_count say.

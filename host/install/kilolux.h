@@ -5,9 +5,10 @@
 // and lights in another, and runs the stages in this order; host/example/light_gbuffer.cpp is the
 // whole of it:
 //
-//   PrepareLights -> BuildClusters -> CullLights -> BinPixels -> RefineLights -> Shade (-> Bloom,
+//   BinPixels -> PrepareLights -> BuildClusters -> CullLights -> RefineLights -> Shade (-> Bloom,
 //   Tonemap)
 //
+// (BinPixels first, so that CullLights can leave out what has no pixels.)
 // Every stage compiles in its constructor, its enqueue() does not block, and its results stay valid
 // until its next enqueue(). CullLights, BinPixels and RefineLights work with the room that the last
 // frame needed: where their fits() says false, the frame is enqueued again. What must match between

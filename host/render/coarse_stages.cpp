@@ -18,11 +18,12 @@ CoarseStages::CoarseStages(const Gpu& gpu, const Tuning& tuning, const KernelFea
       cull_(gpu, tuning, features) {}
 
 CoarseResult CoarseStages::enqueue(const LightInput& input, const View& view,
-                                   const ClusterGrid& grid, StageTimer& timer) {
+                                   const ClusterGrid& grid, StageTimer& timer,
+                                   const cl::Buffer& occupied) {
     CoarseResult out;
     out.lights = prepare_.enqueue(input, view, grid, timer);
     out.boxes = build_.enqueue(view, grid, timer);
-    out.lists = cull_.enqueue(out.lights, out.boxes, timer);
+    out.lists = cull_.enqueue(out.lights, out.boxes, timer, occupied);
     return out;
 }
 

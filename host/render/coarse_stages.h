@@ -31,9 +31,10 @@ class CoarseStages {
  public:
     CoarseStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Enqueues all of them with the room that earlier frames needed.
+    /// Enqueues all of them with the room that earlier frames needed. `occupied`: see
+    /// CullLights.
     CoarseResult enqueue(const LightInput& input, const View& view, const ClusterGrid& grid,
-                         StageTimer& timer);
+                         StageTimer& timer, const cl::Buffer& occupied = {});
 
     /// True if the lists of the last enqueue are complete; else room has grown: enqueue again.
     /// Blocks.

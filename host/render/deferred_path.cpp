@@ -14,6 +14,7 @@ DeferredPath::DeferredPath(const RenderContext& context)
       shade_(context.gpu, context.tuning, context.plan.kernels),
       count_lights_(context.gpu, context.tuning, context.plan.kernels) {
     if (has_blended_surfaces(context.gpu_scene.scene())) {
+        list_stages_.list_everywhere();
         blended_.emplace(context.gpu_scene, forward_features(context.plan, !all_lights_, false));
     }
 }

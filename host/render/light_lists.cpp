@@ -12,9 +12,10 @@ ListStages::ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 
 LightLists ListStages::enqueue(const LightInput& input, const GBuffer& gbuffer,
                                const ClusterGrid& grid, StageTimer& timer) {
-    const CoarseResult coarse = coarse_.enqueue(input, gbuffer.view, grid, timer);
-    LightLists lists{coarse.lights, coarse.boxes, coarse.lists, {}, {}};
-    lists.clusters = bin_.enqueue(gbuffer, grid, timer);
+    const ActiveClusters active = bin_.enqueue(gbuffer, grid, timer);
+    const CoarseResult coarse = coarse_.enqueue(input, gbuffer.view, grid, timer,
+                                                everywhere_ ? cl::Buffer() : active.occupied);
+    LightLists lists{coarse.lights, coarse.boxes, coarse.lists, active, {}};
     lists.refined =
         refine_.enqueue(lists.lights, lists.coarse, lists.clusters, gbuffer.view, grid, timer);
     return lists;

@@ -23,6 +23,10 @@ class ListStages {
  public:
     ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
+    /// Makes the coarse lists of clusters without pixels, too: for what blends, which is in no
+    /// G-buffer.
+    void list_everywhere() { everywhere_ = true; }
+
     /// Enqueues all of them with the room that earlier frames needed.
     LightLists enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                        StageTimer& timer);
@@ -48,6 +52,7 @@ class ListStages {
  private:
     Gpu gpu_;
     int index_bits_;
+    bool everywhere_ = false;
     CoarseStages coarse_;
     BinPixels bin_;
     RefineLights refine_;

@@ -19,7 +19,15 @@ BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
       counts_(gpu, kStage),
       offsets_(gpu, kStage),
       clusters_(gpu, kStage),
-      order_(gpu, kStage) {}
+      order_(gpu, kStage),
+      occupied_(gpu, kStage) {}
+
+void BinPixels::clear_occupied(const ClusterGrid& grid, StageTimer& timer) {
+    cl::Event event;
+    gpu_.queue.enqueueFillBuffer(occupied_.reserve(grid.cluster_count), cl_uchar{0}, 0,
+                                 grid.cluster_count, nullptr, &event);
+    timer.record(kStage, event);
+}
 
 ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& grid,
                                   StageTimer& timer) {
@@ -39,9 +47,12 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
         const auto group = static_cast<std::size_t>(tuning_.tile_group);
         const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(out.tile_count, group)),
                                     cl::NDRange(group));
-        cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer> count(
-            program_, "bin_pixels_count");
-        timer.record(kStage, count(items, gbuffer.bytes, gbuffer.layout, view, grid, counts));
+        clear_occupied(grid, timer);
+        out.occupied = occupied_.get();
+        cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer, cl::Buffer>
+            count(program_, "bin_pixels_count");
+        timer.record(kStage,
+                     count(items, gbuffer.bytes, gbuffer.layout, view, grid, counts, out.occupied));
         prefix_sum_.enqueue(counts, out.tile_count, out.offsets, timer, kStage);
         cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer, cl::Buffer,
                           uint, cl::Buffer>

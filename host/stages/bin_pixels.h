@@ -31,7 +31,9 @@ class BinPixels {
     Tuning tuning_;
     cl::Program program_;
     PrefixSum prefix_sum_;
-    GrowingBuffer counts_, offsets_, clusters_, order_;
+    void clear_occupied(const ClusterGrid& grid, StageTimer& timer);
+
+    GrowingBuffer counts_, offsets_, clusters_, order_, occupied_;
 };
 
 }  // namespace kilolux

@@ -40,7 +40,7 @@ CoarseLists CullLights::make_lists(const ClusterGrid& grid) {
 }
 
 CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes& boxes,
-                                StageTimer& timer) {
+                                StageTimer& timer, const cl::Buffer& occupied) {
     return in_stage(kStage, [&] {
         const ClusterGrid& grid = boxes.grid;
         CoarseLists out = make_lists(grid);
@@ -51,11 +51,11 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
                                           cl::NDRange(group));
         const cl::Buffer& cursors = cursors_.reserve(chunks * grid.cluster_count * sizeof(uint));
         cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, uint, ClusterGrid, cl::Buffer,
-                          cl::Buffer, cl::Buffer, cl::Buffer>
+                          cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer>
             count(program_, "cull_lights_count");
         timer.record(kStage,
                      count(chunk_items, lights.lights, lights.bounds, lights.extents, lights.count,
-                           grid, boxes.columns, boxes.rows, boxes.depths, cursors));
+                           grid, boxes.columns, boxes.rows, boxes.depths, occupied, cursors));
         cl::KernelFunctor<uint, uint, cl::Buffer, cl::Buffer> offset(program_,
                                                                      "cull_lights_offset");
         const auto map_group = static_cast<std::size_t>(tuning_.light_group);
@@ -66,11 +66,12 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
                    grid.cluster_count, static_cast<uint>(chunks), cursors, counts_.get()));
         prefix_sum_.enqueue(counts_.get(), grid.cluster_count, out.offsets, timer, kStage);
         cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, uint, ClusterGrid, cl::Buffer,
-                          cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, uint>
+                          cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,
+                          uint>
             fill(program_, "cull_lights_fill");
         timer.record(kStage, fill(chunk_items, lights.lights, lights.bounds, lights.extents,
                                   lights.count, grid, boxes.columns, boxes.rows, boxes.depths,
-                                  cursors, out.offsets, out.lists, out.capacity));
+                                  occupied, cursors, out.offsets, out.lists, out.capacity));
         return out;
     });
 }

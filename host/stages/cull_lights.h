@@ -22,7 +22,9 @@ class CullLights {
     CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only. Lists ascend by light index within a cluster, whatever the tuning.
-    CoarseLists enqueue(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer);
+    /// `occupied`: ActiveClusters'; clusters that are not have empty lists. None: all have lists.
+    CoarseLists enqueue(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer,
+                        const cl::Buffer& occupied = {});
 
     /// The brute-force kernel: every light against every cluster's box; blocks. The oracle. Lists
     /// are enqueue()'s plus lights that touch only the part of a box outside the cluster's part of

@@ -55,7 +55,7 @@ Radiance Shade::enqueue_all_lights(const GBuffer& gbuffer, const PreparedLights&
                                    StageTimer& timer) {
     const cl::Program program =
         build_program(gpu_, kStage, options_of(gpu_, tuning_, features_).define("ALL_LIGHTS", 1));
-    const ActiveClusters no_clusters{empty_.get(), empty_.get(), 0, 0, empty_.get()};
+    const ActiveClusters no_clusters{empty_.get(), empty_.get(), 0, 0, empty_.get(), empty_.get()};
     return launch(program, gbuffer, lights, ClusterGrid{}, no_clusters,
                   RefinedLists{empty_.get(), 0}, timer);
 }

@@ -70,6 +70,21 @@ void expect_clusters(const Gpu& gpu, const ActiveClusters& found, const BoxMap& 
     }
 }
 
+// Coarse clusters with an active one, and no others.
+void expect_occupied(const Gpu& gpu, const ActiveClusters& found, const ClusterGrid& grid,
+                     const View& view, const BoxMap& boxes) {
+    std::vector<std::uint8_t> expected(grid.cluster_count, 0);
+    const uint fine_tiles_x = view.stride / FINE_TILE;
+    for (const auto& [key, box] : boxes) {
+        const auto [tile, slice] = key;
+        const uint x = tile % fine_tiles_x * FINE_TILE;
+        const uint y = tile / fine_tiles_x * FINE_TILE + view.first_row;
+        expected[cluster_index(grid, x / grid.tile_width, y / grid.tile_height,
+                               slice >> grid.fine_slice_bits)] = 1;
+    }
+    EXPECT_EQ(download<std::uint8_t>(gpu, found.occupied, grid.cluster_count), expected);
+}
+
 // Each tile's pixels once, cluster by cluster in ascending order, then those of none.
 void expect_order(const Gpu& gpu, const ActiveClusters& found, const ClusterGrid& grid,
                   const Planes& planes) {
@@ -112,6 +127,7 @@ struct Case {
     int tile_group = 1;
     uint layout = GBUFFER_PACKED;
     bool orthographic = false;
+    uint first_row = 0;  // of a band
 };
 
 void expect_case(const Case& c) {
@@ -124,9 +140,10 @@ void expect_case(const Case& c) {
     shape.width = c.width;
     shape.height = c.height;
     shape.orthographic = c.orthographic;
-    const View view = make_view(shape);
+    View view = make_view(shape);
+    view.first_row = c.first_row;
     const ClusterGrid grid =
-        make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
+        make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height + view.first_row);
     const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, features, c.depth));
     Tuning tuning = default_tuning(gpu.info);
     tuning.tile_group = c.tile_group;
@@ -136,7 +153,9 @@ void expect_case(const Case& c) {
     if (!stage.fits()) found = stage.enqueue(gbuffer, grid, timer);
     ASSERT_TRUE(stage.fits());
     const Planes planes = decode(gpu, features, gbuffer);
-    expect_clusters(gpu, found, expected_boxes(grid, planes));
+    const BoxMap boxes = expected_boxes(grid, planes);
+    expect_clusters(gpu, found, boxes);
+    expect_occupied(gpu, found, grid, view, boxes);
     expect_order(gpu, found, grid, planes);
 }
 
@@ -169,6 +188,10 @@ TEST(BinPixels, AgreesOnDepthDiscontinuities) {
 TEST(BinPixels, AgreesOnLayoutsThatStorePositions) {
     expect_case({"full", 49, 35, wide_noise(), 0, 1, GBUFFER_FULL});
     expect_case({"half", 49, 35, wide_noise(), 0, 1, GBUFFER_HALF});
+}
+
+TEST(BinPixels, AgreesInABandOfThePicture) {
+    expect_case({"band", 97, 65, wide_noise(), 0, 1, GBUFFER_PACKED, false, 128});
 }
 
 TEST(BinPixels, BackgroundHasNoClusters) {

@@ -145,6 +145,38 @@ TEST(CullLights, NoLightIsMissingByFloat64AndFewAreListedInVain) {
     EXPECT_GT(sum.reaching, 1'000'000u);
 }
 
+TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
+    const Gpu gpu = test_gpu();
+    std::uint64_t left_out = 0, kept = 0;
+    for (const CullScenario& scenario : cull_scenarios()) {
+        SCOPED_TRACE(scenario.name);
+        const CullCase c = make_cull_case(gpu, scenario);
+        StageRun stages(gpu, default_tuning(gpu.info), c.features);
+        DeviceLists device = stages.run(upload_lights(gpu, c.lights), c.gbuffer, c.grid);
+        const HostLists all = download_lists(gpu, c.features, c.grid, device);
+        const auto occupied =
+            download<std::uint8_t>(gpu, device.clusters.occupied, c.grid.cluster_count);
+        CullLights cull(gpu, default_tuning(gpu.info), c.features);
+        StageTimer timer;
+        do {
+            device.coarse =
+                cull.enqueue(device.lights, device.boxes, timer, device.clusters.occupied);
+        } while (!cull.fits());
+        const HostLists some = download_lists(gpu, c.features, c.grid, device);
+        for (uint cluster = 0; cluster < c.grid.cluster_count; ++cluster) {
+            const auto expected = all.coarse_of(cluster);
+            const auto found = some.coarse_of(cluster);
+            const bool wanted = occupied[cluster] != 0;
+            ASSERT_EQ(found.size(), wanted ? expected.size() : 0u) << "cluster " << cluster;
+            ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin()))
+                << "cluster " << cluster;
+            (wanted ? kept : left_out) += expected.size();
+        }
+    }
+    EXPECT_GT(left_out, 1000u);
+    EXPECT_GT(kept, 1000u);
+}
+
 std::string lists_of(const Gpu& gpu, const CullCase& c, const Tuning& tuning) {
     StageRun stages(gpu, tuning, c.features);
     const DeviceLists device = stages.run(upload_lights(gpu, c.lights), c.gbuffer, c.grid);

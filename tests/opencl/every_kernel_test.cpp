@@ -91,6 +91,7 @@ void run_every_kernel(const Variant& v) {
     StageTimer timer;
     CullLights oracle(gpu, tuning, features);
     oracle.brute_force(lists.lights, lists.boxes, timer);
+    oracle.enqueue(lists.lights, lists.boxes, timer, lists.clusters.occupied);
     Shade shade(gpu, tuning, features);
     const Radiance radiance = shade_both_ways(gpu, shade, gbuffer, lists, grid);
     Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);

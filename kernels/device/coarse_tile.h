@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a fine tile lies in the coarse grid.
+#ifndef KILOLUX_DEVICE_COARSE_TILE_H
+#define KILOLUX_DEVICE_COARSE_TILE_H
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/view.h"
+
+typedef struct CoarseTile {
+    uint column, row;
+} CoarseTile;
+
+static inline CoarseTile coarse_tile(View view, ClusterGrid grid, uint fine_tile) {
+    uint fine_tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    CoarseTile coarse;
+    coarse.column = fine_tile % fine_tiles_x * FINE_TILE / grid.tile_width;
+    coarse.row = (fine_tile / fine_tiles_x * FINE_TILE + view.first_row) / grid.tile_height;
+    return coarse;
+}
+
+#endif
