@@ -33,7 +33,7 @@ struct FrameStats {
     std::uint64_t zero_normals =
         0;  // vertices of the scene whose normal has no direction: drawn as +Z of the view
     std::uint32_t grid[3] = {0, 0, 0};  // tiles x, tiles y, slices
-    std::uint64_t coarse_pairs = 0;
+    std::uint64_t coarse_pairs = 0;     // (light, coarse cluster) that were listed; of all bands
     std::uint64_t active_clusters = 0;
     std::uint64_t refine_tests = 0;  // lights of the active clusters' coarse lists
     std::uint64_t refined_pairs = 0;

@@ -38,7 +38,8 @@ void expect_same_frame(const Frame& banded, const Frame& whole) {
     for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
         EXPECT_EQ(banded.aovs[i].values, whole.aovs[i].values) << whole.aovs[i].name;
     }
-    EXPECT_EQ(banded.stats.coarse_pairs, whole.stats.coarse_pairs);
+    // A cluster that two bands share is listed for both.
+    EXPECT_GE(banded.stats.coarse_pairs, whole.stats.coarse_pairs);
     EXPECT_EQ(banded.stats.active_clusters, whole.stats.active_clusters);
     EXPECT_EQ(banded.stats.refined_pairs, whole.stats.refined_pairs);
     EXPECT_EQ(banded.stats.drawn_pixels, whole.stats.drawn_pixels);
@@ -169,10 +170,10 @@ TEST(MemoryPlan, SaysWhatIsNeededAndWhatThereIs) {
 
 TEST(MemoryPlan, ListsThatDoNotFitAreRefusedByTheirStage) {
     const Scene scene = make_generated_scene("plain");
-    RenderSettings settings = small_settings(320, 180, 20000);
-    settings.lights.radius = 1000.0;  // every light in every cluster
+    RenderSettings settings = small_settings(320, 180, 150000);
+    settings.lights.radius = 1000.0;  // every light in every cluster with pixels
     settings.grid.tiles_x = settings.grid.tiles_y = 64;
-    settings.max_memory_bytes = 300 * kMiB;
+    settings.max_memory_bytes = 350 * kMiB;
     try {
         render_once(scene, settings);
         FAIL() << "took more than it may";

@@ -126,7 +126,9 @@ TEST(Paths, CountsAreThoseOfThePath) {
     const FrameStats plus = stats(RendererKind::forward_plus);
     const FrameStats forward = stats(RendererKind::forward);
     EXPECT_EQ(stats(RendererKind::deferred_all).evaluations_per_pixel, 300.0);
-    EXPECT_EQ(plus.coarse_pairs, deferred.coarse_pairs);
+    // Forward-plus lists clusters without pixels, too.
+    EXPECT_GT(plus.coarse_pairs, deferred.coarse_pairs);
+    EXPECT_GT(deferred.coarse_pairs, 0u);
     EXPECT_GE(forward.evaluations_per_pixel, 300.0);
     EXPECT_LT(plus.evaluations_per_pixel, 300.0);
     EXPECT_GT(plus.evaluations_per_pixel, deferred.evaluations_per_pixel);
