@@ -88,8 +88,8 @@ int main(int argc, char** argv) try {
         timer.take();
         const ActiveClusters active = bin.enqueue(gbuffer, grid, timer);
         const PreparedLights lights = prepare.enqueue(input, view, grid, timer);
-        const CoarseLists coarse = cull.enqueue(lights, build.enqueue(view, grid, timer), timer,
-                                                active.occupied);
+        const CoarseLists coarse =
+            cull.enqueue(lights, build.enqueue(view, grid, timer), timer, active.occupied);
         const RefinedLists refined = refine.enqueue(lights, coarse, active, view, grid, timer);
         radiance = shade.enqueue(gbuffer, lights, grid, active, refined, timer);
     } while (!cull.fits() || !bin.fits() ||

@@ -22,11 +22,15 @@ BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
       order_(gpu, kStage),
       occupied_(gpu, kStage) {}
 
-void BinPixels::clear_occupied(const ClusterGrid& grid, StageTimer& timer) {
-    cl::Event event;
-    gpu_.queue.enqueueFillBuffer(occupied_.reserve(grid.cluster_count), cl_uchar{0}, 0,
-                                 grid.cluster_count, nullptr, &event);
-    timer.record(kStage, event);
+cl::Buffer BinPixels::cleared_occupied(const ClusterGrid& grid, StageTimer& timer) {
+    const cl::Buffer& occupied = occupied_.reserve(grid.cluster_count);
+    const auto group = static_cast<std::size_t>(tuning_.light_group);
+    cl::KernelFunctor<uint, cl::Buffer> clear(program_, "bin_pixels_clear");
+    timer.record(kStage,
+                 clear(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(grid.cluster_count, group)),
+                                       cl::NDRange(group)),
+                       grid.cluster_count, occupied));
+    return occupied;
 }
 
 ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& grid,
@@ -47,8 +51,7 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
         const auto group = static_cast<std::size_t>(tuning_.tile_group);
         const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(out.tile_count, group)),
                                     cl::NDRange(group));
-        clear_occupied(grid, timer);
-        out.occupied = occupied_.get();
+        out.occupied = cleared_occupied(grid, timer);
         cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer, cl::Buffer>
             count(program_, "bin_pixels_count");
         timer.record(kStage,

@@ -27,12 +27,12 @@ class BinPixels {
     bool fits();
 
  private:
+    cl::Buffer cleared_occupied(const ClusterGrid& grid, StageTimer& timer);
+
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;
     PrefixSum prefix_sum_;
-    void clear_occupied(const ClusterGrid& grid, StageTimer& timer);
-
     GrowingBuffer counts_, offsets_, clusters_, order_, occupied_;
 };
 
