@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// What the stages before the G-buffer's know of lights: they need none.
+/// What the stages from lights to coarse lists made.
 struct CoarseResult {
     PreparedLights lights;
     ClusterBoxes boxes;
