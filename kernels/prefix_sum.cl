@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exclusive prefix sum of uint counts, in three launches:
+// Exclusive prefix sum of uint counts. A block is what a work-group sums: one block is done in one
+// launch (prefix_sum_one_block), more in three:
 //   prefix_sum_blocks   each work-item sums its PER_ITEM neighbours, each work-group its block
 //   prefix_sum_totals   one work-item scans the blocks' sums, in 64 bits
 //   prefix_sum_apply    each work-item writes its neighbours' offsets
@@ -36,6 +37,33 @@ static inline ulong scan_group(ulong value, local ulong* shared_sums) {
 #endif
 }
 
+// Offsets of an item's neighbours, the first of which is `sum`; modulo 2^32: the host refuses larger
+// lists by the exact total.
+static inline void write_offsets(global const uint* counts, uint n, uint first, uint sum,
+                                 global uint* offsets) {
+    for (uint i = first; i < min(first + PER_ITEM, n); ++i) {
+        uint value = counts[i];
+        offsets[i] = sum;
+        sum += value;
+    }
+}
+
+kernel void prefix_sum_one_block(
+    global const uint* restrict counts,  // [n], n <= GROUP * PER_ITEM
+    uint n,
+    global uint* restrict offsets,   // out [n + 1]; offsets[n] = total, modulo 2^32
+    global ulong* restrict total) {  // out [1]: the exact total
+    local ulong shared_sums[GROUP];
+    uint first = (uint)get_local_id(0) * PER_ITEM;
+    ulong sum = sum_of_item(counts, n, first);
+    ulong before = scan_group(sum, shared_sums);
+    write_offsets(counts, n, first, (uint)before, offsets);
+    if (get_local_id(0) == GROUP - 1) {
+        offsets[n] = (uint)(before + sum);
+        *total = before + sum;
+    }
+}
+
 kernel void prefix_sum_blocks(global const uint* restrict counts,  // [n]
                               uint n,
                               global ulong* restrict block_sums) {  // out [groups]
@@ -67,12 +95,7 @@ kernel void prefix_sum_apply(
     global uint* restrict offsets) {          // out [n + 1]; the last by prefix_sum_totals
     local ulong shared_sums[GROUP];
     uint first = (uint)get_global_id(0) * PER_ITEM;
-    // Offsets are modulo 2^32: the host refuses larger lists by the exact total.
-    uint sum = (uint)(block_sums[get_group_id(0)] +
-                      scan_group(sum_of_item(counts, n, first), shared_sums));
-    for (uint i = first; i < min(first + PER_ITEM, n); ++i) {
-        uint value = counts[i];
-        offsets[i] = sum;
-        sum += value;
-    }
+    ulong before =
+        block_sums[get_group_id(0)] + scan_group(sum_of_item(counts, n, first), shared_sums);
+    write_offsets(counts, n, first, (uint)before, offsets);
 }

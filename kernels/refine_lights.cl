@@ -42,13 +42,18 @@ kernel void refine_lights_reserve(
     reserves[tile] = sum;
 }
 
-// Which of VW lights of a list from entry `first` on reach the box; lanes beyond `end` do not.
+// VW lights of a coarse list from entry `first` on; lanes from `end` on have none.
+typedef struct Batch {
+    global const LIGHT_INDEX* list;
+    uint first, end;
+} Batch;
+
+// Which of a batch's lights reach the cluster's box.
 static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights,
-                                global const float4* bounds, global const LIGHT_INDEX* list,
-                                uint first, uint end) {
+                                global const float4* bounds, Batch batch) {
     float x[VW], y[VW], z[VW], w[VW];
     for (uint i = 0; i < VW; ++i) {
-        float4 b = bounds[list[min(first + i, end - 1u)]];
+        float4 b = bounds[batch.list[min(batch.first + i, batch.end - 1u)]];
         x[i] = b.x;
         y[i] = b.y;
         z[i] = b.z;
@@ -59,13 +64,14 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
     FV dy = max(max(c.min_y - ly, ly - c.max_y), fv(0.0f));
     FV dz = max(max(c.min_z - lz, lz - c.max_z), fv(0.0f));
     MASK reach = fma(dz, dz, fma(dy, dy, dx * dx)) * load_lanes(w) <= fv(CULL_LIMIT);
-    reach = full_mask(reach) & full_mask((lane_numbers + first) < (UV)(end));
+    reach = full_mask(reach) & full_mask((lane_numbers + batch.first) < (UV)(batch.end));
     UV flags = KX_CONCAT(as_, UV)(reach) & 1u;
 #if HAS_SPOT_LIGHTS
     uint flag[VW];
     store_lanes(flags, flag);
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] && !cone_reaches(lights[list[first + i]], (float3)(c.min_x, c.min_y, c.min_z),
+        if (flag[i] && !cone_reaches(lights[batch.list[batch.first + i]],
+                                     (float3)(c.min_x, c.min_y, c.min_z),
                                      (float3)(c.max_x, c.max_y, c.max_z))) {
             flag[i] = 0;
         }
@@ -76,14 +82,23 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
 }
 
 // Appends the flagged lights in order and returns how many there were in the whole work-group.
-static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first,
-                          global LIGHT_INDEX* out, uint room, local uint* ballots) {
-#if GROUP == 1
+static inline uint append(UV flags, Batch batch, global LIGHT_INDEX* out, uint room,
+                          local uint* ballots) {
     uint flag[VW];
     store_lanes(flags, flag);
+#if GROUP == 1
     uint count = 0;
+    if (batch.first + VW <= batch.end && VW <= room) {
+        // Which lights reach cannot be foreseen: each is written, and the next in its place if not.
+        // The reserve has room for all.
+        for (uint i = 0; i < VW; ++i) {
+            out[count] = batch.list[batch.first + i];
+            count += flag[i];
+        }
+        return count;
+    }
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] && count < room) out[count] = list[first + i];
+        if (flag[i] && count < room) out[count] = batch.list[batch.first + i];
         count += flag[i];
     }
     return count;
@@ -92,8 +107,6 @@ static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first,
     uint item = get_local_id(0);
     if (item < (BATCH + 31) / 32) ballots[item] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any bit is set
-    uint flag[VW];
-    store_lanes(flags, flag);
     for (uint i = 0; i < VW; ++i) {
         uint bit = item * VW + i;
         if (flag[i]) atomic_or(&ballots[bit / 32], 1u << (bit % 32));
@@ -110,7 +123,7 @@ static inline uint append(UV flags, global const LIGHT_INDEX* list, uint first,
         total += popcount(bits);
     }
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] && before < room) out[before] = list[first + i];
+        if (flag[i] && before < room) out[before] = batch.list[batch.first + i];
         before += flag[i];
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // ballots are counted before the next batch clears them
@@ -141,13 +154,12 @@ kernel void refine_lights(
         uint coarse_begin = coarse_offsets[coarse];
         uint coarse_end = min(coarse_offsets[coarse + 1], coarse_capacity);
         uint begin = place;
-        for (uint batch = coarse_begin; batch < coarse_end; batch += BATCH) {
-            uint first = batch + (uint)get_local_id(0) * VW;
+        for (uint first = coarse_begin; first < coarse_end; first += BATCH) {
+            Batch batch = {coarse_lists, first + (uint)get_local_id(0) * VW, coarse_end};
             UV flags = (UV)(0u);
-            if (first < coarse_end)
-                flags = reaching_lanes(c, lights, bounds, coarse_lists, first, coarse_end);
+            if (batch.first < coarse_end) flags = reaching_lanes(c, lights, bounds, batch);
             uint room = place < list_capacity ? list_capacity - place : 0u;
-            place += append(flags, coarse_lists, first, lists + place, room, ballots);
+            place += append(flags, batch, lists + place, room, ballots);
         }
 #if GROUP > 1
         barrier(CLK_GLOBAL_MEM_FENCE);  // all have read the cluster before its list is set

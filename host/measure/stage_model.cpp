@@ -16,7 +16,7 @@ constexpr double kDisplayBytes = 4.0;
 constexpr double kOrderBytes = 1.0;  // of a pixel within its tile
 constexpr double kBoundBytes = sizeof(float4);
 constexpr double kCounterBytes = sizeof(uint);
-constexpr int kPrefixSumLaunches = 3;
+constexpr int kPrefixSumLaunches = 1;  // of one block; more take three
 
 double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8; }
 
@@ -97,7 +97,7 @@ StageWork bin_work(const StageCounts& c) {
     work.lanes = (c.pixels + c.drawn_pixels) * LaneWork{17.0, 0.0, 0.0, 1.0} +
                  c.drawn_pixels * LaneWork{24.0, 0.0, 0.0, 1.0} +
                  2.0 * kTilePixels * further * LaneWork{3.0};
-    work.launches += 2;
+    work.launches += 3;
     return work;
 }
 

@@ -40,6 +40,12 @@ void PrefixSum::enqueue(const cl::Buffer& counts, uint n, const cl::Buffer& offs
         const std::size_t block = group * static_cast<std::size_t>(tuning_.prefix_per_item);
         const std::size_t blocks = std::max<std::size_t>((n + block - 1) / block, 1);
         const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(blocks * group), cl::NDRange(group));
+        if (blocks == 1) {
+            cl::KernelFunctor<cl::Buffer, uint, cl::Buffer, cl::Buffer> one(program_,
+                                                                            "prefix_sum_one_block");
+            timer.record(stage, one(items, counts, n, offsets, total_.get()));
+            return;
+        }
         const cl::Buffer& sums = block_sums_.reserve(blocks * sizeof(std::uint64_t));
         cl::KernelFunctor<cl::Buffer, uint, cl::Buffer> sum_blocks(program_, "prefix_sum_blocks");
         timer.record(stage, sum_blocks(items, counts, n, sums));
