@@ -6,7 +6,8 @@
 //   bin_pixels_count  active clusters of each tile, and where in the coarse grid there are any
 //   (prefix_sum over tiles)
 //   bin_pixels_fill   the clusters, and each tile's pixels in their order
-// One work-item takes one tile, VW pixels of a row at a time.
+// GROUP work-items take one tile, strips of VW pixels of a row at a time: one on CPUs, a work-group
+// on GPUs.
 //
 // In that order, a vector of neighbours lies in one cluster, but for a few at the clusters' ends:
 // shading sums one list a vector. In the order of rows it would sum the list of each cluster that
@@ -16,14 +17,11 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 
+#ifndef GROUP
+#define GROUP 1
+#endif
 #define STRIPS (FINE_TILE / VW)
-#define NO_SLICE 0xffffffffu
-
-// Slices of a tile's pixels; NO_SLICE for background and beyond the image.
-typedef struct TileSlices {
-    UV slice[FINE_TILE * STRIPS];
-    uint first, last;  // smallest and largest; first = NO_SLICE if there is none
-} TileSlices;
+#define NO_SLICE 0xffffffffu  // of background and beyond the image
 
 static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels) {
     FV depth01 = load_depth01(g, pixels);
@@ -41,139 +39,14 @@ static inline Pixels strip_pixels(View view, uint tile_x, uint tile_y, uint stri
                       tile_y * FINE_TILE + strip / STRIPS);
 }
 
-static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint tile_y,
-                               TileSlices* out) {
-    UV first = (UV)(NO_SLICE);
-    UV last = (UV)(0u);
-    uint strips = rows_of_tile(g.view, tile_y) * STRIPS;
-    for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
-        UV slice = (UV)(NO_SLICE);
-        if (i < strips) slice = slices_of_pixels(g, grid, strip_pixels(g.view, tile_x, tile_y, i));
-        out->slice[i] = slice;
-        first = min(first, slice);
-        // NO_SLICE + 1 wraps to 0.
-        last = max(last, slice + 1u);
-    }
-    out->first = min_lane_uint(first);
-    out->last = ~min_lane_uint(~last) - 1u;
-}
-
-// The smallest slice of the tile above `slice`, or NO_SLICE.
-static inline uint next_slice(const TileSlices* tile, uint slice) {
-    if (slice >= tile->last) return NO_SLICE;
-    UV next = (UV)(NO_SLICE);
-    for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
-        MASK above = tile->slice[i] > (UV)(slice);
-        next = min(next, select((UV)(NO_SLICE), tile->slice[i], full_mask(above)));
-    }
-    return min_lane_uint(next);
-}
-
 kernel void bin_pixels_clear(uint cluster_count,
                              global uchar* restrict occupied) {  // out [cluster_count]
     uint cluster = get_global_id(0);
     if (cluster < cluster_count) occupied[cluster] = 0;
 }
 
-kernel void bin_pixels_count(
-    global const uchar* restrict gbuffer, GBufferLayout layout, View view, ClusterGrid grid,
-    global uint* restrict counts,  // out [tiles]: active clusters
-    // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
-    global uchar* restrict occupied) {  // [cluster_count]
-    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
-    uint tile = get_global_id(0);
-    uint tile_y = tile / tiles_x;
-    if (tile_y * FINE_TILE >= view.height) return;
-    GBuffer g = {gbuffer, layout, view, 0};
-    TileSlices slices;
-    load_slices(g, grid, tile % tiles_x, tile_y, &slices);
-    CoarseTile coarse = coarse_tile(view, grid, tile);
-    uint count = 0;
-    for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
-        ++count;
-        occupied[cluster_index(grid, coarse.column, coarse.row, slice >> grid.fine_slice_bits)] = 1;
-    }
-    counts[tile] = count;
-}
-
-// Box and count of the tile's pixels in one slice.
-static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y,
-                                             const TileSlices* tile, uint slice) {
-    FV3 lo = fv3(fv(Z_UNBOUNDED), fv(Z_UNBOUNDED), fv(Z_UNBOUNDED));
-    FV3 hi = fv3(fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED));
-    UV pixels = (UV)(0u);
-    for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
-        MASK mask = full_mask(tile->slice[i] == (UV)(slice));
-        if (!any_lane(mask)) continue;
-        Pixels at = strip_pixels(g.view, tile_x, tile_y, i);
-        FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
-        lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)),
-                 min(lo.z, select_fv(mask, p.z, lo.z)));
-        hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)),
-                 max(hi.z, select_fv(mask, p.z, hi.z)));
-        pixels -= KX_CONCAT(as_, UV)(mask);
-    }
-    ActiveCluster c;
-    c.min_x = min_lane(lo.x);
-    c.min_y = min_lane(lo.y);
-    c.min_z = min_lane(lo.z);
-    c.max_x = max_lane(hi.x);
-    c.max_y = max_lane(hi.y);
-    c.max_z = max_lane(hi.z);
-    c.slice = slice;
-    c.pixel_count = sum_lanes(pixels);
-    c.list_begin = 0;
-    c.list_count = 0;
-    c.unused0 = 0;
-    c.unused1 = 0;
-    return c;
-}
-
-// Appends the pixels of one slice (row * FINE_TILE + column) to the tile's order; returns how many
-// there are then.
-static inline uint append_pixels(const TileSlices* tile, uint slice, uint strips,
-                                 global uchar* order, uint count) {
-    for (uint i = 0; i < strips; ++i) {
-        UV mine = KX_CONCAT(as_, UV)(full_mask(tile->slice[i] == (UV)(slice))) & 1u;
-        uint in_slice = sum_lanes(mine);
-        if (in_slice == VW) {
-            for (uint lane = 0; lane < VW; ++lane) order[count + lane] = (uchar)(i * VW + lane);
-        } else if (in_slice > 0u) {
-            uint flag[VW];
-            store_lanes(mine, flag);
-            uint place = count;
-            for (uint lane = 0; lane < VW; ++lane) {
-                if (flag[lane]) order[place++] = (uchar)(i * VW + lane);
-            }
-        }
-        count += in_slice;
-    }
-    return count;
-}
-
-kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                            ClusterGrid grid,
-                            global const uint* restrict offsets,      // [tiles + 1]
-                            global ActiveCluster* restrict clusters,  // out [capacity]
-                            uint capacity,
-                            global uchar* restrict order) {  // out [tiles][FINE_TILE_PIXELS]
-    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
-    uint tile = get_global_id(0);
-    uint tile_y = tile / tiles_x;
-    if (tile_y * FINE_TILE >= view.height) return;
-    uint place = offsets[tile];
-    if (place == offsets[tile + 1]) return;
-    GBuffer g = {gbuffer, layout, view, 0};
-    TileSlices slices;
-    load_slices(g, grid, tile % tiles_x, tile_y, &slices);
-    uint strips = rows_of_tile(view, tile_y) * STRIPS;
-    global uchar* tile_order = order + tile * FINE_TILE_PIXELS;
-    uint ordered = 0;
-    for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
-        if (place < capacity)
-            clusters[place] = cluster_of_slice(g, tile % tiles_x, tile_y, &slices, slice);
-        ordered = append_pixels(&slices, slice, strips, tile_order, ordered);
-        ++place;
-    }
-    append_pixels(&slices, NO_SLICE, strips, tile_order, ordered);
-}
+#if GROUP == 1
+#include "kernels/device/bin_by_item.h"
+#else
+#include "kernels/device/bin_by_group.h"
+#endif

@@ -37,8 +37,8 @@ static inline ulong scan_group(ulong value, local ulong* shared_sums) {
 #endif
 }
 
-// Offsets of an item's neighbours, the first of which is `sum`; modulo 2^32: the host refuses larger
-// lists by the exact total.
+// Offsets of an item's neighbours, the first of which is `sum`; modulo 2^32: the host refuses
+// larger lists by the exact total.
 static inline void write_offsets(global const uint* counts, uint n, uint first, uint sum,
                                  global uint* offsets) {
     for (uint i = first; i < min(first + PER_ITEM, n); ++i) {

@@ -70,9 +70,9 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
     uint flag[VW];
     store_lanes(flags, flag);
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] && !cone_reaches(lights[batch.list[batch.first + i]],
-                                     (float3)(c.min_x, c.min_y, c.min_z),
-                                     (float3)(c.max_x, c.max_y, c.max_z))) {
+        if (flag[i] &&
+            !cone_reaches(lights[batch.list[batch.first + i]], (float3)(c.min_x, c.min_y, c.min_z),
+                          (float3)(c.max_x, c.max_y, c.max_z))) {
             flag[i] = 0;
         }
     }

@@ -39,7 +39,7 @@ struct Tuning {
     int refine_group = 1;  // work-items that share a tile's lists
     int prefix_group = 1;  // work-items of a block of the prefix sum
     int prefix_per_item = 16384;
-    int tile_group = 1;   // tiles a work-group of bin_pixels takes
+    int tile_group = 1;   // work-items that share a tile's pixels
     int light_group = 1;  // work-items of prepare_lights, build_clusters and other maps
     bool operator==(const Tuning&) const = default;
 };

@@ -14,7 +14,9 @@ BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
     : gpu_(gpu),
       tuning_(tuning),
       program_(build_program(gpu, kStage,
-                             BuildOptions().define("GBUFFER", static_cast<int>(features.gbuffer)))),
+                             BuildOptions()
+                                 .define("GROUP", tuning.tile_group)
+                                 .define("GBUFFER", static_cast<int>(features.gbuffer)))),
       prefix_sum_(gpu, tuning),
       counts_(gpu, kStage),
       offsets_(gpu, kStage),
@@ -49,7 +51,7 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
         out.order = order_.reserve(std::size_t{FINE_TILE} * FINE_TILE * out.tile_count);
         const cl::Buffer& counts = counts_.reserve(out.tile_count * sizeof(uint));
         const auto group = static_cast<std::size_t>(tuning_.tile_group);
-        const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(round_up(out.tile_count, group)),
+        const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(out.tile_count * group),
                                     cl::NDRange(group));
         out.occupied = cleared_occupied(grid, timer);
         cl::KernelFunctor<cl::Buffer, GBufferLayout, View, ClusterGrid, cl::Buffer, cl::Buffer>

@@ -173,30 +173,40 @@ TEST(BinPixels, AgreesWithAMapOfPixelsAtEverySize) {
 
 TEST(BinPixels, AgreesAtEveryLaneWidthAndGroupSize) {
     for (const int lanes : {1, 2, 4, 8, 16}) {
-        expect_case({"noise", 70, 45, wide_noise(), lanes, 1});
-        expect_case({"noise", 70, 45, wide_noise(), lanes, 7});
+        for (const int group : {1, 7, 64, 256})
+            expect_case({"noise", 70, 45, wide_noise(), lanes, group});
     }
 }
 
+// One work-item a tile, and a group of them.
+constexpr int kGroups[] = {1, 64};
+
 TEST(BinPixels, AgreesOnDepthDiscontinuities) {
-    expect_case({"checkerboard", 97, 65, checkerboard_depth(0.6, 40.0)});
-    expect_case({"all slices", 64, 64, noise_depth(0.4, 60.0, 0.0, 3)});
-    expect_case(
-        {"orthographic", 97, 65, noise_depth(-5.0, 80.0, 0.2, 3), 0, 1, GBUFFER_PACKED, true});
+    for (const int group : kGroups) {
+        expect_case({"checkerboard", 97, 65, checkerboard_depth(0.6, 40.0), 0, group});
+        expect_case({"all slices", 64, 64, noise_depth(0.4, 60.0, 0.0, 3), 0, group});
+        expect_case({"orthographic", 97, 65, noise_depth(-5.0, 80.0, 0.2, 3), 0, group,
+                     GBUFFER_PACKED, true});
+    }
 }
 
 TEST(BinPixels, AgreesOnLayoutsThatStorePositions) {
-    expect_case({"full", 49, 35, wide_noise(), 0, 1, GBUFFER_FULL});
-    expect_case({"half", 49, 35, wide_noise(), 0, 1, GBUFFER_HALF});
+    for (const int group : kGroups) {
+        expect_case({"full", 49, 35, wide_noise(), 0, group, GBUFFER_FULL});
+        expect_case({"half", 49, 35, wide_noise(), 0, group, GBUFFER_HALF});
+    }
 }
 
 TEST(BinPixels, AgreesInABandOfThePicture) {
-    expect_case({"band", 97, 65, wide_noise(), 0, 1, GBUFFER_PACKED, false, 128});
+    for (const int group : kGroups)
+        expect_case({"band", 97, 65, wide_noise(), 0, group, GBUFFER_PACKED, false, 128});
 }
 
 TEST(BinPixels, BackgroundHasNoClusters) {
-    expect_case({"background", 1, 1, no_depth()});
-    expect_case({"background", 333, 77, no_depth()});
+    for (const int group : kGroups) {
+        expect_case({"background", 1, 1, no_depth(), 0, group});
+        expect_case({"background", 333, 77, no_depth(), 0, group});
+    }
 }
 
 TEST(BinPixels, LacksRoomOnceThenGrows) {

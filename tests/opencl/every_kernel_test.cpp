@@ -18,7 +18,7 @@ namespace {
 
 struct Variant {
     int lanes = 4;
-    int group = 1;  // of refine_lights and prefix_sum
+    int group = 1;  // of refine_lights, prefix_sum and bin_pixels
     int cull_group = 1;
     int shade_stage = 0;
     int light_index_bits = 16;
@@ -29,13 +29,13 @@ struct Variant {
 
 Tuning tuning_of(const Gpu& gpu, const Variant& v) {
     Tuning tuning = default_tuning(gpu.info);
-    tuning.refine_group = tuning.prefix_group = v.group;
-    tuning.prefix_per_item = 3;
+    tuning.refine_group = tuning.prefix_group = tuning.tile_group = v.group;
+    tuning.prefix_per_item = v.group == 1 ? 3 : 1;  // several blocks, and one
     tuning.cull_group = v.cull_group;
     tuning.cull_chunks = 3;
     tuning.shade_stage = v.shade_stage;
     tuning.shade_rows = 2;
-    tuning.tile_group = tuning.light_group = 4;
+    tuning.light_group = 4;
     return tuning;
 }
 
