@@ -21,6 +21,9 @@ BuildOptions feature_options(const KernelFeatures& features) {
 Tuning default_tuning(const DeviceInfo& device) {
     Tuning tuning;
     if (device.is_cpu) {
+        // A tile's rows meet in the caches: a sixth less than row by row. With all 16 a thread's
+        // share is too large to be even on many cores.
+        tuning.shade_rows = 8;
         tuning.cull_chunks = 16 * device.compute_units;
         tuning.light_group = 16;
         return tuning;
