@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 1};
+constexpr CacheKind kKind = {"tuning", 2};  // 2: tile_group shares a tile
 
 struct Field {
     const char* name;

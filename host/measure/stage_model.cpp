@@ -16,7 +16,7 @@ constexpr double kDisplayBytes = 4.0;
 constexpr double kOrderBytes = 1.0;  // of a pixel within its tile
 constexpr double kBoundBytes = sizeof(float4);
 constexpr double kCounterBytes = sizeof(uint);
-constexpr int kPrefixSumLaunches = 1;  // of one block; more take three
+constexpr int kPrefixSumLaunches = 1;  // at least: more than one block takes three
 
 double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8; }
 

@@ -5,7 +5,7 @@
 
 // Strips that one work-item takes: number round * GROUP + its own.
 #define ROUNDS ((FINE_TILE * STRIPS + GROUP - 1) / GROUP)
-// Words of a bit for each slice: 64 slices an octave, every octave that a float has.
+// Words of a bit for each slice: make_cluster_grid() has at most 64 an octave, and 200 octaves.
 #define SLICE_WORDS (64 * 256 / 32)
 // Words of a bit for each pixel of a tile.
 #define PIXEL_WORDS (FINE_TILE_PIXELS / 32)

@@ -44,11 +44,9 @@ kernel void bin_pixels_count(
     global uchar* restrict occupied) {  // [cluster_count]
     uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
     uint tile = get_global_id(0);
-    uint tile_y = tile / tiles_x;
-    if (tile_y * FINE_TILE >= view.height) return;
     GBuffer g = {gbuffer, layout, view, 0};
     TileSlices slices;
-    load_slices(g, grid, tile % tiles_x, tile_y, &slices);
+    load_slices(g, grid, tile % tiles_x, tile / tiles_x, &slices);
     CoarseTile coarse = coarse_tile(view, grid, tile);
     uint count = 0;
     for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
@@ -122,7 +120,6 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
     uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
     uint tile = get_global_id(0);
     uint tile_y = tile / tiles_x;
-    if (tile_y * FINE_TILE >= view.height) return;
     uint place = offsets[tile];
     if (place == offsets[tile + 1]) return;
     GBuffer g = {gbuffer, layout, view, 0};
