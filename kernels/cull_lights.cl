@@ -9,6 +9,7 @@
 // A work-group walks one contiguous chunk of the lights in order and spreads one light's rows of
 // clusters over its work-items, so no two of them ever meet in a cluster: lists ascend by light
 // index without atomics, and are the same for every group size and number of chunks.
+#include "kernels/device/lanes.h"
 #include "kernels/device/light_index.h"
 #include "kernels/device/light_reach.h"
 #include "kernels/shared/clusters.h"
@@ -23,11 +24,16 @@ typedef struct ClusterBoxes {
 
 // Where pairs go: counted, or filled in.
 typedef struct PairSink {
-    global uint* cursors;        // [cluster_count] of this chunk
+    global uint* cursors;        // [cursor_stride] of this chunk
     global const uint* offsets;  // [cluster_count + 1]; fill only
     global LIGHT_INDEX* lists;   // fill only
     uint capacity;               // of lists
 } PairSink;
+
+// Cursors from one chunk to the next: as many vectors as hold its clusters.
+static inline uint cursor_stride(uint cluster_count) {
+    return (cluster_count + VW - 1u) / VW * VW;
+}
 
 static inline void put_pair(PairSink sink, uint cluster, uint light, bool fill) {
     uint slot = sink.cursors[cluster]++;
@@ -164,31 +170,33 @@ kernel void cull_lights_count(
     global const float2* restrict rows,     // [slices][tiles_y]
     global const float2* restrict depths,   // [slices]
     global const uchar* restrict occupied,  // [cluster_count], or null
-    global uint* restrict cursors) {        // out [groups][cluster_count]: pairs
+    global uint* restrict cursors) {        // out [groups][cursor_stride]: pairs
     ClusterBoxes boxes = {columns, rows, depths, occupied};
-    PairSink sink = {cursors + get_group_id(0) * grid.cluster_count, 0, 0, 0u};
-    for (uint i = get_local_id(0); i < grid.cluster_count; i += get_local_size(0))
+    uint stride = cursor_stride(grid.cluster_count);
+    PairSink sink = {cursors + get_group_id(0) * stride, 0, 0, 0u};
+    for (uint i = get_local_id(0); i < stride; i += get_local_size(0))
         sink.cursors[i] = 0u;
     // Zeroed by all before any counts.
     barrier(CLK_GLOBAL_MEM_FENCE);
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, false);
 }
 
-// One work-item a cluster: chunk counts become chunk starts within the cluster.
+// One work-item for VW clusters: chunk counts become chunk starts within the cluster.
 kernel void cull_lights_offset(
     uint cluster_count, uint chunk_count,
-    global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cluster_count]
-    global uint* restrict counts) {  // out [cluster_count]: pairs of each cluster
-    uint cluster = get_global_id(0);
+    global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]
+    global uint* restrict counts) {  // out [cursor_stride]: pairs of each cluster
+    uint cluster = (uint)get_global_id(0) * VW;
     if (cluster >= cluster_count) return;
-    uint sum = 0;
+    uint stride = cursor_stride(cluster_count);
+    UV sum = (UV)(0u);
     for (uint chunk = 0; chunk < chunk_count; ++chunk) {
-        uint place = chunk * cluster_count + cluster;
-        uint pairs = cursors[place];
-        cursors[place] = sum;
+        global uint* place = cursors + chunk * stride + cluster;
+        UV pairs = load_lanes(place);
+        store_lanes(sum, place);
         sum += pairs;
     }
-    counts[cluster] = sum;
+    store_lanes(sum, counts + cluster);
 }
 
 kernel void cull_lights_fill(
@@ -196,12 +204,13 @@ kernel void cull_lights_fill(
     global const LightExtent* restrict extents, uint count, ClusterGrid grid,
     global const float2* restrict columns, global const float2* restrict rows,
     global const float2* restrict depths, global const uchar* restrict occupied,
-    global uint* restrict cursors,        // in: starts [groups][cluster_count]; used up
+    global uint* restrict cursors,        // in: starts [groups][cursor_stride]; used up
     global const uint* restrict offsets,  // [cluster_count + 1], of the lists
     global LIGHT_INDEX* restrict lists,   // out [capacity]
     uint capacity) {
     ClusterBoxes boxes = {columns, rows, depths, occupied};
-    PairSink sink = {cursors + get_group_id(0) * grid.cluster_count, offsets, lists, capacity};
+    PairSink sink = {cursors + get_group_id(0) * cursor_stride(grid.cluster_count), offsets, lists,
+                     capacity};
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, true);
 }
 

@@ -5,6 +5,7 @@
 //   refine_lights          the lists, ascending, one after the other within the tile's reserve
 // One work-group takes one tile; its GROUP work-items test VW lights each at a time.
 #include "kernels/device/coarse_tile.h"
+#include "kernels/device/gather_rows.h"
 #include "kernels/device/lanes.h"
 #include "kernels/device/light_index.h"
 #include "kernels/device/light_reach.h"
@@ -42,37 +43,41 @@ kernel void refine_lights_reserve(
     reserves[tile] = sum;
 }
 
-// VW lights of a coarse list from entry `first` on; lanes from `end` on have none.
+// VW neighbours of a coarse list, or as many as are left of it; the lanes without one repeat the
+// last.
 typedef struct Batch {
-    global const LIGHT_INDEX* list;
-    uint first, end;
+    uint count;
+    uint light[VW];
 } Batch;
 
-// Which of a batch's lights reach the cluster's box.
-static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights,
-                                global const float4* bounds, Batch batch) {
-    float x[VW], y[VW], z[VW], w[VW];
-    for (uint i = 0; i < VW; ++i) {
-        float4 b = bounds[batch.list[min(batch.first + i, batch.end - 1u)]];
-        x[i] = b.x;
-        y[i] = b.y;
-        z[i] = b.z;
-        w[i] = b.w;
+// From entry `first` of the list that ends before `end` on.
+static inline Batch load_batch(global const LIGHT_INDEX* list, uint first, uint end) {
+    Batch batch;
+    batch.count = first < end ? min(end - first, (uint)VW) : 0u;
+    if (batch.count == VW) {
+        store_lanes(KX_CONCAT(convert_, UV)(load_lanes(list + first)), batch.light);
+    } else if (batch.count > 0u) {
+        for (uint i = 0; i < VW; ++i) batch.light[i] = list[first + min(i, batch.count - 1u)];
     }
-    FV lx = load_lanes(x), ly = load_lanes(y), lz = load_lanes(z);
-    FV dx = max(max(c.min_x - lx, lx - c.max_x), fv(0.0f));
-    FV dy = max(max(c.min_y - ly, ly - c.max_y), fv(0.0f));
-    FV dz = max(max(c.min_z - lz, lz - c.max_z), fv(0.0f));
-    MASK reach = fma(dz, dz, fma(dy, dy, dx * dx)) * load_lanes(w) <= fv(CULL_LIMIT);
-    reach = full_mask(reach) & full_mask((lane_numbers + batch.first) < (UV)(batch.end));
+    return batch;
+}
+
+// Which of a batch's lights reach the cluster's box; 1 or 0.
+static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights,
+                                global const float4* bounds, const Batch* batch) {
+    LaneRows b = gather_rows(bounds, batch->light);
+    FV dx = max(max(c.min_x - b.x, b.x - c.max_x), fv(0.0f));
+    FV dy = max(max(c.min_y - b.y, b.y - c.max_y), fv(0.0f));
+    FV dz = max(max(c.min_z - b.z, b.z - c.max_z), fv(0.0f));
+    MASK reach = full_mask(fma(dz, dz, fma(dy, dy, dx * dx)) * b.w <= fv(CULL_LIMIT));
+    if (batch->count < VW) reach = reach & full_mask(lane_numbers < (UV)(batch->count));
     UV flags = KX_CONCAT(as_, UV)(reach) & 1u;
 #if HAS_SPOT_LIGHTS
     uint flag[VW];
     store_lanes(flags, flag);
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] &&
-            !cone_reaches(lights[batch.list[batch.first + i]], (float3)(c.min_x, c.min_y, c.min_z),
-                          (float3)(c.max_x, c.max_y, c.max_z))) {
+        if (flag[i] && !cone_reaches(lights[batch->light[i]], (float3)(c.min_x, c.min_y, c.min_z),
+                                     (float3)(c.max_x, c.max_y, c.max_z))) {
             flag[i] = 0;
         }
     }
@@ -82,23 +87,24 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
 }
 
 // Appends the flagged lights in order and returns how many there were in the whole work-group.
-static inline uint append(UV flags, Batch batch, global LIGHT_INDEX* out, uint room,
+static inline uint append(UV flags, const Batch* batch, global LIGHT_INDEX* out, uint room,
                           local uint* ballots) {
     uint flag[VW];
     store_lanes(flags, flag);
 #if GROUP == 1
     uint count = 0;
-    if (batch.first + VW <= batch.end && VW <= room) {
+    if (batch->count == VW && VW <= room) {
         // Which lights reach cannot be foreseen: each is written, and the next in its place if not.
         // The reserve has room for all.
+#pragma unroll
         for (uint i = 0; i < VW; ++i) {
-            out[count] = batch.list[batch.first + i];
+            out[count] = (LIGHT_INDEX)batch->light[i];
             count += flag[i];
         }
         return count;
     }
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] && count < room) out[count] = batch.list[batch.first + i];
+        if (flag[i] && count < room) out[count] = (LIGHT_INDEX)batch->light[i];
         count += flag[i];
     }
     return count;
@@ -123,7 +129,7 @@ static inline uint append(UV flags, Batch batch, global LIGHT_INDEX* out, uint r
         total += popcount(bits);
     }
     for (uint i = 0; i < VW; ++i) {
-        if (flag[i] && before < room) out[before] = batch.list[batch.first + i];
+        if (flag[i] && before < room) out[before] = (LIGHT_INDEX)batch->light[i];
         before += flag[i];
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // ballots are counted before the next batch clears them
@@ -155,11 +161,12 @@ kernel void refine_lights(
         uint coarse_end = min(coarse_offsets[coarse + 1], coarse_capacity);
         uint begin = place;
         for (uint first = coarse_begin; first < coarse_end; first += BATCH) {
-            Batch batch = {coarse_lists, first + (uint)get_local_id(0) * VW, coarse_end};
+            uint mine = first + (uint)get_local_id(0) * VW;
+            Batch batch = load_batch(coarse_lists, mine, coarse_end);
             UV flags = (UV)(0u);
-            if (batch.first < coarse_end) flags = reaching_lanes(c, lights, bounds, batch);
+            if (batch.count > 0u) flags = reaching_lanes(c, lights, bounds, &batch);
             uint room = place < list_capacity ? list_capacity - place : 0u;
-            place += append(flags, batch, lists + place, room, ballots);
+            place += append(flags, &batch, lists + place, room, ballots);
         }
 #if GROUP > 1
         barrier(CLK_GLOBAL_MEM_FENCE);  // all have read the cluster before its list is set

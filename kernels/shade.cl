@@ -187,6 +187,16 @@ static inline void store_radiance(global float* radiance, View view, Pixels pixe
     store_plane(radiance + 2 * plane, pixels, color.z);
 }
 
+// Asks for the row's pixels in the tile to the right, which a CPU's thread shades next.
+static inline void prefetch_next_tile(GBuffer g, global float* radiance, uint x, uint y) {
+    uint place = y * g.view.stride + x + FINE_TILE;
+    uint plane = g.view.stride * g.view.height;
+    prefetch_surface(g, place);
+    prefetch_to_write(radiance + place);
+    prefetch_to_write(radiance + plane + place);
+    prefetch_to_write(radiance + 2 * plane + place);
+}
+
 kernel void shade(
     global const uchar* restrict gbuffer, GBufferLayout layout, View view,
     global const float* restrict srgb,                           // [256]
@@ -211,6 +221,8 @@ kernel void shade(
     if (!inside) return;
 #endif
     uint row = inside ? y : view.height - 1u;  // rows below the image only help to stage
+    GBuffer g = {gbuffer, layout, view, srgb};
+    prefetch_next_tile(g, radiance, x, row);
 #if ALL_LIGHTS
     Pixels pixels = row_pixels(view, x, row);
 #else
@@ -223,7 +235,6 @@ kernel void shade(
         view, x / FINE_TILE * FINE_TILE, y / FINE_TILE * FINE_TILE,
         order + tile * FINE_TILE_PIXELS + row % FINE_TILE * FINE_TILE + x % FINE_TILE);
 #endif
-    GBuffer g = {gbuffer, layout, view, srgb};
     FV depth01 = load_depth01(g, pixels);
     MASK drawn = full_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
     bool any_drawn = inside && any_lane(drawn);

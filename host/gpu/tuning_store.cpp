@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 2};  // 2: tile_group shares a tile
+constexpr CacheKind kKind = {"tuning", 3};  // 3: with shade_prefetch
 
 struct Field {
     const char* name;
@@ -24,6 +24,7 @@ constexpr Field kFields[] = {
     {"refine_group", &Tuning::refine_group},       {"prefix_group", &Tuning::prefix_group},
     {"prefix_per_item", &Tuning::prefix_per_item}, {"tile_group", &Tuning::tile_group},
     {"light_group", &Tuning::light_group},
+    {"shade_prefetch", &Tuning::shade_prefetch},
 };
 
 // Bounded by the local memory that every device has (CL_DEVICE_LOCAL_MEM_SIZE >= 32 KiB): 512 * 52
@@ -56,6 +57,7 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
     if (t.shade_stage != 0 && (!is_power_of_two(t.shade_stage) || t.shade_stage > kMostStaged))
         return false;
     if (t.shade_stage != 0 && t.shade_rows != FINE_TILE) return false;
+    if (t.shade_prefetch != 0 && t.shade_prefetch != 1) return false;
     if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
     return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&
            is_group(t.tile_group) && is_group(t.light_group);

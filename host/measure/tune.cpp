@@ -38,6 +38,7 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
         return {{"lanes", nullptr, {1, 4, 8, 16}},
                 {"shade_rows", &Tuning::shade_rows, rows},
                 {"shade_stage", &Tuning::shade_stage, {0, 64}},
+                {"shade_prefetch", &Tuning::shade_prefetch, {0, 1}},
                 {"cull_chunks",
                  &Tuning::cull_chunks,
                  {units, 2 * units, 4 * units, 8 * units, 16 * units}},

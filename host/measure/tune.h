@@ -44,8 +44,8 @@ struct TuningResult {
 /// An improvement must exceed this share of the time: less is noise.
 inline constexpr double kTuningGain = 0.03;
 
-/// Coordinate descent from `start`, two rounds over lanes, shade_rows, shade_stage, cull_chunks,
-/// cull_group, refine_group, tile_group and light_group: each is set to the fastest of its values
+/// Coordinate descent from `start`, two rounds over lanes, shade_rows, shade_stage, shade_prefetch,
+/// cull_chunks, cull_group, refine_group, tile_group and light_group: each is set to the fastest of its values
 /// while the others stand. An alternative is taken if it beats the incumbent by more than
 /// kTuningGain, does so once more when both are measured again, and its picture has the start's
 /// bits.

@@ -29,13 +29,18 @@ CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeature
     lists_.reserve(kFirstEntries * index_bytes_);
 }
 
+// Of kernels/cull_lights.cl: as many vectors of lanes as hold a chunk's clusters.
+std::size_t CullLights::cursor_stride(const ClusterGrid& grid) const {
+    return round_up(grid.cluster_count, static_cast<std::size_t>(gpu_.info.lane_width));
+}
+
 CoarseLists CullLights::make_lists(const ClusterGrid& grid) {
     CoarseLists out;
     out.offsets = offsets_.reserve((grid.cluster_count + std::size_t{1}) * sizeof(uint));
     out.lists = lists_.get();
     out.capacity =
         static_cast<uint>(std::min<std::size_t>(lists_.bytes() / index_bytes_, 0xfffffff0u));
-    counts_.reserve(grid.cluster_count * sizeof(uint));
+    counts_.reserve(cursor_stride(grid) * sizeof(uint));
     return out;
 }
 
@@ -49,7 +54,7 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
         const auto group = static_cast<std::size_t>(tuning_.cull_group);
         const cl::EnqueueArgs chunk_items(gpu_.queue, cl::NDRange(chunks * group),
                                           cl::NDRange(group));
-        const cl::Buffer& cursors = cursors_.reserve(chunks * grid.cluster_count * sizeof(uint));
+        const cl::Buffer& cursors = cursors_.reserve(chunks * cursor_stride(grid) * sizeof(uint));
         cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, uint, ClusterGrid, cl::Buffer,
                           cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer>
             count(program_, "cull_lights_count");
@@ -59,11 +64,11 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
         cl::KernelFunctor<uint, uint, cl::Buffer, cl::Buffer> offset(program_,
                                                                      "cull_lights_offset");
         const auto map_group = static_cast<std::size_t>(tuning_.light_group);
+        const std::size_t vectors = cursor_stride(grid) / static_cast<std::size_t>(gpu_.info.lane_width);
         timer.record(
-            kStage,
-            offset(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(grid.cluster_count, map_group)),
-                                   cl::NDRange(map_group)),
-                   grid.cluster_count, static_cast<uint>(chunks), cursors, counts_.get()));
+            kStage, offset(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(vectors, map_group)),
+                                           cl::NDRange(map_group)),
+                           grid.cluster_count, static_cast<uint>(chunks), cursors, counts_.get()));
         prefix_sum_.enqueue(counts_.get(), grid.cluster_count, out.offsets, timer, kStage);
         cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, uint, ClusterGrid, cl::Buffer,
                           cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,

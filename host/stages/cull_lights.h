@@ -40,6 +40,7 @@ class CullLights {
     bool fits();
 
  private:
+    std::size_t cursor_stride(const ClusterGrid& grid) const;
     CoarseLists make_lists(const ClusterGrid& grid);
 
     Gpu gpu_;

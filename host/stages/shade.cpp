@@ -11,6 +11,7 @@ constexpr std::string_view kStage = "shade";
 BuildOptions options_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     BuildOptions options = feature_options(features)
                                .define("STAGE", tuning.shade_stage)
+                               .define("PREFETCH", tuning.shade_prefetch)
                                .define("FAST_RSQRT", !gpu.info.is_cpu);
     if (features.fast_relaxed_math) options.flag("-cl-fast-relaxed-math");
     if (features.native_math) options.define("NATIVE_MATH", 1);

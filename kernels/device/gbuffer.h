@@ -5,6 +5,7 @@
 #ifndef KILOLUX_DEVICE_GBUFFER_H
 #define KILOLUX_DEVICE_GBUFFER_H
 #include "kernels/device/lanes.h"
+#include "kernels/device/prefetch.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/evaluate.h"
 #include "kernels/shared/gbuffer.h"
@@ -95,6 +96,26 @@ static inline FV load_float(GBuffer g, uint plane_index, Pixels pixels) {
 static inline UV load_uint(GBuffer g, uint plane_index, Pixels pixels) {
     global const uint* plane = (global const uint*)(g.bytes + g.layout.offset_bytes[plane_index]);
     return LOAD_PLANE(UV, plane, pixels);
+}
+
+static inline void prefetch_plane(GBuffer g, uint plane_index, uint place) {
+    prefetch_to_read(g.bytes + g.layout.offset_bytes[plane_index] + place * sizeof(uint));
+}
+
+// Asks for pixels from `place` in their planes on: of the layouts of four-byte planes, all; of those
+// for comparison, the depth.
+static inline void prefetch_surface(GBuffer g, uint place) {
+    prefetch_plane(g, PLANE_DEPTH, place);
+#if GBUFFER == GBUFFER_PACKED || GBUFFER == GBUFFER_NORMAL_XY
+    prefetch_plane(g, PLANE_NORMAL, place);
+    prefetch_plane(g, PLANE_ALBEDO, place);
+#if HAS_MATERIAL
+    prefetch_plane(g, PLANE_MATERIAL, place);
+#endif
+#if HAS_SPECULAR
+    prefetch_plane(g, PLANE_SPECULAR, place);
+#endif
+#endif
 }
 
 // Depth buffer values; 0: background.

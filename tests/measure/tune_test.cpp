@@ -138,7 +138,7 @@ TEST(LightingBenchTest, EveryTuningGivesTheSameBits) {
         EXPECT_EQ(trial.error, "") << trial.parameter << " " << trial.value;
         parameters.insert(trial.parameter);
     }
-    EXPECT_EQ(parameters.size(), 8u);
+    EXPECT_EQ(parameters.size(), 9u);
 }
 
 TEST(LightingBenchTest, CountsAsTheRendererDoes) {

@@ -193,7 +193,7 @@ TEST_F(TuningStore, RefusesValuesThatNoKernelTakes) {
 
 TEST_F(TuningStore, RefusesAnEntryWithoutAValue) {
     const DeviceInfo device = device_named("a");
-    write_device_cache(device, {"tuning", 2}, {{"lanes", 4.0}, {"shade_rows", 8.0}});
+    write_device_cache(device, {"tuning", 3}, {{"lanes", 4.0}, {"shade_rows", 8.0}});
     EXPECT_FALSE(stored_tuning(device));
 }
 
