@@ -181,7 +181,10 @@ kernel void cull_lights_count(
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, false);
 }
 
-// One work-item for VW clusters: chunk counts become chunk starts within the cluster.
+// One work-item for VW clusters: chunk counts become chunk starts within the cluster. Chunks are
+// loaded CHUNKS_AT_ONCE before any of them is stored: else each load waits for the store before it,
+// which could be to the same place, and memory's latency is paid for every chunk.
+#define CHUNKS_AT_ONCE 16
 kernel void cull_lights_offset(
     uint cluster_count, uint chunk_count,
     global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]
@@ -189,12 +192,23 @@ kernel void cull_lights_offset(
     uint cluster = (uint)get_global_id(0) * VW;
     if (cluster >= cluster_count) return;
     uint stride = cursor_stride(cluster_count);
+    global uint* place = cursors + cluster;
     UV sum = (UV)(0u);
-    for (uint chunk = 0; chunk < chunk_count; ++chunk) {
-        global uint* place = cursors + chunk * stride + cluster;
-        UV pairs = load_lanes(place);
-        store_lanes(sum, place);
-        sum += pairs;
+    for (uint chunk = 0; chunk < chunk_count; chunk += CHUNKS_AT_ONCE) {
+        uint here = min(chunk_count - chunk, (uint)CHUNKS_AT_ONCE);
+        UV pairs[CHUNKS_AT_ONCE];
+#pragma unroll
+        for (uint i = 0; i < CHUNKS_AT_ONCE; ++i) {
+            if (i < here) pairs[i] = load_lanes(place + i * stride);
+        }
+#pragma unroll
+        for (uint i = 0; i < CHUNKS_AT_ONCE; ++i) {
+            if (i < here) {
+                store_lanes(sum, place + i * stride);
+                sum += pairs[i];
+            }
+        }
+        place += CHUNKS_AT_ONCE * stride;
     }
     store_lanes(sum, counts + cluster);
 }
