@@ -31,9 +31,7 @@ typedef struct PairSink {
 } PairSink;
 
 // Cursors from one chunk to the next: as many vectors as hold its clusters.
-static inline uint cursor_stride(uint cluster_count) {
-    return (cluster_count + VW - 1u) / VW * VW;
-}
+static inline uint cursor_stride(uint cluster_count) { return (cluster_count + VW - 1u) / VW * VW; }
 
 static inline void put_pair(PairSink sink, uint cluster, uint light, bool fill) {
     uint slot = sink.cursors[cluster]++;
@@ -133,9 +131,15 @@ static inline bool touches_grid(LightExtent e) {
            !is_empty_interval(e.rows);
 }
 
-// This work-group's chunk of the lights: [first, end).
-static inline uint2 chunk_of_group(uint count) {
-    uint chunk = get_group_id(0);
+// This work-group's chunk. Not the next to its neighbours', since threads of a CPU take
+// neighbouring groups, and neighbouring lights cost alike: those near the camera are in many
+// clusters. Every chunk is one group's, as the factor is a prime above all their numbers.
+static inline uint chunk_of_group(void) {
+    return (uint)((ulong)get_group_id(0) * 2654435761ul % get_num_groups(0));
+}
+
+// The lights of a chunk: [first, end).
+static inline uint2 lights_of_chunk(uint count, uint chunk) {
     uint chunks = get_num_groups(0);
     return (uint2)((uint)((ulong)count * chunk / chunks),
                    (uint)((ulong)count * (chunk + 1u) / chunks));
@@ -144,7 +148,7 @@ static inline uint2 chunk_of_group(uint count) {
 static inline void walk_chunk(global const ShadeLight* lights, global const float4* bounds,
                               global const LightExtent* extents, uint count, ClusterGrid grid,
                               ClusterBoxes boxes, PairSink sink, bool fill) {
-    uint2 chunk = chunk_of_group(count);
+    uint2 chunk = lights_of_chunk(count, chunk_of_group());
     for (uint light = chunk.x; light < chunk.y; ++light) {
         Candidate c;
         c.extent = extents[light];
@@ -170,12 +174,11 @@ kernel void cull_lights_count(
     global const float2* restrict rows,     // [slices][tiles_y]
     global const float2* restrict depths,   // [slices]
     global const uchar* restrict occupied,  // [cluster_count], or null
-    global uint* restrict cursors) {        // out [groups][cursor_stride]: pairs
+    global uint* restrict cursors) {        // out [chunks][cursor_stride]: pairs
     ClusterBoxes boxes = {columns, rows, depths, occupied};
     uint stride = cursor_stride(grid.cluster_count);
-    PairSink sink = {cursors + get_group_id(0) * stride, 0, 0, 0u};
-    for (uint i = get_local_id(0); i < stride; i += get_local_size(0))
-        sink.cursors[i] = 0u;
+    PairSink sink = {cursors + chunk_of_group() * stride, 0, 0, 0u};
+    for (uint i = get_local_id(0); i < stride; i += get_local_size(0)) sink.cursors[i] = 0u;
     // Zeroed by all before any counts.
     barrier(CLK_GLOBAL_MEM_FENCE);
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, false);
@@ -218,12 +221,12 @@ kernel void cull_lights_fill(
     global const LightExtent* restrict extents, uint count, ClusterGrid grid,
     global const float2* restrict columns, global const float2* restrict rows,
     global const float2* restrict depths, global const uchar* restrict occupied,
-    global uint* restrict cursors,        // in: starts [groups][cursor_stride]; used up
+    global uint* restrict cursors,        // in: starts [chunks][cursor_stride]; used up
     global const uint* restrict offsets,  // [cluster_count + 1], of the lists
     global LIGHT_INDEX* restrict lists,   // out [capacity]
     uint capacity) {
     ClusterBoxes boxes = {columns, rows, depths, occupied};
-    PairSink sink = {cursors + get_group_id(0) * cursor_stride(grid.cluster_count), offsets, lists,
+    PairSink sink = {cursors + chunk_of_group() * cursor_stride(grid.cluster_count), offsets, lists,
                      capacity};
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, true);
 }

@@ -23,8 +23,7 @@ constexpr Field kFields[] = {
     {"cull_group", &Tuning::cull_group},           {"cull_chunks", &Tuning::cull_chunks},
     {"refine_group", &Tuning::refine_group},       {"prefix_group", &Tuning::prefix_group},
     {"prefix_per_item", &Tuning::prefix_per_item}, {"tile_group", &Tuning::tile_group},
-    {"light_group", &Tuning::light_group},
-    {"shade_prefetch", &Tuning::shade_prefetch},
+    {"light_group", &Tuning::light_group},         {"shade_prefetch", &Tuning::shade_prefetch},
 };
 
 // Bounded by the local memory that every device has (CL_DEVICE_LOCAL_MEM_SIZE >= 32 KiB): 512 * 52

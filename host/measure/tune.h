@@ -45,10 +45,10 @@ struct TuningResult {
 inline constexpr double kTuningGain = 0.03;
 
 /// Coordinate descent from `start`, two rounds over lanes, shade_rows, shade_stage, shade_prefetch,
-/// cull_chunks, cull_group, refine_group, tile_group and light_group: each is set to the fastest of its values
-/// while the others stand. An alternative is taken if it beats the incumbent by more than
-/// kTuningGain, does so once more when both are measured again, and its picture has the start's
-/// bits.
+/// cull_chunks, cull_group, refine_group, tile_group and light_group: each is set to the fastest of
+/// its values while the others stand. An alternative is taken if it beats the incumbent by more
+/// than kTuningGain, does so once more when both are measured again, and its picture has the
+/// start's bits.
 TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
                   const MeasureTuning& measure);
 

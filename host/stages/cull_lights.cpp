@@ -64,11 +64,12 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
         cl::KernelFunctor<uint, uint, cl::Buffer, cl::Buffer> offset(program_,
                                                                      "cull_lights_offset");
         const auto map_group = static_cast<std::size_t>(tuning_.light_group);
-        const std::size_t vectors = cursor_stride(grid) / static_cast<std::size_t>(gpu_.info.lane_width);
-        timer.record(
-            kStage, offset(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(vectors, map_group)),
-                                           cl::NDRange(map_group)),
-                           grid.cluster_count, static_cast<uint>(chunks), cursors, counts_.get()));
+        const std::size_t vectors =
+            cursor_stride(grid) / static_cast<std::size_t>(gpu_.info.lane_width);
+        timer.record(kStage,
+                     offset(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(vectors, map_group)),
+                                            cl::NDRange(map_group)),
+                            grid.cluster_count, static_cast<uint>(chunks), cursors, counts_.get()));
         prefix_sum_.enqueue(counts_.get(), grid.cluster_count, out.offsets, timer, kStage);
         cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, uint, ClusterGrid, cl::Buffer,
                           cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer, cl::Buffer,

@@ -89,24 +89,21 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
     return c;
 }
 
-// Appends the pixels of one slice (row * FINE_TILE + column) to the tile's order; returns how many
-// there are then.
-static inline uint append_pixels(const TileSlices* tile, uint slice, uint strips,
-                                 global uchar* order, uint count) {
+// Appends the pixels of one slice (row * FINE_TILE + column) to the tile's order, which has room
+// for one more than there are; returns how many there are then. Which pixels are the slice's cannot
+// be foreseen: each is written, and the next in its place if it is not.
+static inline uint append_pixels(const TileSlices* tile, uint slice, uint strips, uchar* order,
+                                 uint count) {
     for (uint i = 0; i < strips; ++i) {
-        UV mine = KX_CONCAT(as_, UV)(full_mask(tile->slice[i] == (UV)(slice))) & 1u;
-        uint in_slice = sum_lanes(mine);
-        if (in_slice == VW) {
-            for (uint lane = 0; lane < VW; ++lane) order[count + lane] = (uchar)(i * VW + lane);
-        } else if (in_slice > 0u) {
-            uint flag[VW];
-            store_lanes(mine, flag);
-            uint place = count;
-            for (uint lane = 0; lane < VW; ++lane) {
-                if (flag[lane]) order[place++] = (uchar)(i * VW + lane);
-            }
+        MASK mine = full_mask(tile->slice[i] == (UV)(slice));
+        if (!any_lane(mine)) continue;
+        uint flag[VW];
+        store_lanes(KX_CONCAT(as_, UV)(mine) & 1u, flag);
+#pragma unroll
+        for (uint lane = 0; lane < VW; ++lane) {
+            order[count] = (uchar)(i * VW + lane);
+            count += flag[lane];
         }
-        count += in_slice;
     }
     return count;
 }
@@ -126,7 +123,7 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
     TileSlices slices;
     load_slices(g, grid, tile % tiles_x, tile_y, &slices);
     uint strips = rows_of_tile(view, tile_y) * STRIPS;
-    global uchar* tile_order = order + tile * FINE_TILE_PIXELS;
+    uchar tile_order[FINE_TILE_PIXELS + 1];
     uint ordered = 0;
     for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
         if (place < capacity)
@@ -134,6 +131,7 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
         ordered = append_pixels(&slices, slice, strips, tile_order, ordered);
         ++place;
     }
-    append_pixels(&slices, NO_SLICE, strips, tile_order, ordered);
+    ordered = append_pixels(&slices, NO_SLICE, strips, tile_order, ordered);
+    for (uint i = 0; i < ordered; ++i) order[tile * FINE_TILE_PIXELS + i] = tile_order[i];
 }
 #endif

@@ -102,8 +102,8 @@ static inline void prefetch_plane(GBuffer g, uint plane_index, uint place) {
     prefetch_to_read(g.bytes + g.layout.offset_bytes[plane_index] + place * sizeof(uint));
 }
 
-// Asks for pixels from `place` in their planes on: of the layouts of four-byte planes, all; of those
-// for comparison, the depth.
+// Asks for pixels from `place` in their planes on: of the layouts of four-byte planes, all; of
+// those for comparison, the depth.
 static inline void prefetch_surface(GBuffer g, uint place) {
     prefetch_plane(g, PLANE_DEPTH, place);
 #if GBUFFER == GBUFFER_PACKED || GBUFFER == GBUFFER_NORMAL_XY

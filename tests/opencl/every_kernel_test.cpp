@@ -32,7 +32,7 @@ Tuning tuning_of(const Gpu& gpu, const Variant& v) {
     tuning.refine_group = tuning.prefix_group = tuning.tile_group = v.group;
     tuning.prefix_per_item = v.group == 1 ? 3 : 1;  // several blocks, and one
     tuning.cull_group = v.cull_group;
-    tuning.cull_chunks = 3;
+    tuning.cull_chunks = 18;  // those that are loaded at a time, and two more
     tuning.shade_stage = v.shade_stage;
     tuning.shade_rows = 2;
     tuning.light_group = 4;
