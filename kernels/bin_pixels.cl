@@ -22,9 +22,11 @@
 #define STRIPS (FINE_TILE / VW)
 #define NO_SLICE 0xffffffffu  // of background and beyond the image
 
-static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels) {
+// And their depths `z` [m], which say nothing where there is no slice.
+static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels, FV* z) {
     FV depth01 = load_depth01(g, pixels);
-    UV slice = fine_slice_of_depth(grid, view_depth(g.view, pixels.x, pixels.y, depth01));
+    *z = view_depth(g.view, pixels.x, pixels.y, depth01);
+    UV slice = fine_slice_of_depth(grid, *z);
     MASK drawn = full_mask(depth01 > fv(0.0f)) & within_width(g.view, pixels);
     return select((UV)(NO_SLICE), slice, drawn);
 }

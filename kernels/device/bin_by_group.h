@@ -29,8 +29,11 @@ static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint ti
     for (uint round = 0; round < ROUNDS; ++round) {
         uint strip = strip_of_round(round);
         slices[round] = (UV)(NO_SLICE);
-        if (strip < strips)
-            slices[round] = slices_of_pixels(g, grid, strip_pixels(g.view, tile_x, tile_y, strip));
+        FV z;
+        if (strip < strips) {
+            Pixels pixels = strip_pixels(g.view, tile_x, tile_y, strip);
+            slices[round] = slices_of_pixels(g, grid, pixels, &z);
+        }
         uint slice[VW];
         store_lanes(slices[round], slice);
         for (uint lane = 0; lane < VW; ++lane) {

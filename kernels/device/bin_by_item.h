@@ -6,7 +6,8 @@
 // Slices of a tile's pixels.
 typedef struct TileSlices {
     UV slice[FINE_TILE * STRIPS];
-    uint first, last;  // smallest and largest; first = NO_SLICE if there is none
+    FV z[FINE_TILE * STRIPS];  // depths [m], where there is a slice
+    uint first, last;          // smallest and largest; first = NO_SLICE if there is none
 } TileSlices;
 
 static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint tile_y,
@@ -16,7 +17,8 @@ static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint ti
     uint strips = rows_of_tile(g.view, tile_y) * STRIPS;
     for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
         UV slice = (UV)(NO_SLICE);
-        if (i < strips) slice = slices_of_pixels(g, grid, strip_pixels(g.view, tile_x, tile_y, i));
+        if (i < strips)
+            slice = slices_of_pixels(g, grid, strip_pixels(g.view, tile_x, tile_y, i), &out->z[i]);
         out->slice[i] = slice;
         first = min(first, slice);
         // NO_SLICE + 1 wraps to 0.
@@ -66,7 +68,7 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
         MASK mask = full_mask(tile->slice[i] == (UV)(slice));
         if (!any_lane(mask)) continue;
         Pixels at = strip_pixels(g.view, tile_x, tile_y, i);
-        FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
+        FV3 p = load_position(g, at, tile->z[i]);
         lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)),
                  min(lo.z, select_fv(mask, p.z, lo.z)));
         hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)),
