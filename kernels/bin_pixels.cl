@@ -22,7 +22,7 @@
 #define STRIPS (FINE_TILE / VW)
 #define NO_SLICE 0xffffffffu  // of background and beyond the image
 
-// And their depths `z` [m], which say nothing where there is no slice.
+// Slices of pixels, and their depths `z` [m], which say nothing where there is no slice.
 static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels, FV* z) {
     FV depth01 = load_depth01(g, pixels);
     *z = view_depth(g.view, pixels.x, pixels.y, depth01);

@@ -134,15 +134,14 @@ static inline bool touches_grid(LightExtent e) {
 // This work-group's chunk. Not the next to its neighbours', since threads of a CPU take
 // neighbouring groups, and neighbouring lights cost alike: those near the camera are in many
 // clusters. Every chunk is one group's, as the factor is a prime above all their numbers.
-static inline uint chunk_of_group(void) {
-    return (uint)((ulong)get_group_id(0) * 2654435761ul % get_num_groups(0));
+static inline size_t chunk_of_group(void) {
+    return (ulong)get_group_id(0) * 2654435761ul % get_num_groups(0);
 }
 
 // The lights of a chunk: [first, end).
-static inline uint2 lights_of_chunk(uint count, uint chunk) {
-    uint chunks = get_num_groups(0);
-    return (uint2)((uint)((ulong)count * chunk / chunks),
-                   (uint)((ulong)count * (chunk + 1u) / chunks));
+static inline uint2 lights_of_chunk(uint count, ulong chunk) {
+    ulong chunks = get_num_groups(0);
+    return (uint2)((uint)(count * chunk / chunks), (uint)(count * (chunk + 1u) / chunks));
 }
 
 static inline void walk_chunk(global const ShadeLight* lights, global const float4* bounds,

@@ -90,13 +90,12 @@ StageWork bin_work(const StageCounts& c) {
     work.bytes_written += kCounterBytes * c.tiles + sizeof(ActiveCluster) * c.active_clusters +
                           kOrderBytes * c.pixels;
     // A slice: pixel centre 2, depth 2 and a division, slice 4, mask 4, selection 1, extremes 3;
-    // for both launches. Then the box: mask 1, centre 2, depth 3, position 3, extremes 12, count 1.
+    // for both launches. Then the box: mask 1, centre 2, position 3, extremes 12, count 1.
     // Each pixel is placed in order (2). A tile's further clusters each search the tile's slices, 3
     // a pixel, in both launches.
     const double further = std::max(c.active_clusters - c.tiles, 0.0);
     work.lanes = (c.pixels + c.drawn_pixels) * LaneWork{17.0, 0.0, 0.0, 1.0} +
-                 c.drawn_pixels * LaneWork{24.0, 0.0, 0.0, 1.0} +
-                 2.0 * kTilePixels * further * LaneWork{3.0};
+                 c.drawn_pixels * LaneWork{21.0} + 2.0 * kTilePixels * further * LaneWork{3.0};
     work.launches += 3;
     return work;
 }
