@@ -2,6 +2,7 @@
 // Active clusters: for every fine tile, one for each depth slice that occurs among its pixels, with
 // the box of just those pixels (Olsson, Billeter, Assarsson 2012: explicit bounds). Background
 // pixels belong to none, and tiles of background only cost nothing afterwards.
+//   bin_pixels_clear  no coarse cluster is occupied
 //   bin_pixels_count  active clusters of each tile, and where in the coarse grid there are any
 //   (prefix_sum over tiles)
 //   bin_pixels_fill   the clusters, and each tile's pixels in their order
@@ -38,6 +39,12 @@ static inline uint rows_of_tile(View view, uint tile_y) {
 static inline Pixels strip_pixels(View view, uint tile_x, uint tile_y, uint strip) {
     return row_pixels(view, tile_x * FINE_TILE + strip % STRIPS * VW,
                       tile_y * FINE_TILE + strip / STRIPS);
+}
+
+kernel void bin_pixels_clear(uint cluster_count,
+                             global uchar* restrict occupied) {  // out [cluster_count]
+    uint cluster = get_global_id(0);
+    if (cluster < cluster_count) occupied[cluster] = 0;
 }
 
 #if GROUP == 1

@@ -5,7 +5,6 @@
 //   refine_lights          the lists, ascending, one after the other within the tile's reserve
 // One work-group takes one tile; its GROUP work-items test VW lights each at a time.
 #include "kernels/device/coarse_tile.h"
-#include "kernels/device/gather_rows.h"
 #include "kernels/device/lanes.h"
 #include "kernels/device/light_index.h"
 #include "kernels/device/light_reach.h"
@@ -51,25 +50,33 @@ typedef struct Batch {
 } Batch;
 
 // From entry `first` of the list that ends before `end` on.
-static inline Batch load_batch(global const LIGHT_INDEX* list, uint first, uint end) {
-    Batch batch;
-    batch.count = first < end ? min(end - first, (uint)VW) : 0u;
-    if (batch.count == VW) {
-        store_lanes(KX_CONCAT(convert_, UV)(load_lanes(list + first)), batch.light);
-    } else if (batch.count > 0u) {
-        for (uint i = 0; i < VW; ++i) batch.light[i] = list[first + min(i, batch.count - 1u)];
+static inline void load_batch(global const LIGHT_INDEX* list, uint first, uint end, Batch* out) {
+    out->count = first < end ? min(end - first, (uint)VW) : 0u;
+    if (out->count == VW) {
+        store_lanes(KX_CONCAT(convert_, UV)(load_lanes(list + first)), out->light);
+    } else if (out->count > 0u) {
+        for (uint i = 0; i < VW; ++i) out->light[i] = list[first + min(i, out->count - 1u)];
     }
-    return batch;
 }
 
 // Which of a batch's lights reach the cluster's box; 1 or 0.
 static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights,
                                 global const float4* bounds, const Batch* batch) {
-    LaneRows b = gather_rows(bounds, batch->light);
-    FV dx = max(max(c.min_x - b.x, b.x - c.max_x), fv(0.0f));
-    FV dy = max(max(c.min_y - b.y, b.y - c.max_y), fv(0.0f));
-    FV dz = max(max(c.min_z - b.z, b.z - c.max_z), fv(0.0f));
-    MASK reach = full_mask(fma(dz, dz, fma(dy, dy, dx * dx)) * b.w <= fv(CULL_LIMIT));
+    // Taken apart in registers: a vector that is read where its lanes have just been written one by
+    // one waits until all of them have reached the cache.
+    float4 bound[VW];
+#pragma unroll
+    for (uint i = 0; i < VW; ++i) bound[i] = bounds[batch->light[i]];
+#define BOUND_X(i) bound[i].x
+#define BOUND_Y(i) bound[i].y
+#define BOUND_Z(i) bound[i].z
+#define BOUND_W(i) bound[i].w
+    FV x = LANES(FV, BOUND_X), y = LANES(FV, BOUND_Y), z = LANES(FV, BOUND_Z);
+    FV dx = max(max(c.min_x - x, x - c.max_x), fv(0.0f));
+    FV dy = max(max(c.min_y - y, y - c.max_y), fv(0.0f));
+    FV dz = max(max(c.min_z - z, z - c.max_z), fv(0.0f));
+    FV in_ranges2 = fma(dz, dz, fma(dy, dy, dx * dx)) * LANES(FV, BOUND_W);
+    MASK reach = full_mask(in_ranges2 <= fv(CULL_LIMIT));
     if (batch->count < VW) reach = reach & full_mask(lane_numbers < (UV)(batch->count));
     UV flags = KX_CONCAT(as_, UV)(reach) & 1u;
 #if HAS_SPOT_LIGHTS
@@ -162,7 +169,8 @@ kernel void refine_lights(
         uint begin = place;
         for (uint first = coarse_begin; first < coarse_end; first += BATCH) {
             uint mine = first + (uint)get_local_id(0) * VW;
-            Batch batch = load_batch(coarse_lists, mine, coarse_end);
+            Batch batch;
+            load_batch(coarse_lists, mine, coarse_end, &batch);
             UV flags = (UV)(0u);
             if (batch.count > 0u) flags = reaching_lanes(c, lights, bounds, &batch);
             uint room = place < list_capacity ? list_capacity - place : 0u;

@@ -26,9 +26,12 @@ BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
 
 cl::Buffer BinPixels::cleared_occupied(const ClusterGrid& grid, StageTimer& timer) {
     const cl::Buffer& occupied = occupied_.reserve(grid.cluster_count);
-    cl::Event cleared;
-    gpu_.queue.enqueueFillBuffer(occupied, cl_uchar{0}, 0, grid.cluster_count, nullptr, &cleared);
-    timer.record(kStage, cleared);
+    const auto group = static_cast<std::size_t>(tuning_.light_group);
+    cl::KernelFunctor<uint, cl::Buffer> clear(program_, "bin_pixels_clear");
+    timer.record(kStage,
+                 clear(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(grid.cluster_count, group)),
+                                       cl::NDRange(group)),
+                       grid.cluster_count, occupied));
     return occupied;
 }
 
