@@ -183,10 +183,11 @@ kernel void cull_lights_count(
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, false);
 }
 
+#define CHUNKS_AT_ONCE 16
+
 // One work-item for VW clusters: chunk counts become chunk starts within the cluster. Chunks are
 // loaded CHUNKS_AT_ONCE before any of them is stored: else each load waits for the store before it,
 // which could be to the same place, and memory's latency is paid for every chunk.
-#define CHUNKS_AT_ONCE 16
 kernel void cull_lights_offset(
     uint cluster_count, uint chunk_count,
     global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]

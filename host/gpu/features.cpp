@@ -24,7 +24,8 @@ Tuning default_tuning(const DeviceInfo& device) {
         // A tile's rows meet in the caches: a sixth less than row by row. With all 16 a thread's
         // share is too large to be even on many cores.
         tuning.shade_rows = 8;
-        // Oclgrind interprets kernels, and knows no such instruction.
+        // With few lights pixels are waited for longer than they are shaded. Oclgrind, which
+        // interprets kernels, knows no such instruction.
         tuning.shade_prefetch = device.platform == "Oclgrind" ? 0 : 1;
         tuning.cull_chunks = 16 * device.compute_units;
         tuning.light_group = 16;

@@ -27,7 +27,7 @@ SHARED_FN FV3 neutral_tone_curve(FV3 c) {
     FV peak = max(c.x, max(c.y, c.z));
     FV start = fv(0.76f);
     MASK high = peak >= start;
-    if (!any_of(high)) return c;  // as in most of most pictures
+    if (!any_of(high)) return c;  // most vectors have no highlight
     FV d = fv(0.24f);
     FV new_peak = fv(1.0f) - d * d / (max(peak, start) + d - start);
     FV3 squeezed = scale3(c, new_peak / max(peak, start));
