@@ -26,12 +26,11 @@ SHARED_FN FV3 neutral_tone_curve(FV3 c) {
     c = fv3(c.x - offset, c.y - offset, c.z - offset);
     FV peak = max(c.x, max(c.y, c.z));
     FV start = fv(0.76f);
-    MASK high = peak >= start;
-    if (!any_of(high)) return c;  // most vectors have no highlight
     FV d = fv(0.24f);
     FV new_peak = fv(1.0f) - d * d / (max(peak, start) + d - start);
     FV3 squeezed = scale3(c, new_peak / max(peak, start));
     FV g = fv(1.0f) - fv(1.0f) / fma(fv(0.15f), peak - new_peak, fv(1.0f));
+    MASK high = peak >= start;
     return fv3(select_fv(high, fma(g, new_peak - squeezed.x, squeezed.x), c.x),
                select_fv(high, fma(g, new_peak - squeezed.y, squeezed.y), c.y),
                select_fv(high, fma(g, new_peak - squeezed.z, squeezed.z), c.z));
