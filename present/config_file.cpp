@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "host/base/error.h"
+#include "host/base/suggest.h"
 #include "present/program.h"
-#include "present/suggest.h"
 
 namespace kilolux {
 namespace {

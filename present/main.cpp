@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/base/error.h"
-#include "present/interrupt.h"
+#include "host/base/interrupt.h"
 #include "present/program.h"
 
 namespace {

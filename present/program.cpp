@@ -5,15 +5,15 @@
 #include <memory>
 
 #include "host/base/error.h"
+#include "host/base/suggest.h"
+#include "host/base/version.h"
 #include "host/render/renderer.h"
-#include "present/commands.h"
-#include "present/completion.h"
+#include "present/cli/completion.h"
+#include "present/cli/device_list.h"
+#include "present/cli/help_format.h"
+#include "present/cli/option_builder.h"
+#include "present/commands/commands.h"
 #include "present/config_file.h"
-#include "present/device_list.h"
-#include "present/help_format.h"
-#include "present/registrar.h"
-#include "present/suggest.h"
-#include "present/version.h"
 
 namespace kilolux {
 namespace {

@@ -3,13 +3,20 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# The rooms of the OpenCL half in one archive.
+add_library(kilolux_cl STATIC $<TARGET_OBJECTS:kilolux_base> $<TARGET_OBJECTS:kilolux_gpu>
+  $<TARGET_OBJECTS:kilolux_lighting>)
+add_library(Kilolux::kilolux ALIAS kilolux_cl)
 set_target_properties(kilolux_cl PROPERTIES EXPORT_NAME kilolux OUTPUT_NAME kilolux)
 target_compile_features(kilolux_cl PUBLIC cxx_std_20)
+target_link_libraries(kilolux_cl PUBLIC PkgConfig::OPENCL Threads::Threads)
+get_target_property(definitions kilolux_gpu INTERFACE_COMPILE_DEFINITIONS)
+target_compile_definitions(kilolux_cl INTERFACE ${definitions})
 # Headers keep their paths below include/kilolux, as they name each other; kilolux.h stands beside.
 target_include_directories(kilolux_cl PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/kilolux>)
 install(TARGETS kilolux_cl EXPORT KiloluxTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-foreach(room host/base host/gpu host/stages kernels/shared)
+foreach(room host/base host/gpu host/stages host/lighting kernels/shared)
   install(DIRECTORY ${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kilolux/${room}
     FILES_MATCHING PATTERN "*.h")
 endforeach()
@@ -25,7 +32,6 @@ install(EXPORT KiloluxTargets NAMESPACE Kilolux:: DESTINATION ${config_folder})
 
 # Relative to its own place, so that a prefix may be moved.
 file(RELATIVE_PATH PC_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
-get_target_property(definitions kilolux_cl INTERFACE_COMPILE_DEFINITIONS)
 list(TRANSFORM definitions PREPEND -D)
 list(JOIN definitions " " PC_DEFINITIONS)
 configure_file(host/install/kilolux.pc.in ${CMAKE_BINARY_DIR}/kilolux.pc @ONLY)

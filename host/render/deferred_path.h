@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "host/render/light_lists.h"
-#include "host/render/pixel_probe.h"
+#include "host/lighting/light_lists.h"
+#include "host/picture/pixel_probe.h"
 #include "host/render/surface_pass.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/shade.h"

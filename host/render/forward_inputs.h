@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/render/coarse_stages.h"
+#include "host/lighting/coarse_stages.h"
 #include "host/render/render_context.h"
 #include "raster/forward_pass.h"
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "host/render/coarse_stages.h"
+#include "host/lighting/coarse_stages.h"
 #include "host/render/surface_pass.h"
 #include "raster/forward_pass.h"
 #include "raster/overdraw_pass.h"

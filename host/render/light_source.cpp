@@ -3,7 +3,7 @@
 
 #include "host/base/log.h"
 #include "host/render/light_order.h"
-#include "host/scene/light_ranges.h"
+#include "host/scene/lights/light_ranges.h"
 
 namespace kilolux {
 namespace {

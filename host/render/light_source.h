@@ -6,8 +6,8 @@
 
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
-#include "host/render/frame.h"
-#include "host/render/light_input.h"
+#include "host/picture/frame.h"
+#include "host/render/light_rows.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
 

@@ -5,7 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/base/memory.h"
-#include "host/render/bands.h"
+#include "host/picture/bands.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/surface_planes.h"
 #include "raster/forward_pass.h"

@@ -5,9 +5,9 @@
 
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/render/bands.h"
-#include "host/render/frame.h"
-#include "host/render/light_input.h"
+#include "host/picture/bands.h"
+#include "host/picture/frame.h"
+#include "host/render/light_rows.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
@@ -33,8 +33,5 @@ struct SampleInput {
     Band band;
     bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
 };
-
-/// Adds to the stage's time, or appends the stage.
-void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms);
 
 }  // namespace kilolux

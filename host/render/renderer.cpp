@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cstring>
 
-#include "host/render/bands.h"
-#include "host/render/frame_bands.h"
+#include "host/picture/bands.h"
+#include "host/picture/frame_bands.h"
+#include "host/picture/sample_pattern.h"
+#include "host/picture/views.h"
 #include "host/render/renderer_parts.h"
-#include "host/render/sample_pattern.h"
-#include "host/render/views.h"
 
 namespace kilolux {
 namespace {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "host/gpu/device.h"
-#include "host/render/frame.h"
-#include "host/render/frame_parts.h"
+#include "host/picture/decoded_surfaces.h"
+#include "host/picture/frame.h"
+#include "host/picture/pixel_probe.h"
 #include "host/render/memory_plan.h"
-#include "host/render/pixel_probe.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"

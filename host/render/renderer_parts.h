@@ -7,12 +7,12 @@
 #include <memory>
 #include <optional>
 
-#include "host/render/bands.h"
+#include "host/picture/bands.h"
+#include "host/picture/radiance_sum.h"
 #include "host/render/deferred_path.h"
 #include "host/render/forward_path.h"
 #include "host/render/light_source.h"
 #include "host/render/memory_plan.h"
-#include "host/render/radiance_sum.h"
 #include "host/render/render_scene.h"
 #include "host/render/renderer.h"
 #include "host/stages/bloom.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host/scene/light_generator.h"
-#include "host/scene/light_ranges.h"
+#include "host/scene/lights/light_generator.h"
+#include "host/scene/lights/light_ranges.h"
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {

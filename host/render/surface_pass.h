@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/interop/gbuffer_bridge.h"
-#include "host/render/frame_parts.h"
-#include "host/render/pixel_probe.h"
+#include "host/picture/decoded_surfaces.h"
+#include "host/picture/pixel_probe.h"
 #include "host/render/render_context.h"
 #include "host/stages/decode_gbuffer.h"
 #include "raster/geometry_pass.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/animated_scene.h"
 
-#include "host/scene/gltf_animation.h"
-#include "host/scene/gltf_image.h"
-#include "host/scene/gltf_lights_cameras.h"
-#include "host/scene/gltf_parallel.h"
-#include "host/scene/gltf_shapes.h"
+#include "host/scene/gltf/animation.h"
+#include "host/scene/gltf/image.h"
+#include "host/scene/gltf/lights_cameras.h"
+#include "host/scene/gltf/parallel.h"
+#include "host/scene/gltf/shapes.h"
 
 namespace kilolux {
 

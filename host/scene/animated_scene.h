@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "host/scene/load_progress.h"
-#include "host/scene/load_scene.h"
+#include "host/scene/gltf/load_progress.h"
+#include "host/scene/gltf/load_scene.h"
 
 namespace kilolux {
 

@@ -2,8 +2,9 @@
 // The same command gives the same bytes, however the work is cut up.
 #include <gtest/gtest.h>
 
-#include "tests/present/child.h"
-#include "tests/render/render_fixture.h"
+#include "tests/support/child.h"
+#include "tests/support/paths.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {
@@ -77,7 +78,7 @@ TEST(Determinism, RunsComputeUnitsAndWorkGroupMethodsChangeNoByte) {
     const TemporaryFolder folder;
     const std::string file = (folder / "a.exr").string();
     const auto bytes_with = [&](const std::string& variable) {
-        const ChildResult result = run_child({"/usr/bin/env", variable, KILOLUX_PROGRAM, "render",
+        const ChildResult result = run_child({"/usr/bin/env", variable, program_file(), "render",
                                               "grid", "--lights", "200", "--resolution", "64,48",
                                               "--aov", "depth,light-count", "--quiet", "-o", file});
         EXPECT_EQ(result.code, 0) << result.err;

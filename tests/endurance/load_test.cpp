@@ -4,7 +4,7 @@
 
 #include <future>
 
-#include "tests/present/child.h"
+#include "tests/support/child.h"
 
 namespace kilolux {
 namespace {

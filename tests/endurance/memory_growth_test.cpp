@@ -8,8 +8,8 @@
 #include <fstream>
 #include <thread>
 
-#include "tests/present/child.h"
-#include "tests/render/render_fixture.h"
+#include "tests/support/child.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

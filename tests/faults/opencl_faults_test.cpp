@@ -7,7 +7,7 @@
 #include <random>
 
 #include "host/base/error.h"
-#include "tests/render/render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -8,7 +8,8 @@
 #include <random>
 #include <thread>
 
-#include "tests/present/child.h"
+#include "tests/support/child.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 namespace {
@@ -22,8 +23,8 @@ constexpr const char* kOld = "an earlier output";
 // `render` of a small scene to `file`, after `before`: a program that changes the world and runs
 // what follows.
 Words render_words(Words before, const fs::path& file, const Words& more = {}) {
-    const Words render = {KILOLUX_PROGRAM, "render", "plain", "--lights",   "50",
-                          "--resolution",  "48,32",  "-o",    file.string()};
+    const Words render = {program_file(), "render", "plain", "--lights",   "50",
+                          "--resolution", "48,32",  "-o",    file.string()};
     before.insert(before.end(), render.begin(), render.end());
     before.insert(before.end(), more.begin(), more.end());
     return before;
@@ -87,7 +88,7 @@ TEST_F(Faults, DeviceLostOnTheWay) {
 
 TEST_F(Faults, KernelsThatDoNotBuild) {
     for (const char* room : {"kernels", "raster"}) {
-        fs::copy(fs::path(KILOLUX_ROOT) / room, elsewhere_ / room, fs::copy_options::recursive);
+        fs::copy(fs::path(source_root()) / room, elsewhere_ / room, fs::copy_options::recursive);
     }
     const Words developer = with_environment({"KILOLUX_SOURCE_DIR=" + elsewhere_.path().string()});
     const std::string shade = text_of_file(elsewhere_ / "kernels/shade.cl");

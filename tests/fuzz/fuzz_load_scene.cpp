@@ -7,9 +7,9 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
-#include "host/scene/load_scene.h"
+#include "host/scene/gltf/load_scene.h"
 #include "tests/fuzz/fuzz_targets.h"
-#include "tests/scene/gltf_seeds.h"
+#include "tests/support/gltf_seeds.h"
 
 namespace kilolux {
 namespace {

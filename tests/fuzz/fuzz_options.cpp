@@ -4,11 +4,11 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
+#include "present/cli/options.h"
 #include "present/config_file.h"
-#include "present/options.h"
 #include "present/program.h"
 #include "tests/fuzz/fuzz_targets.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

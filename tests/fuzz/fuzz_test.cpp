@@ -7,7 +7,7 @@
 #include <random>
 
 #include "tests/fuzz/fuzz_targets.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

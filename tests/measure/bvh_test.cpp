@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/bvh.h"
+#include "host/measure/reference/bvh.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/measure/cache_sandbox.h"
+#include "tests/support/cache_sandbox.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/device_limits.h"
+#include "host/measure/roofline/device_limits.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <fstream>
 
 #include "host/gpu/device_cache.h"
-#include "host/measure/limit_kernels.h"
-#include "host/measure/limit_watch.h"
-#include "tests/measure/cache_sandbox.h"
+#include "host/measure/roofline/limit_kernels.h"
+#include "host/measure/roofline/limit_watch.h"
+#include "tests/support/cache_sandbox.h"
 
 namespace kilolux {
 namespace {

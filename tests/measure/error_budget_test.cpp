@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/error_budget.h"
+#include "host/measure/report/error_budget.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/gpu/device_cache.h"
-#include "tests/measure/cache_sandbox.h"
+#include "tests/support/cache_sandbox.h"
 
 namespace kilolux {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/false_color.h"
+#include "host/measure/metrics/false_color.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/measure/rgb_image.h"
+#include "host/measure/metrics/rgb_image.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "flip_direct.h"
+#include "tests/measure/flip_direct.h"
 
 #include <algorithm>
 #include <cmath>

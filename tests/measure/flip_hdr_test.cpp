@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/flip_hdr.h"
+#include "host/measure/metrics/flip_hdr.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "flip_direct.h"
 #include "host/base/error.h"
+#include "tests/measure/flip_direct.h"
 
 namespace kilolux {
 namespace {

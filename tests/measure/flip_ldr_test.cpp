@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/flip_ldr.h"
+#include "host/measure/metrics/flip_ldr.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 #include <random>
 
-#include "flip_direct.h"
 #include "host/base/error.h"
-#include "host/measure/flip_color.h"
+#include "host/measure/metrics/flip_color.h"
+#include "tests/measure/flip_direct.h"
 
 namespace kilolux {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/hit_surface.h"
+#include "host/measure/reference/hit_surface.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "quad_scene.h"
+#include "tests/support/quad_scene.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/parallel_rows.h"
+#include "host/measure/metrics/parallel_rows.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/pareto.h"
+#include "host/measure/metrics/pareto.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/plot.h"
+#include "host/measure/bench/plot.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "host/base/error.h"
-#include "host/measure/plot_script.h"
+#include "host/measure/bench/plot_script.h"
 
 namespace kilolux {
 namespace {

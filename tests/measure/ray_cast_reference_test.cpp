@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/ray_cast_reference.h"
+#include "host/measure/reference/ray_cast_reference.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/measure/camera_rays.h"
-#include "host/measure/reference.h"
-#include "quad_scene.h"
+#include "host/measure/reference/camera_rays.h"
+#include "host/measure/reference/reference.h"
+#include "tests/support/quad_scene.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/reference_brdf.h"
+#include "host/measure/reference/reference_brdf.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/reference.h"
+#include "host/measure/reference/reference.h"
 
 #include <gtest/gtest.h>
 

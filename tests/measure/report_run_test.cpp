@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small report: what each reference isolates, and that the default is on the Pareto set. Errors
 // are measured; times, which a machine's other work decides, are replaced by what must be moved.
-#include "host/measure/report_run.h"
+#include "host/measure/report/run.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "host/measure/display.h"
-#include "host/measure/report_table.h"
-#include "host/measure/worst_pixel.h"
+#include "host/measure/report/display.h"
+#include "host/measure/report/tables.h"
+#include "host/measure/report/worst_pixel.h"
 #include "host/render/scene_plan.h"
-#include "host/scene/generated_scenes.h"
-#include "tests/render/render_fixture.h"
+#include "host/scene/generated/scenes.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/report_setting.h"
+#include "host/measure/report/setting.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "host/render/light_source.h"
-#include "host/scene/generated_scenes.h"
+#include "host/scene/generated/scenes.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/ssim.h"
+#include "host/measure/metrics/ssim.h"
 
 #include <gtest/gtest.h>
 

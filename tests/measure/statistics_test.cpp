@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/statistics.h"
+#include "host/measure/metrics/statistics.h"
 
 #include <gtest/gtest.h>
 

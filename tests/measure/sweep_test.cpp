@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps as they are written on the command line, and the points that they stand for.
-#include "host/measure/sweep.h"
+#include "host/measure/bench/sweep.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/table.h"
+#include "host/measure/bench/table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/texture_sampler.h"
+#include "host/measure/reference/texture_sampler.h"
 
 #include <gtest/gtest.h>
 

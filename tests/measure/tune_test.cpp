@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/tune.h"
+#include "host/measure/bench/tune.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "host/base/error.h"
-#include "host/measure/feature_cost.h"
-#include "host/scene/generated_scenes.h"
+#include "host/measure/bench/feature_cost.h"
+#include "host/scene/generated/scenes.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {

@@ -9,7 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/gpu/device_cache.h"
-#include "tests/measure/cache_sandbox.h"
+#include "tests/support/cache_sandbox.h"
 
 namespace kilolux {
 namespace {

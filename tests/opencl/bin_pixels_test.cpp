@@ -8,9 +8,9 @@
 #include <map>
 #include <vector>
 
-#include "host/measure/synthetic/stage_run.h"
-#include "host/measure/synthetic/synthetic.h"
-#include "tests/opencl/test_gpu.h"
+#include "host/certify/synthetic/stage_run.h"
+#include "host/certify/synthetic/synthetic.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

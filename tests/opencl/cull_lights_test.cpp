@@ -10,8 +10,8 @@
 #include <map>
 #include <numeric>
 
-#include "host/measure/synthetic/cull_scenarios.h"
-#include "tests/opencl/test_gpu.h"
+#include "host/certify/synthetic/cull_scenarios.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

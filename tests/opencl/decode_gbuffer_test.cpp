@@ -6,9 +6,9 @@
 
 #include "host/base/gbuffer_layout.h"
 #include "host/base/half.h"
-#include "host/measure/synthetic/stage_run.h"
-#include "host/measure/synthetic/synthetic.h"
-#include "tests/opencl/test_gpu.h"
+#include "host/certify/synthetic/stage_run.h"
+#include "host/certify/synthetic/synthetic.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

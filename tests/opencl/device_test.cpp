@@ -7,7 +7,7 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

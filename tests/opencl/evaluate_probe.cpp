@@ -2,7 +2,7 @@
 #include "tests/opencl/evaluate_probe.h"
 
 #include "host/gpu/buffer.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

@@ -3,15 +3,15 @@
 // must do.
 #include <gtest/gtest.h>
 
-#include "host/measure/synthetic/light_sets.h"
-#include "host/measure/synthetic/stage_run.h"
+#include "host/certify/synthetic/light_sets.h"
+#include "host/certify/synthetic/stage_run.h"
 #include "host/stages/bloom.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/tone_curve.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

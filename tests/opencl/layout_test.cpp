@@ -9,7 +9,7 @@
 #include "host/base/source.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

@@ -12,7 +12,7 @@
 #include "host/base/source.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/stage_timer.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

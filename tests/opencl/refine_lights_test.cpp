@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
-#include "host/measure/synthetic/light_sets.h"
-#include "host/measure/synthetic/stage_run.h"
-#include "tests/opencl/test_gpu.h"
+#include "host/certify/synthetic/light_sets.h"
+#include "host/certify/synthetic/stage_run.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

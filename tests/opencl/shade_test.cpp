@@ -9,11 +9,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "host/measure/synthetic/light_sets.h"
-#include "host/measure/synthetic/stage_run.h"
+#include "host/certify/synthetic/light_sets.h"
+#include "host/certify/synthetic/stage_run.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "tests/opencl/shading_reference.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

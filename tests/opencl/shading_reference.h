@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "host/measure/synthetic/vec3d.h"
+#include "host/certify/synthetic/vec3d.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "host/certify/synthetic/stage_run.h"
 #include "host/gpu/buffer.h"
-#include "host/measure/synthetic/stage_run.h"
 #include "host/stages/build_clusters.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

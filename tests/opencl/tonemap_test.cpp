@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "host/measure/synthetic/vec3d.h"
+#include "host/certify/synthetic/vec3d.h"
 #include "kernels/shared/tone_curve.h"
-#include "tests/opencl/test_gpu.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {

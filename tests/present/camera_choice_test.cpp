@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/camera_choice.h"
+#include "present/cli/camera_choice.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "messages.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

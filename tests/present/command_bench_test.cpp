@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "child.h"
-#include "host/measure/bench_row.h"
-#include "messages.h"
-#include "present/command_bench.h"
-#include "present/names.h"
+#include "host/measure/bench/row.h"
+#include "present/cli/names.h"
+#include "present/commands/bench.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

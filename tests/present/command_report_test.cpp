@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "child.h"
-#include "host/measure/bench_row.h"
-#include "host/scene/generated_scenes.h"
-#include "messages.h"
-#include "present/command_report.h"
-#include "present/names.h"
-#include "tests/measure/cache_sandbox.h"
+#include "host/measure/bench/row.h"
+#include "host/scene/generated/scenes.h"
+#include "present/cli/names.h"
+#include "present/commands/report.h"
+#include "tests/support/cache_sandbox.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

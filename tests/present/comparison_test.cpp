@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/comparison.h"
+#include "present/image/comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "messages.h"
-#include "present/image_file.h"
-#include "temporary_folder.h"
+#include "present/image/image_file.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kilolux {
 namespace {

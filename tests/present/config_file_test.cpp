@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "messages.h"
-#include "present/options.h"
-#include "temporary_folder.h"
+#include "present/cli/options.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kilolux {
 namespace {

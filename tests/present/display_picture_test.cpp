@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // 16 bits and OpenColorIO.
-#include "present/display_picture.h"
+#include "present/image/display_picture.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "child.h"
 #include "host/base/error.h"
-#include "messages.h"
-#include "present/image_file.h"
+#include "present/image/image_file.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

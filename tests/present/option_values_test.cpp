@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/option_values.h"
+#include "present/cli/option_values.h"
 
 #include <gtest/gtest.h>
 
-#include "messages.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/options.h"
+#include "present/cli/options.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <sstream>
 
-#include "host/scene/generated_scenes.h"
-#include "messages.h"
-#include "present/names.h"
+#include "host/scene/generated/scenes.h"
+#include "present/cli/names.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

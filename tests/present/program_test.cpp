@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line as its users meet it: exit codes, messages, help, completion.
 #include "present/program.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
-#include "child.h"
-#include "messages.h"
-#include "present/version.h"
+#include "host/base/version.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {
@@ -80,8 +81,7 @@ TEST(Program, TheWorldsFaultExitsWithOne) {
 }
 
 TEST(Program, StandardOutputThatIsFullIsAnError) {
-    const ChildResult result =
-        run_child({"/bin/sh", "-c", std::string(KILOLUX_PROGRAM) + " --help > /dev/full"});
+    const ChildResult result = run_child({"/bin/sh", "-c", program_file() + " --help > /dev/full"});
     EXPECT_EQ(result.code, 1);
     EXPECT_EQ(result.err, "kilolux: standard output: cannot write\n");
 }
@@ -168,7 +168,7 @@ TEST(Completion, BashOffersWhatFits) {
         {"kilolux render atri", "atrium"},
         {"kilolux render -o /etc/host", "/etc/host"},
     };
-    std::string script = std::string("cd /; source <(") + KILOLUX_PROGRAM + " --completion bash)\n";
+    std::string script = std::string("cd /; source <(") + program_file() + " --completion bash)\n";
     for (const Query& query : queries) {
         script += "COMP_WORDS=(" + query.words +
                   "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _kilolux; echo \"${COMPREPLY[*]}\"\n";
@@ -196,9 +196,7 @@ TEST(Completion, EveryShellKnowsEveryOption) {
             }
         }
     }
-    EXPECT_EQ(run_child({"/bin/bash", "-c",
-                         std::string(KILOLUX_PROGRAM) + " --completion bash | bash -n"})
-                  .code,
+    EXPECT_EQ(run_child({"/bin/bash", "-c", program_file() + " --completion bash | bash -n"}).code,
               0);
 }
 

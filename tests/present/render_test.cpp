@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "child.h"
-#include "messages.h"
-#include "present/image_file.h"
+#include "present/image/image_file.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "child.h"
-#include "messages.h"
-#include "present/image_file.h"
+#include "present/image/image_file.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/sequence.h"
+#include "present/cli/sequence.h"
 
 #include <gtest/gtest.h>
 

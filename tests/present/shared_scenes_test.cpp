@@ -2,16 +2,17 @@
 // Scenes that others made, through the program; skipped where their folder is not there.
 #include <gtest/gtest.h>
 
-#include "child.h"
-#include "messages.h"
-#include "present/image_file.h"
+#include "present/image/image_file.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path scenes() { return fs::path(KILOLUX_ROOT) / ".." / "shared" / "scenes"; }
+fs::path scenes() { return fs::path(source_root()) / ".." / "shared" / "scenes"; }
 
 TEST(SharedScenes, BrokenOnesEndInOneLineAndExitOne) {
     const fs::path folder = scenes() / "malformed";

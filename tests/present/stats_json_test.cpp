@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/stats_json.h"
+#include "present/cli/stats_json.h"
 
 #include <gtest/gtest.h>
 
-#include "messages.h"
-#include "temporary_folder.h"
+#include "tests/support/messages.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kilolux {
 namespace {

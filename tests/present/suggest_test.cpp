@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/suggest.h"
+#include "host/base/suggest.h"
 
 #include <gtest/gtest.h>
 

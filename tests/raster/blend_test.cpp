@@ -2,8 +2,8 @@
 // Materials that blend: drawn last, back to front, over a forward or another renderer's picture.
 #include <algorithm>
 
-#include "gl_fixture.h"
 #include "raster/forward_pass.h"
+#include "tests/raster/gl_fixture.h"
 
 namespace kilolux {
 namespace {

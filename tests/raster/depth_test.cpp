@@ -2,7 +2,7 @@
 // The depth buffer gives back the position: view_position() against the ray's hit with the plane.
 #include <random>
 
-#include "gl_fixture.h"
+#include "tests/raster/gl_fixture.h"
 
 namespace kilolux {
 namespace {

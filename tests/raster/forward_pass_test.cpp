@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <random>
 
-#include "gl_fixture.h"
 #include "host/base/error.h"
 #include "raster/forward_lights.h"
+#include "tests/raster/gl_fixture.h"
 
 // The host's evaluate(), for what the fragments should be.
 #define SHADING 2

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every layout holds what kernels/shared/gbuffer.h says of it, for one tilted surface.
-#include "gl_fixture.h"
 #include "host/base/error.h"
+#include "tests/raster/gl_fixture.h"
 
 namespace kilolux {
 namespace {

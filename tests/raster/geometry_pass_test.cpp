@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "gl_fixture.h"
 #include "host/base/error.h"
+#include "tests/raster/gl_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <epoxy/gl.h>
 
-#include "gl_fixture.h"
 #include "host/base/error.h"
 #include "raster/gl_program.h"
+#include "tests/raster/gl_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -2,9 +2,9 @@
 // What the geometry pass makes of textures, masks, normal maps and vertex colours.
 #include <random>
 
-#include "gl_fixture.h"
 #include "host/base/error.h"
-#include "texture_reference.h"
+#include "tests/raster/gl_fixture.h"
+#include "tests/raster/texture_reference.h"
 
 namespace kilolux {
 namespace {

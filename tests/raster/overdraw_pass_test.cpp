@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/overdraw_pass.h"
 
-#include "gl_fixture.h"
+#include "tests/raster/gl_fixture.h"
 
 namespace kilolux {
 namespace {

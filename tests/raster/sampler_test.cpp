@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samplers as glTF defines them: wrap modes, filters, mipmaps, anisotropy, read out of the G-buffer
 // and compared with a lookup in double.
-#include "gl_fixture.h"
-#include "texture_reference.h"
+#include "tests/raster/gl_fixture.h"
+#include "tests/raster/texture_reference.h"
 
 namespace kilolux {
 namespace {

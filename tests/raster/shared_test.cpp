@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <random>
 
-#include "gl_fixture.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/view.h"
 #include "raster/compute_probe.h"
 #include "raster/shaders/draw_rows.h"
+#include "tests/raster/gl_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A renderer takes up what moved in its scene: the picture is that of a renderer made for it.
-#include "tests/render/render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures made in bands because memory is short: the same bits as made at once.
-#include "host/render/bands.h"
+#include "host/picture/bands.h"
 
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
 #include "host/render/memory_plan.h"
 #include "kernels/shared/cluster_grid.h"
-#include "tests/render/render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "host/render/kernel_choice.h"
-#include "tests/render/render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

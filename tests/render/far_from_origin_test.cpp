@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host/render/renderer.h"
-#include "host/scene/generated_scenes.h"
+#include "host/scene/generated/scenes.h"
 
 namespace kilolux {
 namespace {

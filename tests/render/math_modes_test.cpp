@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -2,7 +2,7 @@
 // The four renderers against each other: lists must not change a picture.
 #include <cmath>
 
-#include "tests/render/render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -3,7 +3,7 @@
 // pixel.
 #include <cmath>
 
-#include "tests/render/render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -2,8 +2,8 @@
 // Jittered samples: an even pattern, exact means, AOVs through the pixels' centres.
 #include <cmath>
 
-#include "host/render/sample_pattern.h"
-#include "tests/render/render_fixture.h"
+#include "host/picture/sample_pattern.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

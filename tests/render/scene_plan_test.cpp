@@ -6,7 +6,7 @@
 #include "host/base/error.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "raster/material_features.h"
-#include "tests/render/render_fixture.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What --show draws: each view from a real frame, and the canvas it is drawn on.
-#include "host/render/views.h"
+#include "host/picture/views.h"
 
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "host/base/error.h"
-#include "host/render/view_canvas.h"
-#include "tests/render/render_fixture.h"
+#include "host/picture/view_canvas.h"
+#include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {

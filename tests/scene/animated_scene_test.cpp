@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "host/scene/generated_scenes.h"
+#include "host/scene/generated/scenes.h"
 #include "tests/scene/export_scenes.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

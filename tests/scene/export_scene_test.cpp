@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/export_scene.h"
+#include "host/scene/export/export_scene.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
-#include "host/scene/generated_scenes.h"
-#include "host/scene/light_generator.h"
+#include "host/scene/generated/scenes.h"
+#include "host/scene/lights/light_generator.h"
 #include "tests/scene/export_scenes.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {
@@ -40,7 +41,7 @@ TEST(ExportScene, KeepsGeneratedScenesWithTheirLightsAtATime) {
 }
 
 TEST(ExportScene, KeepsRealScenes) {
-    const fs::path scenes = fs::path(KILOLUX_ROOT) / ".." / "shared" / "scenes";
+    const fs::path scenes = fs::path(source_root()) / ".." / "shared" / "scenes";
     if (!fs::exists(scenes)) GTEST_SKIP() << scenes << " is not there";
     for (const char* name : {"helmet/DamagedHelmet.glb", "small/BoxMeshopt.glb",
                              "small/BoxVertexColors.glb", "small/ShapeCollection.glb"}) {

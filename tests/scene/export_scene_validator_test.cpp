@@ -7,10 +7,11 @@
 #include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "host/scene/generated_scenes.h"
-#include "host/scene/light_generator.h"
+#include "host/scene/generated/scenes.h"
+#include "host/scene/lights/light_generator.h"
 #include "tests/scene/export_scenes.h"
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 namespace {
@@ -36,8 +37,8 @@ Output run(const std::string& command) {
 
 // Where the validator is installed; empty, with the reason in `why`, where it cannot be had.
 fs::path install_validator(std::string& why) {
-    const fs::path source = fs::path(KILOLUX_ROOT) / "tests" / "gltf_validator";
-    const fs::path folder = fs::path(KILOLUX_PROGRAM).parent_path() / "gltf_validator";
+    const fs::path source = fs::path(source_root()) / "tests" / "gltf_validator";
+    const fs::path folder = fs::path(program_file()).parent_path() / "gltf_validator";
     if (fs::exists(folder / "node_modules" / "gltf-validator" / "index.js")) return folder;
     fs::create_directories(folder);
     for (const char* name : {"package.json", "package-lock.json"}) {
@@ -88,7 +89,7 @@ TEST(ExportSceneValidator, FindsNoErrorAndNoWarning) {
     add(lit("corridor"), "corridor.glb");
     add(lit("atrium"), "atrium.glb");
     add({}, "empty.glb");
-    const fs::path script = fs::path(KILOLUX_ROOT) / "tests" / "gltf_validator" / "validate.js";
+    const fs::path script = fs::path(source_root()) / "tests" / "gltf_validator" / "validate.js";
     const Output out = run("node '" + script.string() + "' '" + validator.string() + "'" + files);
     ASSERT_EQ(out.status, 0) << out.text;
     int validated = 0;

@@ -3,7 +3,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "host/scene/export_scene.h"
+#include "host/scene/export/export_scene.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {

@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "host/scene/generated_scenes.h"
-#include "host/scene/procedural_noise.h"
+#include "host/scene/generated/procedural_noise.h"
+#include "host/scene/generated/scenes.h"
 #include "tests/scene/generated_scenes_fixture.h"
 
 namespace kilolux {

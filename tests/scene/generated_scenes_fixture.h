@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "host/scene/generated_scenes.h"
-#include "host/scene/light_generator_hash.h"
+#include "host/scene/generated/scenes.h"
+#include "host/scene/lights/light_generator_hash.h"
 
 namespace kilolux {
 

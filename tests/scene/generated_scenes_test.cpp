@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated_scenes.h"
+#include "host/scene/generated/scenes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/light_generator.h"
+#include "host/scene/lights/light_generator.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "host/base/error.h"
-#include "host/scene/light_generator_hash.h"
+#include "host/scene/lights/light_generator_hash.h"
 
 namespace kilolux {
 namespace {

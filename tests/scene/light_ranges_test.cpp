@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/light_ranges.h"
+#include "host/scene/lights/light_ranges.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "host/scene/load_scene.h"
-#include "tests/scene/gltf_compressed.h"
+#include "host/scene/gltf/load_scene.h"
+#include "tests/support/gltf_compressed.h"
 
 namespace kilolux {
 namespace {

@@ -5,15 +5,16 @@
 
 #include <set>
 
-#include "host/scene/load_scene.h"
-#include "tests/scene/gltf_builder.h"
+#include "host/scene/gltf/load_scene.h"
+#include "tests/support/gltf_builder.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path scenes() { return fs::path(KILOLUX_ROOT) / ".." / "shared" / "scenes"; }
+fs::path scenes() { return fs::path(source_root()) / ".." / "shared" / "scenes"; }
 
 // Names below `folder` of its glTF files.
 std::set<std::string> gltf_files(const fs::path& folder) {

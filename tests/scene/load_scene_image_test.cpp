@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "host/scene/load_scene.h"
-#include "tests/scene/gltf_builder.h"
+#include "host/scene/gltf/load_scene.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 // All rows of an image arrive, whatever way its file keeps them.
 

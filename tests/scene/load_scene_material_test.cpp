@@ -5,8 +5,8 @@
 #include <glm/gtc/constants.hpp>
 #include <set>
 
-#include "host/scene/load_scene.h"
-#include "tests/scene/gltf_builder.h"
+#include "host/scene/gltf/load_scene.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

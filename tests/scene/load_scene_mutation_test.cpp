@@ -5,8 +5,8 @@
 #include <random>
 
 #include "host/base/error.h"
-#include "host/scene/load_scene.h"
-#include "tests/scene/gltf_seeds.h"
+#include "host/scene/gltf/load_scene.h"
+#include "tests/support/gltf_seeds.h"
 
 namespace kilolux {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "host/scene/load_scene.h"
-#include "tests/scene/gltf_builder.h"
+#include "host/scene/gltf/load_scene.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "host/scene/animated_scene.h"
-#include "host/scene/gltf_parallel.h"
-#include "tests/scene/gltf_builder.h"
+#include "host/scene/gltf/parallel.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

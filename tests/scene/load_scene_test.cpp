@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/load_scene.h"
+#include "host/scene/gltf/load_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
-#include "tests/scene/gltf_builder.h"
+#include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 namespace {

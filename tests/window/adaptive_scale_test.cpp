@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/adaptive_scale.h"
+#include "present/window/app/adaptive_scale.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/present/child.h"
+#include "tests/support/child.h"
 
 namespace kilolux {
 

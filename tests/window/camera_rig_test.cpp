@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/camera_rig.h"
+#include "present/window/app/camera_rig.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "present/camera_choice.h"
+#include "present/cli/camera_choice.h"
 
 namespace kilolux {
 namespace {

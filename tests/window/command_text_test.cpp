@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/command_text.h"
+#include "present/window/app/command_text.h"
 
 #include <gtest/gtest.h>
 
 #include <CLI/App.hpp>
 #include <sstream>
 
-#include "host/scene/generated_scenes.h"
+#include "host/scene/generated/scenes.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/window/desktop.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,7 +15,7 @@ namespace {
 
 std::vector<std::string> display_words(const std::vector<std::string>& options,
                                        const fs::path& folder) {
-    std::vector<std::string> words = {KILOLUX_ROOT "/tests/window/with_display", "--file",
+    std::vector<std::string> words = {source_root() + "/tests/window/with_display", "--file",
                                       folder.string()};
     words.insert(words.end(), options.begin(), options.end());
     const std::string name = (folder / "name").string();
@@ -26,8 +27,8 @@ std::vector<std::string> display_words(const std::vector<std::string>& options,
 
 std::vector<std::string> viewer_words(const Desktop& desktop, const fs::path& folder,
                                       const std::vector<std::string>& more) {
-    std::vector<std::string> words = {KILOLUX_PROGRAM, "view",    "plain",    "--fresh", "--quiet",
-                                      "--resolution",  "560,330", "--lights", "100"};
+    std::vector<std::string> words = {program_file(), "view",    "plain",    "--fresh", "--quiet",
+                                      "--resolution", "560,330", "--lights", "100"};
     words.insert(words.end(), more.begin(), more.end());
     return with_variables(
         {desktop.variable(), "KILOLUX_GLFW_RECORD=" + (folder / "record").string(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/input.h"
+#include "present/window/app/input.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/saved_state.h"
+#include "present/window/app/saved_state.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tests/present/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kilolux {
 namespace {

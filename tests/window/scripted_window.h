@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "present/image_file.h"
-#include "tests/present/child.h"
+#include "present/image/image_file.h"
+#include "tests/support/child.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 
@@ -29,9 +30,9 @@ inline ChildResult view_in_display(const Variables& variables,
                                    const std::vector<std::string>& display = {}) {
     std::vector<std::string> words = {"/usr/bin/env"};
     words.insert(words.end(), variables.begin(), variables.end());
-    words.emplace_back(KILOLUX_ROOT "/tests/window/with_display");
+    words.emplace_back(source_root() + "/tests/window/with_display");
     words.insert(words.end(), display.begin(), display.end());
-    words.emplace_back(KILOLUX_PROGRAM);
+    words.emplace_back(program_file());
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_child(words);
 }

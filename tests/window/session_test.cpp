@@ -6,8 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "host/render/views.h"
-#include "present/names.h"
+#include "host/picture/views.h"
+#include "present/cli/names.h"
+#include "tests/support/paths.h"
 #include "tests/window/scripted_window.h"
 
 namespace kilolux {
@@ -198,8 +199,8 @@ TEST(Window, SaysInOneLineWhatIsMissing) {
         EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
         EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
     };
-    const std::vector<std::string> words = {"/usr/bin/env",  "-uDISPLAY", "-uWAYLAND_DISPLAY",
-                                            KILOLUX_PROGRAM, "view",      "plain",
+    const std::vector<std::string> words = {"/usr/bin/env", "-uDISPLAY", "-uWAYLAND_DISPLAY",
+                                            program_file(), "view",      "plain",
                                             "--fresh"};
     one_line(run_child(words), "kilolux render");
     const std::vector<std::string> view = {"view", "plain", "--fresh", "-q", "--exit-after", "1"};

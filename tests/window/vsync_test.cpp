@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/support/paths.h"
 #include "tests/window/scripted_window.h"
 
 namespace kilolux {
@@ -16,9 +17,9 @@ std::vector<std::string> intervals(const TemporaryFolder& folder, const std::str
     fs::remove(record);
     const std::string script = Script(folder).line("open window").line(lines).write();
     const ChildResult result = run_child(
-        {KILOLUX_ROOT "/tests/window/with_display", "/usr/bin/env", recorder_asan_options(),
+        {source_root() + "/tests/window/with_display", "/usr/bin/env", recorder_asan_options(),
          "LD_PRELOAD=" KILOLUX_GLFW_RECORDER, "KILOLUX_GLFW_RECORD=" + record.string(),
-         "XDG_CONFIG_HOME=" + folder.path().string(), KILOLUX_PROGRAM, "view", "plain", "-q",
+         "XDG_CONFIG_HOME=" + folder.path().string(), program_file(), "view", "plain", "-q",
          "--lights", "100", "--resolution", "700,420", "--script", script});
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/certify/findings.h"
+
+#include <algorithm>
+
+namespace kilolux {
+
+void Findings::at_most(std::string_view what, const Worst& worst, double limit) {
+    const auto found = std::find_if(findings_.begin(), findings_.end(),
+                                    [&](const Finding& f) { return f.what == what; });
+    if (found == findings_.end()) {
+        findings_.push_back({std::string(what), worst.value, limit, worst.checked, worst.where});
+        return;
+    }
+    found->checked += worst.checked;
+    // Limits may differ from one use to the next: what is nearest to its limit counts.
+    const auto share = [](double value, double of) {
+        return of > 0.0 ? value / of : value * std::numeric_limits<double>::infinity();
+    };
+    const double old_share = found->worst > 0.0 ? share(found->worst, found->limit) : 0.0;
+    const double new_share = worst.value > 0.0 ? share(worst.value, limit) : 0.0;
+    if (new_share <= old_share) return;
+    found->worst = worst.value;
+    found->limit = limit;
+    found->where = worst.where;
+}
+
+void Findings::at_most(std::string_view what, double value, double limit, std::string_view where) {
+    Worst worst;
+    worst.see(value, [&] { return std::string(where); });
+    at_most(what, worst, limit);
+}
+
+void Findings::none(std::string_view what, std::uint64_t count, std::uint64_t of,
+                    std::string_view where) {
+    at_most(what, Worst{static_cast<double>(count), of, std::string(where)}, 0.0);
+}
+
+void Findings::require(std::string_view what, bool holds, std::string_view where) {
+    none(what, holds ? 0 : 1, 1, where);
+}
+
+void Findings::report(std::string_view what, double value) {
+    at_most(what, value, std::numeric_limits<double>::infinity());
+}
+
+void Findings::tried(std::string_view what, std::uint64_t count, std::uint64_t least) {
+    if (count >= least) return;
+    none(std::string("too few ") + std::string(what), least - count, least,
+         std::to_string(count) + " of " + std::to_string(least));
+}
+
+bool Findings::passed() const {
+    return !findings_.empty() && std::all_of(findings_.begin(), findings_.end(),
+                                             [](const Finding& f) { return f.passed(); });
+}
+
+}  // namespace kilolux

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/bench/plots.h"
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+// A horizontal axis: a field of the points as a number.
+struct Axis {
+    const char* field;  // as fields_of() names it
+    const char* stem;
+    const char* title;
+    const char* label;
+    double (*x)(const SweepPoint&);
+    bool labelled;  // points carry the field's text
+    bool log_x;
+};
+
+constexpr Axis kAxes[] = {
+    {"lights", "time_against_lights", "Time against lights", "lights",
+     [](const SweepPoint& p) { return static_cast<double>(p.lights); }, false, true},
+    {"grid", "time_against_grid", "Time against the coarse grid",
+     "tiles x * tiles y * slices per octave",
+     [](const SweepPoint& p) { return static_cast<double>(p.grid[0]) * p.grid[1] * p.grid[2]; },
+     true, true},
+    {"group height", "time_against_work_group", "Time against the shading work-group",
+     "rows of a work-group",
+     [](const SweepPoint& p) { return static_cast<double>(p.group_height); }, false, true},
+    {"lanes", "time_against_lanes", "Time against lanes", "lanes of a work-item",
+     [](const SweepPoint& p) { return static_cast<double>(p.lanes); }, false, true},
+    {"resolution", "time_against_resolution", "Time against resolution", "pixels",
+     [](const SweepPoint& p) { return static_cast<double>(p.resolution[0]) * p.resolution[1]; },
+     true, true},
+};
+
+std::vector<SweepPoint> points_of(const std::vector<BenchRow>& rows) {
+    std::vector<SweepPoint> points;
+    for (const BenchRow& row : rows) points.push_back(row.point);
+    return points;
+}
+
+// The texts of the varying fields but one: what tells a curve from the others.
+std::string curve_name(const SweepPoint& point, const std::vector<std::string>& varying,
+                       const std::string& but) {
+    std::string name;
+    for (const auto& [field, text] : fields_of(point)) {
+        const bool varies = std::find(varying.begin(), varying.end(), field) != varying.end();
+        if (!varies || field == but) continue;
+        const bool bare = field == "renderer" || field == "resolution" || field == "gbuffer";
+        if (!name.empty()) name += ", ";
+        if (!bare) name += field + " ";
+        name += text;
+    }
+    return name;
+}
+
+std::string field_text(const SweepPoint& point, const std::string& field) {
+    for (const auto& [name, text] : fields_of(point)) {
+        if (name == field) return text;
+    }
+    return {};
+}
+
+void add_point(Plot& plot, const std::string& curve, PlotPoint point) {
+    const auto found = std::find_if(plot.series.begin(), plot.series.end(),
+                                    [&](const PlotSeries& s) { return s.name == curve; });
+    if (found != plot.series.end()) {
+        found->points.push_back(std::move(point));
+    } else {
+        plot.series.push_back({curve, {std::move(point)}});
+    }
+}
+
+// Curves that say something, each from left to right.
+bool finish(Plot& plot) {
+    std::erase_if(plot.series, [](const PlotSeries& s) { return s.points.size() < 2; });
+    for (PlotSeries& series : plot.series) {
+        std::stable_sort(series.points.begin(), series.points.end(),
+                         [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+    }
+    return !plot.series.empty();
+}
+
+// The rows that lie on curves along a field, and the fields in which those curves differ.
+struct Curves {
+    std::vector<BenchRow> rows;
+    std::vector<std::string> varying;
+};
+
+Curves curves_along(const std::string& field, const std::vector<BenchRow>& rows) {
+    const std::vector<std::string> varying = varying_fields(points_of(rows));
+    Curves curves;
+    for (const BenchRow& row : rows) {
+        const std::string name = curve_name(row.point, varying, field);
+        const bool has_fellow = std::any_of(rows.begin(), rows.end(), [&](const BenchRow& other) {
+            return other.point != row.point && curve_name(other.point, varying, field) == name;
+        });
+        if (has_fellow) curves.rows.push_back(row);
+    }
+    curves.varying = varying_fields(points_of(curves.rows));
+    return curves;
+}
+
+Plot time_plot(const Axis& axis, const Curves& curves) {
+    Plot plot;
+    plot.title = axis.title;
+    plot.x_label = axis.label;
+    plot.y_label = "time [ms]";
+    plot.log_x = axis.log_x;
+    plot.log_y = true;
+    for (const BenchRow& row : curves.rows) {
+        // Automatic values have no place on the axis.
+        if ((row.stage != kFrameStage && row.stage != "shade") || axis.x(row.point) <= 0.0)
+            continue;
+        const std::string name = curve_name(row.point, curves.varying, axis.field);
+        add_point(
+            plot, row.stage + (name.empty() ? "" : ", " + name),
+            {axis.x(row.point), row.ms.median,
+             axis.labelled && row.stage == kFrameStage ? field_text(row.point, axis.field) : ""});
+    }
+    return plot;
+}
+
+// The same point by the renderer that evaluates every light.
+const BenchRow* naive_row(const BenchRow& row, const std::vector<BenchRow>& rows) {
+    for (const BenchRow& other : rows) {
+        SweepPoint wanted = row.point;
+        wanted.renderer = RendererKind::deferred_all;
+        wanted.grid = other.point.grid;
+        if (other.stage == kFrameStage && other.point == wanted) return &other;
+    }
+    return nullptr;
+}
+
+Plot speed_up_plot(const Curves& curves) {
+    Plot plot;
+    plot.title = "Speed-up over evaluating every light at every pixel";
+    plot.x_label = "lights";
+    plot.y_label = "frame time of deferred-all / frame time";
+    plot.log_x = plot.log_y = true;
+    for (const BenchRow& row : curves.rows) {
+        if (row.stage != kFrameStage || row.point.renderer == RendererKind::deferred_all) continue;
+        const BenchRow* naive = naive_row(row, curves.rows);
+        if (!naive || row.ms.median <= 0.0) continue;
+        add_point(plot, curve_name(row.point, curves.varying, "lights"),
+                  {static_cast<double>(row.point.lights), naive->ms.median / row.ms.median});
+    }
+    return plot;
+}
+
+}  // namespace
+
+std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows) {
+    std::vector<NamedPlot> plots;
+    for (const Axis& axis : kAxes) {
+        NamedPlot named{axis.stem, time_plot(axis, curves_along(axis.field, rows))};
+        if (finish(named.plot)) plots.push_back(std::move(named));
+    }
+    NamedPlot speed_up{"speed_up_against_lights", speed_up_plot(curves_along("lights", rows))};
+    if (finish(speed_up.plot)) plots.push_back(std::move(speed_up));
+    return plots;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/measure/bench/sweep.h"
+#include "host/measure/bench/table.h"
+#include "host/measure/metrics/statistics.h"
+
+namespace kilolux {
+
+/// How far a configuration's picture is from the all-lights reference of the same G-buffer layout.
+struct PictureError {
+    double max_relative = 0.0;  // over all channels of all pixels; below the picture's mean to that
+    std::uint64_t different_pixels = 0;  // whose float32 bits differ
+    std::uint64_t pixels = 0;            // compared
+    bool operator==(const PictureError&) const = default;
+};
+
+/// One stage of one point of a sweep, or its whole frame: a row of the long form.
+struct BenchRow {
+    std::string context;  // which device, scene, version ... it was measured with
+    SweepPoint point;
+    std::string stage;  // a stage of FrameStats, or kFrameStage
+    Statistics ms;
+    double limit_ms = 0.0;  // by the device's measured limits; 0: no model
+    std::string bound;      // what limits it; empty: no model, or the frame
+    double evaluations = 0.0;
+    double bytes = 0.0;
+    double k = 0.0;         // lights evaluated a drawn pixel
+    double useful_k = 0.0;  // k*: of those in range
+    PictureError error;
+
+    double ratio() const { return ms.median > 0.0 ? limit_ms / ms.median : 0.0; }
+    double giga_evaluations_per_s() const { return giga_rate(evaluations); }
+    double gigabytes_per_s() const { return giga_rate(bytes); }
+    double useful_share() const { return k > 0.0 ? useful_k / k : 1.0; }
+
+ private:
+    double giga_rate(double amount) const {
+        return ms.median > 0.0 ? 1e-6 * amount / ms.median : 0.0;
+    }
+};
+
+/// The stage name of the row that ends every point: the frame as the host's clock sees it.
+inline constexpr std::string_view kFrameStage = "frame";
+
+/// All that rows hold, with rates and ratios beside.
+Table bench_table(const std::vector<BenchRow>& rows);
+
+/// For reading: what varies between the points, and the columns that matter.
+Table bench_summary(const std::vector<BenchRow>& rows);
+
+/// The rows of to_csv(bench_table(...)), header included. Throws Error with the line's number for
+/// anything else.
+std::vector<BenchRow> parse_bench_csv(std::string_view csv);
+
+/// The fields of one line of CSV without its end (RFC 4180).
+std::vector<std::string> csv_fields(std::string_view line);
+
+}  // namespace kilolux

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/bench/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "host/measure/metrics/metrics.h"
+#include "host/measure/roofline/stage_report.h"
+#include "host/render/renderer.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kErrorWidth = 480.0;      // [pixel]
+constexpr double kErrorEvaluations = 2e9;  // a few seconds of a small CPU
+
+// A stage's time in each frame that has it.
+std::vector<double> times_of(const std::vector<FrameStats>& frames, const std::string& stage) {
+    std::vector<double> times;
+    for (const FrameStats& frame : frames) {
+        for (const StageTime& time : frame.stages) {
+            if (time.name == stage) times.push_back(time.ms);
+        }
+    }
+    return times;
+}
+
+BenchRow frame_row(BenchRow row, const std::vector<FrameStats>& frames,
+                   const std::vector<BenchRow>& stages) {
+    std::vector<double> times;
+    times.reserve(frames.size());
+    for (const FrameStats& frame : frames) times.push_back(frame.frame_ms);
+    row.stage = kFrameStage;
+    row.ms = statistics(times);
+    for (const BenchRow& stage : stages) {
+        row.limit_ms += stage.limit_ms;
+        row.bytes += stage.bytes;
+        if (stage.stage == "shade" || stage.stage == "forward")
+            row.evaluations += stage.evaluations;
+    }
+    return row;
+}
+
+RgbImage picture_of(const Frame& frame) {
+    return rgb_image_of(frame.width, frame.height, frame.radiance);
+}
+
+// The picture's mean at every pixel: what errors of darker ones are relative to.
+RgbImage mean_of(const RgbImage& picture) {
+    RgbImage out = picture;
+    const double sum = std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0);
+    const double count = static_cast<double>(std::max<std::size_t>(picture.rgb.size(), 1));
+    std::fill(out.rgb.begin(), out.rgb.end(), sum / count);
+    return out;
+}
+
+}  // namespace
+
+std::array<int, 2> error_resolution(std::array<int, 2> resolution, std::uint64_t lights) {
+    const double pixels = static_cast<double>(resolution[0]) * resolution[1];
+    const double evaluations = pixels * static_cast<double>(std::max<std::uint64_t>(lights, 1));
+    const double scale =
+        std::min({1.0, kErrorWidth / resolution[0], std::sqrt(kErrorEvaluations / evaluations)});
+    for (int& edge : resolution) edge = std::max(1, static_cast<int>(scale * edge));
+    return resolution;
+}
+
+BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera, double time,
+                   GlSource gl)
+    : scene_(scene),
+      base_(std::move(base)),
+      camera_(camera),
+      time_(time),
+      gl_(gl),
+      watch_(choose_device(base_.device)) {
+    base_.aovs.clear();
+}
+
+std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFrames& frames) {
+    watch_.look_again();
+    const RenderSettings settings = settings_at(base_, point);
+    std::vector<FrameStats> measured;
+    FrameSetup setup;
+    {
+        Renderer renderer(scene_, settings, gl_);
+        setup = frame_setup(settings, renderer.plan(), renderer.device());
+        // What a window waits for: a file's float radiance is not fetched.
+        std::vector<uint> picture(display_stride(settings.width) *
+                                  static_cast<std::size_t>(settings.height));
+        for (int i = 0; i < frames.warm_up + frames.measured; ++i) {
+            Frame frame = renderer.render_to(picture, camera_, time_);
+            if (i >= frames.warm_up) measured.push_back(std::move(frame.stats));
+            on_frame_();
+        }
+        if (is_forward(point.renderer)) {
+            // Counted by a pass that the frames in the sweep do not pay for.
+            RenderSettings counted = settings;
+            counted.count_useful = true;
+            renderer.change(counted);
+            measured.back().evaluations_per_pixel =
+                renderer.render(camera_, time_).stats.evaluations_per_pixel;
+            on_frame_();
+        }
+    }
+    return rows_of(point, std::move(measured), setup);
+}
+
+std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<FrameStats> frames,
+                                        const FrameSetup& setup) {
+    const Coverage& covered = coverage(point);
+    FrameStats stats = frames.back();
+    const auto local = static_cast<double>(stats.lights_used - stats.directional_lights);
+    if (stats.drawn_pixels == 0) stats.drawn_pixels = covered.drawn_pixels;
+    if (point.renderer == RendererKind::deferred_all) stats.evaluations_per_pixel = local;
+    BenchRow row;
+    row.point = point;
+    row.k = stats.evaluations_per_pixel;
+    row.useful_k = covered.useful_k;
+    row.error = error_of(point);
+    std::vector<BenchRow> rows;
+    for (const StageReport& report : stage_reports(stats, limits(), setup)) {
+        BenchRow stage = row;
+        stage.stage = report.stage;
+        stage.ms = statistics(times_of(frames, report.stage));
+        stage.limit_ms = report.limit_ms;
+        stage.bound = report.bound;
+        stage.bytes = report.bytes;
+        stage.evaluations = report.evaluations;
+        rows.push_back(std::move(stage));
+    }
+    rows.push_back(frame_row(row, frames, rows));
+    return rows;
+}
+
+std::size_t BenchRun::frame_count(const std::vector<SweepPoint>& points,
+                                  const BenchFrames& frames) const {
+    std::set<SceneKey> covered, compared;
+    std::size_t counted = 0;
+    for (const SweepPoint& p : points) {
+        counted += is_forward(p.renderer);
+        covered.emplace(p.resolution, p.lights, p.gbuffer);
+        compared.emplace(error_point(p).resolution, p.lights, p.gbuffer);
+    }
+    const auto each =
+        static_cast<std::size_t>(frames.warm_up) + static_cast<std::size_t>(frames.measured) + 1;
+    return points.size() * each + counted + covered.size() + compared.size();
+}
+
+SweepPoint BenchRun::error_point(SweepPoint point) const {
+    point.resolution = error_resolution(point.resolution, point.lights + scene_.lights.size());
+    return point;
+}
+
+const BenchRun::Coverage& BenchRun::coverage(const SweepPoint& point) {
+    const auto [found, is_new] =
+        coverages_.try_emplace({point.resolution, point.lights, point.gbuffer});
+    if (!is_new) return found->second;
+    RenderSettings settings = settings_at(base_, point);
+    settings.renderer = RendererKind::deferred;
+    settings.count_useful = true;
+    const FrameStats stats = Renderer(scene_, settings, gl_).render(camera_, time_).stats;
+    on_frame_();
+    found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels};
+    return found->second;
+}
+
+const RgbImage& BenchRun::reference(const SweepPoint& point) {
+    const auto [found, is_new] =
+        references_.try_emplace({point.resolution, point.lights, point.gbuffer});
+    if (!is_new) return found->second;
+    SweepPoint all = point;
+    all.renderer = RendererKind::deferred_all;
+    all.lanes = all.group_height = 0;
+    found->second =
+        picture_of(Renderer(scene_, settings_at(base_, all), gl_).render(camera_, time_));
+    on_frame_();
+    return found->second;
+}
+
+PictureError BenchRun::error_of(const SweepPoint& point) {
+    const SweepPoint small = error_point(point);
+    const Frame frame = Renderer(scene_, settings_at(base_, small), gl_).render(camera_, time_);
+    on_frame_();
+    const RgbImage& expected = reference(small);
+    const RgbImage floor = mean_of(expected);
+    const HdrMetrics metrics = compare_hdr(picture_of(frame), expected, {.scale = &floor});
+    return {metrics.relative.max, metrics.different_pixels, metrics.pixels};
+}
+
+}  // namespace kilolux

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/measure/bench/table.h"
+#include "host/measure/metrics/statistics.h"
+#include "host/measure/roofline/device_limits.h"
+#include "host/render/settings.h"
+
+namespace kilolux {
+
+/// The shading kernel alone, one shading model compiled with one lane width.
+struct ShadingMeasurement {
+    std::string model;  // "lambert", "blinn-phong", "pbr"
+    int lanes = 1;
+    Statistics ms;
+    double limit_ms = 0.0;        // by the device's limits
+    double instruction_ms = 0.0;  // by its instructions alone, at the rate of multiply-adds
+    std::string bound;
+    double evaluations = 0.0;
+    double bytes = 0.0;
+    double speed_up = 0.0;  // least time with one lane / least time with these lanes
+
+    /// Limits are the best of several runs, so the least time stands against them.
+    double ratio() const { return ms.min > 0.0 ? limit_ms / ms.min : 0.0; }
+    /// As rooflines are drawn: instructions at half of the multiply-add FLOP/s. A device that adds
+    /// beside its multiply-adds can pass 1; limit_ms counts that in.
+    double instruction_ratio() const { return ms.min > 0.0 ? instruction_ms / ms.min : 0.0; }
+};
+
+/// Lights per pixel of measure_shading().
+inline constexpr int kShadingLights = 64;
+
+/// Times the all-lights shading kernel on a synthetic full-screen G-buffer (packed, without
+/// optional planes; settings' size) whose every pixel is in range of kShadingLights point lights:
+/// each model with 1, 4, 8 and 16 lanes (and the device's own), in turns, so that what else the
+/// machine does hits all alike; between the runs the arithmetic limits are measured again, the best
+/// of all counts. `on_run` is called after every run and may throw to stop.
+std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, DeviceLimits limits,
+                                                int runs, const std::function<void()>& on_run);
+
+/// Runs that measure_shading() makes for one of `runs`.
+int shading_variants(const RenderSettings& settings);
+
+Table shading_table(const std::vector<ShadingMeasurement>& measurements);
+
+}  // namespace kilolux

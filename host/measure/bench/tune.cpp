@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/bench/tune.h"
+
+#include <algorithm>
+
+#include "host/base/error.h"
+#include "kernels/shared/cluster_grid.h"
+
+namespace kilolux {
+namespace {
+
+constexpr int kRounds = 2;
+
+// A parameter and the values that are tried.
+struct Dimension {
+    const char* name;
+    int Tuning::*value;  // null: the lane width
+    std::vector<int> values;
+};
+
+int value_of(const StoredTuning& tuning, const Dimension& dimension) {
+    return dimension.value ? tuning.tuning.*dimension.value : tuning.lanes;
+}
+
+StoredTuning with_value(StoredTuning tuning, const Dimension& dimension, int value) {
+    (dimension.value ? tuning.tuning.*dimension.value : tuning.lanes) = value;
+    // Work-groups that stage are whole tiles.
+    if (dimension.value == &Tuning::shade_stage && value > 0) tuning.tuning.shade_rows = FINE_TILE;
+    return tuning;
+}
+
+// CPUs gain from wide lanes and lose with groups, as their barriers split loops; GPUs the other
+// way.
+std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
+    const int units = device.compute_units;
+    const std::vector<int> rows = {1, 2, 4, 8, 16};
+    if (device.is_cpu) {
+        return {{"lanes", nullptr, {1, 4, 8, 16}},
+                {"shade_rows", &Tuning::shade_rows, rows},
+                {"shade_stage", &Tuning::shade_stage, {0, 64}},
+                {"shade_prefetch", &Tuning::shade_prefetch, {0, 1}},
+                {"cull_chunks",
+                 &Tuning::cull_chunks,
+                 {units, 2 * units, 4 * units, 8 * units, 16 * units}},
+                {"cull_group", &Tuning::cull_group, {1, 4}},
+                {"refine_group", &Tuning::refine_group, {1, 4}},
+                {"tile_group", &Tuning::tile_group, {1, 4, 16}},
+                {"light_group", &Tuning::light_group, {1, 4, 16, 64}}};
+    }
+    return {{"lanes", nullptr, {1, 2, 4}},
+            {"shade_stage", &Tuning::shade_stage, {0, 32, 64, 128, 256, 512}},
+            {"shade_rows", &Tuning::shade_rows, rows},
+            {"cull_chunks",
+             &Tuning::cull_chunks,
+             {units, 4 * units, 8 * units, 16 * units, 32 * units, 64 * units}},
+            {"cull_group", &Tuning::cull_group, {1, 8, 32, 64, 128, 256}},
+            {"refine_group", &Tuning::refine_group, {16, 32, 64, 128, 256}},
+            {"tile_group", &Tuning::tile_group, {16, 32, 64, 128, 256}},
+            {"light_group", &Tuning::light_group, {32, 64, 128, 256}}};
+}
+
+// A search under way.
+struct Search {
+    const DeviceInfo& device;
+    const MeasureTuning& measure;
+    TuningResult result;
+    std::uint64_t picture = 0;
+
+    bool was_tried(const StoredTuning& tuning) const {
+        return tuning == result.start ||
+               std::any_of(result.trials.begin(), result.trials.end(),
+                           [&](const TuningTrial& t) { return t.tuning == tuning; });
+    }
+
+    bool beats(double ms) const { return ms < (1.0 - kTuningGain) * result.best_ms; }
+
+    // A quiet moment may have favoured the alternative, or noise hurt the incumbent.
+    bool confirmed(TuningTrial& trial) {
+        result.best_ms = std::min(result.best_ms, measure(result.best).ms);
+        trial.ms = std::min(trial.ms, measure(trial.tuning).ms);
+        return beats(trial.ms);
+    }
+
+    void try_value(const Dimension& dimension, int value) {
+        TuningTrial trial{
+            dimension.name, value, with_value(result.best, dimension, value), 0.0, true, false, {}};
+        if (!is_valid(trial.tuning, device) || was_tried(trial.tuning)) return;
+        try {
+            const TuningMeasurement measured = measure(trial.tuning);
+            trial.ms = measured.ms;
+            trial.same_picture = measured.picture == picture;
+            trial.accepted = trial.same_picture && beats(trial.ms) && confirmed(trial);
+        } catch (const Error& error) {
+            trial.error = error.what();
+        }
+        if (trial.accepted) {
+            result.best = trial.tuning;
+            result.best_ms = trial.ms;
+        }
+        result.trials.push_back(std::move(trial));
+    }
+};
+
+}  // namespace
+
+bool TuningResult::same_pictures() const {
+    return std::all_of(trials.begin(), trials.end(),
+                       [](const TuningTrial& t) { return t.same_picture; });
+}
+
+TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
+                  const MeasureTuning& measure) {
+    const TuningMeasurement first = measure(start);
+    Search search{device, measure, {start, start, first.ms, first.ms, {}}, first.picture};
+    for (int round = 0; round < kRounds; ++round) {
+        const StoredTuning before = search.result.best;
+        for (const Dimension& dimension : dimensions_of(device)) {
+            for (const int value : dimension.values) {
+                if (value != value_of(search.result.best, dimension))
+                    search.try_value(dimension, value);
+            }
+        }
+        if (search.result.best == before) break;
+    }
+    return std::move(search.result);
+}
+
+TuningResult tune(LightingBench& bench, int runs) {
+    LightingRequest request = bench.request();
+    request.runs = runs;
+    return tune(built_in_tuning(bench.device()), bench.device(), [&](const StoredTuning& tuning) {
+        request.tuning = tuning;
+        const LightingRun run = bench.run(request);
+        return TuningMeasurement{run.ms, run.picture};
+    });
+}
+
+}  // namespace kilolux

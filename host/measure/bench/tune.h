@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/gpu/tuning_store.h"
+#include "host/measure/bench/lighting_bench.h"
+
+namespace kilolux {
+
+/// What a tuning does: how long a frame takes, and which picture.
+struct TuningMeasurement {
+    double ms = 0.0;
+    std::uint64_t picture = 0;  // hash of its bits
+};
+
+/// Measures a tuning; throws Error where the device does not accept it.
+using MeasureTuning = std::function<TuningMeasurement(const StoredTuning&)>;
+
+/// One alternative that was measured.
+struct TuningTrial {
+    std::string parameter;  // "lanes", "shade_rows", ...
+    int value = 0;
+    StoredTuning tuning;  // all values
+    double ms = 0.0;
+    bool same_picture = true;
+    bool accepted = false;
+    std::string error;  // why the device refused it; empty if it ran
+};
+
+struct TuningResult {
+    StoredTuning start, best;
+    double start_ms = 0.0;
+    double best_ms = 0.0;
+    std::vector<TuningTrial> trials;  // in the order of measurement, the start not among them
+
+    /// True if every alternative that ran gave the start's picture, bit for bit.
+    bool same_pictures() const;
+};
+
+/// An improvement must exceed this share of the time: less is noise.
+inline constexpr double kTuningGain = 0.03;
+
+/// Coordinate descent from `start`, two rounds over lanes, shade_rows, shade_stage, shade_prefetch,
+/// cull_chunks, cull_group, refine_group, tile_group and light_group: each is set to the fastest of
+/// its values while the others stand. An alternative is taken if it beats the incumbent by more
+/// than kTuningGain, does so once more when both are measured again, and its picture has the
+/// start's bits.
+TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
+                  const MeasureTuning& measure);
+
+/// The same on a bench's frame from the built-in table, each time the least of `runs`.
+TuningResult tune(LightingBench& bench, int runs = 5);
+
+}  // namespace kilolux

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/metrics/metrics.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "host/measure/metrics/compensated_sum.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+// A reference in double is rounded to what a float32 picture could hold at best.
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint32_t>(static_cast<float>(a)) ==
+           std::bit_cast<std::uint32_t>(static_cast<float>(b));
+}
+
+double absolute_error(double x, double r) {
+    if (same_value(x, r)) return 0.0;
+    return std::isfinite(x) && std::isfinite(r) ? std::abs(x - r) : kInfinity;
+}
+
+double relative_error(double absolute, double r, double scale) {
+    if (absolute == 0.0) return 0.0;
+    if (std::isinf(absolute)) return kInfinity;
+    return absolute / std::max(std::abs(r), scale);
+}
+
+double mean(std::span<const double> values) {
+    ExactSum sum;
+    for (const double v : values) sum.add(v);
+    return values.empty() ? 0.0 : sum.value() / static_cast<double>(values.size());
+}
+
+double percentile_99_9(std::span<const double> values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    const std::size_t rank = sorted.size() - sorted.size() / 1000;  // ceil(0.999 n)
+    const auto nth = sorted.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+    std::nth_element(sorted.begin(), nth, sorted.end());
+    return *nth;
+}
+
+double largest_finite(const RgbImage& image) {
+    double peak = 0.0;
+    for (const double v : image.rgb) {
+        if (std::isfinite(v)) peak = std::max(peak, v);
+    }
+    return peak;
+}
+
+void count_pixels(const RgbImage& picture, const RgbImage& reference, HdrMetrics& out) {
+    out.pixels = picture.pixel_count();
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+        bool nan = false, infinite = false, negative = false, different = false;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            nan |= std::isnan(picture.rgb[c]);
+            infinite |= std::isinf(picture.rgb[c]);
+            negative |= picture.rgb[c] < 0.0;
+            different |= !same_bits(picture.rgb[c], reference.rgb[c]);
+        }
+        out.nan_pixels += nan;
+        out.infinite_pixels += infinite;
+        out.negative_pixels += negative;
+        out.different_pixels += different;
+    }
+}
+
+// (x-r)^2 / (r^2 + eps): Rousselle et al. 2011 with the offset tied to the picture's mean.
+double rel_mse(std::span<const double> absolute, const RgbImage& reference) {
+    const double average = mean(reference.rgb);
+    const double eps = 1e-2 * average * average;
+    ExactSum sum;
+    for (std::size_t i = 0; i < absolute.size(); ++i) {
+        const double r = reference.rgb[i];
+        const double e = absolute[i];
+        if (e > 0.0) sum.add(std::isinf(e) ? e : e * e / (r * r + eps));
+    }
+    return sum.value() / static_cast<double>(absolute.size());
+}
+
+double root_mean_square(std::span<const double> errors) {
+    ExactSum sum;
+    for (const double e : errors) sum.add(e * e);
+    return std::sqrt(sum.value() / static_cast<double>(errors.size()));
+}
+
+}  // namespace
+
+ErrorDistribution error_distribution(std::span<const double> errors, int width, int channels) {
+    ErrorDistribution out;
+    if (errors.empty()) return out;
+    const auto worst = std::max_element(errors.begin(), errors.end());
+    const auto index = worst - errors.begin();
+    const auto pixel = index / channels;
+    out.mean = mean(errors);
+    out.percentile_99_9 = percentile_99_9(errors);
+    out.max = *worst;
+    out.x = static_cast<int>(pixel % width);
+    out.y = static_cast<int>(pixel / width);
+    out.channel = static_cast<int>(index % channels);
+    return out;
+}
+
+HdrMetrics compare_hdr(const RgbImage& picture, const RgbImage& reference,
+                       const HdrOptions& options) {
+    require_same_size("compare", picture.width, picture.height, reference.width, reference.height);
+    const RgbImage* scale = options.scale;
+    if (scale) {
+        require_same_size("compare: scale", scale->width, scale->height, picture.width,
+                          picture.height);
+    }
+    std::vector<double> absolute(picture.rgb.size());
+    std::vector<double> relative(picture.rgb.size());
+    for (std::size_t i = 0; i < absolute.size(); ++i) {
+        const double r = reference.rgb[i];
+        absolute[i] = absolute_error(picture.rgb[i], r);
+        relative[i] = relative_error(absolute[i], r, scale ? scale->rgb[i] : 0.0);
+    }
+    HdrMetrics out;
+    count_pixels(picture, reference, out);
+    out.absolute = error_distribution(absolute, picture.width, 3);
+    out.relative = error_distribution(relative, picture.width, 3);
+    out.rmse = root_mean_square(absolute);
+    out.psnr_peak = options.psnr_peak > 0.0 ? options.psnr_peak : largest_finite(reference);
+    out.psnr_db = out.rmse == 0.0 ? kInfinity : 20.0 * std::log10(out.psnr_peak / out.rmse);
+    out.rel_mse = rel_mse(absolute, reference);
+    return out;
+}
+
+CodeDifferences compare_codes(const DisplayView& picture, const DisplayView& reference) {
+    require_same_size("compare", picture.width, picture.height, reference.width, reference.height);
+    CodeDifferences out;
+    out.pixels = picture.rgba.size() / 4;
+    std::vector<double> differences;
+    differences.reserve(3 * out.pixels);
+    for (std::size_t pixel = 0; pixel < out.pixels; ++pixel) {
+        int worst = 0;
+        for (std::size_t c = 4 * pixel; c < 4 * pixel + 3; ++c) {
+            const int difference = std::abs(picture.rgba[c] - reference.rgba[c]);
+            worst = std::max(worst, difference);
+            differences.push_back(difference);
+        }
+        out.different_pixels += worst >= 1;
+        out.above_one_pixels += worst > 1;
+    }
+    out.difference = error_distribution(differences, picture.width, 3);
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/reference/decoded_samples.h"
+
+namespace kilolux {
+SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bool specular,
+                             bool unlit) {
+    const auto vector = [&](std::size_t plane) {
+        return glm::dvec3(value(plane), value(plane + 1), value(plane + 2));
+    };
+    SurfaceSample out;
+    if (value(SURFACE_DEPTH) == 0.0) return out;
+    out.position = vector(SURFACE_POSITION);
+    out.normal = vector(SURFACE_NORMAL);
+    out.albedo = vector(SURFACE_ALBEDO);
+    out.emissive = vector(SURFACE_EMISSIVE);
+    out.roughness = value(SURFACE_ROUGHNESS);
+    out.metallic = value(SURFACE_METALLIC);
+    out.occlusion = value(SURFACE_OCCLUSION);
+    if (specular) {
+        out.specular = vector(SURFACE_SPECULAR);
+        out.specular_f90 = value(SURFACE_SPECULAR_F90);
+    }
+    out.kind = unlit && out.roughness == 0.0 ? SurfaceKind::unlit : SurfaceKind::lit;
+    return out;
+}
+
+SurfaceSamples surface_samples(const DecodedSurfaces& decoded) {
+    const View& view = decoded.view;
+    SurfaceSamples out =
+        make_surface_samples(static_cast<int>(view.width), static_cast<int>(view.height));
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (std::size_t x = 0; x < view.width; ++x) {
+            const std::size_t pixel = y * view.stride + x;
+            out.pixels[y * view.width + x] = surface_sample(
+                [&](std::size_t i) { return double{decoded.planes[i * plane + pixel]}; },
+                decoded.specular, decoded.unlit);
+        }
+    }
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "host/measure/metrics/metrics.h"
+#include "host/measure/metrics/parallel_rows.h"
+#include "host/render/renderer.h"
+
+namespace kilolux {
+
+/// How far a picture is from one reference.
+struct ReferenceError {
+    HdrMetrics hdr;
+    double flip_mean = 0.0;  // HDR-FLIP, 0 to 1
+    double flip_max = 0.0;
+};
+
+/// A picture's errors against float64.
+struct FrameError {
+    int width = 0;   // at which it was measured [pixel]
+    int height = 0;  // [pixel]
+    // Of the kernels: the reference shades the same stored surfaces. None for the forward
+    // renderers, which store none.
+    std::optional<ReferenceError> kernels;
+    ReferenceError whole;           // the reference shades surfaces stored in float32
+    double lights_per_pixel = 0.0;  // k*, by the reference
+};
+
+/// Renders with `settings` at a size so small that the float64 reference takes seconds, and
+/// compares. Leaves the renderer with other settings. What `progress` throws ends it.
+FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, const Camera& camera,
+                               double time, const OnProgress& progress = {});
+
+}  // namespace kilolux

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/reference/hit_surface.h"
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+const Instance& instance_of(const SurfaceHit& hit) {
+    return hit.scene.instances[hit.triangle.instance];
+}
+
+const Mesh& mesh_of(const SurfaceHit& hit) {
+    return hit.scene.meshes[static_cast<std::size_t>(instance_of(hit).mesh)];
+}
+
+// -1 for a mirroring transform.
+double orientation(const SurfaceHit& hit) {
+    return glm::determinant(glm::dmat3(instance_of(hit).world_from_object)) < 0.0 ? -1.0 : 1.0;
+}
+
+glm::dvec3 corner_normal(const BvhTriangle& triangle) {
+    const auto& [a, b, c] = triangle.corners;
+    return glm::cross(b - a, c - a);
+}
+
+// A vertex attribute at the hit; `weights` may also be their derivatives.
+template <class Result, class Attribute>
+Result interpolated(const SurfaceHit& hit, const std::vector<Attribute>& values,
+                    const std::array<double, 3>& weights) {
+    const Mesh& mesh = mesh_of(hit);
+    const std::size_t first = 3 * static_cast<std::size_t>(hit.triangle.triangle);
+    Result sum(0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        sum += weights[i] * Result(values[mesh.indices[first + i]]);
+    }
+    return sum;
+}
+
+// Change of the barycentric weights for a step of the hit point within the triangle's plane.
+std::array<double, 3> weight_change(const BvhTriangle& triangle, const glm::dvec3& step) {
+    const auto& [a, b, c] = triangle.corners;
+    const glm::dvec3 n = corner_normal(triangle);
+    const double n2 = glm::dot(n, n);
+    const double of_b = glm::dot(glm::cross(c - a, n), step) / n2;
+    const double of_c = glm::dot(glm::cross(n, b - a), step) / n2;
+    return {-of_b - of_c, of_b, of_c};
+}
+
+// Step of the hit point when the ray's origin and direction change (Igehy 1999, equations 10..12).
+glm::dvec3 transferred(const SurfaceHit& hit, const glm::dvec3& origin_step,
+                       const glm::dvec3& direction_step) {
+    const glm::dvec3 n = corner_normal(hit.triangle);
+    const glm::dvec3 step = origin_step + hit.hit.t * direction_step;
+    return step - hit.ray.direction * (glm::dot(n, step) / glm::dot(n, hit.ray.direction));
+}
+
+std::array<TextureFootprint, 2> footprints(const SurfaceHit& hit) {
+    const auto dx =
+        weight_change(hit.triangle, transferred(hit, hit.ray.origin_dx, hit.ray.direction_dx));
+    const auto dy =
+        weight_change(hit.triangle, transferred(hit, hit.ray.origin_dy, hit.ray.direction_dy));
+    std::array<TextureFootprint, 2> out;
+    for (std::size_t set = 0; set < 2; ++set) {
+        const auto& texcoords = mesh_of(hit).texcoords[set];
+        if (texcoords.empty()) continue;
+        out[set] = {.uv = interpolated<glm::dvec2>(hit, texcoords, hit.hit.weights),
+                    .uv_dx = interpolated<glm::dvec2>(hit, texcoords, dx),
+                    .uv_dy = interpolated<glm::dvec2>(hit, texcoords, dy)};
+    }
+    return out;
+}
+
+using Footprints = std::array<TextureFootprint, 2>;
+
+glm::dvec4 base_color(const SurfaceHit& hit, const Footprints& uv) {
+    const Material& material = material_of(hit);
+    glm::dvec4 color = glm::dvec4(material.base_color) *
+                       hit.textures.sample(material.base_color_texture, TextureEncoding::srgb, uv);
+    const auto& colors = mesh_of(hit).colors;
+    if (!colors.empty()) color *= interpolated<glm::dvec4>(hit, colors, hit.hit.weights);
+    return color;
+}
+
+glm::dvec3 unit_or_zero(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0.0 ? v / length : glm::dvec3(0.0);
+}
+
+// Sum of the corners' `values`, each taken to world space and made unit, by weight. Not unit: a
+// basis for normal maps is used as interpolated (MikkTSpace), and what stays alone is made unit
+// later.
+template <class Attribute>
+glm::dvec3 interpolated_direction(const SurfaceHit& hit, const std::vector<Attribute>& values,
+                                  const glm::dmat3& world_from_object) {
+    const Mesh& mesh = mesh_of(hit);
+    const std::size_t first = 3 * static_cast<std::size_t>(hit.triangle.triangle);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 object(values[mesh.indices[first + i]]);
+        sum += hit.hit.weights[i] * unit_or_zero(world_from_object * object);
+    }
+    return sum;
+}
+
+// Cofactors are the inverse transpose without the division, so that a transform that flattens a
+// mesh still has one.
+glm::dvec3 smooth_normal(const SurfaceHit& hit) {
+    const auto& normals = mesh_of(hit).normals;
+    if (normals.empty()) return unit_or_zero(corner_normal(hit.triangle) * orientation(hit));
+    const glm::dmat3 m(instance_of(hit).world_from_object);
+    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
+                               glm::cross(m[0], m[1]));
+    return interpolated_direction(hit, normals, cofactors * orientation(hit));
+}
+
+glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv) {
+    const glm::dvec3 normal = smooth_normal(hit);
+    const Material& material = material_of(hit);
+    const auto& tangents = mesh_of(hit).tangents;
+    if (!material.normal_texture.present() || tangents.empty()) return unit_or_zero(normal);
+    const glm::dmat3 world_from_object(instance_of(hit).world_from_object);
+    const glm::dvec3 tangent = interpolated_direction(hit, tangents, world_from_object);
+    const double w = interpolated<glm::dvec4>(hit, tangents, hit.hit.weights).w;
+    const glm::dvec3 bitangent = glm::cross(normal, tangent) * (w * orientation(hit));
+    const glm::dvec4 texel =
+        hit.textures.sample(material.normal_texture, TextureEncoding::linear, uv);
+    const glm::dvec3 map = 2.0 * glm::dvec3(texel) - 1.0;
+    const double scale = material.normal_scale;
+    return unit_or_zero(tangent * (map.x * scale) + bitangent * (map.y * scale) + normal * map.z);
+}
+
+void set_reflectance(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
+    const Material& m = material_of(hit);
+    const double root = (double{m.ior} - 1.0) / (double{m.ior} + 1.0);
+    const glm::dvec4 color =
+        hit.textures.sample(m.specular_color_texture, TextureEncoding::srgb, uv);
+    out.specular_f90 =
+        double{m.specular} * hit.textures.sample(m.specular_texture, TextureEncoding::linear, uv).w;
+    const glm::dvec3 f0 = root * root * glm::dvec3(m.specular_color) * glm::dvec3(color);
+    out.specular = glm::min(f0, glm::dvec3(1.0)) * out.specular_f90;
+}
+
+void apply_unlit(SurfaceSample& surface) {
+    surface.kind = SurfaceKind::unlit;
+    surface.emissive = surface.albedo;
+    surface.albedo = glm::dvec3(0.0);
+}
+
+}  // namespace
+
+const Material& material_of(const SurfaceHit& hit) {
+    static const Material kDefault;
+    const int index = mesh_of(hit).material;
+    return index < 0 ? kDefault : hit.scene.materials[static_cast<std::size_t>(index)];
+}
+
+bool front_facing(const SurfaceHit& hit) {
+    return glm::dot(corner_normal(hit.triangle), hit.ray.direction) * orientation(hit) < 0.0;
+}
+
+glm::dvec4 base_color_at(const SurfaceHit& hit) { return base_color(hit, footprints(hit)); }
+
+SurfaceSample surface_at(const SurfaceHit& hit) {
+    const Material& material = material_of(hit);
+    const Footprints uv = footprints(hit);
+    SurfaceSample out;
+    out.kind = SurfaceKind::lit;
+    out.albedo = glm::dvec3(base_color(hit, uv));
+    out.normal = mapped_normal(hit, uv) * (front_facing(hit) ? 1.0 : -1.0);
+    const glm::dvec4 metallic_roughness =
+        hit.textures.sample(material.metallic_roughness_texture, TextureEncoding::linear, uv);
+    out.roughness = material.roughness * metallic_roughness.y;
+    out.metallic = material.metallic * metallic_roughness.z;
+    const double occlusion =
+        hit.textures.sample(material.occlusion_texture, TextureEncoding::linear, uv).x;
+    out.occlusion = 1.0 + material.occlusion_strength * (occlusion - 1.0);
+    out.emissive =
+        glm::dvec3(material.emissive) *
+        glm::dvec3(hit.textures.sample(material.emissive_texture, TextureEncoding::srgb, uv));
+    set_reflectance(hit, uv, out);
+    if (material.unlit) apply_unlit(out);
+    return out;
+}
+
+}  // namespace kilolux

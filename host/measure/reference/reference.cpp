@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/reference/reference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host/measure/metrics/compensated_sum.h"
+#include "host/measure/reference/reference_brdf.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kDistanceMin = 0.01;  // nearer than this the inverse square stops growing [m]
+
+class ExactSum3 {
+ public:
+    void add(const glm::dvec3& term) {
+        for (int c = 0; c < 3; ++c) sums_[static_cast<std::size_t>(c)].add(term[c]);
+    }
+    glm::dvec3 value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
+
+ private:
+    std::array<ExactSum, 3> sums_;
+};
+
+// A pixel while its lights are summed.
+struct Pixel {
+    ExactSum3 radiance;
+    ExactSum3 scale;
+    double lights = 0.0;
+    std::uint32_t reaching = 0;
+};
+
+// Where a light stands as seen from a surface.
+struct Incidence {
+    glm::dvec3 to_light{0.0};
+    double attenuation = 0.0;
+    bool reaches = false;  // by more than kReachMargin
+};
+
+double cone(const ReferenceLight& light, const glm::dvec3& to_light) {
+    const double cosine = glm::dot(light.axis, -to_light);
+    const double edge = std::clamp((cosine - light.cos_out) * light.cone_scale, 0.0, 1.0);
+    return edge * edge;
+}
+
+Incidence incidence(const ReferenceLight& light, const glm::dvec3& position, bool windowed) {
+    const glm::dvec3 v = light.position - position;
+    const double d2 = glm::dot(v, v);
+    const double x = windowed ? d2 * light.inv_range2 : 0.0;  // (d / range)^2
+    if (x >= 1.0) return {};
+    const double d = std::max(std::sqrt(d2), kDistanceMin);
+    const glm::dvec3 to_light = v / d;
+    const double edge = cone(light, to_light);
+    return {to_light, (1.0 - x) * (1.0 + x) / (d * d) * edge,
+            x < 1.0 - kReachMargin && edge > kReachMargin};
+}
+
+glm::dvec3 direction_to_eye(const glm::dvec3& position, bool orthographic) {
+    const double distance = glm::length(position);
+    if (orthographic || distance == 0.0) return {0.0, 0.0, 1.0};
+    return -position / distance;
+}
+
+// Adds light that arrives with `irradiance` on a surface that faces it.
+void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& to_light,
+                  const glm::dvec3& irradiance, const ReferenceOptions& options) {
+    pixel.scale.add(glm::abs(irradiance));
+    const double n_dot_l = glm::dot(surface.normal, to_light);
+    if (!(n_dot_l > 0.0)) return;
+    const glm::dvec3 to_eye = direction_to_eye(surface.position, options.orthographic);
+    const glm::dvec3 brdf = reference_brdf(surface, to_eye, to_light, options.shading);
+    pixel.radiance.add(brdf * irradiance * n_dot_l);
+}
+
+Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
+            const ReferenceOptions& options) {
+    Pixel pixel;
+    pixel.radiance.add(surface.emissive);
+    if (surface.kind != SurfaceKind::lit) return pixel;
+    pixel.radiance.add(options.ambient * surface.occlusion * surface.albedo);
+    for (const ReferenceSun& sun : lights.suns) {
+        add_incident(pixel, surface, sun.to_light, sun.illuminance, options);
+    }
+    for (const ReferenceLight& light : lights.lights) {
+        const Incidence in = incidence(light, surface.position, options.windowed);
+        if (in.attenuation == 0.0) continue;
+        pixel.lights += 1.0;
+        pixel.reaching += in.reaches;
+        add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options);
+    }
+    return pixel;
+}
+
+void store(RgbImage& image, std::size_t i, const glm::dvec3& value) {
+    for (int c = 0; c < 3; ++c) image.rgb[3 * i + static_cast<std::size_t>(c)] = value[c];
+}
+
+// What one row counts for lights_per_pixel.
+struct RowCount {
+    double lights = 0.0;
+    double pixels = 0.0;
+};
+
+RowCount shade_row(int y, const SurfaceSamples& surfaces, const ReferenceLights& lights,
+                   const ReferenceOptions& options, ReferencePicture& out) {
+    RowCount count;
+    for (int x = 0; x < surfaces.width; ++x) {
+        const SurfaceSample& surface = surfaces.at(x, y);
+        if (surface.kind == SurfaceKind::background) continue;
+        const Pixel pixel = shade(surface, lights, options);
+        store(out.radiance, surfaces.index(x, y), pixel.radiance.value());
+        store(out.scale, surfaces.index(x, y), pixel.scale.value());
+        out.reaching[surfaces.index(x, y)] = pixel.reaching;
+        count.lights += pixel.lights;
+        count.pixels += 1.0;
+    }
+    return count;
+}
+
+}  // namespace
+
+ReferencePicture shade_reference(const SurfaceSamples& surfaces, const ReferenceLights& lights,
+                                 const ReferenceOptions& options) {
+    ReferencePicture out{.radiance = make_rgb_image(surfaces.width, surfaces.height),
+                         .scale = make_rgb_image(surfaces.width, surfaces.height)};
+    out.reaching.resize(surfaces.pixels.size());
+    std::vector<RowCount> counts(static_cast<std::size_t>(surfaces.height));
+    parallel_rows(
+        surfaces.height,
+        [&](int y) {
+            counts[static_cast<std::size_t>(y)] = shade_row(y, surfaces, lights, options, out);
+        },
+        options.progress);
+    RowCount total;
+    for (const RowCount& count : counts) {
+        total.lights += count.lights;
+        total.pixels += count.pixels;
+    }
+    if (total.pixels > 0.0) out.lights_per_pixel = total.lights / total.pixels;
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/reference/reference_brdf.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+namespace kilolux {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRoughnessMin = 0.045;  // Filament: narrower lobes are beyond float32
+constexpr double kNDotVMin = 1e-4;       // Filament: seen edge on
+constexpr double kHalfMin = 1e-6;        // light straight behind the surface's view: no half vector
+
+double alpha2_of(const SurfaceSample& surface) {
+    const double r = std::max(surface.roughness, kRoughnessMin);
+    return r * r * r * r;
+}
+
+glm::dvec3 diffuse_of(const SurfaceSample& surface) {
+    return surface.albedo * ((1.0 - surface.metallic) / kPi);
+}
+
+glm::dvec3 f0_of(const SurfaceSample& surface) {
+    return glm::mix(surface.specular, surface.albedo, surface.metallic);
+}
+
+// What diffuse light loses: with the strongest channel of the dielectric's reflectance for all
+// three.
+glm::dvec3 diffuse_loss(const SurfaceSample& s, double schlick) {
+    const double most = std::max({s.specular.x, s.specular.y, s.specular.z});
+    const glm::dvec3 head_on = glm::mix(glm::dvec3(most), s.albedo, s.metallic);
+    // The dielectric's own 1 - F at grazing angles, relative to what it is head on.
+    const double grazing = std::min((1.0 - s.specular_f90) / std::max(1.0 - most, 1e-6), 1.0);
+    return 1.0 - (1.0 - head_on) * (1.0 - schlick + schlick * grazing);
+}
+
+glm::dvec3 half_vector(const glm::dvec3& to_eye, const glm::dvec3& to_light) {
+    const glm::dvec3 sum = to_eye + to_light;
+    return sum / std::max(glm::length(sum), kHalfMin);
+}
+
+// sin^2 of the angle between n and h. The cross product keeps what 1 - (n.h)^2 cancels at the peak
+// of a narrow lobe, also when a decoded normal is not quite unit.
+double sin2(const glm::dvec3& n, const glm::dvec3& h) {
+    const glm::dvec3 c = glm::cross(n, h);
+    return std::min(glm::dot(c, c), 1.0);
+}
+
+glm::dvec3 blinn_phong(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l) {
+    const glm::dvec3 h = half_vector(v, l);
+    const double exponent = 2.0 / alpha2_of(s) - 2.0;
+    const double lobe = glm::dot(s.normal, h) > 0.0
+                            ? std::exp(0.5 * exponent * std::log1p(-sin2(s.normal, h)))
+                            : 0.0;  // also of exponent 0: the limit of small ones
+    return diffuse_of(s) + f0_of(s) * ((exponent + 2.0) / (8.0 * kPi) * lobe);
+}
+
+// D of GGX (Walter et al. 2007): alpha^2 / (pi (cos^2 (alpha^2 - 1) + 1)^2).
+double ggx(double sin2_nh, double alpha2) {
+    const double denominator = sin2_nh * (1.0 - alpha2) + alpha2;
+    return alpha2 / (kPi * denominator * denominator);
+}
+
+// Smith's height-correlated masking-shadowing over 4 n.l n.v (Heitz 2014, equation 99).
+double smith_visibility(double n_dot_l, double n_dot_v, double alpha2) {
+    const double over_v = n_dot_l * std::sqrt(n_dot_v * n_dot_v * (1.0 - alpha2) + alpha2);
+    const double over_l = n_dot_v * std::sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);
+    return 0.5 / (over_v + over_l);
+}
+
+glm::dvec3 pbr(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l) {
+    const glm::dvec3 h = half_vector(v, l);
+    const double alpha2 = alpha2_of(s);
+    const double n_dot_l = std::max(glm::dot(s.normal, l), 0.0);
+    const double n_dot_v = std::max(glm::dot(s.normal, v), kNDotVMin);
+    const glm::dvec3 f0 = f0_of(s);
+    const double schlick = std::pow(std::max(1.0 - glm::dot(v, h), 0.0), 5.0);
+    const double f90 = 1.0 - (1.0 - s.metallic) * (1.0 - s.specular_f90);
+    const glm::dvec3 fresnel = f0 + (f90 - f0) * schlick;
+    const double lobe = ggx(sin2(s.normal, h), alpha2) * smith_visibility(n_dot_l, n_dot_v, alpha2);
+    // Appendix B mixes whole BRDFs by metallic: the dielectric's diffuse part loses what its own
+    // surface reflects. With F0 mixed first, as here and in the kernels, both share one F.
+    return diffuse_of(s) * (1.0 - diffuse_loss(s, schlick)) + fresnel * lobe;
+}
+
+}  // namespace
+
+glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye,
+                          const glm::dvec3& to_light, Shading model) {
+    assert(model != Shading::automatic);
+    switch (model) {
+        case Shading::blinn_phong:
+            return blinn_phong(surface, to_eye, to_light);
+        case Shading::pbr:
+            return pbr(surface, to_eye, to_light);
+        default:
+            return surface.albedo / kPi;
+    }
+}
+
+}  // namespace kilolux

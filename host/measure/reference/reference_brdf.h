@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "host/measure/reference/surface_samples.h"
+#include "host/render/settings.h"
+
+namespace kilolux {
+
+/// The BRDF [1/sr] of a surface, in double: written from the formulas, apart from the kernels.
+///
+/// `to_eye` is unit; `to_light` is unit, or shorter for a light nearer than it can be.
+/// lambert:     albedo / pi.
+/// blinn_phong: (1 - metallic) albedo / pi + F0 (n + 2) / (8 pi) (n.h)^n, n = 2 / alpha^2 - 2.
+/// pbr:         glTF 2.0 appendix B: (1 - metallic) albedo / pi (1 - F) + F D V with GGX, the
+///              height-correlated Smith V (Heitz 2014) and Schlick's F at v.h.
+/// F0 = mix(specular, albedo, metallic), F90 = mix(specular_f90, 1, metallic); diffuse light loses
+/// the dielectric part's strongest channel of F (KHR_materials_specular). alpha = max(roughness,
+/// 0.045)^2, n.v is at least 1e-4. `model` must not be Shading::automatic.
+glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye,
+                          const glm::dvec3& to_light, Shading model);
+
+}  // namespace kilolux

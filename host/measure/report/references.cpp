@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/report/references.h"
+
+#include <algorithm>
+
+#include "host/measure/reference/decoded_samples.h"
+#include "host/render/light_rows.h"
+#include "host/render/light_source.h"
+#include "host/render/renderer.h"
+#include "host/render/scene_plan.h"
+#include "kernels/shared/evaluate_modes.h"
+
+namespace kilolux {
+namespace {
+
+Shading shading_of_plan(int shading) {
+    switch (shading) {
+        case SHADING_BLINN_PHONG:
+            return Shading::blinn_phong;
+        case SHADING_PBR:
+            return Shading::pbr;
+        default:
+            return Shading::lambert;
+    }
+}
+
+std::string ranges_key(const RenderSettings& s) {
+    return std::to_string(s.range_budget) + " " + std::to_string(s.lights.radius) + " " +
+           std::to_string(s.lights.intensity);
+}
+
+// What the kernels' reference starts from: forward shading keeps all of float32, as `full` does.
+RenderSettings decoded_settings(RenderSettings settings) {
+    if (is_forward(settings.renderer)) settings.gbuffer = GBUFFER_FULL;
+    settings.renderer = RendererKind::deferred;
+    return settings;
+}
+
+std::string kernels_key(const RenderSettings& s) {
+    std::string key = std::to_string(s.gbuffer);
+    key += ' ';
+    key += std::to_string(static_cast<int>(s.shading));
+    key += ' ';
+    return key + ranges_key(s);
+}
+
+ReferenceLights usable_lights(const ReportView& view, const RenderSettings& settings) {
+    std::vector<SceneLight> lights = lights_at(view.scene, settings, view.time);
+    std::erase_if(lights,
+                  [&](const SceneLight& light) { return !is_usable(light, view.camera.position); });
+    return reference_lights(lights, view.camera);
+}
+
+}  // namespace
+
+ReportReferences::ReportReferences(const ReportView& view, const RenderSettings& asked)
+    : view_(view), asked_(asked) {}
+
+ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bool windowed) const {
+    const auto& plan = make_scene_plan(view_.scene, settings, 0).kernels;
+    return {.shading = shading_of_plan(plan.shading),
+            .ambient = settings.ambient,
+            .orthographic = view_.camera.orthographic,
+            .windowed = windowed,
+            .progress = [this](double) { on_step_(); }};
+}
+
+const ComparedReference& ReportReferences::kernels(const RenderSettings& settings) {
+    const RenderSettings decoded = decoded_settings(settings);
+    const auto [found, is_new] = kernels_.try_emplace(kernels_key(decoded));
+    if (!is_new) return found->second;
+    on_step_();
+    RenderSettings exact = decoded;
+    exact.kernels = {};
+    Renderer renderer(view_.scene, exact);
+    renderer.render(view_.camera, view_.time);
+    const LitSurfaces lit = renderer.lit_surfaces();
+    found->second = compared_reference(
+        shade_reference(surface_samples(lit.surfaces),
+                        reference_lights(lit.lights, lit.directional), options_of(decoded, true)),
+        asked_);
+    return found->second;
+}
+
+const SurfaceSamples& ReportReferences::cast() {
+    if (!cast_) {
+        cast_ =
+            RayCaster(view_.scene).cast(view_.camera, asked_.width, asked_.height, [this](double) {
+                on_step_();
+            });
+    }
+    return *cast_;
+}
+
+const ComparedReference& ReportReferences::surfaces(const RenderSettings& settings) {
+    const auto [found, is_new] = surfaces_.try_emplace(ranges_key(settings));
+    if (is_new) {
+        found->second = compared_reference(
+            shade_reference(cast(), usable_lights(view_, settings), options_of(asked_, true)),
+            asked_);
+    }
+    return found->second;
+}
+
+const ComparedReference& ReportReferences::drawn(const RenderSettings& settings) {
+    RenderSettings full = settings;
+    full.gbuffer = GBUFFER_FULL;
+    full.shading = asked_.shading;
+    return kernels(full);
+}
+
+const ComparedReference& ReportReferences::unbounded() {
+    if (!unbounded_) {
+        unbounded_ = compared_reference(
+            shade_reference(cast(), usable_lights(view_, asked_), options_of(asked_, false)),
+            asked_);
+    }
+    return *unbounded_;
+}
+
+std::optional<std::uint64_t> missed_lights(const DecodedSurfaces& found,
+                                           const ReferencePicture& reference) {
+    if (found.covering.empty()) return std::nullopt;
+    std::uint64_t missed = 0;
+    for (std::size_t y = 0; y < found.view.height; ++y) {
+        for (std::size_t x = 0; x < found.view.width; ++x) {
+            const uint covering = found.covering[y * found.view.stride + x];
+            const uint wanted = reference.reaching[y * found.view.width + x];
+            if (covering != kBackground && covering < wanted) missed += wanted - covering;
+        }
+    }
+    return missed;
+}
+
+}  // namespace kilolux

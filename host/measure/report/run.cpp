@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/report/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/measure/metrics/pareto.h"
+#include "host/render/renderer.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kErrorWidth = 320.0;      // [pixel]
+constexpr double kErrorEvaluations = 3e8;  // of float64: seconds of a small CPU for a reference
+constexpr double kSettingMs = 10000.0;     // that the frames of a setting may take in a round
+constexpr double kSlowFrameMs = 20000.0;   // beyond which a frame is not timed at full size
+
+double pixels(const RenderSettings& s) { return static_cast<double>(s.width) * s.height; }
+
+std::array<int, 2> size_for_errors(const RenderSettings& s, std::size_t own_lights) {
+    const double lights = static_cast<double>(s.lights.count + own_lights);
+    const double evaluations = pixels(s) * std::max(lights, 1.0);
+    const double scale =
+        std::min({1.0, kErrorWidth / s.width, std::sqrt(kErrorEvaluations / evaluations)});
+    return {std::max(1, static_cast<int>(scale * s.width)),
+            std::max(1, static_cast<int>(scale * s.height))};
+}
+
+void append(std::vector<StageTime>& all, const std::vector<StageTime>& stages) {
+    all.insert(all.end(), stages.begin(), stages.end());
+}
+
+std::vector<ReportStage> stages_of(const std::vector<StageTime>& times, double scale) {
+    std::vector<ReportStage> out;
+    std::vector<std::vector<double>> values;
+    for (const StageTime& time : times) {
+        auto found = std::find_if(out.begin(), out.end(),
+                                  [&](const ReportStage& s) { return s.name == time.name; });
+        if (found == out.end()) {
+            out.push_back({time.name, {}});
+            values.emplace_back();
+            found = out.end() - 1;
+        }
+        values[static_cast<std::size_t>(found - out.begin())].push_back(scale * time.ms);
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].ms = statistics(values[i]);
+    return out;
+}
+
+// Half the width of a notch of McGill, Tukey and Larsen 1978, "Variations of Box Plots", relative:
+// medians whose notches are apart differ with 95 % confidence.
+double noise_of(std::vector<double> times) {
+    std::sort(times.begin(), times.end());
+    const double spread = quantile(times, 0.75) - quantile(times, 0.25);
+    const double median = quantile(times, 0.5);
+    if (!(median > 0.0)) return 0.0;
+    return 1.57 * spread / std::sqrt(static_cast<double>(times.size())) / median;
+}
+
+double shading_ms(const ReportSpeed& speed) {
+    for (const ReportStage& stage : speed.stages) {
+        if (stage.name == "shade" || stage.name == "forward" || stage.name == "forward_plus") {
+            return stage.ms.median;
+        }
+    }
+    return 0.0;
+}
+
+std::string coverage_key(const RenderSettings& s) {
+    return std::to_string(s.width) + " " + std::to_string(s.gbuffer) + " " +
+           std::to_string(s.range_budget) + " " + std::to_string(s.lights.radius);
+}
+
+std::vector<std::size_t> front(const std::vector<const ReportRow*>& rows,
+                               PictureErrors ReportRow::*errors) {
+    std::vector<CostAndError> points;
+    std::vector<double> noises;
+    for (const ReportRow* row : rows) {
+        points.push_back({row->speed.relative, (row->*errors).hdr.rmse});
+        noises.push_back(row->speed.noise);
+    }
+    return pareto_set(points, noises);
+}
+
+}  // namespace
+
+// What is known of a setting's frames before they are statistics.
+struct ReportRun::Timing {
+    double expected_ms = 0.0;  // of a frame at full size
+    bool scaled = false;
+    FrameStats stats;  // of the last frame
+    std::vector<StageTime> stages;
+    std::vector<double> frames;
+    std::vector<double> relative;  // to the default's frames beside them
+};
+
+ReportRun::ReportRun(const ReportView& view, const RenderSettings& base)
+    : view_(view),
+      base_(base),
+      error_size_(size_for_errors(base, view.scene.lights.size())),
+      references_(view, at_error_size(base)) {}
+
+void ReportRun::on_step(std::function<void()> call) {
+    references_.on_step(call);
+    on_step_ = std::move(call);
+}
+
+RenderSettings ReportRun::at_error_size(RenderSettings settings) const {
+    settings.width = error_size_[0];
+    settings.height = error_size_[1];
+    settings.bloom = 0.0f;  // of the display only: no error of a setting
+    return settings;
+}
+
+std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& settings,
+                                          const BenchFrames& frames) {
+    std::vector<ReportRow> rows;
+    std::vector<Timing> timings(settings.size());
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        rows.push_back(compare(settings[i], timings[i]));
+        on_progress_();
+    }
+    if (!timings.front().scaled) standard_.emplace(view_.scene, settings.front().settings);
+    for (int round = 0; round < kRounds; ++round) {
+        for (std::size_t i = 0; i < settings.size(); ++i) {
+            if (i == 0 || time_only_(rows[i])) {
+                time_frames(settings[i], frames, timings[i], i > 0 ? &timings.front() : nullptr);
+            }
+            on_progress_();
+        }
+    }
+    standard_.reset();
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        rows[i].speed = speed_of(rows[i], timings[i]);
+        if (timings[i].frames.empty()) {
+            rows[i].speed.relative = std::numeric_limits<double>::infinity();
+            continue;
+        }
+        if (timings[i].relative.empty()) {
+            rows[i].speed.relative =
+                rows[i].speed.frame_ms.median / rows.front().speed.frame_ms.median;
+        }
+        count(rows[i], timings[i]);
+    }
+    mark_fronts(rows);
+    return rows;
+}
+
+ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
+    on_step_();
+    const RenderSettings settings = at_error_size(setting.settings);
+    ReportRow row;
+    row.setting = setting;
+    row.cut_off = cut_off_of(view_.scene, settings);
+    const ComparedReference& kernels = references_.kernels(settings);
+    Renderer renderer(view_.scene, settings);
+    const Frame frame = renderer.render(view_.camera, view_.time);
+    if (settings.renderer == RendererKind::deferred) {
+        row.missed_lights = missed_lights(renderer.lit_surfaces().surfaces, kernels.picture);
+    }
+    row.kernels = picture_errors(frame, kernels);
+    row.surfaces = picture_errors(frame, references_.surfaces(settings));
+    row.unbounded = picture_errors(frame, references_.unbounded());
+    row.picture = rgb_image_of(frame.width, frame.height, frame.radiance);
+    row.display = frame.display;
+    const ReferencePicture& drawn = references_.drawn(settings).picture;
+    row.drawn = compare_hdr(row.picture, drawn.radiance, {.scale = &drawn.scale});
+    timing.stats = frame.stats;
+    timing.expected_ms = frame.stats.frame_ms * pixels(setting.settings) / pixels(settings);
+    timing.scaled = timing.expected_ms > kSlowFrameMs;
+    if (timing.scaled) {
+        timing.frames = {frame.stats.frame_ms};
+        timing.stages = frame.stats.stages;
+    }
+    return row;
+}
+
+void ReportRun::render_into(Renderer& renderer, Timing& timing) {
+    on_step_();
+    const Frame frame = renderer.render(view_.camera, view_.time);
+    timing.stats = frame.stats;
+    timing.frames.push_back(frame.stats.frame_ms);
+    append(timing.stages, frame.stats.stages);
+}
+
+// A round's frames of a setting, each beside one of the default's, which goes first every other
+// time.
+void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
+                            Timing* standard) {
+    if (timing.scaled) return;
+    const int affordable = static_cast<int>(kSettingMs / std::max(timing.expected_ms, 1e-3));
+    const int measured =
+        std::clamp((frames.measured + kRounds - 1) / kRounds, 1, std::max(1, affordable));
+    std::optional<Renderer> other;
+    if (standard || !standard_) other.emplace(view_.scene, setting.settings);
+    Renderer& renderer = other ? *other : *standard_;
+    for (int i = 0; i < std::min(frames.warm_up, affordable); ++i) {
+        on_step_();
+        renderer.render(view_.camera, view_.time);
+    }
+    for (int i = 0; i < measured; ++i) {
+        const bool paired = standard && standard_;
+        if (paired && i % 2 == 0) render_into(*standard_, *standard);
+        render_into(renderer, timing);
+        if (paired && i % 2 == 1) render_into(*standard_, *standard);
+        if (paired) timing.relative.push_back(timing.frames.back() / standard->frames.back());
+    }
+    timing.expected_ms = timing.frames.back();
+}
+
+ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) const {
+    const RenderSettings& settings = row.setting.settings;
+    ReportSpeed out;
+    out.scaled = timing.scaled;
+    const double scale = timing.scaled ? pixels(settings) / pixels(at_error_size(settings)) : 1.0;
+    std::vector<double> times = timing.frames;
+    for (double& ms : times) ms *= scale;
+    out.frame_ms = statistics(times);
+    if (!timing.relative.empty()) {
+        out.relative = statistics(timing.relative).median;
+        out.noise = noise_of(timing.relative);
+    }
+    out.stages = stages_of(timing.stages, scale);
+    return out;
+}
+
+void ReportRun::count(ReportRow& row, const Timing& timing) {
+    on_step_();
+    RenderSettings settings = row.setting.settings;
+    if (timing.scaled) settings = at_error_size(settings);
+    RenderSettings counted = settings;
+    counted.count_useful = true;
+    counted.renderer = RendererKind::deferred;
+    const auto [found, is_new] = coverages_.try_emplace(coverage_key(counted));
+    if (is_new) {
+        found->second = Renderer(view_.scene, counted).render(view_.camera, view_.time).stats;
+    }
+    FrameStats stats = timing.stats;
+    if (is_forward(settings.renderer)) {
+        counted.renderer = settings.renderer;
+        stats = Renderer(view_.scene, counted).render(view_.camera, view_.time).stats;
+    }
+    row.speed.k = stats.evaluations_per_pixel;
+    row.speed.useful_k = found->second.useful_evaluations_per_pixel;
+    const double scale = timing.scaled ? pixels(row.setting.settings) / pixels(settings) : 1.0;
+    const double evaluations =
+        scale * row.speed.k * static_cast<double>(found->second.drawn_pixels);
+    const double ms = shading_ms(row.speed);
+    row.speed.evaluations_per_s = ms > 0.0 ? 1e3 * evaluations / ms : 0.0;
+}
+
+void mark_fronts(std::vector<ReportRow>& rows) {
+    if (rows.empty()) return;
+    std::vector<const ReportRow*> alike, cut_offs;
+    for (const ReportRow& row : rows) {
+        const bool is_default = &row == &rows.front();
+        if (is_default || row.setting.trade == Trade::cut_off) cut_offs.push_back(&row);
+        if (row.setting.trade != Trade::cut_off) alike.push_back(&row);
+    }
+    const auto row_at = [&](const ReportRow* row) -> ReportRow& {
+        return rows[static_cast<std::size_t>(row - rows.data())];
+    };
+    for (const std::size_t i : front(alike, &ReportRow::surfaces)) {
+        row_at(alike[i]).surfaces_front = true;
+    }
+    for (const std::size_t i : front(cut_offs, &ReportRow::unbounded)) {
+        row_at(cut_offs[i]).unbounded_front = true;
+    }
+}
+
+}  // namespace kilolux

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/roofline/device_limits.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "host/base/error.h"
+#include "host/base/log.h"
+#include "host/gpu/device_cache.h"
+#include "host/measure/roofline/limit_kernels.h"
+
+namespace kilolux {
+namespace {
+
+constexpr CacheKind kKind = {"limits", 3};
+
+struct Field {
+    const char* name;
+    double DeviceLimits::*value;
+};
+
+constexpr Field kFields[] = {
+    {"fma_flops", &DeviceLimits::fma_flops},
+    {"one_lane_fma_flops", &DeviceLimits::one_lane_fma_flops},
+    {"lane_instructions_per_s", &DeviceLimits::lane_instructions_per_s},
+    {"rsqrt_per_s", &DeviceLimits::rsqrt_per_s},
+    {"sqrt_per_s", &DeviceLimits::sqrt_per_s},
+    {"divisions_per_s", &DeviceLimits::divisions_per_s},
+    {"read_bandwidth", &DeviceLimits::read_bandwidth},
+    {"write_bandwidth", &DeviceLimits::write_bandwidth},
+    {"copy_bandwidth", &DeviceLimits::copy_bandwidth},
+    {"cached_read_bandwidth", &DeviceLimits::cached_read_bandwidth},
+    {"cached_write_bandwidth", &DeviceLimits::cached_write_bandwidth},
+    {"cached_copy_bandwidth", &DeviceLimits::cached_copy_bandwidth},
+    {"cache_bytes", &DeviceLimits::cache_bytes},
+    {"upload_bandwidth", &DeviceLimits::upload_bandwidth},
+    {"download_bandwidth", &DeviceLimits::download_bandwidth},
+    {"launch_latency_ms", &DeviceLimits::launch_latency_ms},
+    {"launch_event_ms", &DeviceLimits::launch_event_ms},
+};
+
+CacheValues values_of(const DeviceLimits& limits) {
+    CacheValues values = {{"lanes", limits.lanes}};
+    for (const Field& field : kFields) values.emplace(field.name, limits.*field.value);
+    return values;
+}
+
+// None unless every limit is there and positive.
+std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
+    const auto kept_lanes = values.find("lanes");
+    if (kept_lanes == values.end() || kept_lanes->second != lanes) return std::nullopt;
+    DeviceLimits limits;
+    limits.lanes = lanes;
+    for (const Field& field : kFields) {
+        const auto found = values.find(field.name);
+        if (found == values.end() || !(found->second > 0.0)) return std::nullopt;
+        limits.*field.value = found->second;
+    }
+    return limits;
+}
+
+// Keeps the better one; whether that is better by more than a hundredth.
+bool raise(double& limit, double measured) {
+    const bool better = measured > 1.01 * limit;
+    limit = std::max(limit, measured);
+    return better;
+}
+
+}  // namespace
+
+bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
+    const auto rate = [&](const char* kernel, int operations) {
+        return kernels.lane_operations_per_s(kernel, operations);
+    };
+    bool rose = raise(limits.fma_flops, 2.0 * rate("fma_rate", kFmaChains));
+    rose |= raise(limits.lane_instructions_per_s, limits.fma_flops / 2.0);
+    rose |=
+        raise(limits.lane_instructions_per_s, rate("instruction_rate", kFmaChains + kAddChains));
+    rose |= raise(limits.rsqrt_per_s, rate("rsqrt_rate", kFmaChains));
+    rose |= raise(limits.sqrt_per_s, rate("sqrt_rate", kFmaChains));
+    rose |= raise(limits.divisions_per_s, rate("division_rate", kFmaChains));
+    return rose;
+}
+
+void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
+    constexpr int kQuietRounds = 3;
+    constexpr std::chrono::seconds kBudget(3);
+    const auto start = std::chrono::steady_clock::now();
+    int quiet = 0;
+    while (quiet < kQuietRounds && std::chrono::steady_clock::now() - start < kBudget) {
+        quiet = raise_arithmetic_limits(limits, kernels) ? 0 : quiet + 1;
+    }
+}
+
+DeviceLimits measure_device_limits(const Gpu& gpu) {
+    return in_stage("measure_limits", [&] {
+        const DeviceInfo info = describe(gpu.device);
+        const Gpu natural(gpu.context, gpu.queue, info.lane_width);
+        const Gpu one_lane(gpu.context, gpu.queue, 1);
+        LimitKernels kernels(natural);
+        DeviceLimits limits;
+        limits.lanes = info.lane_width;
+        settle_arithmetic_limits(limits, kernels);
+        limits.one_lane_fma_flops =
+            info.lane_width == 1
+                ? limits.fma_flops
+                : 2.0 * LimitKernels(one_lane).lane_operations_per_s("fma_rate", kFmaChains);
+        limits.cache_bytes = static_cast<double>(std::max(info.cache_bytes, kSmallestCache));
+        const MemoryRates large = kernels.memory_rates(large_buffer_bytes(info));
+        limits.read_bandwidth = large.read;
+        limits.write_bandwidth = large.write;
+        limits.copy_bandwidth = large.copy;
+        const MemoryRates small = kernels.memory_rates(cached_buffer_bytes(info));
+        // A cache is at least as fast as the memory behind it, whatever a disturbed run says.
+        limits.cached_read_bandwidth = std::max(small.read, large.read);
+        limits.cached_write_bandwidth = std::max(small.write, large.write);
+        limits.cached_copy_bandwidth = std::max(small.copy, large.copy);
+        const TransferRates transfer = kernels.transfer_rates();
+        limits.upload_bandwidth = transfer.upload;
+        limits.download_bandwidth = transfer.download;
+        // Other work on the machine, and clocks that have not yet risen, only ever make a rate too
+        // low.
+        raise_arithmetic_limits(limits, kernels);
+        const LaunchTimes launch = kernels.launch_times();
+        limits.launch_latency_ms = launch.finish_ms;
+        limits.launch_event_ms = launch.event_ms;
+        return limits;
+    });
+}
+
+DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again) {
+    const DeviceInfo info = describe(gpu.device);
+    if (!measure_again) {
+        if (const auto values = read_device_cache(info, kKind)) {
+            if (const auto limits = limits_of(*values, info.lane_width)) return *limits;
+        }
+    }
+    const DeviceLimits limits = measure_device_limits(gpu);
+    keep_device_limits(info, limits);
+    return limits;
+}
+
+void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits) {
+    try {
+        write_device_cache(device, kKind, values_of(limits));
+    } catch (const Error& error) {
+        warn(std::string(error.what()) + "; the device's limits will be measured again");
+    }
+}
+
+}  // namespace kilolux

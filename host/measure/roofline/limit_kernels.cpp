@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/roofline/limit_kernels.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <vector>
+
+namespace kilolux {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Long against an empty launch, short against a second in all.
+constexpr double kRunSeconds = 0.004;
+constexpr int kRuns = 5;
+// No rate may take much longer than this, however slow or busy the device.
+constexpr double kBudgetSeconds = 0.05;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double event_seconds(const cl::Event& event) {
+    event.wait();
+    const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+    const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+    // A clock tick at least, so that a rate stays finite.
+    return 1e-9 * static_cast<double>(std::max<cl_ulong>(end - start, 1));
+}
+
+// Work per second of run(n), which takes `work(n) = n * unit` and returns its seconds: n doubles
+// until a run is long enough, then the best of several counts.
+template <typename Run>
+double best_rate(double unit, uint most, Run run) {
+    const Clock::time_point start = Clock::now();
+    uint n = 1;
+    double seconds = run(n);
+    while (seconds < kRunSeconds && n < most) {
+        const double factor = std::clamp(1.2 * kRunSeconds / seconds, 2.0, 64.0);
+        n = static_cast<uint>(std::min(factor * n, static_cast<double>(most)));
+        seconds = run(n);
+    }
+    for (int i = 1; i < kRuns && seconds_since(start) < kBudgetSeconds; ++i) {
+        seconds = std::min(seconds, run(n));
+    }
+    return unit * n / seconds;
+}
+
+}  // namespace
+
+std::uint64_t large_buffer_bytes(const DeviceInfo& device) {
+    constexpr std::uint64_t kSmallest = 64 << 20, kLargest = 512 << 20;
+    const std::uint64_t wanted = std::clamp(4 * device.cache_bytes, kSmallest, kLargest);
+    // Two of them must not crowd out the rest of the machine.
+    const std::uint64_t room = std::min(device.max_allocation_bytes, device.memory_bytes / 16);
+    return std::max(std::min(wanted, room), kSmallestCache);
+}
+
+std::uint64_t cached_buffer_bytes(const DeviceInfo& device) {
+    const std::uint64_t cache = std::max(device.cache_bytes, kSmallestCache);
+    return std::clamp<std::uint64_t>(cache / 4, 64 << 10, 8 << 20);
+}
+
+LimitKernels::LimitKernels(const Gpu& gpu)
+    : gpu_(gpu),
+      program_(build_program(gpu, "measure_limits")),
+      group_(gpu.info.is_cpu
+                 ? 1
+                 : std::min<std::size_t>(256, static_cast<std::size_t>(gpu.info.max_work_group))),
+      // Some CPU threads start late: four pieces each let the others take over. GPUs hide latency.
+      items_(static_cast<std::size_t>(gpu.info.compute_units) *
+             (gpu.info.is_cpu ? 4 : 16 * group_)),
+      walkers_(gpu.info.is_cpu ? static_cast<std::size_t>(gpu.info.compute_units) : items_),
+      out_(gpu.context, CL_MEM_READ_WRITE,
+           items_ * static_cast<std::size_t>(gpu.info.lane_width) * sizeof(float)) {}
+
+double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
+    // Fixed point of x -> fma(x, a, b): b / (1 - a) = 1; a / x swings about sqrt(a).
+    constexpr float kA = 0.75f, kB = 0.25f;
+    cl::KernelFunctor<uint, float, float, cl::Buffer> run(program_, kernel);
+    const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(items_), cl::NDRange(group_));
+    const double unit = static_cast<double>(items_) * gpu_.info.lane_width * operations;
+    return best_rate(unit, 1u << 30,
+                     [&](uint n) { return event_seconds(run(items, n, kA, kB, out_)); });
+}
+
+// How the work-items share the buffers: see kernels/measure_limits.cl.
+struct LimitKernels::Walk {
+    uint count, item_step, step;
+    cl::Buffer to, from;
+    double bytes_per_repeat;
+};
+
+double LimitKernels::walk_bytes_per_s(const char* kernel, const Walk& walk) {
+    cl::KernelFunctor<uint, uint, uint, uint, cl::Buffer, cl::Buffer, cl::Buffer> run(program_,
+                                                                                      kernel);
+    const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(walkers_), cl::NDRange(group_));
+    return best_rate(walk.bytes_per_repeat, 1u << 20, [&](uint repeats) {
+        return event_seconds(
+            run(items, repeats, walk.count, walk.item_step, walk.step, walk.to, walk.from, out_));
+    });
+}
+
+MemoryRates LimitKernels::memory_rates(std::uint64_t bytes) {
+    const std::uint64_t vector_bytes =
+        sizeof(float) * static_cast<std::uint64_t>(gpu_.info.lane_width);
+    Walk walk;
+    walk.count =
+        static_cast<uint>(std::max<std::uint64_t>(bytes / vector_bytes / walkers_ / 4 * 4, 4));
+    walk.item_step = gpu_.info.is_cpu ? walk.count : 1;
+    walk.step = gpu_.info.is_cpu ? 1 : static_cast<uint>(walkers_);
+    const std::size_t used = std::size_t{walk.count} * walkers_ * vector_bytes;
+    walk.to = cl::Buffer(gpu_.context, CL_MEM_READ_WRITE, used);
+    walk.from = cl::Buffer(gpu_.context, CL_MEM_READ_WRITE, used);
+    gpu_.queue.enqueueFillBuffer(walk.to, 1.0f, 0, used);
+    gpu_.queue.enqueueFillBuffer(walk.from, 1.0f, 0, used);
+    gpu_.queue.finish();
+    MemoryRates rates;
+    walk.bytes_per_repeat = static_cast<double>(used);
+    rates.read = walk_bytes_per_s("read_memory", walk);
+    rates.write = walk_bytes_per_s("write_memory", walk);
+    walk.bytes_per_repeat *= 2.0;
+    rates.copy = walk_bytes_per_s("copy_memory", walk);
+    return rates;
+}
+
+TransferRates LimitKernels::transfer_rates() {
+    constexpr std::size_t kBytes = 16 << 20;
+    const std::vector<char> source(kBytes, 1);
+    std::vector<char> target(kBytes, 0);
+    const cl::Buffer buffer(gpu_.context, CL_MEM_READ_WRITE, kBytes);
+    const double unit = static_cast<double>(kBytes);
+    TransferRates rates;
+    rates.upload = best_rate(unit, 1, [&](uint) {
+        const Clock::time_point start = Clock::now();
+        gpu_.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, kBytes, source.data());
+        return seconds_since(start);
+    });
+    rates.download = best_rate(unit, 1, [&](uint) {
+        const Clock::time_point start = Clock::now();
+        gpu_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, kBytes, target.data());
+        return seconds_since(start);
+    });
+    return rates;
+}
+
+LaunchTimes LimitKernels::launch_times() {
+    constexpr int kLaunches = 200;
+    cl::KernelFunctor<cl::Buffer> nothing(program_, "launch_nothing");
+    const cl::EnqueueArgs one(gpu_.queue, cl::NDRange(group_), cl::NDRange(group_));
+    LaunchTimes best{std::numeric_limits<double>::infinity(),
+                     std::numeric_limits<double>::infinity()};
+    for (int i = 0; i < kLaunches; ++i) {
+        const Clock::time_point start = Clock::now();
+        const cl::Event event = nothing(one, out_);
+        gpu_.queue.finish();
+        best.finish_ms = std::min(best.finish_ms, 1e3 * seconds_since(start));
+        best.event_ms = std::min(best.event_ms, 1e3 * event_seconds(event));
+    }
+    return best;
+}
+
+}  // namespace kilolux

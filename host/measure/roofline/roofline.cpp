@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/roofline/roofline.h"
+
+#include <algorithm>
+
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/clusters.h"
+#include "kernels/shared/light.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kTilePixels = FINE_TILE * FINE_TILE;
+constexpr double kRadianceBytes = 12.0;  // three floats a pixel
+constexpr double kDisplayBytes = 4.0;
+constexpr double kOrderBytes = 1.0;  // of a pixel within its tile
+constexpr double kBoundBytes = sizeof(float4);
+constexpr double kCounterBytes = sizeof(uint);
+constexpr int kPrefixSumLaunches = 1;  // at least: more than one block takes three
+
+double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8; }
+
+// Reads each count twice, writes each offset.
+StageWork prefix_sum_work(double counts) {
+    StageWork work;
+    work.bytes_read = 2.0 * kCounterBytes * counts;
+    work.bytes_written = kCounterBytes * counts;
+    work.launches = kPrefixSumLaunches;
+    return work;
+}
+
+// The part of cone_reaches() that every light pays, point lights too: q 9, radius 7 and a square
+// root, q^2 3, the guard 4.
+LaneWork work_of_cone_guard() { return {24.0, 0.0, 1.0, 0.0}; }
+
+StageWork prepare_work(const StageCounts& c) {
+    StageWork work;
+    const double directional = c.directional_lights * sizeof(DirectionalLight);
+    work.bytes_read = c.lights * sizeof(Light) + directional;
+    work.bytes_written =
+        c.lights * (sizeof(ShadeLight) + kBoundBytes + sizeof(LightExtent)) + directional;
+    // Rotations 18, 1/range^2 2, radius 6, ends in depth 4, pixel intervals 2 * 12, tile intervals
+    // 2 * 19, slices 10, behind the camera 2; and 9 divisions.
+    work.lanes = c.lights * LaneWork{113.0, 0.0, 0.0, 9.0} + c.directional_lights * LaneWork{9.0};
+    work.launches = (c.lights > 0.0 ? 1 : 0) + (c.directional_lights > 0.0 ? 1 : 0);
+    return work;
+}
+
+StageWork build_work(const StageCounts& c) {
+    StageWork work;
+    work.bytes_written = c.box_intervals * 2.0 * sizeof(float);
+    // Two edges 2, pad 3, ends 4, products with the depths 4 and their extremes 2, padding 2.
+    work.lanes = c.box_intervals * LaneWork{17.0};
+    work.launches = 1;
+    return work;
+}
+
+// Counting and filling walk the lights once each; then a cursor, an offset and a total a cluster.
+StageWork cull_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.clusters);
+    const double light =
+        kBoundBytes + sizeof(LightExtent) + (c.kernels.spot_lights ? sizeof(ShadeLight) : 0.0);
+    work.bytes_read += 2.0 * light * c.lights + 3.0 * kCounterBytes * c.clusters;
+    work.bytes_written += 3.0 * kCounterBytes * c.clusters + index_bytes(c) * c.coarse_pairs;
+    // An extent's six ends, twice; a pair is counted (1) and placed (3).
+    work.lanes = c.lights * LaneWork{12.0} + c.coarse_pairs * LaneWork{4.0};
+    if (c.kernels.spot_lights)
+        work.lanes = work.lanes + 2.0 * c.coarse_pairs * work_of_cone_guard();
+    work.launches += 3;
+    return work;
+}
+
+// Of a pixel's stored position; 0 where it follows from the depth.
+double position_bytes(uint gbuffer) {
+    switch (gbuffer) {
+        case GBUFFER_FULL:
+            return 12.0;
+        case GBUFFER_HALF:
+            return 6.0;
+        case GBUFFER_OCT_2X4:
+            return 16.0;
+        default:
+            return 0.0;
+    }
+}
+
+StageWork bin_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.tiles);
+    work.bytes_read += 4.0 * c.pixels + (4.0 + position_bytes(c.kernels.gbuffer)) * c.drawn_pixels;
+    work.bytes_written += kCounterBytes * c.tiles + sizeof(ActiveCluster) * c.active_clusters +
+                          kOrderBytes * c.pixels;
+    // A slice: pixel centre 2, depth 2 and a division, slice 4, mask 4, selection 1, extremes 3;
+    // for both launches. Then the box: mask 1, centre 2, position 3, extremes 12, count 1.
+    // Each pixel is placed in order (2). A tile's further clusters each search the tile's slices, 3
+    // a pixel, in both launches.
+    const double further = std::max(c.active_clusters - c.tiles, 0.0);
+    work.lanes = (c.pixels + c.drawn_pixels) * LaneWork{17.0, 0.0, 0.0, 1.0} +
+                 c.drawn_pixels * LaneWork{21.0} + 2.0 * kTilePixels * further * LaneWork{3.0};
+    work.launches += 3;
+    return work;
+}
+
+StageWork refine_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.tiles);
+    work.bytes_read += 2.0 * sizeof(ActiveCluster) * c.active_clusters;
+    work.bytes_written += kCounterBytes * c.tiles + 2.0 * kCounterBytes * c.active_clusters +
+                          index_bytes(c) * c.refined_pairs;
+    // Distances by axis 12, their squares' sum 3, range 1, test 1, end of the list 3, flag 1; a
+    // light that stays is placed (2).
+    work.lanes = c.refine_tests * LaneWork{21.0} + c.refined_pairs * LaneWork{2.0};
+    if (c.kernels.spot_lights) work.lanes = work.lanes + c.refined_pairs * work_of_cone_guard();
+    work.launches += 2;
+    return work;
+}
+
+StageWork shade_work(const StageCounts& c) {
+    StageWork work;
+    work.bytes_read = (c.gbuffer_bytes_per_pixel + kOrderBytes) * c.drawn_pixels +
+                      sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
+    work.bytes_written = kRadianceBytes * c.pixels;
+    work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) +
+                 c.evaluations * work_of_evaluation(c.kernels) +
+                 c.drawn_pixels * c.directional_lights * work_of_directional(c.kernels);
+    work.launches = 1;
+    return work;
+}
+
+// The two finest levels of the pyramid, which move 0.94 of all its bytes: down reads a level and
+// writes a quarter of it, up reads that quarter and the level and writes the level.
+StageWork bloom_work(const StageCounts& c) {
+    constexpr double kLevels = 1.0 + 0.25;
+    StageWork work;
+    work.bytes_read = kLevels * (1.0 + 0.25 + 1.0) * kRadianceBytes * c.pixels;
+    work.bytes_written = kLevels * (0.25 + 1.0) * kRadianceBytes * c.pixels;
+    // A channel of a coarse pixel: 4 rows of 4 bounded taps 3 and filter 4, their filter 4; of a
+    // fine one: 2 rows 2, wide 2, mix 2.
+    work.lanes = kLevels * 3.0 * c.pixels * (0.25 * LaneWork{68.0} + LaneWork{8.0});
+    work.launches = 4;
+    return work;
+}
+
+StageWork tonemap_work(const StageCounts& c) {
+    StageWork work;
+    work.bytes_read = kRadianceBytes * c.pixels;
+    work.bytes_written = kDisplayBytes * c.pixels;
+    // Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest
+    // 6); packing 5. Tone curves differ: none is counted.
+    work.lanes = c.pixels * LaneWork{74.0, 0.0, 6.0};
+    work.launches = 1;
+    return work;
+}
+
+// The fragments of the forward renderers: what they evaluate, and the picture. With `evaluations`
+// of all fragments, hidden ones too; the surfaces of hidden ones are not counted.
+StageWork forward_work(const StageCounts& c) {
+    StageWork work;
+    work.bytes_written = kRadianceBytes * c.pixels;
+    work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) +
+                 c.evaluations * work_of_evaluation(c.kernels) +
+                 c.drawn_pixels * c.directional_lights * work_of_directional(c.kernels);
+    return work;
+}
+
+StageWork geometry_work(const StageCounts& c) {
+    StageWork work;
+    work.bytes_written = c.gbuffer_bytes_per_pixel * c.pixels;
+    return work;
+}
+
+StageWork bridge_work(const StageCounts& c) {
+    const double bytes = c.gbuffer_bytes_per_pixel * c.pixels;
+    StageWork work;
+    if (c.device_is_host) {
+        work.bytes_read = bytes;
+        work.bytes_written = bytes;
+    } else {
+        work.bytes_uploaded = bytes;
+    }
+    return work;
+}
+
+struct Model {
+    std::string_view stage;
+    StageWork (*work)(const StageCounts&);
+};
+
+constexpr Model kModels[] = {
+    {"geometry", geometry_work},
+    {"gbuffer_bridge", bridge_work},
+    {"prepare_lights", prepare_work},
+    {"build_clusters", build_work},
+    {"cull_lights", cull_work},
+    {"bin_pixels", bin_work},
+    {"refine_lights", refine_work},
+    {"shade", shade_work},
+    {"bloom", bloom_work},
+    {"tonemap", tonemap_work},
+    {"forward", forward_work},
+    {"forward_plus", forward_work},
+};
+
+// What fits the cache moves at the cache's rate, the rest at memory's.
+double bytes_seconds(const StageWork& work, const DeviceLimits& limits) {
+    const double bytes = work.bytes_read + work.bytes_written;
+    const bool cached = bytes <= limits.cache_bytes;
+    const double read = cached ? limits.cached_read_bandwidth : limits.read_bandwidth;
+    const double write = cached ? limits.cached_write_bandwidth : limits.write_bandwidth;
+    const double copy = cached ? limits.cached_copy_bandwidth : limits.copy_bandwidth;
+    const double mixed = bytes / std::max({read, write, copy});
+    return std::max({work.bytes_read / read, work.bytes_written / write, mixed}) +
+           work.bytes_uploaded / limits.upload_bandwidth;
+}
+
+double special_seconds(const LaneWork& lanes, const DeviceLimits& limits) {
+    return lanes.rsqrts / limits.rsqrt_per_s + lanes.sqrts / limits.sqrt_per_s +
+           lanes.divisions / limits.divisions_per_s;
+}
+
+}  // namespace
+
+const char* bound_name(Bound bound) {
+    constexpr const char* kNames[] = {"bytes", "instructions", "special functions", "launches"};
+    return kNames[static_cast<std::size_t>(bound)];
+}
+
+std::optional<StageWork> stage_work(std::string_view stage, const StageCounts& counts) {
+    const auto* found = std::find_if(std::begin(kModels), std::end(kModels),
+                                     [&](const Model& m) { return m.stage == stage; });
+    if (found == std::end(kModels)) return std::nullopt;
+    return found->work(counts);
+}
+
+StageLimit stage_limit(const StageWork& work, const DeviceLimits& limits) {
+    const double launches = 1e-3 * limits.launch_event_ms * work.launches;
+    const double bytes = bytes_seconds(work, limits);
+    const double instructions = work.lanes.instructions / limits.lane_instructions_per_s;
+    const double special = special_seconds(work.lanes, limits);
+    const double most = std::max({bytes, instructions, special});
+    StageLimit limit;
+    limit.ms = 1e3 * (most + launches);
+    if (launches < most) {
+        limit.bound = most == bytes          ? Bound::bytes
+                      : most == instructions ? Bound::instructions
+                                             : Bound::special_functions;
+    }
+    return limit;
+}
+
+FrameSetup frame_setup(const RenderSettings& settings, const ScenePlan& plan,
+                       const DeviceInfo& device) {
+    return {settings.width,    settings.height, plan.kernels, plan.gbuffer_bytes_per_pixel,
+            settings.renderer, device.is_cpu};
+}
+
+StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
+    const auto number = [](auto value) { return static_cast<double>(value); };
+    const auto tiles = [](int size) { return (size + FINE_TILE - 1) / FINE_TILE; };
+    StageCounts c;
+    c.pixels = number(setup.width) * setup.height;
+    c.drawn_pixels = stats.drawn_pixels > 0 ? number(stats.drawn_pixels) : c.pixels;
+    c.directional_lights = number(stats.directional_lights);
+    c.lights = number(stats.lights_used) - c.directional_lights;
+    c.tiles = number(tiles(setup.width)) * tiles(setup.height);
+    c.box_intervals = number(stats.grid[2]) * (number(stats.grid[0]) + stats.grid[1] + 1.0);
+    c.clusters = number(stats.grid[0]) * stats.grid[1] * stats.grid[2];
+    c.coarse_pairs = number(stats.coarse_pairs);
+    c.active_clusters = number(stats.active_clusters);
+    c.refine_tests = number(stats.refine_tests);
+    c.refined_pairs = number(stats.refined_pairs);
+    const bool all_lights = setup.renderer == RendererKind::deferred_all;
+    c.evaluations = c.drawn_pixels * (all_lights ? c.lights : stats.evaluations_per_pixel);
+    c.gbuffer_bytes_per_pixel = setup.gbuffer_bytes_per_pixel;
+    c.device_is_host = setup.device_is_host;
+    c.kernels = setup.kernels;
+    return c;
+}
+
+void fill_limits(FrameStats& stats, const DeviceLimits& limits, const FrameSetup& setup) {
+    const StageCounts counts = stage_counts(stats, setup);
+    for (StageTime& stage : stats.stages) {
+        const auto work = stage_work(stage.name, counts);
+        stage.limit_ms = work ? stage_limit(*work, limits).ms : 0.0;
+    }
+}
+
+}  // namespace kilolux

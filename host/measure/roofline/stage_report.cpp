@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/roofline/stage_report.h"
+
+namespace kilolux {
+namespace {
+
+bool is_device_stage(const std::string& stage) {
+    return stage != "light_input" && stage != "geometry" && stage != "gbuffer_bridge";
+}
+
+double evaluations_of(const std::string& stage, const StageCounts& counts) {
+    if (stage == "shade" || stage == "forward" || stage == "forward_plus")
+        return counts.evaluations + counts.drawn_pixels * counts.directional_lights;
+    if (stage == "refine_lights") return counts.refine_tests;
+    return 0.0;
+}
+
+// In 1e9 a second.
+double giga_rate(double amount, double ms) { return ms > 0.0 ? amount / ms * 1e-6 : 0.0; }
+
+}  // namespace
+
+std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimits& limits,
+                                       const FrameSetup& setup) {
+    const StageCounts counts = stage_counts(stats, setup);
+    std::vector<StageReport> reports;
+    for (const StageTime& stage : stats.stages) {
+        StageReport report;
+        report.stage = stage.name;
+        report.ms = stage.ms;
+        if (const auto work = stage_work(stage.name, counts)) {
+            const StageLimit limit = stage_limit(*work, limits);
+            report.limit_ms = limit.ms;
+            report.ratio = stage.ms > 0.0 ? limit.ms / stage.ms : 0.0;
+            report.bound = bound_name(limit.bound);
+            report.bytes = work->bytes_read + work->bytes_written + work->bytes_uploaded;
+            report.gigabytes_per_s = giga_rate(report.bytes, stage.ms);
+        }
+        report.evaluations = evaluations_of(stage.name, counts);
+        report.giga_evaluations_per_s = giga_rate(report.evaluations, stage.ms);
+        reports.push_back(std::move(report));
+    }
+    return reports;
+}
+
+Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameStats& stats) {
+    double ms = 0.0, limit_ms = 0.0;
+    for (const StageReport& report : reports) {
+        if (report.limit_ms <= 0.0 || !is_device_stage(report.stage)) continue;
+        ms += report.ms;
+        limit_ms += report.limit_ms;
+    }
+    const double k = stats.evaluations_per_pixel;
+    const double useful = stats.useful_evaluations_per_pixel;
+    Efficiency efficiency;
+    efficiency.hardware = ms > 0.0 ? limit_ms / ms : 0.0;
+    efficiency.algorithm = useful < 0.0 ? -1.0 : k > 0.0 ? useful / k : 1.0;
+    return efficiency;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/decoded_surfaces.h"
+
+#include <algorithm>
+
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+// The value of a decoded plane at a pixel.
+float value_at(const DecodedSurfaces& s, std::size_t plane, std::size_t pixel) {
+    return s.planes[plane * s.view.stride * s.view.height + pixel];
+}
+
+glm::dvec3 vector_at(const DecodedSurfaces& s, std::size_t plane, std::size_t pixel) {
+    return {value_at(s, plane, pixel), value_at(s, plane + 1, pixel),
+            value_at(s, plane + 2, pixel)};
+}
+
+// Fills a layer from `components(pixel in the planes, output)`.
+template <typename Components>
+void fill(Layer& layer, const View& view, Components&& components) {
+    const std::size_t n = layer.channels.size();
+    layer.values.resize(n * view.width * view.height);
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (std::size_t x = 0; x < view.width; ++x) {
+            components(y * view.stride + x, &layer.values[n * (y * view.width + x)]);
+        }
+    }
+}
+
+Layer plane_layer(std::string_view name, std::vector<std::string> channels,
+                  const DecodedSurfaces& s, std::size_t first_plane) {
+    Layer layer{std::string(name), std::move(channels), {}, false};
+    const std::size_t n = layer.channels.size();
+    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+        for (std::size_t c = 0; c < n; ++c) out[c] = value_at(s, first_plane + c, pixel);
+    });
+    return layer;
+}
+
+Layer world_layer(std::string_view name, std::vector<std::string> channels,
+                  const DecodedSurfaces& s, const Camera& camera) {
+    Layer layer{std::string(name), std::move(channels), {}, false};
+    const bool position = name == "position";
+    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+        const glm::dvec3 v = vector_at(s, position ? SURFACE_POSITION : SURFACE_NORMAL, pixel);
+        const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
+        const glm::dvec3 world =
+            camera.world_from_view * v + (position ? camera.position : glm::dvec3(0.0));
+        for (int c = 0; c < 3; ++c) out[c] = drawn ? static_cast<float>(world[c]) : 0.0f;
+    });
+    return layer;
+}
+
+Layer count_layer(const DecodedSurfaces& s) {
+    Layer layer{"light-count", {"light-count"}, {}, true};
+    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+        const uint count = s.evaluated[pixel];
+        *out = count == kBackground ? 0.0f : static_cast<float>(count);
+    });
+    return layer;
+}
+
+// Coarse cluster + 1, so that background is 0.
+Layer cluster_layer(const DecodedSurfaces& s) {
+    Layer layer{"cluster", {"cluster"}, {}, true};
+    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+        const std::optional<uint> cluster = coarse_cluster_at(s, pixel);
+        *out = cluster ? static_cast<float>(*cluster + 1) : 0.0f;
+    });
+    return layer;
+}
+
+}  // namespace
+
+std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixel) {
+    const float z = value_at(s, SURFACE_DEPTH, pixel);
+    if (z == 0.0f) return std::nullopt;
+    const uint x = static_cast<uint>(pixel % s.view.stride) / s.grid.tile_width;
+    const uint row = static_cast<uint>(pixel / s.view.stride) + s.view.first_row;
+    return cluster_index(s.grid, x, row / s.grid.tile_height, slice_of_depth(s.grid, z));
+}
+
+std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view) {
+    std::vector<float> out(std::size_t{3} * view.width * view.height);
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (std::size_t x = 0; x < view.width; ++x) {
+            float* pixel = &out[3 * (y * view.width + x)];
+            for (std::size_t c = 0; c < 3; ++c) pixel[c] = planes[c * plane + y * view.stride + x];
+        }
+    }
+    return out;
+}
+
+std::vector<std::uint8_t> tight_display(const std::vector<uint>& pixels, const View& view) {
+    std::vector<std::uint8_t> out(std::size_t{4} * view.width * view.height);
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (std::size_t x = 0; x < view.width; ++x) {
+            const uint pixel = pixels[y * view.stride + x];
+            for (uint c = 0; c < 4; ++c)
+                out[4 * (y * view.width + x) + c] = static_cast<std::uint8_t>(pixel >> (8 * c));
+        }
+    }
+    return out;
+}
+
+double mean_of_drawn(const std::vector<uint>& counts) {
+    double sum = 0.0;
+    std::size_t drawn = 0;
+    for (const uint count : counts) {
+        if (count == kBackground) continue;
+        sum += count;
+        ++drawn;
+    }
+    return drawn > 0 ? sum / static_cast<double>(drawn) : 0.0;
+}
+
+const std::vector<std::string>& aov_names() {
+    static const std::vector<std::string> names = {"depth",    "position",    "normal",
+                                                   "albedo",   "roughness",   "metallic",
+                                                   "emissive", "light-count", "cluster"};
+    return names;
+}
+
+Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& camera) {
+    if (name == "depth") return plane_layer(name, {"Z"}, s, SURFACE_DEPTH);
+    if (name == "position") return world_layer(name, {"P.X", "P.Y", "P.Z"}, s, camera);
+    if (name == "normal") return world_layer(name, {"N.X", "N.Y", "N.Z"}, s, camera);
+    if (name == "albedo")
+        return plane_layer(name, {"albedo.R", "albedo.G", "albedo.B"}, s, SURFACE_ALBEDO);
+    if (name == "roughness") return plane_layer(name, {"roughness"}, s, SURFACE_ROUGHNESS);
+    if (name == "metallic") return plane_layer(name, {"metallic"}, s, SURFACE_METALLIC);
+    if (name == "emissive")
+        return plane_layer(name, {"emissive.R", "emissive.G", "emissive.B"}, s, SURFACE_EMISSIVE);
+    if (name == "light-count") return count_layer(s);
+    if (name == "cluster") return cluster_layer(s);
+    throw UsageError("--aov: '" + std::string(name) + "' is not a layer");
+}
+
+}  // namespace kilolux

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "host/picture/frame.h"
+#include "host/scene/camera.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/light.h"
+#include "kernels/shared/surface_planes.h"
+#include "kernels/shared/view.h"
+
+namespace kilolux {
+
+/// Three planes of stride * height to interleaved RGB of width * height.
+std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view);
+
+/// Packed pixels of stride * height to RGBA bytes of width * height.
+std::vector<std::uint8_t> tight_display(const std::vector<uint>& pixels, const View& view);
+
+/// Mean of the counts that are not background's ~0; 0 if there are none.
+double mean_of_drawn(const std::vector<uint>& counts);
+
+/// What counts of lights say where nothing was drawn.
+constexpr uint kBackground = ~0u;
+
+/// A decoded G-buffer on the host, with what is known of each pixel's lights.
+struct DecodedSurfaces {
+    View view{};
+    std::vector<float> planes;    // [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]
+    std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground
+    std::vector<uint> covering;   // [height][stride] k*: those that reach it; empty if not counted
+    ClusterGrid grid{};
+    bool specular = false;  // whether there are planes of the dielectrics' reflectance
+    bool unlit = false;     // whether a roughness of 0 means an unlit surface
+};
+
+/// What was shaded with what, on the host.
+struct LitSurfaces {
+    DecodedSurfaces surfaces;
+    std::vector<ShadeLight> lights;             // view space
+    std::vector<DirectionalLight> directional;  // view space
+};
+
+/// The coarse cluster of the pixel at an index of the planes; none for background.
+std::optional<uint> coarse_cluster_at(const DecodedSurfaces& surfaces, std::size_t pixel);
+
+/// The AOV layers' names, as `--aov` takes them.
+const std::vector<std::string>& aov_names();
+
+/// One AOV layer. Positions and normals are in world space. Throws UsageError for an unknown name.
+Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera);
+
+}  // namespace kilolux

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/frame_bands.h"
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+// Planes of view.stride * band height into planes of view.stride * picture height.
+template <typename T>
+void place_planes(std::vector<T>& whole, const std::vector<T>& band, const View& view,
+                  std::size_t height) {
+    const std::size_t rows = std::size_t{view.stride} * view.height;
+    if (band.empty()) return;
+    const std::size_t planes = band.size() / rows;
+    const std::size_t plane = view.stride * height;
+    whole.resize(planes * plane);
+    for (std::size_t p = 0; p < planes; ++p) {
+        std::copy_n(band.begin() + static_cast<std::ptrdiff_t>(p * rows), rows,
+                    whole.begin() + static_cast<std::ptrdiff_t>(
+                                        p * plane + std::size_t{view.first_row} * view.stride));
+    }
+}
+
+// Of the pixels drawn so far; below 0 is "not counted".
+double mean_of(double whole, double whole_pixels, double band, double band_pixels) {
+    if (whole_pixels + band_pixels <= 0.0 || band < 0.0) return band;
+    return (whole * whole_pixels + band * band_pixels) / (whole_pixels + band_pixels);
+}
+
+}  // namespace
+
+void append_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::size_t pixels) {
+    if (whole.empty()) {
+        for (const Layer& layer : band) {
+            whole.push_back({layer.name, layer.channels, {}, layer.is_id});
+        }
+    }
+    for (std::size_t i = 0; i < band.size(); ++i) {
+        append_rows(whole[i].values, std::move(band[i].values), pixels * band[i].channels.size());
+    }
+}
+
+void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) {
+    if (static_cast<int>(band.view.height) == height) {
+        whole = std::move(band);
+        return;
+    }
+    const auto rows = static_cast<std::size_t>(height);
+    place_planes(whole.planes, band.planes, band.view, rows);
+    place_planes(whole.evaluated, band.evaluated, band.view, rows);
+    place_planes(whole.covering, band.covering, band.view, rows);
+    whole.view = band.view;
+    whole.view.first_row = 0;
+    whole.view.height = static_cast<uint>(height);
+    whole.grid = band.grid;
+    whole.specular = band.specular;
+    whole.unlit = band.unlit;
+}
+
+void add_band(FrameStats& whole, const FrameStats& band) {
+    const auto above = static_cast<double>(whole.drawn_pixels);
+    const auto here = static_cast<double>(band.drawn_pixels);
+    whole.evaluations_per_pixel =
+        mean_of(whole.evaluations_per_pixel, above, band.evaluations_per_pixel, here);
+    whole.useful_evaluations_per_pixel =
+        mean_of(whole.useful_evaluations_per_pixel, above, band.useful_evaluations_per_pixel, here);
+    std::copy_n(band.grid, 3, whole.grid);
+    whole.coarse_pairs += band.coarse_pairs;
+    whole.active_clusters += band.active_clusters;
+    whole.refine_tests += band.refine_tests;
+    whole.refined_pairs += band.refined_pairs;
+    whole.drawn_pixels += band.drawn_pixels;
+    for (const StageTime& stage : band.stages) add_stage_time(whole.stages, stage.name, stage.ms);
+}
+
+std::vector<float> radiance_planes(const std::vector<float>& tight, const View& view) {
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    std::vector<float> out(3 * plane);
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (std::size_t x = 0; x < view.width; ++x) {
+            const float* pixel = &tight[3 * (y * view.width + x)];
+            for (std::size_t c = 0; c < 3; ++c) out[c * plane + y * view.stride + x] = pixel[c];
+        }
+    }
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/view_canvas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "host/picture/view_font.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::array<DisplayColor, 9> kHeat = {{{0, 0, 4},
+                                                {31, 12, 72},
+                                                {85, 15, 109},
+                                                {136, 34, 106},
+                                                {186, 54, 85},
+                                                {227, 89, 51},
+                                                {249, 140, 10},
+                                                {249, 201, 50},
+                                                {252, 255, 164}}};
+constexpr DisplayColor kPaper = {0, 0, 0};
+constexpr DisplayColor kInk = {255, 255, 255};
+
+std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, value > 0.0 && value < 0.01 ? "%.1e" : "%.3g", value);
+    std::string out = text;
+    for (char& c : out) c = c == 'e' ? 'E' : c;
+    return out;
+}
+
+int text_width(std::string_view text, int zoom) {
+    return static_cast<int>(text.size()) * (kGlyphWidth + 1) * zoom;
+}
+
+void fill(Canvas& canvas, std::array<int, 4> box, const DisplayColor& color) {
+    for (int y = box[1]; y < box[3]; ++y) {
+        for (int x = box[0]; x < box[2]; ++x) canvas.set(x, y, color);
+    }
+}
+
+double value_at(const HeatScale& scale, double t) {
+    if (scale.logarithmic) return scale.low * std::pow(scale.high / scale.low, t);
+    return scale.low + t * (scale.high - scale.low);
+}
+
+}  // namespace
+
+void Canvas::set(int x, int y, const DisplayColor& color) {
+    if (x < 0 || y < 0 || x >= width || y >= height) return;
+    const std::size_t i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                               static_cast<std::size_t>(x));
+    std::copy(color.begin(), color.end(), rgba.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+Canvas make_canvas(int width, int height) {
+    Canvas out{width, height, {}};
+    out.rgba.assign(
+        std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    for (std::size_t i = 3; i < out.rgba.size(); i += 4) out.rgba[i] = 255;
+    return out;
+}
+
+DisplayColor heat_color(double t) {
+    const double place = std::clamp(t, 0.0, 1.0) * (kHeat.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(place), kHeat.size() - 2);
+    DisplayColor out{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        out[c] = static_cast<std::uint8_t>(
+            std::lround(std::lerp(kHeat[i][c], kHeat[i + 1][c], place - static_cast<double>(i))));
+    }
+    return out;
+}
+
+DisplayColor id_color(std::uint32_t id) {
+    // Two rounds of a multiplicative hash (Wellons 2018, lowbias32).
+    std::uint32_t h = id + 0x9e3779b9u;
+    h = (h ^ (h >> 16)) * 0x7feb352du;
+    h = (h ^ (h >> 15)) * 0x846ca68bu;
+    h ^= h >> 16;
+    const auto channel = [h](int shift) {
+        return static_cast<std::uint8_t>(64u + (h >> shift & 0xffu) * 3u / 4u);
+    };
+    return {channel(0), channel(8), channel(16)};
+}
+
+double position_on(const HeatScale& scale, double value) {
+    if (scale.logarithmic) {
+        return std::log(std::max(value, scale.low) / scale.low) / std::log(scale.high / scale.low);
+    }
+    return (value - scale.low) / (scale.high - scale.low);
+}
+
+void draw_text(Canvas& canvas, int x, int y, int zoom, std::string_view text) {
+    for (const char character : text) {
+        for (int v = 0; v < kGlyphHeight * zoom; ++v) {
+            for (int u = 0; u < kGlyphWidth * zoom; ++u) {
+                if (has_ink(character, u / zoom, v / zoom)) canvas.set(x + u, y + v, kInk);
+            }
+        }
+        x += (kGlyphWidth + 1) * zoom;
+    }
+}
+
+void draw_legend(Canvas& canvas, const HeatScale& scale) {
+    if (canvas.width < 128 || canvas.height < 48) return;
+    const int zoom = std::max(1, canvas.height / 360);
+    const int bar = 96 * zoom;
+    const int margin = 4 * zoom;
+    const int unit = text_width(scale.unit, zoom) + 2 * margin;
+    const int height = (kGlyphHeight + 8) * zoom + 3 * margin;
+    const int top = canvas.height - height;
+    fill(canvas, {0, top, bar + 3 * margin + unit, canvas.height}, kPaper);
+    for (int x = 0; x < bar; ++x) {
+        const DisplayColor color = heat_color((x + 0.5) / bar);
+        fill(canvas, {margin + x, top + margin, margin + x + 1, top + margin + 8 * zoom}, color);
+    }
+    // Under the bar: its ends' numbers, and the middle's where it fits between them.
+    const std::string low = number_text(value_at(scale, 0.0));
+    const std::string middle = number_text(value_at(scale, 0.5));
+    const std::string high = number_text(value_at(scale, 1.0));
+    const int y = top + 2 * margin + 8 * zoom;
+    const int high_x = margin + bar - text_width(high, zoom);
+    const int middle_x = margin + (bar - text_width(middle, zoom)) / 2;
+    draw_text(canvas, margin, y, zoom, low);
+    draw_text(canvas, high_x, y, zoom, high);
+    const bool fits =
+        margin + text_width(low, zoom) < middle_x && middle_x + text_width(middle, zoom) < high_x;
+    if (fits) draw_text(canvas, middle_x, y, zoom, middle);
+    draw_text(canvas, bar + 3 * margin, top + margin, zoom, scale.unit);
+}
+
+}  // namespace kilolux

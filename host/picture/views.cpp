@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/picture/views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "host/base/error.h"
+#include "host/base/srgb.h"
+#include "host/picture/view_canvas.h"
+
+namespace kilolux {
+namespace {
+
+// Reads planes at a pixel (x, y) of the picture.
+class PixelReader {
+ public:
+    explicit PixelReader(const ViewInput& input) : input_(input) {}
+
+    std::size_t index(uint x, uint y) const {
+        return std::size_t{y} * input_.pixels.view.stride + x;
+    }
+    float at(uint plane, uint x, uint y) const {
+        const View& view = input_.pixels.view;
+        return input_.pixels.planes[std::size_t{plane} * view.stride * view.height + index(x, y)];
+    }
+    glm::dvec3 vector(uint plane, uint x, uint y) const {
+        return {at(plane, x, y), at(plane + 1, x, y), at(plane + 2, x, y)};
+    }
+    bool drawn(uint x, uint y) const { return at(SURFACE_DEPTH, x, y) != 0.0f; }
+
+ private:
+    const ViewInput& input_;
+};
+
+std::uint8_t code_of(double v) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255.0));
+}
+
+DisplayColor color_of(const glm::dvec3& v) { return {code_of(v.x), code_of(v.y), code_of(v.z)}; }
+
+using Paint = std::function<DisplayColor(uint x, uint y)>;
+using Magnitude = std::function<double(uint x, uint y)>;
+
+// Paints what is drawn; the background stays black.
+Canvas painted(const ViewInput& input, const Paint& paint) {
+    const View& view = input.pixels.view;
+    const PixelReader read(input);
+    Canvas canvas = make_canvas(static_cast<int>(view.width), static_cast<int>(view.height));
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.width; ++x) {
+            if (!read.drawn(x, y)) continue;
+            canvas.set(static_cast<int>(x), static_cast<int>(y), paint(x, y));
+        }
+    }
+    return canvas;
+}
+
+double largest(const ViewInput& input, const Magnitude& magnitude) {
+    const View& view = input.pixels.view;
+    const PixelReader read(input);
+    double out = 0.0;
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.width; ++x) {
+            if (read.drawn(x, y)) out = std::max(out, magnitude(x, y));
+        }
+    }
+    return out;
+}
+
+Canvas heat_map(const ViewInput& input, const HeatScale& scale, const Magnitude& magnitude) {
+    Canvas canvas = painted(
+        input, [&](uint x, uint y) { return heat_color(position_on(scale, magnitude(x, y))); });
+    draw_legend(canvas, scale);
+    return canvas;
+}
+
+// From 0 to the largest count, at least 1.
+Canvas count_map(const ViewInput& input, std::string_view unit, const Magnitude& count) {
+    return heat_map(input, {0.0, std::max(largest(input, count), 1.0), false, unit}, count);
+}
+
+// Colours by number, darker where the surface turns away from the eye, so that shapes are seen.
+Canvas id_map(const ViewInput& input, const std::function<uint(uint x, uint y)>& id) {
+    const PixelReader read(input);
+    return painted(input, [&](uint x, uint y) {
+        DisplayColor color = id_color(id(x, y));
+        const double facing = 0.5 + 0.5 * std::abs(read.at(SURFACE_NORMAL + 2, x, y));
+        for (std::uint8_t& c : color) c = code_of(c / 255.0 * facing);
+        return color;
+    });
+}
+
+Canvas albedo(const ViewInput& input) {
+    const PixelReader read(input);
+    return painted(input, [&](uint x, uint y) {
+        const glm::dvec3 v = read.vector(SURFACE_ALBEDO, x, y);
+        return color_of({linear_to_srgb(v.x), linear_to_srgb(v.y), linear_to_srgb(v.z)});
+    });
+}
+
+// World space: right, up and towards +Z are red, green and blue.
+Canvas normal(const ViewInput& input) {
+    const PixelReader read(input);
+    return painted(input, [&](uint x, uint y) {
+        const glm::dvec3 n = input.camera.world_from_view * read.vector(SURFACE_NORMAL, x, y);
+        return color_of(0.5 * n + 0.5);
+    });
+}
+
+// World space: from one corner of the scene's box to the other.
+Canvas position(const ViewInput& input) {
+    const PixelReader read(input);
+    const glm::dvec3 size = glm::max(input.box.size(), glm::dvec3(1e-9));
+    return painted(input, [&](uint x, uint y) {
+        const glm::dvec3 view = read.vector(SURFACE_POSITION, x, y);
+        const glm::dvec3 world = input.camera.world_from_view * view + input.camera.position;
+        return color_of((world - input.box.min) / size);
+    });
+}
+
+Canvas depth(const ViewInput& input) {
+    const PixelReader read(input);
+    const auto z = [&](uint x, uint y) { return std::abs(double{read.at(SURFACE_DEPTH, x, y)}); };
+    const double farthest = std::max(largest(input, z), 1e-9);
+    // The least is farthest less the largest distance from it.
+    const double nearest =
+        farthest - largest(input, [&](uint x, uint y) { return farthest - z(x, y); });
+    const double low = std::max(nearest, farthest * 1e-6);
+    return heat_map(input, {low, std::max(farthest, low * 1.001), true, "M"}, z);
+}
+
+Canvas roughness(const ViewInput& input) {
+    const PixelReader read(input);
+    return heat_map(input, {0.0, 1.0, false, "ROUGHNESS"},
+                    [&](uint x, uint y) { return read.at(SURFACE_ROUGHNESS, x, y); });
+}
+
+Canvas lights(const ViewInput& input) {
+    const PixelReader read(input);
+    return count_map(input, "LIGHTS",
+                     [&](uint x, uint y) { return input.pixels.evaluated[read.index(x, y)]; });
+}
+
+Canvas false_positives(const ViewInput& input) {
+    const DecodedSurfaces& pixels = input.pixels;
+    if (pixels.covering.empty()) {
+        throw UsageError("--show false-positives: shows the lists of --renderer deferred only");
+    }
+    const PixelReader read(input);
+    return count_map(input, "LIGHTS IN VAIN", [&](uint x, uint y) {
+        const std::size_t i = read.index(x, y);
+        return pixels.evaluated[i] - pixels.covering[i];
+    });
+}
+
+Canvas clusters(const ViewInput& input) {
+    const PixelReader read(input);
+    return id_map(input, [&](uint x, uint y) {
+        return coarse_cluster_at(input.pixels, read.index(x, y)).value_or(0);
+    });
+}
+
+Canvas slices(const ViewInput& input) {
+    const PixelReader read(input);
+    return id_map(input, [&](uint x, uint y) {
+        return slice_of_depth(input.pixels.grid, read.at(SURFACE_DEPTH, x, y));
+    });
+}
+
+Canvas active(const ViewInput& input) {
+    const PixelReader read(input);
+    const ClusterGrid& grid = input.pixels.grid;
+    const uint tiles_x = (input.pixels.view.width + FINE_TILE - 1) / FINE_TILE;
+    return id_map(input, [&](uint x, uint y) {
+        const uint tile = y / FINE_TILE * tiles_x + x / FINE_TILE;
+        const uint slice = fine_slice_of_depth(grid, read.at(SURFACE_DEPTH, x, y));
+        return tile * (grid.slices << grid.fine_slice_bits) + slice;
+    });
+}
+
+Canvas overdraw(const ViewInput& input) {
+    return count_map(input, "FRAGMENTS", [&](uint x, uint y) {
+        return input.overdraw[std::size_t{y} * input.pixels.view.width + x];
+    });
+}
+
+// The largest channel's difference, over six decades below the picture's largest; where there is
+// none at all, a scale to 1.
+Canvas difference(const ViewInput& input) {
+    const auto magnitude = [&](uint x, uint y) {
+        const std::size_t i = 3 * (std::size_t{y} * input.pixels.view.width + x);
+        double out = 0.0;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            out = std::max(out, std::abs(double{input.radiance[c]} - input.reference[c]));
+        }
+        return out;
+    };
+    const double high = largest(input, magnitude);
+    HeatScale scale{0.0, 1.0, false, "DIFFERENCE"};
+    if (high > 0.0) scale = {high * 1e-6, high, true, "DIFFERENCE"};
+    return heat_map(input, scale, magnitude);
+}
+
+struct NamedView {
+    std::string_view name;
+    Canvas (*draw)(const ViewInput& input);
+};
+
+constexpr NamedView kViews[] = {
+    {"albedo", albedo},     {"normal", normal},         {"depth", depth},
+    {"position", position}, {"roughness", roughness},   {"lights", lights},
+    {"clusters", clusters}, {"slices", slices},         {"active", active},
+    {"overdraw", overdraw}, {"difference", difference}, {"false-positives", false_positives}};
+
+}  // namespace
+
+const std::vector<std::string>& view_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> out = {"lit"};
+        for (const NamedView& view : kViews) out.emplace_back(view.name);
+        return out;
+    }();
+    return names;
+}
+
+std::vector<std::uint8_t> make_view(std::string_view name, const ViewInput& input) {
+    for (const NamedView& view : kViews) {
+        if (view.name == name) return view.draw(input).rgba;
+    }
+    throw UsageError("--show: '" + std::string(name) + "' is not a view");
+}
+
+}  // namespace kilolux

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/picture/decoded_surfaces.h"
+
+namespace kilolux {
+
+/// What `--show` takes: "lit", then the views.
+const std::vector<std::string>& view_names();
+
+/// What views are made of; each reads what it needs.
+struct ViewInput {
+    const DecodedSurfaces& pixels;
+    const Camera& camera;
+    Box box;                              // of the scene, world space [m]
+    const std::vector<float>& overdraw;   // width * height fragments; for "overdraw"
+    const std::vector<float>& radiance;   // 3 * width * height; for "difference"
+    const std::vector<float>& reference;  // deferred-all's; for "difference"
+};
+
+/// The view's picture: sRGB, 4 * width * height, opaque; heat maps have their legend in the lower
+/// left corner where the picture has room. Throws UsageError for an unknown name, and for a view of
+/// lists that the renderer does not make.
+std::vector<std::uint8_t> make_view(std::string_view name, const ViewInput& input);
+
+}  // namespace kilolux

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/light_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kilolux {
+namespace {
+
+// Squares of distances to farther positions leave the range that culling vouches for (1e30 m^2,
+// kernels/device/light_reach.h) [m].
+constexpr double kFarthest = 1e15;
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool gives_light(const glm::vec3& intensity) {
+    return is_finite(glm::dvec3(intensity)) &&
+           std::min({intensity.x, intensity.y, intensity.z}) >= 0.0f &&
+           std::max({intensity.x, intensity.y, intensity.z}) > 0.0f;
+}
+
+bool has_direction(const glm::dvec3& direction) {
+    return is_finite(direction) && glm::length(direction) > 1e-12;
+}
+
+// One light that is no number would spread over all pixels of its lists, and through filters over
+// the picture: it is left out and counted. Asked here in double, as kernels may be built to assume
+// that there are none (-cl-finite-math-only, OpenCL C 5.8.4).
+bool is_usable_at(const SceneLight& light, const glm::dvec3& relative) {
+    if (!gives_light(light.intensity)) return false;
+    if (light.type == LightType::directional) return has_direction(light.direction);
+    const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;
+    const bool ranged = std::isfinite(light.range) && light.range > 0.0f;
+    if (light.type == LightType::point) return placed && ranged;
+    const bool cone = std::isfinite(light.inner_cone) && std::isfinite(light.outer_cone) &&
+                      light.outer_cone > 0.0f;
+    return placed && ranged && cone && has_direction(light.direction);
+}
+
+Light row_of(const SceneLight& light, const glm::dvec3& relative) {
+    const glm::vec3 p(relative);
+    // A point light's cone is everything: axis 0 and cosine -1 make the cone term exactly 1.
+    Light row{{p.x, p.y, p.z, light.range},
+              {light.intensity.x, light.intensity.y, light.intensity.z, 1.0f},
+              {0.0f, 0.0f, 0.0f, -1.0f}};
+    if (light.type == LightType::point) return row;
+    const glm::vec3 axis(glm::normalize(light.direction));
+    const double cos_out = std::cos(std::min<double>(light.outer_cone, 1.5707963267948966));
+    const double cos_in = std::cos(std::clamp<double>(light.inner_cone, 0.0, light.outer_cone));
+    // As KHR_lights_punctual: at least 0.001 between the cosines.
+    row.color_scale.w = static_cast<float>(1.0 / std::max(0.001, cos_in - cos_out));
+    row.axis_cos = {axis.x, axis.y, axis.z, static_cast<float>(cos_out)};
+    return row;
+}
+
+}  // namespace
+
+bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
+    return is_usable_at(light, light.position - camera_position);
+}
+
+LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& camera_position) {
+    LightRows rows;
+    rows.local.reserve(lights.size());
+    for (const SceneLight& light : lights) {
+        const glm::dvec3 relative = light.position - camera_position;
+        if (!is_usable_at(light, relative)) {
+            ++rows.rejected;
+        } else if (light.type == LightType::directional) {
+            const glm::vec3 to_light(-glm::normalize(light.direction));
+            rows.directional.push_back(
+                {{to_light.x, to_light.y, to_light.z, 0.0f},
+                 {light.intensity.x, light.intensity.y, light.intensity.z, 0.0f}});
+        } else {
+            rows.local.push_back(row_of(light, relative));
+            rows.has_spot = rows.has_spot || light.type == LightType::spot;
+        }
+    }
+    return rows;
+}
+
+}  // namespace kilolux

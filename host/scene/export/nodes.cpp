@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/export/nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kilolux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Json matrix_json(const glm::dmat4& m) {
+    Json out = Json::array();
+    for (glm::length_t i = 0; i < 16; ++i) out.push_back(m[i / 4][i % 4]);
+    return out;
+}
+
+glm::dmat4 with_axes(const glm::dmat3& axes, const glm::dvec4& origin) {
+    glm::dmat4 out(axes);
+    out[3] = origin;
+    return out;
+}
+
+// Turns columns p and q of `a` about each other until they are orthogonal, and `v` with them
+// (one-sided Jacobi: Demmel and Veselic 1992, section 4).
+void make_orthogonal(glm::dmat3& a, glm::dmat3& v, glm::length_t p, glm::length_t q) {
+    const double along = glm::dot(a[p], a[q]);
+    if (along == 0.0) return;
+    const double zeta = (glm::dot(a[q], a[q]) - glm::dot(a[p], a[p])) / (2.0 * along);
+    const double t = (zeta >= 0.0 ? 1.0 : -1.0) / (std::abs(zeta) + std::hypot(1.0, zeta));
+    const double c = 1.0 / std::hypot(1.0, t);
+    const double s = c * t;
+    for (glm::dmat3* m : {&a, &v}) {
+        const glm::dvec3 kept = (*m)[p];
+        (*m)[p] = c * kept - s * (*m)[q];
+        (*m)[q] = s * kept + c * (*m)[q];
+    }
+}
+
+// Whether a node can hold the matrix: glTF asks for translation, rotation and scale.
+bool is_orthogonal(const glm::dmat3& m) {
+    constexpr double kCosine = 1e-6;  // what readers that decompose it do not notice
+    for (const auto& [p, q] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{2, 0}}) {
+        const double lengths = glm::length(m[p]) * glm::length(m[q]);
+        if (std::abs(glm::dot(m[p], m[q])) > kCosine * lengths) return false;
+    }
+    return true;
+}
+
+// The node of a transform, and above it the index of the one to hang into the scene. A matrix M
+// that shears is U V^T with orthogonal columns in U and a rotation V: a parent and a child.
+int add_placed(Json& nodes, const glm::dmat4& world_from_node, Json node) {
+    glm::dmat3 axes(world_from_node);
+    if (is_orthogonal(axes)) {
+        if (world_from_node != glm::dmat4(1.0)) node["matrix"] = matrix_json(world_from_node);
+        nodes.push_back(std::move(node));
+        return static_cast<int>(nodes.size()) - 1;
+    }
+    constexpr int kSweeps = 30;  // converges quadratically; 3 columns take about 6
+    glm::dmat3 rotation(1.0);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        make_orthogonal(axes, rotation, 0, 1);
+        make_orthogonal(axes, rotation, 1, 2);
+        make_orthogonal(axes, rotation, 0, 2);
+    }
+    const glm::dvec4 origin(0.0, 0.0, 0.0, 1.0);
+    node["matrix"] = matrix_json(with_axes(glm::transpose(rotation), origin));
+    nodes.push_back(std::move(node));
+    const int child = static_cast<int>(nodes.size()) - 1;
+    nodes.push_back(
+        {{"children", {child}}, {"matrix", matrix_json(with_axes(axes, world_from_node[3]))}});
+    return child + 1;
+}
+
+const char* type_name(LightType type) {
+    switch (type) {
+        case LightType::spot:
+            return "spot";
+        case LightType::directional:
+            return "directional";
+        default:
+            return "point";
+    }
+}
+
+bool is_usable(const SceneLight& light) {
+    const glm::dvec3 intensity(light.intensity);
+    const bool aimed = light.type == LightType::point ||
+                       (is_finite(light.direction) && glm::length(light.direction) > 0.0);
+    const bool cone =
+        light.type != LightType::spot || (std::isfinite(light.inner_cone) &&
+                                          std::isfinite(light.outer_cone) && light.outer_cone > 0);
+    return is_finite(intensity) && std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
+           is_finite(light.position) && !std::isnan(light.range) && aimed && cone;
+}
+
+// Angles as KHR_lights_punctual allows them: inner < outer <= 90 degrees.
+Json cone_json(const SceneLight& light) {
+    const double outer = std::min<double>(light.outer_cone, std::numbers::pi / 2);
+    const double below = std::nextafter(static_cast<float>(outer), 0.0f);
+    const double inner = std::clamp<double>(light.inner_cone, 0.0, below);
+    return {{"innerConeAngle", inner}, {"outerConeAngle", outer}};
+}
+
+Json light_json(const SceneLight& light) {
+    const glm::dvec3 color(light.intensity);
+    const double intensity = std::max({color.x, color.y, color.z});
+    Json out{{"type", type_name(light.type)}, {"intensity", intensity}};
+    if (intensity > 0.0 && color != glm::dvec3(intensity)) {
+        out["color"] = {color.x / intensity, color.y / intensity, color.z / intensity};
+    }
+    if (light.type == LightType::spot) out["spot"] = cone_json(light);
+    if (light.type != LightType::directional && light.range > 0.0f && std::isfinite(light.range)) {
+        out["range"] = light.range;
+    }
+    return out;
+}
+
+// Lights travel along their node's -Z.
+glm::dmat3 axes_along(const glm::dvec3& direction) {
+    const glm::dvec3 z = -glm::normalize(direction);
+    const glm::dvec3 aside = std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(aside, z));
+    return {x, glm::cross(z, x), z};
+}
+
+void add_light(ExportedNodes& out, const SceneLight& light) {
+    const auto index = out.lights.size();
+    out.lights.push_back(light_json(light));
+    Json node = Json::object();
+    node["extensions"]["KHR_lights_punctual"]["light"] = index;
+    if (light.type == LightType::point) {
+        node["translation"] = {light.position.x, light.position.y, light.position.z};
+    } else {
+        node["matrix"] =
+            matrix_json(with_axes(axes_along(light.direction), glm::dvec4(light.position, 1.0)));
+    }
+    out.roots.push_back(out.nodes.size());
+    out.nodes.push_back(std::move(node));
+}
+
+Json orthographic_json(const SceneCamera& camera, double shift) {
+    const double aspect = camera.aspect > 0.0 ? camera.aspect : 1.0;
+    return {{"xmag", camera.y_extent * aspect},
+            {"ymag", camera.y_extent},
+            {"znear", camera.z_near + shift},
+            {"zfar", camera.z_far + shift}};
+}
+
+Json perspective_json(const SceneCamera& camera) {
+    Json out{{"yfov", camera.y_fov}, {"znear", camera.z_near}};
+    if (camera.aspect > 0.0) out["aspectRatio"] = camera.aspect;
+    if (std::isfinite(camera.z_far)) out["zfar"] = camera.z_far;
+    return out;
+}
+
+void add_camera(ExportedNodes& out, const SceneCamera& camera) {
+    // glTF's depths are not negative: a parallel camera that sees behind itself steps back.
+    const double shift = camera.orthographic ? std::max(-camera.z_near, 0.0) : 0.0;
+    const char* type = camera.orthographic ? "orthographic" : "perspective";
+    Json entry{{"type", type}};
+    if (!camera.name.empty()) entry["name"] = camera.name;
+    entry[type] = camera.orthographic ? orthographic_json(camera, shift) : perspective_json(camera);
+    glm::dmat4 m = camera.world_from_camera;
+    if (shift > 0.0) {
+        m[3] += glm::dvec4(glm::normalize(glm::dvec3(m[2])) * shift, 0.0);
+    }
+    out.roots.push_back(add_placed(out.nodes, m, {{"camera", out.cameras.size()}}));
+    out.cameras.push_back(std::move(entry));
+}
+
+}  // namespace
+
+ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) {
+    ExportedNodes out;
+    for (const SceneCamera& camera : scene.cameras) add_camera(out, camera);
+    for (const Instance& instance : scene.instances) {
+        const int mesh = mesh_of[static_cast<std::size_t>(instance.mesh)];
+        if (mesh < 0) continue;
+        out.roots.push_back(add_placed(out.nodes, instance.world_from_object, {{"mesh", mesh}}));
+    }
+    for (const SceneLight& light : scene.lights) {
+        if (is_usable(light)) {
+            add_light(out, light);
+        } else {
+            ++out.unusable_lights;
+        }
+    }
+    return out;
+}
+
+}  // namespace kilolux

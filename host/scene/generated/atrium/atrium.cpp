@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/generated/atrium/atrium.h"
+
+#include <initializer_list>
+
+#include "host/scene/generated/atrium/bay.h"
+#include "host/scene/generated/atrium/column.h"
+#include "host/scene/generated/atrium/corner.h"
+#include "host/scene/generated/atrium/court.h"
+#include "host/scene/generated/atrium/furnish.h"
+#include "host/scene/generated/atrium/materials.h"
+#include "host/scene/generated/atrium/plan.h"
+#include "host/scene/generated/atrium/side.h"
+#include "host/scene/generated/atrium/vault.h"
+#include "host/scene/generated/scenes_small.h"
+
+namespace kilolux {
+namespace {
+
+using namespace atrium_plan;
+
+int add(Scene& scene, const char* name, const MeshBuilder& builder, AtriumMaterial material) {
+    return add_mesh(scene, atrium_mesh(name, builder, material));
+}
+
+MeshBuilder joined(std::initializer_list<MeshBuilder> pieces) {
+    MeshBuilder all;
+    for (const MeshBuilder& piece : pieces) all.append(piece, glm::dmat4(1.0));
+    return all;
+}
+
+MeshBuilder moved(const MeshBuilder& piece, const glm::dvec3& by) {
+    MeshBuilder out;
+    out.append(piece, placed(by));
+    return out;
+}
+
+MeshBuilder rib() {
+    MeshBuilder builder;
+    add_rib(builder);
+    return builder;
+}
+
+MeshBuilder bay_vault() {
+    MeshBuilder builder;
+    add_groin_vault(builder, {0.0, kAisle / 2}, {kHalfBay, kAisle / 2});
+    return builder;
+}
+
+// A bay's masonry, one mesh a material; the column at its left end comes with it.
+void add_bays(Scene& scene) {
+    const glm::dvec3 left(-kHalfBay, 0.0, 0.0);
+    const MeshBuilder gallery_columns =
+        joined({gallery_column(), moved(gallery_column(), {kHalfBay, 0.0, 0.0})});
+    const int meshes[] = {
+        add(scene, "bay-plaster",
+            joined({arcade_wall(), aisle_plaster(), bay_vault(), gallery_wall()}),
+            AtriumMaterial::plaster),
+        add(scene, "bay-brick", joined({aisle_wall(), gallery_arches()}), AtriumMaterial::brick),
+        add(scene, "bay-voussoirs", joined({arcade_voussoirs(), gallery_stones()}),
+            AtriumMaterial::voussoir),
+        add(scene, "bay-mouldings",
+            joined({arcade_mouldings(), aisle_mouldings(), bay_floor_bands(), moved(rib(), left)}),
+            AtriumMaterial::limestone),
+        add(scene, "bay-capital", moved(column_stones(), left), AtriumMaterial::limestone),
+        add(scene, "bay-shafts",
+            joined({moved(column_shaft(), left), moved(gallery_columns, left)}),
+            AtriumMaterial::marble),
+        add(scene, "bay-balustrade", balustrade(), AtriumMaterial::limestone),
+        add(scene, "bay-tiles", bay_tiles(), AtriumMaterial::tile),
+        add(scene, "bay-wood", gallery_wood(), AtriumMaterial::wood),
+    };
+    for (const int mesh : meshes) {
+        for (const Place& bay : bays()) place(scene, mesh, bay.world_from_piece);
+    }
+}
+
+void add_corners(Scene& scene) {
+    const int shared[] = {
+        add(scene, "corner-brick", corner_brick(), AtriumMaterial::brick),
+        add(scene, "corner-mouldings", joined({corner_mouldings(), corner_floor_bands(), rib()}),
+            AtriumMaterial::limestone),
+        add(scene, "corner-wood", corner_wood(), AtriumMaterial::wood),
+    };
+    const int vaulted[] = {
+        add(scene, "corner-plaster", corner_plaster(false), AtriumMaterial::plaster),
+        add(scene, "corner-tiles", corner_tiles(false), AtriumMaterial::tile),
+    };
+    const int with_stair[] = {
+        add(scene, "stair-plaster", corner_plaster(true), AtriumMaterial::plaster),
+        add(scene, "stair-tiles", corner_tiles(true), AtriumMaterial::tile),
+        add(scene, "stair", stair_stones(), AtriumMaterial::marble),
+        add(scene, "stair-rails", stair_rails(), AtriumMaterial::iron),
+    };
+    for (const Place& corner : corners()) {
+        const glm::dmat4& at = corner.world_from_piece;
+        for (const int mesh : shared) place(scene, mesh, at);
+        if (corner.side % 2 == 0) {
+            for (const int mesh : vaulted) place(scene, mesh, at);
+        } else {
+            for (const int mesh : with_stair) place(scene, mesh, at);
+        }
+    }
+}
+
+void add_sides(Scene& scene) {
+    for (const int parity : {0, 1}) {
+        const double half = half_length(parity);
+        const int meshes[] = {
+            add(scene, "cornices", side_cornices(half), AtriumMaterial::limestone),
+            add(scene, "steps", side_steps(half), AtriumMaterial::limestone),
+            add(scene, "roof", side_roof(half), AtriumMaterial::terracotta),
+            add(scene, "eaves", side_eaves(half), AtriumMaterial::wood),
+            add(scene, "outer-wall", side_outer_wall(half), AtriumMaterial::brick),
+        };
+        for (const Place& side : sides()) {
+            if (side.side % 2 != parity) continue;
+            for (const int mesh : meshes) place(scene, mesh, side.world_from_piece);
+        }
+    }
+}
+
+void add_court(Scene& scene) {
+    place(scene, add(scene, "paving", court_paving(), AtriumMaterial::paving));
+    place(scene, add(scene, "fountain", fountain_marble(), AtriumMaterial::marble));
+    place(scene, add(scene, "basin", basin_mosaic(), AtriumMaterial::mosaic));
+    place(scene, add(scene, "water", fountain_water(), AtriumMaterial::water));
+}
+
+}  // namespace
+
+Scene make_atrium(std::uint64_t seed) {
+    Scene scene;
+    scene.name = "atrium";
+    add_atrium_materials(scene, seed);
+    add_bays(scene);
+    add_corners(scene);
+    add_sides(scene);
+    add_court(scene);
+    furnish_atrium(scene, seed);
+    scene.cameras = {
+        camera_from_to("court", {-9.4, 1.35, 0.9}, {3.0, 2.5, -0.7}, 60.0),
+        camera_from_to("aisle", {-10.9, 1.7, 6.5}, {2.0, 2.4, 6.7}, 55.0),
+        camera_from_to("gallery", {-11.1, 7.5, 0.8}, {0.0, 3.4, -0.9}, 62.0),
+        camera_from_to("above", {8.9, 9.3, 3.1}, {-3.5, 0.8, -1.6}, 60.0),
+    };
+    scene.light_box = {{-15.2, -0.25, -8.8}, {15.2, 9.6, 8.8}};
+    return scene;
+}
+
+}  // namespace kilolux

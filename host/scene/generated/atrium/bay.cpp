@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/generated/atrium/bay.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "host/scene/generated/atrium/arch.h"
+#include "host/scene/generated/atrium/plan.h"
+#include "host/scene/generated/atrium/vault.h"
+
+namespace kilolux {
+namespace {
+
+using namespace atrium_plan;
+
+constexpr double kRing = 0.30;        // width of the dressed stones round an arch [m]
+constexpr double kNicheDepth = 0.35;  // [m]
+
+ArchPanel arcade_panel() {
+    return {.half_width = kHalfBay,
+            .bottom = kSpring,
+            .top = kArcadeTop,
+            .radius_x = kArchRadius,
+            .radius_y = kArchRadius,
+            .spring = kSpring,
+            .segments = 28};
+}
+
+ArchPanel niche_panel() {
+    return {.half_width = kHalfBay,
+            .bottom = 0.0,
+            .top = kGalleryFloor,
+            .radius_x = 0.95,
+            .radius_y = 0.95,
+            .spring = 2.15,
+            .segments = 20};
+}
+
+ArchPanel window_panel() {
+    return {.half_width = kHalfBay,
+            .bottom = 6.75,
+            .top = kCeiling,
+            .radius_x = 0.55,
+            .radius_y = 0.55,
+            .spring = 8.1,
+            .segments = 14};
+}
+
+// A moulding on a wall's face at z, which looks to -z, from x = -half to half.
+void add_course(MeshBuilder& builder, const std::vector<glm::dvec2>& points, double half,
+                double z) {
+    builder.sweep({points, 0.5}, straight_frames({half, 0, z}, {-half, 0, z}, {0, 0, -1}));
+}
+
+// A disc that stands out from a wall at z, with a rim.
+void add_medallion(MeshBuilder& builder, glm::dvec2 at, double z, bool to_plus_z) {
+    const Profile profile{
+        {{0.17, 0.0}, {0.17, 0.035}, {0.15, 0.05}, {0.13, 0.035}, {0.12, 0.012}, {0.0, 0.03}}, 0.5};
+    std::vector<SweepFrame> frames;
+    const glm::dvec3 out(0.0, 0.0, to_plus_z ? 1.0 : -1.0);
+    for (int i = 0; i <= 16; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / 16;
+        const glm::dvec3 radial(std::cos(angle), std::sin(angle), 0.0);
+        frames.push_back({{at.x, at.y, z}, radial, out, radial, i / 16.0});
+    }
+    builder.sweep(profile, frames);
+}
+
+}  // namespace
+
+MeshBuilder arcade_wall() {
+    MeshBuilder builder;
+    add_arch_face(builder, arcade_panel(), -kWallHalf, false);
+    add_arch_face(builder, arcade_panel(), kWallHalf, true);
+    return builder;
+}
+
+MeshBuilder arcade_voussoirs() {
+    MeshBuilder builder;
+    add_voussoirs(builder, arcade_panel(), kWallHalf, kRing, false);
+    add_voussoirs(builder, arcade_panel(), kWallHalf, kRing, true);
+    return builder;
+}
+
+MeshBuilder arcade_mouldings() {
+    MeshBuilder builder;
+    add_label(builder, arcade_panel(), -kWallHalf, kRing, false);
+    add_label(builder, arcade_panel(), kWallHalf, kRing, true);
+    add_medallion(builder, {-kHalfBay, 4.78}, -kWallHalf, false);
+    return builder;
+}
+
+MeshBuilder aisle_wall() {
+    MeshBuilder builder;
+    add_arch_face(builder, niche_panel(), kAisle, false);
+    add_arch_reveal(builder, niche_panel(), kAisle, kAisle + kNicheDepth);
+    return builder;
+}
+
+MeshBuilder aisle_plaster() {
+    MeshBuilder builder;
+    const ArchPanel niche = niche_panel();
+    const double z = kAisle + kNicheDepth;
+    builder.quad({-1.0, 0.0, z}, {1.0, 0.0, z}, {1.0, 3.2, z}, {-1.0, 3.2, z}, {0, 0, -1});
+    builder.quad({-niche.radius_x, 0.42, kAisle}, {niche.radius_x, 0.42, kAisle},
+                 {niche.radius_x, 0.42, z}, {-niche.radius_x, 0.42, z}, {0, 1, 0});
+    return builder;
+}
+
+MeshBuilder aisle_mouldings() {
+    MeshBuilder builder;
+    const ArchPanel niche = niche_panel();
+    add_label(builder, niche, kAisle, 0.10, false);
+    for (const double side : {-1.08, 1.08}) {
+        builder.box({side - 0.11, niche.spring - 0.10, kAisle - 0.11},
+                    {side + 0.11, niche.spring, kAisle});
+    }
+    // The parapet below the niche, and its sill.
+    builder.box({-0.97, 0.0, kAisle - 0.02}, {0.97, 0.40, kAisle + kNicheDepth});
+    builder.box({-1.08, 0.40, kAisle - 0.07}, {1.08, 0.46, kAisle + kNicheDepth});
+    add_course(builder, {{0.06, 0.0}, {0.06, 0.16}, {0.03, 0.20}, {0.0, 0.21}}, kHalfBay, kAisle);
+    // Pilaster under the rib at the bay's left end; the next bay brings the right one.
+    const double x = -kHalfBay;
+    builder.box({x - 0.30, 0.0, kAisle - 0.20}, {x + 0.30, 0.30, kAisle});
+    builder.box({x - 0.24, 0.30, kAisle - 0.15}, {x + 0.24, kSpring - 0.26, kAisle});
+    builder.box({x - 0.28, kSpring - 0.26, kAisle - 0.19}, {x + 0.28, kSpring - 0.20, kAisle});
+    builder.box({x - 0.25, kSpring - 0.20, kAisle - 0.16}, {x + 0.25, kSpring - 0.10, kAisle});
+    builder.box({x - 0.31, kSpring - 0.10, kAisle - 0.22}, {x + 0.31, kSpring + 0.02, kAisle});
+    return builder;
+}
+
+MeshBuilder gallery_arches() {
+    MeshBuilder builder;
+    for (const double center : {-0.5 * kHalfBay, 0.5 * kHalfBay}) {
+        const ArchPanel panel{.center = center,
+                              .half_width = 0.5 * kHalfBay,
+                              .bottom = kUpperSpring,
+                              .top = kCeiling,
+                              .radius_x = kUpperRadius,
+                              .radius_y = kUpperRadius,
+                              .spring = kUpperSpring,
+                              .segments = 16};
+        add_arch_face(builder, panel, -kUpperWallHalf, false);
+        add_arch_face(builder, panel, kUpperWallHalf, true);
+    }
+    return builder;
+}
+
+MeshBuilder gallery_stones() {
+    MeshBuilder builder;
+    for (const double center : {-0.5 * kHalfBay, 0.5 * kHalfBay}) {
+        const ArchPanel panel{.center = center,
+                              .radius_x = kUpperRadius,
+                              .radius_y = kUpperRadius,
+                              .spring = kUpperSpring,
+                              .segments = 16};
+        add_voussoirs(builder, panel, kUpperWallHalf, 0.14, false);
+        add_voussoirs(builder, panel, kUpperWallHalf, 0.14, true);
+    }
+    return builder;
+}
+
+MeshBuilder gallery_wall() {
+    MeshBuilder builder;
+    add_arch_face(builder, window_panel(), kAisle, false);
+    add_arch_reveal(builder, window_panel(), kAisle, kAisle + kNicheDepth);
+    builder.quad({-kHalfBay, kGalleryFloor, kAisle}, {kHalfBay, kGalleryFloor, kAisle},
+                 {kHalfBay, 6.75, kAisle}, {-kHalfBay, 6.75, kAisle}, {0, 0, -1});
+    builder.quad({-0.6, 6.75, kAisle}, {0.6, 6.75, kAisle}, {0.6, 6.75, kAisle + kNicheDepth},
+                 {-0.6, 6.75, kAisle + kNicheDepth}, {0, 1, 0});
+    return builder;
+}
+
+MeshBuilder gallery_wood() {
+    MeshBuilder builder;
+    const double z = kAisle + kNicheDepth - 0.05;
+    builder.quad({-0.6, 6.7, z}, {0.6, 6.7, z}, {0.6, 8.7, z}, {-0.6, 8.7, z}, {0, 0, -1});
+    for (int i = 0; i < 8; ++i) {
+        const double y = 6.80 + 0.215 * i;
+        builder.box({-0.52, y, z - 0.03}, {-0.03, y + 0.14, z});
+        builder.box({0.03, y, z - 0.03}, {0.52, y + 0.14, z});
+    }
+    add_coffers(builder, {-kHalfBay, kUpperWallHalf}, {kHalfBay, kAisle}, {3, 4}, kCeiling);
+    return builder;
+}
+
+}  // namespace kilolux

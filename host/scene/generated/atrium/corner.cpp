@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/generated/atrium/corner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/scene/generated/atrium/arch.h"
+#include "host/scene/generated/atrium/plan.h"
+#include "host/scene/generated/atrium/vault.h"
+
+namespace kilolux {
+namespace {
+
+using namespace atrium_plan;
+
+constexpr double kMiddle = kAisle / 2;
+constexpr double kStairWell = 1.75;     // radius of the opening [m]
+constexpr double kStairCeiling = 5.55;  // of the ground floor round the opening
+
+// What stands at the wall z = kAisle, and the same at the wall x = kAisle.
+void add_at_both_walls(MeshBuilder& builder, const MeshBuilder& piece) {
+    builder.append(piece, glm::dmat4(1.0));
+    // x and z change places: a reflection, which append() winds anew.
+    glm::dmat4 swap(0.0);
+    swap[0][2] = swap[2][0] = swap[1][1] = swap[3][3] = 1.0;
+    builder.append(piece, swap);
+}
+
+// A floor or ceiling over the corner with a round hole, at height y.
+void add_square_with_hole(MeshBuilder& builder, double y, bool up) {
+    constexpr int kSegments = 48;
+    builder.patch(kSegments, 1, [&](double u, double v) {
+        const double angle = 2.0 * std::numbers::pi * u;
+        const glm::dvec2 out(std::cos(angle), std::sin(angle));
+        const double to_square = kMiddle / std::max(std::abs(out.x), std::abs(out.y));
+        const glm::dvec2 p = kMiddle + out * (v < 0.5 ? kStairWell : to_square);
+        return SurfacePoint{{p.x, y, p.y}, {0, up ? 1 : -1, 0}, p};
+    });
+}
+
+void add_stair_shaft(MeshBuilder& builder) {
+    const ArchPanel panel{.center = kMiddle,
+                          .half_width = kMiddle,
+                          .bottom = kSpring,
+                          .top = kStairCeiling,
+                          .radius_x = kMiddle,
+                          .radius_y = kVaultRise,
+                          .spring = kSpring,
+                          .segments = 24};
+    MeshBuilder face;
+    add_arch_face(face, panel, 0.0, true);
+    add_at_both_walls(builder, face);
+    add_square_with_hole(builder, kStairCeiling, false);
+    const Profile rim{{{kStairWell, kGalleryFloor}, {kStairWell, kStairCeiling}}, 0.3};
+    builder.lathe(rim, 48, {kMiddle, 0.0, kMiddle});
+}
+
+}  // namespace
+
+MeshBuilder corner_brick() {
+    MeshBuilder wall;
+    wall.quad({0, 0, kAisle}, {kAisle, 0, kAisle}, {kAisle, kGalleryFloor, kAisle},
+              {0, kGalleryFloor, kAisle}, {0, 0, -1});
+    // The block of the gallery's wall over the corner column.
+    wall.quad({0, kUpperSpring, kUpperWallHalf}, {kUpperWallHalf, kUpperSpring, kUpperWallHalf},
+              {kUpperWallHalf, kCeiling, kUpperWallHalf}, {0, kCeiling, kUpperWallHalf}, {0, 0, 1});
+    MeshBuilder builder;
+    add_at_both_walls(builder, wall);
+    return builder;
+}
+
+MeshBuilder corner_mouldings() {
+    MeshBuilder wall;
+    wall.sweep({{{0.06, 0.0}, {0.06, 0.16}, {0.03, 0.20}, {0.0, 0.21}}, 0.5},
+               straight_frames({kAisle, 0, kAisle}, {0, 0, kAisle}, {0, 0, -1}));
+    MeshBuilder builder;
+    add_at_both_walls(builder, wall);
+    // The pilaster at the far end of the side's last bay.
+    builder.box({-0.30, 0.0, kAisle - 0.20}, {0.30, 0.30, kAisle});
+    builder.box({-0.24, 0.30, kAisle - 0.15}, {0.24, kSpring - 0.26, kAisle});
+    builder.box({-0.28, kSpring - 0.26, kAisle - 0.19}, {0.28, kSpring - 0.20, kAisle});
+    builder.box({-0.25, kSpring - 0.20, kAisle - 0.16}, {0.25, kSpring - 0.10, kAisle});
+    builder.box({-0.31, kSpring - 0.10, kAisle - 0.22}, {0.31, kSpring + 0.02, kAisle});
+    return builder;
+}
+
+MeshBuilder corner_floor_bands() {
+    MeshBuilder builder;
+    const auto slab = [&](glm::dvec2 low, glm::dvec2 high) {
+        builder.quad({low.x, 0, low.y}, {high.x, 0, low.y}, {high.x, 0, high.y}, {low.x, 0, high.y},
+                     {0, 1, 0});
+    };
+    slab({0, 0}, {kAisle, 0.7});
+    slab({0, 3.9}, {kAisle, kAisle});
+    slab({0, 0.7}, {0.7, 3.9});
+    slab({3.9, 0.7}, {kAisle, 3.9});
+    return builder;
+}
+
+MeshBuilder corner_wood() {
+    MeshBuilder builder;
+    add_coffers(builder, {0, 0}, {kAisle, kAisle}, {4, 4}, kCeiling);
+    return builder;
+}
+
+MeshBuilder corner_plaster(bool with_stair) {
+    MeshBuilder wall;
+    wall.quad({0, kGalleryFloor, kAisle}, {kAisle, kGalleryFloor, kAisle},
+              {kAisle, kCeiling, kAisle}, {0, kCeiling, kAisle}, {0, 0, -1});
+    wall.quad({0, kSpring, kWallHalf}, {kWallHalf, kSpring, kWallHalf},
+              {kWallHalf, kArcadeTop, kWallHalf}, {0, kArcadeTop, kWallHalf}, {0, 0, 1});
+    MeshBuilder builder;
+    add_at_both_walls(builder, wall);
+    if (with_stair) {
+        add_stair_shaft(builder);
+    } else {
+        add_groin_vault(builder, {kMiddle, kMiddle}, {kMiddle, kMiddle});
+    }
+    return builder;
+}
+
+MeshBuilder corner_tiles(bool with_stair) {
+    MeshBuilder builder;
+    builder.quad({0.7, 0, 0.7}, {3.9, 0, 0.7}, {3.9, 0, 3.9}, {0.7, 0, 3.9}, {0, 1, 0});
+    if (with_stair) {
+        add_square_with_hole(builder, kGalleryFloor, true);
+    } else {
+        const double y = kGalleryFloor;
+        builder.quad({0, y, 0}, {kAisle, y, 0}, {kAisle, y, kAisle}, {0, y, kAisle}, {0, 1, 0});
+    }
+    return builder;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/generated/atrium/court.h"
+
+#include <cmath>
+
+#include "host/scene/generated/atrium/plan.h"
+
+namespace kilolux {
+namespace {
+
+using namespace atrium_plan;
+
+constexpr glm::dvec2 kBasin(3.0, 1.25);  // half extents of the water [m]
+constexpr double kWater = kCourtFloor + 0.36;
+
+// A profile round the basin; its x goes outwards from the water's edge.
+void add_round_basin(MeshBuilder& builder, const Profile& profile) {
+    const glm::dvec2 h = kBasin;
+    const glm::dvec3 corners[4] = {{-h.x, 0, h.y}, {h.x, 0, h.y}, {h.x, 0, -h.y}, {-h.x, 0, -h.y}};
+    const glm::dvec3 outs[4] = {{0, 0, 1}, {1, 0, 0}, {0, 0, -1}, {-1, 0, 0}};
+    for (int i = 0; i < 4; ++i) {
+        builder.sweep(profile, straight_frames(corners[i], corners[(i + 1) % 4], outs[i], 1.0));
+    }
+}
+
+// Pedestal and two bowls, one above the other, with a finial.
+void add_fountain(MeshBuilder& builder) {
+    const double f = kCourtFloor;
+    builder.lathe({{{0.42, f},
+                    {0.42, f + 0.45},
+                    {0.36, f + 0.50},
+                    {0.20, f + 0.60},
+                    {0.14, f + 0.85},
+                    {0.17, f + 1.05},
+                    {0.30, f + 1.14},
+                    {0.72, f + 1.24},
+                    {0.92, f + 1.38},
+                    {0.96, f + 1.46},
+                    {0.92, f + 1.48},
+                    {0.86, f + 1.44},
+                    {0.70, f + 1.34}},
+                   0.8},
+                  40);
+    builder.lathe({{{0.11, f + 1.30},
+                    {0.12, f + 1.50},
+                    {0.08, f + 1.60},
+                    {0.09, f + 1.90},
+                    {0.16, f + 1.98},
+                    {0.40, f + 2.06},
+                    {0.50, f + 2.16},
+                    {0.50, f + 2.20},
+                    {0.46, f + 2.19},
+                    {0.36, f + 2.12}},
+                   0.8},
+                  32);
+    builder.lathe({{{0.07, f + 2.10},
+                    {0.05, f + 2.28},
+                    {0.09, f + 2.34},
+                    {0.13, f + 2.44},
+                    {0.12, f + 2.54},
+                    {0.06, f + 2.64},
+                    {0.02, f + 2.74},
+                    {0.0, f + 2.78}},
+                   0.9},
+                  20);
+}
+
+}  // namespace
+
+MeshBuilder court_paving() {
+    MeshBuilder builder;
+    const double x = kHalfX - kStepsDepth;
+    const double z = kHalfZ - kStepsDepth;
+    // Around the basin, so that nothing is drawn below the water.
+    const auto slab = [&](glm::dvec2 low, glm::dvec2 high) {
+        builder.quad({low.x, kCourtFloor, low.y}, {high.x, kCourtFloor, low.y},
+                     {high.x, kCourtFloor, high.y}, {low.x, kCourtFloor, high.y}, {0, 1, 0});
+    };
+    slab({-x, -z}, {-kBasin.x, z});
+    slab({kBasin.x, -z}, {x, z});
+    slab({-kBasin.x, -z}, {kBasin.x, -kBasin.y});
+    slab({-kBasin.x, kBasin.y}, {kBasin.x, z});
+    return builder;
+}
+
+MeshBuilder fountain_marble() {
+    MeshBuilder builder;
+    const double f = kCourtFloor;
+    add_round_basin(builder, {{{0.42, f},
+                               {0.42, f + 0.10},
+                               {0.36, f + 0.14},
+                               {0.33, f + 0.34},
+                               {0.36, f + 0.40},
+                               {0.42, f + 0.44},
+                               {0.43, f + 0.50},
+                               {0.40, f + 0.53},
+                               {0.02, f + 0.53},
+                               {-0.02, f + 0.50},
+                               {-0.02, f + 0.44},
+                               {0.0, f + 0.43}},
+                              0.6});
+    add_fountain(builder);
+    return builder;
+}
+
+MeshBuilder basin_mosaic() {
+    MeshBuilder builder;
+    add_round_basin(builder, {{{0.0, kCourtFloor + 0.43}, {0.0, kCourtFloor - 0.05}}, 0.5});
+    return builder;
+}
+
+MeshBuilder fountain_water() {
+    MeshBuilder builder;
+    builder.quad({-kBasin.x, kWater, -kBasin.y}, {kBasin.x, kWater, -kBasin.y},
+                 {kBasin.x, kWater, kBasin.y}, {-kBasin.x, kWater, kBasin.y}, {0, 1, 0});
+    for (const glm::dvec2& bowl : {glm::dvec2(0.88, 1.44), glm::dvec2(0.47, 2.18)}) {
+        const glm::dvec3 center(0.0, kCourtFloor + bowl.y, 0.0);
+        const std::vector<SweepFrame> frames =
+            round_frames(center, 32, 0.0, 6.283185307179586, 1.0);
+        builder.patch(32, 1, [&](double u, double v) {
+            const SweepFrame& f = frames[static_cast<std::size_t>(std::lround(u * 32))];
+            const glm::dvec3 p = center + (v * bowl.x) * f.axis_x;
+            return SurfacePoint{p, {0, 1, 0}, {p.x, p.z}};
+        });
+    }
+    return builder;
+}
+
+MeshBuilder bay_tiles() {
+    MeshBuilder builder;
+    builder.quad({-kHalfBay, 0, 0.7}, {kHalfBay, 0, 0.7}, {kHalfBay, 0, 3.9}, {-kHalfBay, 0, 3.9},
+                 {0, 1, 0});
+    const double y = kGalleryFloor;
+    builder.quad({-kHalfBay, y, 0}, {kHalfBay, y, 0}, {kHalfBay, y, kAisle}, {-kHalfBay, y, kAisle},
+                 {0, 1, 0});
+    return builder;
+}
+
+MeshBuilder bay_floor_bands() {
+    MeshBuilder builder;
+    builder.quad({-kHalfBay, 0, 0}, {kHalfBay, 0, 0}, {kHalfBay, 0, 0.7}, {-kHalfBay, 0, 0.7},
+                 {0, 1, 0});
+    builder.quad({-kHalfBay, 0, 3.9}, {kHalfBay, 0, 3.9}, {kHalfBay, 0, kAisle},
+                 {-kHalfBay, 0, kAisle}, {0, 1, 0});
+    return builder;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/scene/gltf/document.h"
+
+namespace kilolux {
+
+/// An accessor's elements where they stand in memory; checked to lie within it.
+struct ElementArray {
+    std::string where;  // "scene.gltf: accessors[7]", for messages
+    int component_type = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    std::size_t components = 1;  // 1 to 4, or 4, 9, 16 of a matrix
+    std::size_t count = 0;
+    bool normalized = false;
+    std::size_t stride = 0;                        // [byte]
+    std::span<const unsigned char> bytes;          // from element 0; empty: all elements are zero
+    std::vector<std::uint32_t> sparse_elements;    // ascending; what replaces them:
+    std::span<const unsigned char> sparse_values;  // tightly packed
+};
+
+/// Throws Error when the accessor leaves its buffer view, or its sparse part is out of order.
+ElementArray open_accessor(const GltfDocument& document, int accessor);
+
+/// An element's components as floats, normalised integers mapped to [0, 1] or [-1, 1]; those that
+/// the type lacks are 0. Throws Error when one is not finite.
+glm::vec4 read_vector(const ElementArray& array, std::size_t element);
+
+/// A component of a SCALAR accessor.
+float read_scalar(const ElementArray& array, std::size_t element);
+
+/// An element of a float MAT4 accessor.
+glm::dmat4 read_matrix(const ElementArray& array, std::size_t element);
+
+/// An element of a SCALAR accessor of unsigned integers.
+std::uint32_t read_index(const ElementArray& array, std::size_t element);
+
+/// Bytes of a component of a type that accessors may have.
+std::size_t component_bytes(int component_type);
+
+/// Throws Error unless the array has one of the numbers of components.
+void expect_components(const ElementArray& array, std::initializer_list<std::size_t> allowed,
+                       const std::string& what);
+
+}  // namespace kilolux

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/image.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/sysutil.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "host/base/error.h"
+#include "host/scene/gltf/parallel.h"
+#include "host/scene/gltf/png_chunks.h"
+
+namespace kilolux {
+namespace {
+
+constexpr int kMaxSide = 16384;  // [pixel]; what OpenGL implementations take
+// Refuses headers that claim far more pixels than any encoder packs into the bytes behind them.
+constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kMaxExpansion = 8192;
+
+struct Magic {
+    std::string_view bytes;
+    std::size_t offset;
+    const char* format;  // OpenImageIO's name
+};
+
+using namespace std::string_view_literals;
+constexpr std::array kMagics = {
+    Magic{"\x89PNG"sv, 0, "png"},
+    Magic{"\xff\xd8\xff"sv, 0, "jpeg"},
+    Magic{"WEBP"sv, 8, "webp"},
+    Magic{"GIF8"sv, 0, "gif"},
+    Magic{"BM"sv, 0, "bmp"},
+    Magic{"DDS "sv, 0, "dds"},
+    Magic{"II*\0"sv, 0, "tiff"},
+    Magic{"MM\0*"sv, 0, "tiff"},
+    Magic{"v/1\x01"sv, 0, "openexr"},
+    Magic{"#?RADIANCE"sv, 0, "hdr"},
+    Magic{"8BPS"sv, 0, "psd"},
+    Magic{"jP  "sv, 4, "jpeg2000"},
+    Magic{"P6"sv, 0, "pnm"},
+    Magic{"P5"sv, 0, "pnm"},
+    Magic{"TRUEVISION-XFILE"sv, 0, "targa"},
+};
+
+// An image of the file, still encoded.
+struct EncodedImage {
+    Bytes owned;
+    std::span<const unsigned char> bytes;
+};
+
+std::string name_of(const GltfDocument& document, int image) {
+    const auto index = static_cast<std::size_t>(image);
+    const std::string& uri = document.model.images[index].uri;
+    return element_name("images", index) + (uri.empty() ? "" : " '" + shown_uri(uri) + "'");
+}
+
+EncodedImage read_encoded(const GltfDocument& document, int image) {
+    const auto index = static_cast<std::size_t>(image);
+    const tinygltf::Image& source = document.model.images[index];
+    EncodedImage out;
+    if (!source.uri.empty()) {
+        out.owned = read_uri(document.base, source.uri, element_name("images", index));
+        out.bytes = out.owned;
+    } else if (source.bufferView >= 0) {
+        out.bytes = document.views[static_cast<std::size_t>(source.bufferView)];
+    } else {
+        document.fail(element_name("images", index), "has neither a uri nor a bufferView");
+    }
+    return out;
+}
+
+// By the first bytes, as names and MIME types lie; a TGA's stand at its end.
+std::string format_of(std::span<const unsigned char> bytes, const std::string& uri) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (const Magic& magic : kMagics) {
+        const bool at_end = std::string_view(magic.format) == "targa";
+        if (!at_end && text.size() > magic.offset &&
+            text.substr(magic.offset).starts_with(magic.bytes)) {
+            return magic.format;
+        }
+        if (at_end &&
+            text.substr(text.size() - std::min<std::size_t>(text.size(), 26)).find(magic.bytes) !=
+                std::string_view::npos) {
+            return magic.format;
+        }
+    }
+    const std::size_t dot = uri.starts_with("data:") ? std::string::npos : uri.rfind('.');
+    return dot == std::string::npos ? "" : uri.substr(dot + 1);
+}
+
+std::string reason(std::string text) {
+    text.resize(std::min(text.size(), text.find('\n')));
+    return text.empty() ? "is broken" : text;
+}
+
+void check_size(const GltfDocument& document, const std::string& name, const OIIO::ImageSpec& spec,
+                std::size_t encoded_bytes) {
+    const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
+    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide) {
+        document.fail(name, "is " + size + " pixels, must be from 1x1 to 16384x16384");
+    }
+    if (spec.nchannels < 1 || spec.nchannels > 16 || spec.depth > 1) {
+        document.fail(name, "has " + std::to_string(spec.nchannels) + " channels and depth " +
+                                std::to_string(spec.depth) + ", which no texture has");
+    }
+    const std::uint64_t bytes =
+        4 * static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+    if (bytes > std::max(kFreeBytes, kMaxExpansion * encoded_bytes)) {
+        document.fail(name, "claims " + size + " pixels in " + std::to_string(encoded_bytes) +
+                                " bytes, which no image holds");
+    }
+}
+
+// Pixels of `channels` channels as RGBA; one or two channels are grey.
+std::vector<std::uint8_t> to_rgba(const std::vector<std::uint8_t>& pixels, std::size_t channels) {
+    const std::size_t count = pixels.size() / channels;
+    std::vector<std::uint8_t> rgba(4 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* in = &pixels[channels * i];
+        std::uint8_t* out = &rgba[4 * i];
+        out[0] = in[0];
+        out[1] = channels < 3 ? in[0] : in[1];
+        out[2] = channels < 3 ? in[0] : in[2];
+        out[3] = channels == 2 ? in[1] : channels >= 4 ? in[3] : std::uint8_t{255};
+    }
+    return rgba;
+}
+
+// glTF's alpha is not multiplied in. Some readers of OpenImageIO deliver it so whatever they are
+// asked (WebP does in 2.4), which costs their darkest pixels precision.
+void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
+    for (std::size_t i = 0; i < rgba.size(); i += 4) {
+        const unsigned alpha = rgba[i + 3];
+        if (alpha == 0 || alpha == 255) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const unsigned value = (rgba[i + c] * 255u + alpha / 2) / alpha;
+            rgba[i + c] = static_cast<std::uint8_t>(std::min(value, 255u));
+        }
+    }
+}
+
+Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
+    const std::string name = name_of(document, index);
+    const tinygltf::Image& source = document.model.images[static_cast<std::size_t>(index)];
+    const EncodedImage encoded = read_encoded(document, index);
+    const std::string format = format_of(encoded.bytes, source.uri);
+    if (format == "png") check_png(encoded.bytes, document.base.file + ": " + name);
+    auto input = format.empty() ? nullptr : OIIO::ImageInput::create(format);
+    if (!input) {
+        const std::string ignored = OIIO::geterror();
+        document.fail(name, "is of no image format that can be read");
+    }
+    OIIO::Filesystem::IOMemReader reader(OIIO::cspan<unsigned char>(
+        encoded.bytes.data(), static_cast<std::ptrdiff_t>(encoded.bytes.size())));
+    OIIO::ImageSpec wanted;
+    wanted.attribute("oiio:UnassociatedAlpha", 1);
+    OIIO::ImageSpec spec;
+    if (!input->set_ioproxy(&reader) || !input->open("image." + format, spec, wanted)) {
+        document.fail(name, reason(input->geterror()));
+    }
+    check_size(document, name, spec, encoded.bytes.size());
+    memory.charge(4 * static_cast<std::uint64_t>(spec.width),
+                  static_cast<std::uint64_t>(spec.height), document.base.file + ": " + name);
+    const auto channels = static_cast<std::size_t>(std::min(spec.nchannels, 4));
+    std::vector<std::uint8_t> pixels(channels * static_cast<std::size_t>(spec.width) *
+                                     static_cast<std::size_t>(spec.height));
+    if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8,
+                           pixels.data())) {
+        document.fail(name, reason(input->geterror()));
+    }
+    Image out{source.name, spec.width, spec.height, {}};
+    out.rgba = channels == 4 ? std::move(pixels) : to_rgba(pixels, channels);
+    if (spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0) undo_associated_alpha(out.rgba);
+    return out;
+}
+
+}  // namespace
+
+std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images,
+                                 const LoadProgress& progress) {
+    std::vector<Image> out(images.size());
+    ByteBudget memory(OIIO::Sysutil::physical_memory() / 2);
+    std::mutex telling;
+    std::size_t done = 0;
+    const auto tell = [&](std::size_t more) {
+        if (!progress) return;
+        const std::lock_guard lock(telling);
+        progress(done += more, images.size());
+    };
+    if (!images.empty()) tell(0);
+    parallel_each(images.size(), [&](std::size_t i) {
+        out[i] = decode(document, images[i], memory);
+        tell(1);
+    });
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/lights_cameras.h"
+
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <sstream>
+
+#include "host/scene/gltf/extensions.h"
+
+namespace kilolux {
+namespace {
+
+LightType convert_type(const std::string& type) {
+    if (type == "spot") return LightType::spot;
+    return type == "directional" ? LightType::directional : LightType::point;
+}
+
+SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_from_node) {
+    SceneLight out;
+    out.type = convert_type(source.type);
+    out.position = glm::dvec3(world_from_node[3]);
+    if (out.type != LightType::point) {
+        // Lights travel along the node's -Z; its scale does not matter.
+        out.direction = -glm::normalize(glm::dvec3(world_from_node[2]));
+    }
+    for (glm::length_t c = 0; c < 3; ++c) {
+        const double color = source.color.empty() ? 1.0 : source.color[static_cast<std::size_t>(c)];
+        out.intensity[c] = to_float(color * source.intensity);
+    }
+    out.range = to_float(source.range);
+    if (out.type == LightType::spot) {
+        out.inner_cone = to_float(source.spot.innerConeAngle);
+        out.outer_cone = to_float(source.spot.outerConeAngle);
+    }
+    return out;
+}
+
+void require(const GltfDocument& document, bool holds, const std::string& where, double value,
+             const std::string& expected) {
+    if (holds) return;
+    std::ostringstream text;
+    text << "is " << value << ", must be " << expected;
+    document.fail(where, text.str());
+}
+
+void read_perspective(const GltfDocument& document, const tinygltf::PerspectiveCamera& source,
+                      const std::string& where, SceneCamera& out) {
+    out.y_fov = source.yfov;
+    out.aspect = source.aspectRatio;
+    out.z_near = source.znear;
+    if (source.zfar != 0.0) out.z_far = source.zfar;
+    require(document, out.y_fov > 0.0 && out.y_fov < glm::pi<double>(), where + ".yfov", out.y_fov,
+            "between 0 and pi");
+    require(document, out.aspect >= 0.0, where + ".aspectRatio", out.aspect, "positive");
+    require(document, out.z_near > 0.0, where + ".znear", out.z_near, "positive");
+}
+
+void read_orthographic(const GltfDocument& document, const tinygltf::OrthographicCamera& source,
+                       const std::string& where, SceneCamera& out) {
+    out.orthographic = true;
+    out.y_extent = std::abs(source.ymag);
+    out.z_near = source.znear;
+    out.z_far = source.zfar;
+    require(document, source.xmag != 0.0, where + ".xmag", source.xmag, "other than 0");
+    require(document, source.ymag != 0.0, where + ".ymag", source.ymag, "other than 0");
+    require(document, out.z_near >= 0.0, where + ".znear", out.z_near, "at least 0");
+    out.aspect = std::abs(source.xmag) / out.y_extent;
+}
+
+SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
+                           const glm::dmat4& world_from_node, const std::string& node) {
+    const tinygltf::Camera& source = document.model.cameras[index];
+    const std::string where = element_name("cameras", index);
+    SceneCamera out;
+    out.name = source.name;
+    out.world_from_camera = world_from_node;
+    const bool has_axes = glm::length(glm::dvec3(world_from_node[1])) > 0.0 &&
+                          glm::length(glm::dvec3(world_from_node[2])) > 0.0;
+    if (!is_finite(world_from_node) || !has_axes) {
+        document.fail(node, "has a camera but a transform without direction");
+    }
+    if (source.type == "orthographic") {
+        read_orthographic(document, source.orthographic, where + ".orthographic", out);
+    } else {
+        read_perspective(document, source.perspective, where + ".perspective", out);
+    }
+    require(document, out.z_far > out.z_near, where + "." + source.type + ".zfar", out.z_far,
+            "greater than znear");
+    return out;
+}
+
+}  // namespace
+
+std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes) {
+    std::vector<SceneLight> lights;
+    for (const std::size_t n : nodes.in_scene) {
+        const auto* use = find_extension(document.model.nodes[n].extensions, "KHR_lights_punctual");
+        if (use == nullptr || !use->Has("light")) continue;
+        const auto light = static_cast<std::size_t>(integer_member(*use, "light", 0));
+        lights.push_back(convert_light(document.model.lights[light], nodes.world_from_node[n]));
+    }
+    return lights;
+}
+
+std::vector<SceneCamera> convert_cameras(const GltfDocument& document, const PlacedNodes& nodes) {
+    std::vector<SceneCamera> cameras;
+    for (const std::size_t n : nodes.in_scene) {
+        const int camera = document.model.nodes[n].camera;
+        if (camera < 0) continue;
+        cameras.push_back(convert_camera(document, static_cast<std::size_t>(camera),
+                                         nodes.world_from_node[n], node_name(document, n)));
+    }
+    return cameras;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/material.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "host/base/log.h"
+#include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/texture.h"
+
+namespace kilolux {
+namespace {
+
+template <typename Info>
+FileTextureUse use_of(const Info& info) {
+    return {info.index, info.texCoord, &info.extensions};
+}
+
+float unit(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
+
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
+
+float finite(double value) { return static_cast<float>(std::clamp(value, -kMaxFloat, kMaxFloat)); }
+
+float positive(double value) { return finite(std::max(value, 0.0)); }
+
+AlphaMode convert_alpha_mode(const std::string& mode) {
+    if (mode == "MASK") return AlphaMode::mask;
+    return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+}
+
+// A texture of an extension, which tinygltf leaves as JSON and nobody has checked.
+TextureUse extension_texture(const GltfDocument& document, TextureTable& textures,
+                             const tinygltf::Value& extension, const std::string& name) {
+    if (!extension.Has(name)) return {};
+    const tinygltf::Value& info = extension.Get(name);
+    const auto count = static_cast<int>(document.model.textures.size());
+    FileTextureUse use;
+    use.texture = integer_member(info, "index", -1);
+    use.texcoord = integer_member(info, "texCoord", 0);
+    if (use.texture < 0 || use.texture >= count || use.texcoord < 0) {
+        document.fail(name, "index is " + std::to_string(use.texture) + " and texCoord " +
+                                std::to_string(use.texcoord) + ", must be 0 to " +
+                                std::to_string(count - 1) + " and at least 0");
+    }
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions") && info.Get("extensions").IsObject()) {
+        extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
+    }
+    use.extensions = &extensions;
+    return textures.convert(use);
+}
+
+void read_specular(const GltfDocument& document, Material& out, const tinygltf::Value& specular,
+                   TextureTable& textures) {
+    out.specular = unit(number_member(specular, "specularFactor", 1.0));
+    const auto color = numbers_member(specular, "specularColorFactor");
+    if (color.size() == 3) {
+        out.specular_color = {positive(color[0]), positive(color[1]), positive(color[2])};
+    }
+    out.specular_texture = extension_texture(document, textures, specular, "specularTexture");
+    out.specular_color_texture =
+        extension_texture(document, textures, specular, "specularColorTexture");
+}
+
+void read_extensions(const GltfDocument& document, Material& out, const tinygltf::Material& source,
+                     TextureTable& textures) {
+    if (const auto* strength =
+            find_extension(source.extensions, "KHR_materials_emissive_strength")) {
+        const double scale = number_member(*strength, "emissiveStrength", 1.0);
+        for (glm::length_t c = 0; c < 3; ++c) out.emissive[c] = positive(out.emissive[c] * scale);
+    }
+    out.unlit = find_extension(source.extensions, "KHR_materials_unlit") != nullptr;
+    if (const auto* ior = find_extension(source.extensions, "KHR_materials_ior")) {
+        // 0 stands for a Fresnel term of 1; else at least that of vacuum.
+        const double value = number_member(*ior, "ior", 1.5);
+        out.ior = value == 0.0 ? 0.0f : std::max(positive(value), 1.0f);
+    }
+    if (const auto* specular = find_extension(source.extensions, "KHR_materials_specular")) {
+        read_specular(document, out, *specular, textures);
+    }
+}
+
+Material convert_material(const GltfDocument& document, const tinygltf::Material& source,
+                          TextureTable& textures) {
+    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+    Material out;
+    out.name = source.name;
+    for (glm::length_t c = 0; c < 4; ++c) {
+        out.base_color[c] = unit(pbr.baseColorFactor[static_cast<std::size_t>(c)]);
+    }
+    out.base_color_texture = textures.convert(use_of(pbr.baseColorTexture));
+    out.metallic = unit(pbr.metallicFactor);
+    out.roughness = unit(pbr.roughnessFactor);
+    out.metallic_roughness_texture = textures.convert(use_of(pbr.metallicRoughnessTexture));
+    out.normal_texture = textures.convert(use_of(source.normalTexture));
+    out.normal_scale = finite(source.normalTexture.scale);
+    out.occlusion_texture = textures.convert(use_of(source.occlusionTexture));
+    out.occlusion_strength = unit(source.occlusionTexture.strength);
+    for (glm::length_t c = 0; c < 3; ++c) {
+        out.emissive[c] = unit(source.emissiveFactor[static_cast<std::size_t>(c)]);
+    }
+    out.emissive_texture = textures.convert(use_of(source.emissiveTexture));
+    out.alpha_mode = convert_alpha_mode(source.alphaMode);
+    out.alpha_cutoff = positive(source.alphaCutoff);
+    out.double_sided = source.doubleSided;
+    read_extensions(document, out, source, textures);
+    return out;
+}
+
+// Renames the TEXCOORD_n that a material uses to 0 and 1; returns which ones they are. Its textures
+// beyond the second set are left out.
+std::array<int, 2> pack_texcoord_sets(Material& material) {
+    const std::array<TextureUse*, 7> uses = {
+        &material.base_color_texture,    &material.metallic_roughness_texture,
+        &material.normal_texture,        &material.occlusion_texture,
+        &material.emissive_texture,      &material.specular_texture,
+        &material.specular_color_texture};
+    std::array<int, 2> sets = {0, 1};
+    std::set<int> used;
+    for (const TextureUse* use : uses) {
+        if (use->present()) used.insert(use->uv_set);
+    }
+    if (used.empty() || *used.rbegin() <= 1) return sets;
+    sets[0] = *used.begin();
+    sets[1] = used.size() > 1 ? *std::next(used.begin()) : *used.begin();
+    for (TextureUse* use : uses) {
+        if (!use->present()) continue;
+        if (use->uv_set != sets[0] && use->uv_set != sets[1]) {
+            warn("material '" + material.name + "' uses more than two sets of texture " +
+                 "coordinates; its textures of TEXCOORD_" + std::to_string(use->uv_set) +
+                 " are left out");
+            *use = {};
+        } else {
+            use->uv_set = use->uv_set == sets[0] ? 0 : 1;
+        }
+    }
+    return sets;
+}
+
+}  // namespace
+
+GltfMaterials convert_materials(const GltfDocument& document) {
+    GltfMaterials out;
+    TextureTable textures(document);
+    for (const tinygltf::Material& source : document.model.materials) {
+        out.materials.push_back(convert_material(document, source, textures));
+        out.texcoord_sets.push_back(pack_texcoord_sets(out.materials.back()));
+    }
+    out.textures = textures.textures();
+    out.images = textures.images();
+    return out;
+}
+
+MeshShading shading_of(const GltfMaterials& materials, int material) {
+    MeshShading shading;
+    if (material < 0) return shading;
+    const auto index = static_cast<std::size_t>(material);
+    shading.material = material;
+    shading.texcoord_sets = materials.texcoord_sets[index];
+    shading.normal_texture = materials.materials[index].normal_texture;
+    return shading;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/scene/gltf/primitive.h"
+
+namespace kilolux {
+
+/// How an instance bends a mesh before it is placed.
+struct Deformation {
+    std::vector<double> weights;               // one per morph target; missing ones are 0
+    std::vector<glm::dmat4> object_from_bind;  // one per joint; empty without a skin
+    bool empty() const { return weights.empty() && object_from_bind.empty(); }
+};
+
+/// What a primitive's material decides about its mesh.
+struct MeshShading {
+    int material = -1;
+    std::array<int, 2> texcoord_sets{0, 1};  // TEXCOORD_n that become Mesh::texcoords
+    TextureUse normal_texture;               // tangents are made where it is present
+};
+
+/// Converts a primitive. Vertices that no triangle uses are left out; without normals every
+/// triangle gets its own vertices and its flat normal. Throws Error for values that are not finite.
+Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
+                const MeshShading& shading, const Deformation& deformation);
+
+}  // namespace kilolux

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/meshopt.h"
+
+#include <meshoptimizer.h>
+
+#include "host/scene/gltf/extensions.h"
+
+namespace kilolux {
+namespace {
+
+constexpr const char* kExtension = "EXT_meshopt_compression";
+
+// The extension's object, read.
+struct MeshoptView {
+    std::span<const unsigned char> source;
+    std::size_t count = 0;
+    std::size_t stride = 0;
+    std::string mode;
+    std::string filter;
+};
+
+MeshoptView read_extension(const GltfDocument& document, std::size_t view,
+                           const std::string& where) {
+    const tinygltf::Value& object =
+        *find_extension(document.model.bufferViews[view].extensions, kExtension);
+    const Bytes& buffer =
+        document.buffers[static_cast<std::size_t>(integer_member(object, "buffer", 0))];
+    const auto offset = static_cast<std::size_t>(integer_member(object, "byteOffset", 0));
+    const auto length = static_cast<std::size_t>(integer_member(object, "byteLength", 0));
+    if (offset > buffer.size() || length > buffer.size() - offset) {
+        document.fail(where, "byteOffset " + std::to_string(offset) + " and byteLength " +
+                                 std::to_string(length) + " leave a buffer of " +
+                                 std::to_string(buffer.size()) + " bytes");
+    }
+    MeshoptView out;
+    out.source = std::span(buffer).subspan(offset, length);
+    out.count = static_cast<std::size_t>(integer_member(object, "count", 0));
+    out.stride = static_cast<std::size_t>(integer_member(object, "byteStride", 0));
+    out.mode = text_member(object, "mode", "");
+    out.filter = text_member(object, "filter", "NONE");
+    return out;
+}
+
+// The shapes that the extension allows; the library asserts them.
+void check_shape(const GltfDocument& document, const MeshoptView& view, const std::string& where) {
+    const std::string stride = "byteStride is " + std::to_string(view.stride) + ", must be ";
+    if (view.mode == "ATTRIBUTES") {
+        if (view.stride % 4 != 0) document.fail(where, stride + "a multiple of 4");
+    } else if (view.stride != 2 && view.stride != 4) {
+        document.fail(where, stride + "2 or 4 for mode " + view.mode);
+    }
+    if (view.mode == "TRIANGLES" && view.count % 3 != 0) {
+        document.fail(where,
+                      "count is " + std::to_string(view.count) + ", must be a multiple of 3");
+    }
+    if (view.filter != "NONE" && view.mode != "ATTRIBUTES") {
+        document.fail(where, "filter " + view.filter + " goes only with mode ATTRIBUTES");
+    }
+    if (view.filter == "OCTAHEDRAL" && view.stride != 4 && view.stride != 8) {
+        document.fail(where, stride + "4 or 8 for filter OCTAHEDRAL");
+    }
+    if (view.filter == "QUATERNION" && view.stride != 8) {
+        document.fail(where, stride + "8 for filter QUATERNION");
+    }
+}
+
+int decode(const MeshoptView& view, Bytes& out) {
+    const auto& [source, count, stride, mode, filter] = view;
+    if (mode == "ATTRIBUTES") {
+        return meshopt_decodeVertexBuffer(out.data(), count, stride, source.data(), source.size());
+    }
+    if (mode == "TRIANGLES") {
+        return meshopt_decodeIndexBuffer(out.data(), count, stride, source.data(), source.size());
+    }
+    return meshopt_decodeIndexSequence(out.data(), count, stride, source.data(), source.size());
+}
+
+}  // namespace
+
+bool is_meshopt_compressed(const GltfDocument& document, std::size_t view) {
+    return find_extension(document.model.bufferViews[view].extensions, kExtension) != nullptr;
+}
+
+Bytes decode_meshopt_view(const GltfDocument& document, std::size_t view) {
+    const std::string where = element_name("bufferViews", view) + "." + kExtension;
+    const MeshoptView compressed = read_extension(document, view, where);
+    check_shape(document, compressed, where);
+    document.budget->charge(compressed.count, compressed.stride, document.base.file + ": " + where);
+    Bytes out(compressed.count * compressed.stride);
+    if (const int error = decode(compressed, out); error != 0) {
+        document.fail(where,
+                      "data are broken (meshoptimizer returned " + std::to_string(error) + ")");
+    }
+    if (compressed.filter == "OCTAHEDRAL") {
+        meshopt_decodeFilterOct(out.data(), compressed.count, compressed.stride);
+    } else if (compressed.filter == "QUATERNION") {
+        meshopt_decodeFilterQuat(out.data(), compressed.count, compressed.stride);
+    } else if (compressed.filter == "EXPONENTIAL") {
+        meshopt_decodeFilterExp(out.data(), compressed.count, compressed.stride);
+    }
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+
+#include "host/scene/gltf/accessor.h"
+
+namespace kilolux {
+
+using AttributeArrays = std::map<std::string, ElementArray>;
+
+/// A primitive's vertex attributes and triangles, opened but not yet converted.
+struct PrimitiveArrays {
+    std::string where;  // "scene.gltf: meshes[2].primitives[0]", for messages
+    AttributeArrays attributes;
+    std::vector<AttributeArrays> targets;  // morph targets
+    std::size_t vertex_count = 0;
+    std::vector<std::uint32_t> corners;  // 3 per triangle, each < vertex_count
+    std::vector<Bytes> decoded;          // what attributes of compressed primitives point into
+};
+
+/// Whether a primitive is made of triangles and has positions; warns once when it is not.
+bool is_drawable(const GltfDocument& document, const tinygltf::Primitive& primitive);
+
+/// Opens a drawable primitive. Strips and fans become lists; triangles that name a vertex twice are
+/// left out. Throws Error for indices out of range and attributes of unequal counts.
+PrimitiveArrays open_primitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                               const std::string& where);
+
+}  // namespace kilolux

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "host/scene/gltf/check.h"
+
+namespace kilolux {
+namespace {
+
+using Rules = std::vector<GltfRule>;
+
+// 2^53: what a double still counts exactly; sizes that are refused later with a better message.
+constexpr double kMaxBytes = 9007199254740992.0;
+constexpr double kMaxInt = 2147483647.0;
+constexpr double kMaxCount = 4294967294.0;  // indices are 32 bits, and one value is for restarts
+
+GltfRule object(std::string path) { return {.path = std::move(path), .kind = JsonKind::object}; }
+GltfRule text(std::string path) { return {.path = std::move(path), .kind = JsonKind::text}; }
+GltfRule boolean(std::string path) { return {.path = std::move(path), .kind = JsonKind::boolean}; }
+GltfRule number(std::string path) { return {.path = std::move(path), .kind = JsonKind::number}; }
+GltfRule integer(std::string path, double min, double max) {
+    return {.path = std::move(path), .kind = JsonKind::integer, .min = min, .max = max};
+}
+GltfRule index(std::string path, std::string target) {
+    return {.path = std::move(path), .kind = JsonKind::index, .target = std::move(target)};
+}
+GltfRule numbers(std::string path, std::size_t length) {
+    return {.path = std::move(path), .kind = JsonKind::numbers, .length = length};
+}
+GltfRule choice(std::string path, std::vector<std::string> allowed) {
+    return {.path = std::move(path), .kind = JsonKind::choice, .allowed = std::move(allowed)};
+}
+GltfRule required(GltfRule rule) {
+    rule.required = true;
+    return rule;
+}
+
+Rules buffer_rules() {
+    const std::string meshopt = "bufferViews[].extensions.EXT_meshopt_compression.";
+    return {
+        required(integer("buffers[].byteLength", 0, kMaxBytes)),
+        text("buffers[].uri"),
+        boolean("buffers[].extensions.EXT_meshopt_compression.fallback"),
+        required(index("bufferViews[].buffer", "/buffers")),
+        integer("bufferViews[].byteOffset", 0, kMaxBytes),
+        required(integer("bufferViews[].byteLength", 0, kMaxBytes)),
+        integer("bufferViews[].byteStride", 0, 252),
+        required(index(meshopt + "buffer", "/buffers")),
+        integer(meshopt + "byteOffset", 0, kMaxInt),
+        required(integer(meshopt + "byteLength", 0, kMaxInt)),
+        required(integer(meshopt + "byteStride", 1, 256)),
+        required(integer(meshopt + "count", 0, kMaxInt)),
+        required(choice(meshopt + "mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"})),
+        choice(meshopt + "filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}),
+    };
+}
+
+Rules accessor_rules() {
+    return {
+        index("accessors[].bufferView", "/bufferViews"),
+        integer("accessors[].byteOffset", 0, kMaxBytes),
+        required(
+            choice("accessors[].componentType", {"5120", "5121", "5122", "5123", "5125", "5126"})),
+        required(integer("accessors[].count", 0, kMaxCount)),
+        required(
+            choice("accessors[].type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"})),
+        boolean("accessors[].normalized"),
+        required(integer("accessors[].sparse.count", 0, kMaxInt)),
+        required(index("accessors[].sparse.indices.bufferView", "/bufferViews")),
+        integer("accessors[].sparse.indices.byteOffset", 0, kMaxInt),
+        required(choice("accessors[].sparse.indices.componentType", {"5121", "5123", "5125"})),
+        required(index("accessors[].sparse.values.bufferView", "/bufferViews")),
+        integer("accessors[].sparse.values.byteOffset", 0, kMaxInt),
+        required(object("accessors[].sparse.indices")),
+        required(object("accessors[].sparse.values")),
+    };
+}
+
+Rules node_rules() {
+    return {
+        index("scene", "/scenes"),
+        index("scenes[].nodes[]", "/nodes"),
+        index("nodes[].children[]", "/nodes"),
+        index("nodes[].mesh", "/meshes"),
+        index("nodes[].skin", "/skins"),
+        index("nodes[].camera", "/cameras"),
+        numbers("nodes[].matrix", 16),
+        numbers("nodes[].translation", 3),
+        numbers("nodes[].rotation", 4),
+        numbers("nodes[].scale", 3),
+        numbers("nodes[].weights", 0),
+        index("nodes[].extensions.KHR_lights_punctual.light",
+              "/extensions/KHR_lights_punctual/lights"),
+        required(index("skins[].joints[]", "/nodes")),
+        index("skins[].inverseBindMatrices", "/accessors"),
+    };
+}
+
+Rules mesh_rules() {
+    const std::string primitive = "meshes[].primitives[].";
+    const std::string draco = primitive + "extensions.KHR_draco_mesh_compression.";
+    return {
+        object("meshes[]"),
+        required(object(primitive + "attributes")),
+        index(primitive + "attributes{}", "/accessors"),
+        index(primitive + "indices", "/accessors"),
+        index(primitive + "material", "/materials"),
+        integer(primitive + "mode", 0, 6),
+        index(primitive + "targets[]{}", "/accessors"),
+        numbers("meshes[].weights", 0),
+        required(index(draco + "bufferView", "/bufferViews")),
+        required(object(draco + "attributes")),
+        integer(draco + "attributes{}", 0, kMaxInt),
+    };
+}
+
+void append_texture_use(Rules& rules, const std::string& slot) {
+    const std::string transform = slot + ".extensions.KHR_texture_transform.";
+    rules.push_back(required(index(slot + ".index", "/textures")));
+    rules.push_back(integer(slot + ".texCoord", 0, kMaxInt));
+    rules.push_back(numbers(transform + "offset", 2));
+    rules.push_back(number(transform + "rotation"));
+    rules.push_back(numbers(transform + "scale", 2));
+    rules.push_back(integer(transform + "texCoord", 0, kMaxInt));
+}
+
+Rules material_rules() {
+    const std::string pbr = "materials[].pbrMetallicRoughness.";
+    const std::string extensions = "materials[].extensions.";
+    Rules rules = {
+        object("materials[]"),
+        object("materials[].pbrMetallicRoughness"),
+        numbers(pbr + "baseColorFactor", 4),
+        number(pbr + "metallicFactor"),
+        number(pbr + "roughnessFactor"),
+        number("materials[].normalTexture.scale"),
+        number("materials[].occlusionTexture.strength"),
+        numbers("materials[].emissiveFactor", 3),
+        choice("materials[].alphaMode", {"OPAQUE", "MASK", "BLEND"}),
+        number("materials[].alphaCutoff"),
+        boolean("materials[].doubleSided"),
+        number(extensions + "KHR_materials_emissive_strength.emissiveStrength"),
+        number(extensions + "KHR_materials_ior.ior"),
+        number(extensions + "KHR_materials_specular.specularFactor"),
+        numbers(extensions + "KHR_materials_specular.specularColorFactor", 3),
+    };
+    for (const char* slot :
+         {"pbrMetallicRoughness.baseColorTexture", "pbrMetallicRoughness.metallicRoughnessTexture",
+          "normalTexture", "occlusionTexture", "emissiveTexture"}) {
+        append_texture_use(rules, std::string("materials[].") + slot);
+    }
+    return rules;
+}
+
+Rules texture_rules() {
+    return {
+        object("images[]"),
+        text("images[].uri"),
+        text("images[].mimeType"),
+        index("images[].bufferView", "/bufferViews"),
+        object("textures[]"),
+        index("textures[].source", "/images"),
+        index("textures[].sampler", "/samplers"),
+        index("textures[].extensions.EXT_texture_webp.source", "/images"),
+        object("samplers[]"),
+        choice("samplers[].magFilter", {"9728", "9729"}),
+        choice("samplers[].minFilter", {"9728", "9729", "9984", "9985", "9986", "9987"}),
+        choice("samplers[].wrapS", {"33071", "33648", "10497"}),
+        choice("samplers[].wrapT", {"33071", "33648", "10497"}),
+    };
+}
+
+Rules camera_and_light_rules() {
+    const std::string light = "extensions.KHR_lights_punctual.lights[].";
+    return {
+        required(choice("cameras[].type", {"perspective", "orthographic"})),
+        required(number("cameras[].perspective.yfov")),
+        required(number("cameras[].perspective.znear")),
+        number("cameras[].perspective.zfar"),
+        number("cameras[].perspective.aspectRatio"),
+        required(number("cameras[].orthographic.xmag")),
+        required(number("cameras[].orthographic.ymag")),
+        required(number("cameras[].orthographic.znear")),
+        required(number("cameras[].orthographic.zfar")),
+        required(choice(light + "type", {"point", "spot", "directional"})),
+        numbers(light + "color", 3),
+        number(light + "intensity"),
+        number(light + "range"),
+        number(light + "spot.innerConeAngle"),
+        number(light + "spot.outerConeAngle"),
+    };
+}
+
+Rules animation_rules() {
+    return {
+        object("animations[]"),
+        required(integer("animations[].channels[].sampler", 0, kMaxInt)),
+        required(object("animations[].channels[].target")),
+        index("animations[].channels[].target.node", "/nodes"),
+        required(text("animations[].channels[].target.path")),
+        required(index("animations[].samplers[].input", "/accessors")),
+        required(index("animations[].samplers[].output", "/accessors")),
+        choice("animations[].samplers[].interpolation", {"LINEAR", "STEP", "CUBICSPLINE"}),
+    };
+}
+
+}  // namespace
+
+std::vector<GltfRule> gltf_rules() {
+    Rules rules = {
+        required(object("asset")), required(text("asset.version")), text("asset.minVersion"),
+        text("extensionsUsed[]"),  text("extensionsRequired[]"),
+    };
+    for (const Rules& part :
+         {buffer_rules(), accessor_rules(), node_rules(), mesh_rules(), material_rules(),
+          texture_rules(), camera_and_light_rules(), animation_rules()}) {
+        rules.insert(rules.end(), part.begin(), part.end());
+    }
+    return rules;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/scene/gltf/material.h"
+#include "host/scene/gltf/nodes.h"
+
+namespace kilolux {
+
+/// A mesh of the file in one shape; nodes that do not deform it share it.
+struct MeshShape {
+    std::size_t mesh = 0;
+    Deformation deformation;
+    bool moves = false;  // a skin, or morph weights that an animation drives
+};
+
+/// A shape put into the world.
+struct Placement {
+    std::size_t shape = 0;
+    glm::dmat4 world_from_object{1.0};
+};
+
+/// What a file draws. Which shapes and placements there are does not depend on the time, only what
+/// they hold.
+struct ShapePlan {
+    std::vector<MeshShape> shapes;
+    std::vector<Placement> placements;
+};
+
+/// Throws Error for a transform that is not finite.
+ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes);
+
+/// One primitive of one shape.
+struct PrimitiveJob {
+    std::size_t shape = 0;
+    std::size_t primitive = 0;
+};
+
+/// The primitives that can be drawn, shape by shape.
+std::vector<PrimitiveJob> list_primitives(const GltfDocument& document, const ShapePlan& plan);
+
+/// The mesh of one primitive in its shape.
+Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,
+                     const MeshShape& shape, std::size_t primitive);
+
+}  // namespace kilolux

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/tangents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+#include "host/scene/gltf/normals.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::uint32_t kNoVertex = 0xffffffffu;
+
+// What must be equal for two vertices to share a tangent; compared by bits, -0 made 0.
+using VertexKey = std::array<float, 8>;
+
+struct VertexKeyHash {
+    std::size_t operator()(const VertexKey& key) const {
+        std::size_t hash = 1469598103934665603u;  // FNV-1a over the words
+        for (const float value : key) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, &value, sizeof bits);
+            hash = (hash ^ bits) * 1099511628211u;
+        }
+        return hash ^ (hash >> 29);
+    }
+};
+
+enum Orientation : std::uint8_t { kPreserving = 0, kMirrored = 1, kUnknown = 2 };
+
+struct TriangleFrame {
+    Orientation orientation = kUnknown;
+    glm::dvec3 tangent{0.0};  // unit, along growing u
+};
+
+// Sums of the tangents around a vertex, one per orientation.
+using TangentSums = std::array<glm::dvec3, 2>;
+
+std::vector<glm::dvec2> map_texcoords(const Mesh& mesh, const TextureUse& use) {
+    const auto& texcoords = mesh.texcoords[static_cast<std::size_t>(use.uv_set)];
+    const glm::dmat3 uv_from_texcoord(use.uv_from_texcoord);
+    std::vector<glm::dvec2> uvs(mesh.positions.size(), glm::dvec2(0.0));
+    for (std::size_t v = 0; v < texcoords.size(); ++v) {
+        uvs[v] = glm::dvec2(uv_from_texcoord * glm::dvec3(glm::dvec2(texcoords[v]), 1.0));
+    }
+    return uvs;
+}
+
+std::vector<std::uint32_t> weld(const Mesh& mesh, const std::vector<glm::dvec2>& uvs) {
+    std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> first;
+    first.reserve(mesh.positions.size());
+    std::vector<std::uint32_t> group(mesh.positions.size());
+    for (std::size_t v = 0; v < group.size(); ++v) {
+        const glm::vec3 p = mesh.positions[v] + 0.0f;
+        const glm::vec3 n = mesh.normals[v] + 0.0f;
+        const glm::vec2 uv = glm::vec2(uvs[v]) + 0.0f;
+        group[v] = first
+                       .try_emplace({p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y},
+                                    static_cast<std::uint32_t>(v))
+                       .first->second;
+    }
+    return group;
+}
+
+TriangleFrame triangle_frame(const Mesh& mesh, const std::vector<glm::dvec2>& uvs,
+                             std::size_t triangle) {
+    const std::uint32_t* corner = &mesh.indices[3 * triangle];
+    const glm::dvec3 p0(mesh.positions[corner[0]]);
+    const glm::dvec3 e1 = glm::dvec3(mesh.positions[corner[1]]) - p0;
+    const glm::dvec3 e2 = glm::dvec3(mesh.positions[corner[2]]) - p0;
+    const glm::dvec2 d1 = uvs[corner[1]] - uvs[corner[0]];
+    const glm::dvec2 d2 = uvs[corner[2]] - uvs[corner[0]];
+    const double area = d1.x * d2.y - d1.y * d2.x;
+    if (area == 0.0 || !std::isfinite(area)) return {};
+    const glm::dvec3 along_u = (e1 * d2.y - e2 * d1.y) * (area > 0.0 ? 1.0 : -1.0);
+    const double length = glm::length(along_u);
+    if (!(length > 0.0) || !std::isfinite(length)) return {};
+    return {area > 0.0 ? kPreserving : kMirrored, along_u / length};
+}
+
+// v in the plane perpendicular to n, unit; zero where nothing is left.
+glm::dvec3 in_plane(const glm::dvec3& v, const glm::dvec3& n) {
+    const glm::dvec3 flat = v - n * glm::dot(n, v);
+    const double length = glm::length(flat);
+    return length > 1e-12 * glm::length(v) && length > 0.0 ? flat / length : glm::dvec3(0.0);
+}
+
+void add_triangle(const Mesh& mesh, const std::vector<std::uint32_t>& group, std::size_t triangle,
+                  const TriangleFrame& frame, std::vector<TangentSums>& sums) {
+    const std::uint32_t* corner = &mesh.indices[3 * triangle];
+    for (std::size_t c = 0; c < 3; ++c) {
+        const glm::dvec3 normal(mesh.normals[corner[c]]);
+        const glm::dvec3 p(mesh.positions[corner[c]]);
+        const glm::dvec3 to_next =
+            in_plane(glm::dvec3(mesh.positions[corner[(c + 1) % 3]]) - p, normal);
+        const glm::dvec3 to_last =
+            in_plane(glm::dvec3(mesh.positions[corner[(c + 2) % 3]]) - p, normal);
+        const double angle = std::acos(std::clamp(glm::dot(to_next, to_last), -1.0, 1.0));
+        sums[group[corner[c]]][frame.orientation] += angle * in_plane(frame.tangent, normal);
+    }
+}
+
+glm::vec4 tangent_of(const glm::vec3& normal, const TangentSums& sums, Orientation orientation) {
+    if (orientation == kUnknown) {
+        orientation = glm::length(sums[kPreserving]) >= glm::length(sums[kMirrored]) ? kPreserving
+                                                                                     : kMirrored;
+    }
+    const glm::dvec3 sum = in_plane(sums[orientation], glm::dvec3(normal));
+    const bool usable = glm::dot(sum, sum) > 0.0;
+    // v grows downwards in glTF's images: where u and v preserve orientation, up is -cross(n, t).
+    const float w = usable && orientation == kPreserving ? -1.0f : 1.0f;
+    return usable ? glm::vec4(glm::vec3(sum), w) : glm::vec4(any_perpendicular(normal), w);
+}
+
+std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
+    const auto copy = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(glm::vec3(mesh.positions[vertex]));
+    mesh.normals.push_back(glm::vec3(mesh.normals[vertex]));
+    mesh.tangents.push_back(glm::vec4(mesh.tangents[vertex]));
+    if (!mesh.colors.empty()) mesh.colors.push_back(glm::vec4(mesh.colors[vertex]));
+    for (auto& set : mesh.texcoords) {
+        if (!set.empty()) set.push_back(glm::vec2(set[vertex]));
+    }
+    return copy;
+}
+
+// Gives each vertex its tangent, and mirrored triangles their own copy of a vertex that others use.
+void assign_tangents(Mesh& mesh, const std::vector<TriangleFrame>& frames,
+                     const std::vector<std::uint32_t>& group,
+                     const std::vector<TangentSums>& sums) {
+    const std::size_t vertex_count = mesh.positions.size();
+    std::vector<Orientation> first(vertex_count, kUnknown);
+    std::vector<std::uint32_t> other(vertex_count, kNoVertex);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const Orientation orientation = frames[i / 3].orientation;
+        if (first[mesh.indices[i]] == kUnknown) first[mesh.indices[i]] = orientation;
+    }
+    mesh.tangents.resize(vertex_count);
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        mesh.tangents[v] = tangent_of(mesh.normals[v], sums[group[v]], first[v]);
+    }
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::uint32_t v = mesh.indices[i];
+        const Orientation orientation = frames[i / 3].orientation;
+        if (orientation == kUnknown || orientation == first[v]) continue;
+        if (other[v] == kNoVertex) {
+            other[v] = append_copy(mesh, v);
+            mesh.tangents.back() = tangent_of(mesh.normals[v], sums[group[v]], orientation);
+        }
+        mesh.indices[i] = other[v];
+    }
+}
+
+}  // namespace
+
+void derive_tangents(Mesh& mesh, const TextureUse& normal_texture) {
+    const std::vector<glm::dvec2> uvs = map_texcoords(mesh, normal_texture);
+    const std::vector<std::uint32_t> group = weld(mesh, uvs);
+    std::vector<TangentSums> sums(mesh.positions.size(), TangentSums{});
+    std::vector<TriangleFrame> frames(mesh.indices.size() / 3);
+    for (std::size_t t = 0; t < frames.size(); ++t) {
+        frames[t] = triangle_frame(mesh, uvs, t);
+        if (frames[t].orientation != kUnknown) add_triangle(mesh, group, t, frames[t], sums);
+    }
+    assign_tangents(mesh, frames, group, sums);
+}
+
+void mend_tangents(Mesh& mesh) {
+    for (std::size_t v = 0; v < mesh.tangents.size(); ++v) {
+        glm::vec4& tangent = mesh.tangents[v];
+        const glm::dvec3 direction(tangent);
+        const double length = glm::length(direction);
+        const bool usable = length > 0.0 && std::isfinite(length);
+        const glm::vec3 unit = is_unit(direction) ? glm::vec3(tangent)
+                               : usable           ? glm::vec3(direction / length)
+                                                  : any_perpendicular(mesh.normals[v]);
+        tangent = glm::vec4(unit, tangent.w < 0.0f ? -1.0f : 1.0f);
+    }
+}
+
+}  // namespace kilolux

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Only integers and the exactly rounded operations of IEEE 754 (+ - * / sqrt, floor, conversions)
+// decide a light, never libm's transcendental functions: so every machine makes the same bits.
+#include "host/scene/lights/light_generator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <thread>
+
+#include "host/base/error.h"
+#include "host/scene/lights/light_generator_hash.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kCoverage = 10.0;         // mean number of lights that reach a point of the box
+constexpr double kExposedRadiance = 0.24;  // of a surface of albedo 0.5: middle of a tone curve
+constexpr double kExposedAlbedo = 0.5;
+constexpr double kMeanLuminance =
+    0.591;                            // of colour(hue) over all hues, measured; its test holds it
+constexpr double kMaxSpeed = 1.2;     // [m/s] along one axis
+constexpr double kMinCrossing = 8.0;  // [s] that a light takes at least across the box
+constexpr std::uint64_t kSerialCount = 8192;  // fewer lights than this are not worth a thread
+
+enum Stream : std::uint64_t { kPhase = 0, kSpeed = 3, kHue = 6 };
+
+Box light_box(const LightOptions& options, const Scene& scene) {
+    if (!options.box.empty()) return options.box;
+    if (!scene.light_box.empty()) return scene.light_box;
+    const Box all = resting_bounds(scene);
+    return all.empty() ? Box{glm::dvec3(-1.0), glm::dvec3(1.0)} : all;
+}
+
+void check(const LightOptions& options, const Box& box, double time) {
+    const auto require = [](bool holds, const std::string& what, double value) {
+        if (!holds) throw Error("lights: " + what + ", not " + std::to_string(value));
+    };
+    const bool box_is_finite = glm::all(glm::lessThan(glm::abs(box.min), glm::dvec3(1e300))) &&
+                               glm::all(glm::lessThan(glm::abs(box.max), glm::dvec3(1e300)));
+    require(box_is_finite, "the box must be finite", glm::length(box.size()));
+    for (int axis = 0; axis < 3; ++axis) {
+        require(box.size()[axis] >= 0.0, "the box must have max >= min", box.size()[axis]);
+    }
+    require(std::isfinite(time), "time must be finite", time);
+    require(std::isfinite(options.radius) && options.radius >= 0.0, "the radius must be >= 0",
+            options.radius);
+    require(std::isfinite(options.intensity) && options.intensity >= 0.0,
+            "the intensity must be >= 0", options.intensity);
+}
+
+// Newton's method from a power of two; std::cbrt's last bit depends on the library.
+double cube_root(double x) {
+    if (!(x > 0.0)) return 0.0;
+    double root = std::ldexp(1.0, std::ilogb(x) / 3);
+    for (int i = 0; i < 12; ++i) root = (2.0 * root + x / (root * root)) / 3.0;
+    return root;
+}
+
+// Range [m] with which count lights in a box of these extents cover a point kCoverage times. In a
+// box flatter (thinner) than the range the spheres become discs (intervals); the largest of the
+// three formulas is the one that holds.
+double covering_radius(glm::dvec3 size, double count) {
+    double extent[3] = {size.x, size.y, size.z};
+    std::sort(extent, extent + 3);
+    const double share = kCoverage / count;
+    const double ball = cube_root(share * extent[0] * extent[1] * extent[2] * 3.0 / (4.0 * kPi));
+    const double disc = std::sqrt(share * extent[1] * extent[2] / kPi);
+    const double interval = share * extent[2] / 2.0;
+    const double diagonal = std::sqrt(glm::dot(size, size));
+    return diagonal > 0.0 ? std::min({std::max({ball, disc, interval}), diagonal}) : 1.0;
+}
+
+// Brightest channel [cd] that exposes well. A surface in a cloud of n lights per m^3 receives
+//   E = n I int_hemisphere cos(w) dw int_0^R window(d) dd = n I pi 0.8 R
+// (the inverse square cancels the volume element). A box smaller than the range has only lights up
+// to its walls, whose mean distance is 4 V / S; the two limits join harmonically.
+double exposing_intensity(glm::dvec3 size, double count, double radius) {
+    const glm::dvec3 s = glm::max(size, glm::dvec3(radius * 0.5));
+    const double volume = s.x * s.y * s.z;
+    const double mean_chord = 2.0 * volume / (s.x * s.y + s.y * s.z + s.z * s.x);
+    const double reach = 1.0 / (1.0 / (0.8 * radius) + 1.0 / mean_chord);
+    const double mean = kExposedRadiance * volume / (kExposedAlbedo * count * reach);
+    return mean / kMeanLuminance;
+}
+
+// A saturated colour whose brightest channel is 1, a fifth of it white; dark hues get white up to a
+// luminance of 0.45, so that blue lights light as well.
+glm::dvec3 colour(double hue) {
+    const double h = hue * 6.0;
+    const auto ramp = [](double x) { return std::clamp(x, 0.0, 1.0); };
+    const glm::dvec3 pure(ramp(std::abs(h - 3.0) - 1.0), ramp(2.0 - std::abs(h - 2.0)),
+                          ramp(2.0 - std::abs(h - 4.0)));
+    const double luminance = 0.2126 * pure.x + 0.7152 * pure.y + 0.0722 * pure.z;
+    const double white = std::max(0.2, (0.45 - luminance) / (1.0 - luminance));
+    return glm::dvec3(white) + (1.0 - white) * pure;
+}
+
+// Where a light that drifts along an axis of this extent and is reflected at its ends is at `time`.
+// The phase is uniform over there and back, so lights are uniform in the box at every time.
+double reflected_drift(double extent, double phase, double speed, double time) {
+    if (!(extent > 0.0)) return 0.0;
+    const double period = 2.0 * extent;
+    const double turns = phase + speed * time / period;
+    const double there = (turns - std::floor(turns)) * period;
+    return std::min(there, period - there);
+}
+
+double drift_speed(double extent, double unit) {
+    return (2.0 * unit - 1.0) * std::min(kMaxSpeed, extent / kMinCrossing);
+}
+
+SceneLight make_light(const LightOptions& options, const Box& box, std::uint64_t light,
+                      double time) {
+    const std::uint64_t key = item_key(options.seed, light);
+    const auto random = [&](std::uint64_t stream) { return unit_double(item_bits(key, stream)); };
+    SceneLight out;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto stream = static_cast<std::uint64_t>(axis);
+        const double extent = box.max[axis] - box.min[axis];
+        const double speed = drift_speed(extent, random(kSpeed + stream));
+        const double at = reflected_drift(extent, random(kPhase + stream), speed, time);
+        out.position[axis] = std::clamp(box.min[axis] + at, box.min[axis], box.max[axis]);
+    }
+    out.intensity = glm::vec3(colour(random(kHue)) * options.intensity);
+    out.range = static_cast<float>(options.radius);
+    return out;
+}
+
+}  // namespace
+
+LightScale automatic_light_scale(const LightOptions& options, const Scene& scene) {
+    const Box box = light_box(options, scene);
+    check(options, box, 0.0);
+    const double count = static_cast<double>(std::max<std::uint64_t>(options.count, 1));
+    const auto automatic = [](double given, double value) { return given > 0.0 ? given : value; };
+    LightScale scale;
+    scale.radius = automatic(options.radius, covering_radius(box.size(), count));
+    scale.intensity =
+        automatic(options.intensity, exposing_intensity(box.size(), count, scale.radius));
+    return scale;
+}
+
+std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
+                                        double time) {
+    LightOptions scaled = options;
+    scaled.box = light_box(options, scene);
+    check(options, scaled.box, time);
+    const LightScale scale = automatic_light_scale(scaled, scene);
+    scaled.radius = scale.radius;
+    scaled.intensity = scale.intensity;
+    std::vector<SceneLight> lights(options.count);
+    const auto fill = [&](std::uint64_t begin, std::uint64_t end) {
+        for (std::uint64_t i = begin; i < end; ++i) {
+            lights[i] = make_light(scaled, scaled.box, i, time);
+        }
+    };
+    const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
+    const std::uint64_t blocks = std::clamp<std::uint64_t>(options.count / kSerialCount, 1, cores);
+    std::vector<std::jthread> workers;
+    for (std::uint64_t i = 1; i < blocks; ++i) {
+        workers.emplace_back(fill, options.count * i / blocks, options.count * (i + 1) / blocks);
+    }
+    fill(0, options.count / blocks);
+    return lights;
+}
+
+}  // namespace kilolux

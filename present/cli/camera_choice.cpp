@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/camera_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+Camera start_camera(const CameraChoice& choice, const Scene& scene, const Box& box) {
+    const std::size_t count = scene.cameras.size();
+    if (!choice.index) return count == 0 ? frame_box(box) : camera_of(scene.cameras[0]);
+    const auto index = static_cast<std::size_t>(*choice.index);
+    if (index < count) return camera_of(scene.cameras[index]);
+    const std::string known =
+        count == 0 ? "it has none" : "they are 0 to " + std::to_string(count - 1);
+    throw UsageError("--camera-index: " + std::to_string(index) + " is no camera of " + scene.name +
+                     "; " + known);
+}
+
+// Nearest and farthest distance of the box's corners along the camera's direction [m].
+glm::dvec2 depth_range(const Camera& camera, const Box& box) {
+    glm::dvec2 range(std::numeric_limits<double>::infinity(),
+                     -std::numeric_limits<double>::infinity());
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
+                           (corner & 2) != 0 ? box.max.y : box.min.y,
+                           (corner & 4) != 0 ? box.max.z : box.min.z);
+        const double depth = -glm::dot(camera.world_from_view[2], p - camera.position);
+        range = {std::min(range.x, depth), std::max(range.y, depth)};
+    }
+    return range;
+}
+
+void make_orthographic(Camera& camera, double distance, const Box& box) {
+    camera.orthographic = true;
+    camera.y_extent = distance * std::tan(0.5 * camera.y_fov);
+    const glm::dvec2 range = box.empty() ? glm::dvec2(-1.0, 1.0) : depth_range(camera, box);
+    const double margin = 1e-3 * std::max(range.y - range.x, 1e-3);
+    camera.z_near = range.x - margin;
+    camera.z_far = range.y + margin;
+}
+
+// Up as asked for; +Y unless the camera looks along it.
+glm::dvec3 up_vector(const CameraChoice& choice, const glm::dvec3& direction) {
+    if (choice.view_up) return *choice.view_up;
+    const glm::dvec3 up(0, 1, 0);
+    const bool along_up = glm::length(glm::cross(direction, up)) <= 1e-6 * glm::length(direction);
+    return along_up ? glm::dvec3(0, 0, -1) : up;
+}
+
+}  // namespace
+
+Camera place_camera(const CameraPlace& place, double y_fov, double radius) {
+    Camera camera = look_at(place.position, place.focal_point, place.view_up, y_fov);
+    // Near enough to enter small scenes; reversed depth loses nothing by it.
+    camera.z_near = std::min(camera.z_near, 0.01 * radius);
+    return camera;
+}
+
+Camera choose_camera(const CameraChoice& choice, const Scene& scene) {
+    const Box box = resting_bounds(scene);
+    Camera camera = start_camera(choice, scene, box);
+    const double radius = box.empty() ? 1.0 : 0.5 * glm::length(box.size());
+    const glm::dvec3 middle = box.empty() ? glm::dvec3(0.0) : box.center();
+    // Where a camera of the scene looks, it does not say: as far as the scene's middle.
+    const double reach = std::max(glm::length(middle - camera.position), 1e-3 * radius);
+    glm::dvec3 focal = camera.position - camera.world_from_view[2] * reach;
+    if (choice.position) focal = middle;
+    if (choice.focal_point) focal = *choice.focal_point;
+    const glm::dvec3 position = choice.position.value_or(camera.position);
+    const double y_fov = choice.view_angle ? glm::radians(*choice.view_angle) : camera.y_fov;
+    if (choice.position || choice.focal_point || choice.view_up) {
+        camera =
+            place_camera({position, focal, up_vector(choice, focal - position)}, y_fov, radius);
+    }
+    camera.y_fov = y_fov;
+    if (choice.orthographic) make_orthographic(camera, glm::length(focal - position), box);
+    return camera;
+}
+
+}  // namespace kilolux

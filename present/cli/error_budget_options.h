@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// --max-error: the fastest setting that is right enough, for the commands that render.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+
+#include "host/measure/report/error_budget.h"
+#include "present/cli/options.h"
+
+namespace kilolux {
+
+struct BudgetOptions {
+    std::optional<double> max_error;
+    std::string metric = "flip";
+    bool choose_again = false;
+};
+
+/// Registers --max-error, --error-metric and --choose-again.
+void add_budget_options(CLI::App& command, BudgetOptions& options);
+
+/// The settings to render with: those asked for, or, with --max-error, the fastest whose measured
+/// error on this scene and device is within it; says which and why. A choice is kept beside the
+/// device's tuning and found again by the same scene, view, settings, metric and budget. Throws
+/// Error when no setting is within the budget.
+RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetOptions& options,
+                                      const ReportView& view);
+
+/// Chooses among rows that were measured anyway, keeps the choice and says it.
+void choose_from_rows(const SharedOptions& shared, const BudgetOptions& options,
+                      const ReportView& view, std::span<const ReportRow> rows);
+
+}  // namespace kilolux

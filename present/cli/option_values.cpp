@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/option_values.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "host/base/error.h"
+#include "host/base/suggest.h"
+
+namespace kilolux {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, std::string_view text,
+                         const std::string& wanted) {
+    throw UsageError(option + ": '" + std::string(text) + "' is not " + wanted);
+}
+
+template <typename Number>
+std::optional<Number> number_of(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t end = text.find(separator);
+        parts.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) return parts;
+        text.remove_prefix(end + 1);
+    }
+}
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+std::string describe(const NumberRange& range) {
+    const bool bounded_above = range.max < NumberRange{}.max;
+    if (range.min == NumberRange{}.min && !bounded_above) return "a finite number";
+    const std::string least = short_number(range.min);
+    if (!bounded_above)
+        return "a finite number " + std::string(range.open ? "above " : "of at least ") + least;
+    return "a number " + std::string(range.open ? "between " : "from ") + least +
+           (range.open ? " and " : " to ") + short_number(range.max);
+}
+
+std::string describe(const CountRange& range) {
+    return "a whole number from " + std::to_string(range.min) + " to " + std::to_string(range.max);
+}
+
+bool contains(const NumberRange& range, double value) {
+    if (!std::isfinite(value)) return false;
+    return range.open ? value > range.min && value < range.max
+                      : value >= range.min && value <= range.max;
+}
+
+std::vector<double> parse_numbers(const std::string& option, std::string_view text,
+                                  std::string_view form) {
+    const auto wanted = split(form, ',').size();
+    std::vector<double> values;
+    for (const std::string_view part : split(text, ',')) {
+        const auto value = number_of<double>(part);
+        if (!value || !std::isfinite(*value)) break;
+        values.push_back(*value);
+    }
+    if (values.size() != wanted || split(text, ',').size() != wanted) {
+        refuse(option, text, std::to_string(wanted) + " finite numbers " + std::string(form));
+    }
+    return values;
+}
+
+// Two non-negative whole numbers around `separator`.
+std::optional<std::pair<int, int>> int_pair(std::string_view text, char separator) {
+    const auto parts = split(text, separator);
+    if (parts.size() != 2) return std::nullopt;
+    const auto first = number_of<int>(parts[0]);
+    const auto second = number_of<int>(parts[1]);
+    if (!first || !second || *first < 0 || *second < 0) return std::nullopt;
+    return std::pair{*first, *second};
+}
+
+}  // namespace
+
+double parse_number(const std::string& option, std::string_view text, const NumberRange& range) {
+    const auto value = number_of<double>(text);
+    if (!value || !contains(range, *value)) refuse(option, text, describe(range));
+    return *value;
+}
+
+double parse_number_or_auto(const std::string& option, std::string_view text,
+                            const NumberRange& range) {
+    if (text == "auto") return 0.0;
+    const auto value = number_of<double>(text);
+    if (!value || !contains(range, *value)) refuse(option, text, "'auto' or " + describe(range));
+    return *value;
+}
+
+std::uint64_t parse_count(const std::string& option, std::string_view text,
+                          const CountRange& range) {
+    const auto value = number_of<std::uint64_t>(text);
+    if (!value || *value < range.min || *value > range.max) refuse(option, text, describe(range));
+    return *value;
+}
+
+std::uint64_t parse_bytes(const std::string& option, std::string_view text) {
+    constexpr std::string_view kUnits = "KMGT";
+    if (text == "auto") return 0;
+    std::string_view digits = text;
+    const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+    if (unit != std::string_view::npos) digits.remove_suffix(1);
+    const int shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
+    const auto value = number_of<std::uint64_t>(digits);
+    if (!value || *value == 0 || *value > (~std::uint64_t{0} >> shift)) {
+        refuse(option, text, "'auto' or a size such as 512M or 4G");
+    }
+    return *value << shift;
+}
+
+std::vector<int> parse_counts(const std::string& option, std::string_view text,
+                              std::string_view form, const CountRange& range) {
+    std::vector<int> values;
+    const auto parts = split(text, ',');
+    const std::size_t wanted = split(form, ',').size();
+    for (const std::string_view part : parts) {
+        const auto value = number_of<std::uint64_t>(part);
+        if (value && *value >= range.min && *value <= range.max)
+            values.push_back(static_cast<int>(*value));
+    }
+    if (values.size() != wanted || parts.size() != wanted) {
+        refuse(option, text, std::string(form) + ", each " + describe(range));
+    }
+    return values;
+}
+
+glm::dvec3 parse_vector(const std::string& option, std::string_view text) {
+    const auto v = parse_numbers(option, text, "X,Y,Z");
+    return {v[0], v[1], v[2]};
+}
+
+Box parse_box(const std::string& option, std::string_view text) {
+    const auto v = parse_numbers(option, text, "x0,y0,z0,x1,y1,z1");
+    const Box box{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+    if (glm::any(glm::lessThan(box.max, box.min))) {
+        refuse(option, text, "a box: x0 <= x1, y0 <= y1 and z0 <= z1 must hold");
+    }
+    return box;
+}
+
+FrameRange parse_frames(const std::string& option, std::string_view text) {
+    const auto ends = int_pair(text, ':');
+    if (!ends || ends->first > ends->second) {
+        refuse(option, text, "A:B, the first and the last frame, 0 <= A <= B");
+    }
+    return {ends->first, ends->second};
+}
+
+Shard parse_shard(const std::string& option, std::string_view text) {
+    const auto parts = int_pair(text, '/');
+    if (!parts || parts->first >= parts->second) {
+        refuse(option, text, "I/N, shard I of N, 0 <= I < N (the first of four is 0/4)");
+    }
+    return {parts->first, parts->second};
+}
+
+std::size_t parse_name(const std::string& option, std::string_view text,
+                       const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    throw UsageError(option + ": '" + std::string(text) + "' is none of " + joined(names) +
+                     did_you_mean(text, names));
+}
+
+std::vector<std::string> parse_name_list(const std::string& option, std::string_view text,
+                                         const std::vector<std::string>& names) {
+    std::vector<std::string> out;
+    if (text.empty() || text == "none") return out;
+    for (const std::string_view part : split(text, ',')) {
+        const std::string& name = names[parse_name(option, part, names)];
+        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    }
+    return out;
+}
+
+}  // namespace kilolux

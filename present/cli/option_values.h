@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of the command line, from text. All throw UsageError: "--option: 'text' is not <what it
+// must be>".
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/scene/scene.h"
+#include "present/cli/sequence.h"
+
+namespace kilolux {
+
+/// Numbers an option takes; the ends belong to the range unless `open`.
+struct NumberRange {
+    double min = -std::numeric_limits<double>::max();
+    double max = std::numeric_limits<double>::max();
+    bool open = false;
+};
+
+struct CountRange {
+    std::uint64_t min = 0;
+    std::uint64_t max = 0;
+};
+
+/// A finite number within `range`.
+double parse_number(const std::string& option, std::string_view text,
+                    const NumberRange& range = {});
+
+/// As parse_number(), and 0 for "auto".
+double parse_number_or_auto(const std::string& option, std::string_view text,
+                            const NumberRange& range);
+
+/// A whole number within `range`.
+std::uint64_t parse_count(const std::string& option, std::string_view text,
+                          const CountRange& range);
+
+/// Bytes as "512M", "4G" (K, M, G, T are powers of 1024) or a plain number, at least 1; "auto": 0.
+std::uint64_t parse_bytes(const std::string& option, std::string_view text);
+
+/// `size` whole numbers within `range`, separated by commas; `form` is how they are written: "W,H".
+std::vector<int> parse_counts(const std::string& option, std::string_view text,
+                              std::string_view form, const CountRange& range);
+
+/// Three numbers "X,Y,Z".
+glm::dvec3 parse_vector(const std::string& option, std::string_view text);
+
+/// Six numbers "x0,y0,z0,x1,y1,z1", each upper one at least the lower one.
+Box parse_box(const std::string& option, std::string_view text);
+
+/// Frames "A:B", A <= B.
+FrameRange parse_frames(const std::string& option, std::string_view text);
+
+/// Shard "I/N", 0 <= I < N.
+Shard parse_shard(const std::string& option, std::string_view text);
+
+/// The place of a name in `names`; the message lists them and the nearest.
+std::size_t parse_name(const std::string& option, std::string_view text,
+                       const std::vector<std::string>& names);
+
+/// Names of `names` separated by commas, each once, in the order given.
+std::vector<std::string> parse_name_list(const std::string& option, std::string_view text,
+                                         const std::vector<std::string>& names);
+
+}  // namespace kilolux

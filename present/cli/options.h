@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that the subcommands share, with one spelling, default and check everywhere. Checks
+// throw UsageError while the command line is parsed.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "host/render/settings.h"
+#include "present/cli/camera_choice.h"
+#include "present/cli/sequence.h"
+#include "present/image/display_picture.h"
+
+namespace kilolux {
+
+/// What every subcommand knows: which picture of which scene, by which device.
+struct SharedOptions {
+    std::string scene = "atrium";      // a generated scene's name, or a .gltf or .glb file
+    bool allow_outside_paths = false;  // the file may name buffers and images outside its folder
+    RenderSettings settings;
+    CameraChoice camera;
+    double time = 0.0;  // [s]
+    bool quiet = false;
+    bool verbose = false;
+};
+
+/// What commands that write pictures know beside.
+struct OutputOptions {
+    std::filesystem::path output;
+    bool half_colour = false;
+    int bits = 8;  // a channel, of PNG and TIFF
+    OcioOptions ocio;
+    std::optional<FrameRange> frames;
+    double frames_per_second = 24.0;
+    Shard shard;
+    bool skip_existing = false;
+    std::string stats;  // file, "-" for stdout, empty: none
+    std::string reference;
+    double threshold = 0.0;
+    std::string metric = "rmse";
+};
+
+/// Scene, picture, lights, camera, grid and device options.
+void add_shared_options(CLI::App& command, SharedOptions& options);
+
+/// Output, sequence, statistics and comparison options.
+void add_output_options(CLI::App& command, OutputOptions& options);
+
+/// Throws UsageError for options that exclude or need each other.
+void check_output_options(const SharedOptions& shared, const OutputOptions& options);
+
+}  // namespace kilolux

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/progress.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace kilolux {
+namespace {
+
+std::string duration(double seconds) {
+    const auto whole = static_cast<long long>(std::ceil(seconds));
+    if (whole < 60) return std::to_string(whole) + " s";
+    char text[48];
+    if (whole < 3600) {
+        std::snprintf(text, sizeof text, "%lld:%02lld min", whole / 60, whole % 60);
+    } else {
+        std::snprintf(text, sizeof text, "%lld:%02lld h", whole / 3600, whole / 60 % 60);
+    }
+    return text;
+}
+
+int terminal_columns() {
+    winsize size = {};
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+    return size.ws_col;
+}
+
+}  // namespace
+
+std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
+                          double elapsed_s, int width) {
+    const double share = total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
+    const std::string head = label + " " + std::to_string(done) + "/" + std::to_string(total) + " ";
+    char percent[8];
+    std::snprintf(percent, sizeof percent, "%3d %%", static_cast<int>(share * 100.0));
+    std::string tail = percent;
+    if (done > 0 && done < total)
+        tail += ", " + duration(elapsed_s * (1.0 / share - 1.0)) + " left";
+    const int room = std::min(width - static_cast<int>(head.size() + tail.size()) - 3, 40);
+    // Under eight columns a bar says nothing.
+    if (room < 8) return (head + tail).substr(0, static_cast<std::size_t>(std::max(width, 0)));
+    const auto filled = static_cast<std::size_t>(share * room);
+    const auto empty = static_cast<std::size_t>(room) - filled;
+    return head + "[" + std::string(filled, '=') + std::string(empty, ' ') + "] " + tail;
+}
+
+Progress::Progress(std::string label, std::size_t total, bool shown)
+    : label_(std::move(label)), total_(total), shown_(shown && isatty(STDERR_FILENO) == 1) {
+    draw();
+}
+
+Progress::~Progress() { erase(); }
+
+void Progress::advance() {
+    ++done_;
+    draw();
+}
+
+void Progress::erase() {
+    if (shown_) std::fputs("\r\x1b[K", stderr);
+}
+
+void Progress::draw() {
+    if (!shown_) return;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    // The last column stays free: writing it makes some terminals wrap.
+    const std::string line =
+        progress_line(label_, done_, total_, elapsed.count(), terminal_columns() - 1);
+    std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
+    std::fflush(stderr);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/scene_choice.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "host/base/error.h"
+#include "host/base/suggest.h"
+#include "host/scene/generated/scenes.h"
+#include "host/scene/gltf/load_scene.h"
+#include "present/cli/progress.h"
+
+namespace kilolux {
+namespace {
+
+// The file that a name which is no generated scene's stands for.
+std::filesystem::path scene_file(const std::string& name_or_file) {
+    std::filesystem::path file(name_or_file);
+    if (std::filesystem::is_directory(file)) {
+        throw Error(name_or_file + ": is a folder, not a scene file");
+    }
+    const bool named_as_file = file.has_extension() || file.has_parent_path();
+    if (!std::filesystem::exists(file) && !named_as_file) {
+        const std::vector<std::string> names = generated_scene_names();
+        throw UsageError("scene '" + name_or_file + "' is no file, and none of " + joined(names) +
+                         did_you_mean(name_or_file, names));
+    }
+    if (!std::filesystem::exists(file)) throw Error(name_or_file + ": no such scene file");
+    return file;
+}
+
+// A bar for the images of a file.
+class LoadBar {
+ public:
+    explicit LoadBar(bool shown) : shown_(shown) {}
+    void tell(std::size_t done, std::size_t total) {
+        if (!bar_) bar_.emplace("loading images", total, shown_);
+        if (done > 0) bar_->advance();
+    }
+
+ private:
+    bool shown_;
+    std::optional<Progress> bar_;
+};
+
+}  // namespace
+
+Scene open_scene(const std::string& name_or_file, double time, bool allow_outside_paths) {
+    if (is_generated_scene(name_or_file)) return make_generated_scene(name_or_file);
+    return load_scene(scene_file(name_or_file), {time, allow_outside_paths});
+}
+
+Scene open_scene(const SharedOptions& options) {
+    return open_animated_scene(options, options.time).take();
+}
+
+AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
+    if (is_generated_scene(options.scene)) {
+        return AnimatedScene(make_generated_scene(options.scene));
+    }
+    LoadBar bar(!options.quiet);
+    return AnimatedScene(scene_file(options.scene), {time, options.allow_outside_paths},
+                         [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
+}
+
+}  // namespace kilolux

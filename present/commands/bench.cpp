@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/commands/bench.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "host/base/atomic_write.h"
+#include "host/base/error.h"
+#include "host/base/log.h"
+#include "present/cli/frame_summary.h"
+#include "present/cli/stats_json.h"
+#include "present/commands/commands.h"
+
+namespace kilolux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void check(const BenchOptions& o) {
+    if (o.culling + o.shading + o.tune + o.quick > 1) {
+        throw UsageError("--quick, --culling, --shade and --tune exclude each other");
+    }
+    if (o.budget.max_error && (o.culling || o.shading || o.tune)) {
+        throw UsageError("--max-error: goes with sweeps, not with --culling, --shade or --tune");
+    }
+    if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
+    if (o.shared.quiet && o.shared.verbose) {
+        throw UsageError("--quiet and --verbose exclude each other");
+    }
+}
+
+void run_bench(const BenchOptions& options) {
+    check(options);
+    set_verbosity(verbosity_of(options.shared));
+    make_output_folder(options.output);
+    if (options.culling) return run_culling(options);
+    if (options.shading) return run_shading(options);
+    if (options.tune) return run_tuning(options);
+    run_sweep(options);
+}
+
+constexpr const char* kExamples =
+    "  kilolux bench\n"
+    "  kilolux bench --quick -o results\n"
+    "  kilolux bench --lights 500:5000:500 --renderer deferred,deferred-all -o results\n"
+    "  kilolux bench --lights 256:8192:*2 --resolution '1280,720;1920,1080' --frames 30\n"
+    "  kilolux bench --grid '4,4,1;16,9,4;64,36,64' --lanes 1,8 -o results --resume\n"
+    "  kilolux bench --culling\n"
+    "  kilolux bench --shade\n"
+    "  kilolux bench --tune";
+
+}  // namespace
+
+Json table_json(const Table& table) {
+    Json rows = Json::array();
+    for (const auto& row : table.rows) {
+        Json out;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            out[table.columns[i]] = std::visit(
+                [](const auto& value) {
+                    using Value = std::decay_t<decltype(value)>;
+                    if constexpr (std::is_same_v<Value, std::monostate>)
+                        return Json(nullptr);
+                    else
+                        return Json(value);
+                },
+                row[i]);
+        }
+        rows.push_back(std::move(out));
+    }
+    return rows;
+}
+
+void make_output_folder(const std::filesystem::path& folder) {
+    if (folder.empty()) return;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error || !std::filesystem::is_directory(folder)) {
+        throw Error(folder.string() + ": cannot make this folder: " +
+                    (error ? error.message() : "a file has its name"));
+    }
+}
+
+void put_table(const BenchOptions& options, const std::string& name, const Table& table,
+               const Json& context) {
+    const Json document = {{"context", context}, {"rows", table_json(table)}};
+    if (options.json) {
+        write_json("-", document);
+    } else {
+        std::fputs(to_markdown(table).c_str(), stdout);
+    }
+    if (options.output.empty()) return;
+    write_whole_file(options.output / (name + ".csv"), to_csv(table));
+    write_json((options.output / (name + ".json")).string(), document);
+}
+
+void add_bench_command(Program& program) {
+    const auto options = std::make_shared<BenchOptions>();
+    CLI::App& command = program.add_command(
+        "bench", "Measure times against the device's limits, over lights, sizes and settings",
+        kExamples, [options] { run_bench(*options); });
+    add_bench_options(command, *options);
+}
+
+}  // namespace kilolux

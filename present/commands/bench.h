@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the parts of `kilolux bench` share.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/gpu/device.h"
+#include "host/measure/bench/run.h"
+#include "host/measure/bench/sweep.h"
+#include "host/measure/bench/table.h"
+#include "present/cli/error_budget_options.h"
+#include "present/cli/options.h"
+
+namespace kilolux {
+
+/// Values of an axis that the command line gave; none: the mode's own.
+struct BenchAxes {
+    std::optional<std::vector<RendererKind>> renderers;
+    std::optional<std::vector<std::array<int, 2>>> resolutions;
+    std::optional<std::vector<std::uint64_t>> lights;
+    std::optional<std::vector<std::array<int, 3>>> grids;
+    std::optional<std::vector<int>> lanes;
+    std::optional<std::vector<int>> group_heights;
+    std::optional<std::vector<uint>> gbuffers;
+};
+
+struct BenchOptions {
+    SharedOptions shared;
+    BenchAxes axes;
+    std::optional<int> warm_up;
+    std::optional<int> frames;
+    std::filesystem::path output;  // folder; empty: the table on standard output only
+    bool resume = false;
+    bool json = false;
+    bool quick = false;
+    bool culling = false;
+    bool shading = false;  // --shade
+    bool tune = false;
+    BudgetOptions budget;
+};
+
+/// Registers the shared options, of which those that a sweep varies take lists, and the bench's
+/// own.
+void add_bench_options(CLI::App& command, BenchOptions& options);
+
+/// Resolutions "W,H;W,H" and grids "X,Y,S;X,Y,S"; 1920x1080 is 1920,1080. Throw UsageError.
+std::vector<std::array<int, 2>> parse_resolutions(const std::string& option,
+                                                  const std::string& text);
+std::vector<std::array<int, 3>> parse_grids(const std::string& option, const std::string& text);
+
+/// The points that the options ask for, each once.
+std::vector<SweepPoint> bench_points(const BenchOptions& options);
+BenchFrames bench_frames(const BenchOptions& options);
+
+/// What results were measured with: program, device, scene, camera and everything else that stays
+/// the same over a run.
+nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFrames& frames,
+                                     const Scene& scene, const Camera& camera,
+                                     const DeviceInfo& device);
+
+/// A short hash of a context, to tell rows of one from another's.
+std::string context_key(const nlohmann::ordered_json& context);
+
+nlohmann::ordered_json limits_json(const DeviceLimits& limits);
+
+/// A table as a list of objects; what was not measured is null.
+nlohmann::ordered_json table_json(const Table& table);
+
+/// Creates the folder of -o, unless it is empty; throws Error.
+void make_output_folder(const std::filesystem::path& folder);
+
+/// Prints a table, or JSON with --json, and writes <name>.csv and <name>.json to the folder of -o.
+void put_table(const BenchOptions& options, const std::string& name, const Table& table,
+               const nlohmann::ordered_json& context);
+
+/// The modes.
+void run_sweep(const BenchOptions& options);
+void run_culling(const BenchOptions& options);
+void run_shading(const BenchOptions& options);
+void run_tuning(const BenchOptions& options);
+
+}  // namespace kilolux

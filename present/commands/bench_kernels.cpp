@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bench's modes that time kernels without pictures, and the search for the fastest work sizes.
+#include <cstdio>
+
+#include "host/base/error.h"
+#include "host/base/interrupt.h"
+#include "host/base/log.h"
+#include "host/measure/bench/culling.h"
+#include "host/measure/bench/shading.h"
+#include "host/measure/bench/tune.h"
+#include "host/measure/roofline/limit_watch.h"
+#include "present/cli/frame_summary.h"
+#include "present/cli/progress.h"
+#include "present/cli/scene_choice.h"
+#include "present/commands/bench.h"
+
+namespace kilolux {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The only value of each axis, where a mode does not sweep it.
+RenderSettings single_settings(const BenchOptions& options) {
+    const std::vector<SweepPoint> points = bench_points(options);
+    return settings_at(options.shared.settings, points.front());
+}
+
+// What the modes begin with.
+struct Bench {
+    explicit Bench(const BenchOptions& options)
+        : scene(open_scene(options.shared)),
+          camera(choose_camera(options.shared.camera, scene)),
+          settings(single_settings(options)),
+          context(bench_context(options.shared, bench_frames(options), scene, camera,
+                                describe(choose_device(settings.device)))) {
+        context["resolution"] = {settings.width, settings.height};
+    }
+    Scene scene;
+    Camera camera;
+    RenderSettings settings;
+    Json context;
+};
+
+Cell tuning_cell(const TuningTrial& trial) {
+    if (!trial.error.empty()) return "refused: " + trial.error;
+    if (!trial.same_picture) return std::string("another picture");
+    return std::string(trial.accepted ? "taken" : "");
+}
+
+Table tuning_table(const TuningResult& result) {
+    Table table;
+    table.columns = {"parameter", "value", "ms", "start / ms", "result"};
+    table.rows.push_back({std::string("start"), Cell(), result.start_ms, 1.0, std::string()});
+    for (const TuningTrial& trial : result.trials) {
+        const bool ran = trial.error.empty() && trial.ms > 0.0;
+        table.rows.push_back({trial.parameter, std::int64_t{trial.value},
+                              ran ? Cell(trial.ms) : Cell(),
+                              ran ? Cell(result.start_ms / trial.ms) : Cell(), tuning_cell(trial)});
+    }
+    return table;
+}
+
+std::string tuning_text(const StoredTuning& stored) {
+    const Tuning& t = stored.tuning;
+    return "lanes " + std::to_string(stored.lanes) + ", shade_rows " +
+           std::to_string(t.shade_rows) + ", shade_stage " + std::to_string(t.shade_stage) +
+           ", cull_chunks " + std::to_string(t.cull_chunks) + ", cull_group " +
+           std::to_string(t.cull_group) + ", refine_group " + std::to_string(t.refine_group) +
+           ", tile_group " + std::to_string(t.tile_group) + ", light_group " +
+           std::to_string(t.light_group);
+}
+
+TuningResult search(LightingBench& bench, int runs) {
+    LightingRequest request = bench.request();
+    request.runs = runs;
+    return tune(built_in_tuning(bench.device()), bench.device(), [&](const StoredTuning& tuning) {
+        check_interrupt();
+        request.tuning = tuning;
+        const LightingRun run = bench.run(request);
+        detail(number_text(run.ms) + " ms: " + tuning_text(tuning));
+        return TuningMeasurement{run.ms, run.picture};
+    });
+}
+
+}  // namespace
+
+void run_culling(const BenchOptions& options) {
+    const Bench bench(options);
+    const DeviceLimits limits = LimitWatch(choose_device(bench.settings.device)).limits();
+    const std::vector<std::uint64_t> standard = {1000, 5000, 10000, 100000, 1000000};
+    const std::vector<std::uint64_t> counts = options.axes.lights.value_or(standard);
+    std::vector<CullingMeasurement> measured;
+    std::uint64_t foreign = 0;
+    {
+        Progress progress("culling", counts.size(), !options.shared.quiet);
+        for (const std::uint64_t count : counts) {
+            check_interrupt();
+            measured.push_back(measure_culling(bench.scene, bench.settings, bench.camera,
+                                               options.shared.time, count, limits,
+                                               options.frames.value_or(10)));
+            foreign += measured.back().foreign_pairs;
+            progress.advance();
+        }
+    }
+    put_table(options, "culling", culling_table(measured), bench.context);
+    if (foreign > 0) {
+        throw Error("culling: " + std::to_string(foreign) +
+                    " entries of the lists are not in brute force's");
+    }
+    for (const CullingMeasurement& m : measured) {
+        if (m.pairs != m.brute_force_pairs) {
+            throw Error("culling: " + std::to_string(m.pairs) + " pairs, but brute force finds " +
+                        std::to_string(m.brute_force_pairs));
+        }
+    }
+    note("the lists equal brute force's, entry by entry");
+}
+
+void run_shading(const BenchOptions& options) {
+    const Bench bench(options);
+    const int runs = options.frames.value_or(5);
+    const auto total = static_cast<std::size_t>((runs + 1) * shading_variants(bench.settings));
+    std::vector<ShadingMeasurement> measured;
+    {
+        Progress progress("shading", total, !options.shared.quiet);
+        // Measured now: limits and kernels meet the same machine, and what else it does.
+        const DeviceLimits limits =
+            measure_device_limits(Gpu(choose_device(bench.settings.device)));
+        measured = measure_shading(bench.settings, limits, runs, [&] {
+            check_interrupt();
+            progress.advance();
+        });
+    }
+    put_table(options, "shading", shading_table(measured), bench.context);
+}
+
+void run_tuning(const BenchOptions& options) {
+    const Bench bench(options);
+    LightingBench lighting(bench.scene, bench.settings, bench.camera, options.shared.time);
+    const TuningResult result = search(lighting, options.frames.value_or(5));
+    put_table(options, "tuning", tuning_table(result), bench.context);
+    store_tuning(lighting.device(), result.best);
+    note("kept    " + tuning_text(result.best) + ": " + number_text(result.best_ms) +
+         " ms, built-in " + number_text(result.start_ms) + " ms");
+}
+
+}  // namespace kilolux

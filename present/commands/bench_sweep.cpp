@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+
+#include "host/base/interrupt.h"
+#include "host/base/log.h"
+#include "host/measure/bench/plots.h"
+#include "host/measure/bench/row_log.h"
+#include "present/cli/progress.h"
+#include "present/cli/scene_choice.h"
+#include "present/cli/stats_json.h"
+#include "present/commands/bench.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The mode's values, where the command line gave none.
+SweepAxes with_given(SweepAxes axes, const BenchAxes& given) {
+    if (given.renderers) axes.renderers = *given.renderers;
+    if (given.resolutions) axes.resolutions = *given.resolutions;
+    if (given.lights) axes.lights = *given.lights;
+    if (given.grids) axes.grids = *given.grids;
+    if (given.lanes) axes.lanes = *given.lanes;
+    if (given.group_heights) axes.group_heights = *given.group_heights;
+    if (given.gbuffers) axes.gbuffers = *given.gbuffers;
+    return axes;
+}
+
+// Three small sweeps that share a point.
+std::vector<SweepAxes> quick_sweeps(const BenchAxes& given) {
+    SweepAxes base;
+    base.resolutions = {{480, 270}};
+    SweepAxes lights = base, grids = base, groups = base;
+    lights.renderers = {RendererKind::deferred, RendererKind::deferred_all};
+    lights.lights = {500, 1000, 2000, 5000};
+    grids.grids = {{4, 4, 1}, {16, 9, 4}, {30, 17, 16}};
+    groups.group_heights = {1, 4, 16};
+    std::vector<SweepAxes> sweeps = {with_given(lights, given)};
+    if (!given.grids) sweeps.push_back(with_given(grids, given));
+    if (!given.group_heights) sweeps.push_back(with_given(groups, given));
+    return sweeps;
+}
+
+// The points of a run and what is known of them.
+struct Sweep {
+    std::vector<SweepPoint> points;
+    std::string key;
+    std::vector<BenchRow> rows;
+};
+
+// Rows of an earlier run first; returns the points that are left to do.
+std::vector<SweepPoint> take_found(Sweep& sweep, const std::optional<BenchLog>& log) {
+    std::vector<SweepPoint> left;
+    for (const SweepPoint& point : sweep.points) {
+        const auto found = log ? log->rows_of(point, sweep.key) : std::vector<BenchRow>{};
+        if (found.empty()) left.push_back(point);
+        sweep.rows.insert(sweep.rows.end(), found.begin(), found.end());
+    }
+    if (left.size() < sweep.points.size()) {
+        note(std::to_string(sweep.points.size() - left.size()) + " of " +
+             std::to_string(sweep.points.size()) + " points were measured before");
+    }
+    return left;
+}
+
+void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
+                    std::optional<BenchLog>& log) {
+    const BenchFrames frames = bench_frames(options);
+    const std::vector<SweepPoint> left = take_found(sweep, log);
+    Progress progress("measuring", run.frame_count(left, frames), !options.shared.quiet);
+    run.on_frame([&progress] {
+        check_interrupt();
+        progress.advance();
+    });
+    for (const SweepPoint& point : left) {
+        std::vector<BenchRow> rows = run.measure(point, frames);
+        for (BenchRow& row : rows) row.context = sweep.key;
+        if (log) log->append(rows);
+        sweep.rows.insert(sweep.rows.end(), rows.begin(), rows.end());
+    }
+    run.on_frame([] {});
+}
+
+// In the order of the points, whichever run measured them.
+void sort_rows(Sweep& sweep) {
+    const auto place = [&sweep](const BenchRow& row) {
+        return std::find(sweep.points.begin(), sweep.points.end(), row.point);
+    };
+    std::stable_sort(sweep.rows.begin(), sweep.rows.end(),
+                     [&](const BenchRow& a, const BenchRow& b) { return place(a) < place(b); });
+}
+
+// Every stage of a few points; of many, the frames and their shading. The files have all.
+std::vector<BenchRow> shown_rows(const BenchOptions& options, const Sweep& sweep) {
+    constexpr std::size_t kFewPoints = 4;
+    std::vector<BenchRow> rows = sweep.rows;
+    if (options.shared.verbose || sweep.points.size() <= kFewPoints) return rows;
+    std::erase_if(
+        rows, [](const BenchRow& row) { return row.stage != kFrameStage && row.stage != "shade"; });
+    return rows;
+}
+
+void write_results(const BenchOptions& options, const Sweep& sweep, const Json& document) {
+    write_json((options.output / "bench.json").string(), document);
+    for (const NamedPlot& plot : bench_plots(sweep.rows)) {
+        write_plot(plot.plot, options.output / plot.stem);
+    }
+    note("wrote   " + options.output.string());
+}
+
+}  // namespace
+
+std::vector<SweepPoint> bench_points(const BenchOptions& options) {
+    std::vector<SweepPoint> points;
+    const auto sweeps = options.quick
+                            ? quick_sweeps(options.axes)
+                            : std::vector<SweepAxes>{with_given(SweepAxes{}, options.axes)};
+    for (const SweepAxes& sweep : sweeps) {
+        for (const SweepPoint& point : sweep_points(sweep)) {
+            if (std::find(points.begin(), points.end(), point) == points.end()) {
+                points.push_back(point);
+            }
+        }
+    }
+    return points;
+}
+
+BenchFrames bench_frames(const BenchOptions& options) {
+    const BenchFrames standard = options.quick ? BenchFrames{1, 5} : BenchFrames{};
+    return {options.warm_up.value_or(standard.warm_up), options.frames.value_or(standard.measured)};
+}
+
+// With --max-error the chosen setting takes the place of the one asked for, on every axis of which
+// the command line gives no values. It is chosen for the first point.
+BenchOptions with_budget(BenchOptions options, const Scene& scene, const Camera& camera) {
+    if (!options.budget.max_error) return options;
+    SharedOptions& shared = options.shared;
+    shared.settings = settings_at(shared.settings, bench_points(options).front());
+    const RenderSettings s =
+        settings_within_budget(shared, options.budget, {scene, camera, shared.time});
+    shared.settings = s;
+    BenchAxes& axes = options.axes;
+    if (!axes.renderers) axes.renderers = {s.renderer};
+    if (!axes.grids) axes.grids = {{s.grid.tiles_x, s.grid.tiles_y, s.grid.slices_per_octave}};
+    if (!axes.lanes) axes.lanes = {s.kernels.lanes};
+    if (!axes.gbuffers) axes.gbuffers = {s.gbuffer};
+    return options;
+}
+
+void run_sweep(const BenchOptions& asked) {
+    const Scene scene = open_scene(asked.shared);
+    const Camera camera = choose_camera(asked.shared.camera, scene);
+    const BenchOptions options = with_budget(asked, scene, camera);
+    Sweep sweep;
+    sweep.points = bench_points(options);
+    std::optional<BenchLog> log;
+    if (!options.output.empty()) log.emplace(options.output / "bench.csv", options.resume);
+    const DeviceInfo device = describe(choose_device(options.shared.settings.device));
+    const Json context =
+        bench_context(options.shared, bench_frames(options), scene, camera, device);
+    sweep.key = context_key(context);
+    BenchRun run(scene, options.shared.settings, camera, options.shared.time);
+    measure_points(options, run, sweep, log);
+    sort_rows(sweep);
+    const Json document = {{"context", context},
+                           {"limits", limits_json(run.limits())},
+                           {"rows", table_json(bench_table(sweep.rows))}};
+    if (options.json) {
+        write_json("-", document);
+    } else {
+        std::fputs(to_markdown(bench_summary(shown_rows(options, sweep))).c_str(), stdout);
+    }
+    if (!options.output.empty()) write_results(options, sweep, document);
+}
+
+}  // namespace kilolux

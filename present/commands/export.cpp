@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <memory>
+
+#include "host/base/atomic_write.h"
+#include "host/base/error.h"
+#include "host/base/interrupt.h"
+#include "host/base/log.h"
+#include "host/base/suggest.h"
+#include "host/scene/export/export_scene.h"
+#include "host/scene/lights/light_generator.h"
+#include "host/scene/lights/light_ranges.h"
+#include "present/cli/frame_summary.h"
+#include "present/cli/option_builder.h"
+#include "present/cli/options.h"
+#include "present/cli/scene_choice.h"
+#include "present/commands/commands.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportOptions {
+    SharedOptions shared;
+    fs::path output;
+};
+
+void check_output(const std::string& text) {
+    std::string extension = fs::path(text).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".glb" || extension == ".gltf") return;
+    throw UsageError("--output: '" + text + "': scene type '" + extension +
+                     "' is none of .glb, .gltf");
+}
+
+// The camera of the picture as the scene's first, so that it is what readers show.
+SceneCamera scene_camera(const Camera& camera, const RenderSettings& settings) {
+    SceneCamera out;
+    out.name = "kilolux";
+    out.world_from_camera = glm::dmat4(camera.world_from_view);
+    out.world_from_camera[3] = glm::dvec4(camera.position, 1.0);
+    out.orthographic = camera.orthographic;
+    out.y_fov = camera.y_fov;
+    out.y_extent = camera.y_extent;
+    out.aspect = static_cast<double>(settings.width) / settings.height;
+    out.z_near = camera.z_near;
+    out.z_far = camera.z_far;
+    return out;
+}
+
+// The scene with what the command line adds to it, at its time.
+Scene scene_to_export(const ExportOptions& options) {
+    const SharedOptions& shared = options.shared;
+    Scene scene = open_scene(shared);
+    const Camera camera = choose_camera(shared.camera, scene);
+    scene.cameras.insert(scene.cameras.begin(), scene_camera(camera, shared.settings));
+    const auto generated = generate_lights(shared.settings.lights, scene, shared.time);
+    scene.lights.insert(scene.lights.end(), generated.begin(), generated.end());
+    return scene;
+}
+
+std::string summary(const Scene& scene, const ExportedScene& exported, const fs::path& file) {
+    std::size_t bytes = 0;
+    for (const ExportedFile& part : exported.files) bytes += part.bytes.size();
+    std::string out = "scene   " + scene.name + ", " + std::to_string(triangle_count(scene)) +
+                      " triangles, " + std::to_string(scene.images.size()) + " images\n" +
+                      "lights  " + std::to_string(exported.lights) + " written, " +
+                      std::to_string(exported.unusable_lights) + " unusable left out\n" +
+                      "wrote   " + file.string();
+    if (exported.files.size() > 1) {
+        out += " and " + std::to_string(exported.files.size() - 1) + " files beside it";
+    }
+    return out + ", " + std::to_string((bytes + 1023) / 1024) + " KiB";
+}
+
+void run_export(const ExportOptions& options) {
+    if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o scene.glb");
+    set_verbosity(verbosity_of(options.shared));
+    check_can_write(options.output);
+    const Scene scene = scene_to_export(options);
+    check_interrupt();
+    const ExportedScene exported = export_scene(scene, options.output);
+    check_interrupt();
+    for (const ExportedFile& part : exported.files) {
+        write_whole_file(options.output.parent_path() / part.name, part.bytes);
+    }
+    note(summary(scene, exported, options.output));
+}
+
+constexpr const char* kExamples =
+    "  kilolux export -o atrium.glb --lights 1000\n"
+    "  kilolux export hall.glb -o hall.gltf --lights 0 --camera-position 0,2,8\n"
+    "  kilolux export walk.glb -o pose.glb --time 1.5 --lights 200";
+
+}  // namespace
+
+void add_export_command(Program& program) {
+    const auto options = std::make_shared<ExportOptions>();
+    CLI::App& command = program.add_command(
+        "export", "Write the scene with all its lights as glTF 2.0, for any other renderer",
+        kExamples, [options] { run_export(*options); });
+    add_shared_options(command, options->shared);
+    const auto output = [options](const std::string&, const std::string& text) {
+        check_output(text);
+        options->output = text;
+    };
+    Registrar(command, "Output")
+        .value({"--output,-o", "FILE", "",
+                "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
+               output);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "host/base/atomic_write.h"
+#include "host/base/error.h"
+#include "host/base/log.h"
+#include "present/cli/frame_summary.h"
+#include "present/cli/option_builder.h"
+#include "present/cli/scene_choice.h"
+#include "present/commands/commands.h"
+#include "present/image/image_file.h"
+#include "present/window/app/saved_state.h"
+#include "present/window/app/session.h"
+
+namespace kilolux {
+namespace {
+
+struct ViewOptions {
+    SharedOptions shared;
+    std::uint64_t exit_after = 0;
+    std::string screenshot;
+    std::string script;
+    bool fresh = false;
+};
+
+// What the window was left with, and over it what the command line says.
+ViewState start_state(const ViewOptions& options, const CLI::App& command) {
+    ViewState state;
+    state.settings = options.shared.settings;
+    state.settings.aovs.clear();
+    const auto is_given = [&command](const std::string& name) {
+        const CLI::Option* option = command.get_option_no_throw(name);
+        return option != nullptr && option->count() > 0;
+    };
+    if (is_given("--resolution")) {
+        state.window_size = {options.shared.settings.width, options.shared.settings.height};
+    }
+    return options.fresh ? state : load_view_state(view_state_file(), state, is_given);
+}
+
+// What would fail at the end is asked at the beginning.
+void check_files(const ViewOptions& options) {
+    if (options.screenshot.empty()) return;
+    if (image_meaning(options.screenshot) == ImageMeaning::linear) {
+        throw UsageError("--screenshot: " + options.screenshot +
+                         ": a window is display-referred: PNG, JPEG or TIFF");
+    }
+    check_can_write(options.screenshot);
+}
+
+void run_view(const ViewOptions& options, const CLI::App& command) {
+    set_verbosity(verbosity_of(options.shared));
+    check_files(options);
+    SessionOptions session;
+    session.shared = options.shared;
+    session.exit_after = options.exit_after;
+    session.screenshot = options.screenshot;
+    if (!options.script.empty()) session.script = read_script(options.script);
+    choose_device(options.shared.settings.device);  // throws before anything is on the screen
+    const WindowSystem system;
+    session.state = start_state(options, command);
+    const Window context({16, 16}, "Kilolux", false);
+    Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
+    const Scene scene = open_scene(options.shared.scene, options.shared.time);
+    window.show();
+    ViewSession view(scene, session, window, context);
+    view.run();
+    if (!options.fresh) save_view_state(view_state_file(), view.state());
+}
+
+constexpr const char* kExamples =
+    "  kilolux view\n"
+    "  kilolux view town.glb --lights 20000\n"
+    "  kilolux view --exit-after 3 --screenshot window.png";
+
+}  // namespace
+
+void add_view_command(Program& program) {
+    const auto options = std::make_shared<ViewOptions>();
+    const auto self = std::make_shared<const CLI::App*>(nullptr);
+    CLI::App& command =
+        program.add_command("view", "Show a scene in a window and fly through it", kExamples,
+                            [options, self] { run_view(*options, **self); });
+    *self = &command;
+    add_shared_options(command, options->shared);
+    Registrar(command, "Window")
+        .flag("--fresh", options->fresh,
+              "Begin with the defaults instead of what the last window was left with; keep nothing")
+        .count(
+            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
+            options->exit_after, {1, 1'000'000'000})
+        .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
+              options->screenshot)
+        .text(
+            {"--script", "FILE", "", "Do what the file's lines say, then leave; README tells how"},
+            options->script);
+}
+
+}  // namespace kilolux

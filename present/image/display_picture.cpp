@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/image/display_picture.h"
+
+#include <OpenImageIO/color.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "host/base/error.h"
+#include "host/base/suggest.h"
+#include "kernels/shared/tone_curve.h"
+
+namespace kilolux {
+namespace {
+
+const char* ocio_config() {
+    const char* file = std::getenv("OCIO");
+    return file != nullptr && *file != '\0' ? file : nullptr;
+}
+
+// IEC 61966-2-1.
+float srgb_of_linear(float linear) {
+    const double c = std::clamp<double>(linear, 0.0, 1.0);
+    const double code = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+    return static_cast<float>(code);
+}
+
+// As kernels/tonemap.cl: NaN and negative light are black, infinite light is white.
+float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
+
+FV3 tone_mapped(FV3 c, ToneCurve curve) {
+    c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
+    if (curve == ToneCurve::neutral) return neutral_tone_curve(c);
+    return curve == ToneCurve::aces ? aces_tone_curve(c) : c;
+}
+
+// `name`, if the list has it, else an error that names what there is.
+std::string checked(const char* option, const std::string& name,
+                    const std::vector<std::string>& known) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return name;
+    throw UsageError(std::string(option) + ": the configuration in $OCIO has no '" + name +
+                     "'; it has " + joined(known) + did_you_mean(name, known));
+}
+
+std::string input_space(const OIIO::ColorConfig& config, const std::string& wanted) {
+    const std::vector<std::string> spaces = config.getColorSpaceNames();
+    if (!wanted.empty()) return checked("--ocio-input", wanted, spaces);
+    // Of the ACES studio, CG and older configurations, of Blender, of the Foundry's, of Sony's.
+    for (const char* name : {"Linear Rec.709 (sRGB)", "Utility - Linear - sRGB", "lin_srgb",
+                             "Linear Rec.709", "lin_rec709", "linear", "lnf"}) {
+        if (std::find(spaces.begin(), spaces.end(), name) != spaces.end()) return name;
+    }
+    const char* role = config.getColorSpaceNameByRole("scene_linear");
+    if (role != nullptr) return role;
+    throw UsageError(
+        "--ocio-input: the configuration in $OCIO has no linear Rec. 709 space by name "
+        "and no role scene_linear; it has " +
+        joined(spaces));
+}
+
+void apply_ocio(std::vector<float>& rgb, const Frame& frame, const OcioOptions& options) {
+    OIIO::ColorConfig config(ocio_config());
+    const auto fail = [](const std::string& reason) {
+        throw Error("OpenColorIO, " + std::string(ocio_config()) + ": " + reason);
+    };
+    if (config.has_error() || config.getNumDisplays() == 0) fail(config.geterror());
+    const std::string display = options.display.empty() ? config.getDefaultDisplayName()
+                                                        : checked("--ocio-display", options.display,
+                                                                  config.getDisplayNames());
+    const std::string view =
+        options.view.empty() ? config.getDefaultViewName(display)
+                             : checked("--ocio-view", options.view, config.getViewNames(display));
+    OIIO::ImageBuf image(OIIO::ImageSpec(frame.width, frame.height, 3, OIIO::TypeDesc::FLOAT),
+                         rgb.data());
+    if (!OIIO::ImageBufAlgo::ociodisplay(image, image, display, view,
+                                         input_space(config, options.input), "", false, "", "",
+                                         &config)) {
+        fail(image.geterror());
+    }
+    for (float& v : rgb) v = std::fmin(std::fmax(v, 0.0f), 1.0f);
+}
+
+}  // namespace
+
+bool uses_ocio(const OcioOptions& options) {
+    if (ocio_config() != nullptr) return options.view != "none";
+    const bool asked = !options.display.empty() || !options.input.empty() ||
+                       (!options.view.empty() && options.view != "none");
+    if (asked) {
+        throw UsageError(
+            "--ocio-view and its like need the environment's OCIO to name a "
+            "configuration, e.g. OCIO=config.ocio");
+    }
+    return false;
+}
+
+std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
+                                   const OcioOptions& ocio) {
+    const std::size_t count =
+        static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+    std::vector<float> rgb(3 * count);
+    if (settings.show != "lit") {
+        for (std::size_t i = 0; i < rgb.size(); ++i) {
+            rgb[i] = static_cast<float>(frame.display[i / 3 * 4 + i % 3]) / 255.0f;
+        }
+        return rgb;
+    }
+    const std::vector<float>& light = frame.bloomed.empty() ? frame.radiance : frame.bloomed;
+    const float gain = std::exp2(settings.exposure);
+    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = light[i] * gain;
+    if (uses_ocio(ocio)) {
+        for (float& v : rgb) v = displayable(v);
+        apply_ocio(rgb, frame, ocio);
+        return rgb;
+    }
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        const FV3 c = tone_mapped(fv3(rgb[i], rgb[i + 1], rgb[i + 2]), settings.tone_curve);
+        rgb[i] = srgb_of_linear(c.x);
+        rgb[i + 1] = srgb_of_linear(c.y);
+        rgb[i + 2] = srgb_of_linear(c.z);
+    }
+    return rgb;
+}
+
+}  // namespace kilolux

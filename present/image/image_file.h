@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures to and from files, through OpenImageIO.
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/picture/frame.h"
+#include "host/scene/camera.h"
+
+namespace kilolux {
+
+/// What a file's pixels mean: sRGB for the eye (PNG, JPEG, TIFF) or linear scene light (EXR, HDR).
+enum class ImageMeaning { display, linear };
+
+/// By the extension; throws UsageError that lists the known ones.
+ImageMeaning image_meaning(const std::filesystem::path& file);
+
+/// Whether the format can hold 16 bits a channel for the eye: PNG and TIFF.
+bool holds_16_bits(const std::filesystem::path& file);
+
+/// Whether the format keeps named channels beside the colour: EXR.
+bool holds_layers(const std::filesystem::path& file);
+
+/// What a file says about its picture, beside the pixels.
+struct ImageNotes {
+    /// Written as "kilolux:<name>": scene, seed, lights, renderer, ... in this order.
+    std::vector<std::pair<std::string, std::string>> strings;
+    std::optional<Camera> camera;  // becomes worldToCamera and worldToNDC
+};
+
+struct ImageOptions {
+    bool half_colour = false;    // EXR: R, G, B in half
+    int jpeg_quality = 95;       // 1..100
+    int bits = 8;                // PNG, TIFF: a channel, 8 or 16
+    std::vector<float> display;  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
+};
+
+/// A frame as file bytes in the format of the extension. The same frame gives the same bytes. PNG,
+/// JPEG and TIFF hold Frame::display, or the options'; HDR Frame::radiance; EXR Frame::radiance and
+/// every layer as channels of one part, ids as UINT. Throws Error with OpenImageIO's reason.
+std::vector<unsigned char> encode_image(const std::filesystem::path& file, const Frame& frame,
+                                        const ImageNotes& notes, const ImageOptions& options);
+
+/// encode_image() into a file, whole or not at all.
+void write_image(const std::filesystem::path& file, const Frame& frame,
+                 const ImageNotes& notes = {}, const ImageOptions& options = {});
+
+/// An image of any kind as floats: linear files as they are, the others' codes as 0..1.
+struct FloatImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> channels;
+    std::vector<float> values;  // interleaved, row 0 on top
+};
+
+/// Throws Error if the file is not there or cannot be read.
+FloatImage read_image(const std::filesystem::path& file);
+
+/// The colour of an image, 3 * width * height: R, G, B by name, else its first three channels, or
+/// its only one three times. Throws Error for an image without channels.
+std::vector<float> colour_of(const FloatImage& image);
+
+}  // namespace kilolux

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "present/version.h"
-
-namespace kilolux {
-
-std::string version() { return KILOLUX_VERSION; }
-
-}  // namespace kilolux

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/window/app/adaptive_scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kilolux {
+namespace {
+
+// Edges shrink by this factor from a step to the next; pixels by its square.
+constexpr double kStep = 0.875;
+// A picture this much below the target leaves room for one of the next larger step.
+constexpr double kRoom = kStep * kStep * 0.9;
+
+}  // namespace
+
+void AdaptiveScale::picture_took(double ms, double scale) {
+    if (!(ms > 0.0) || !(scale > 0.0)) return;
+    const double share = ms / target_ms_;
+    double next = scale;
+    if (share > 1.0) {
+        // As if time went with the pixels: part of it does not, so later pictures correct this one.
+        const double steps = std::ceil(0.5 * std::log(share) / -std::log(kStep));
+        next = scale * std::pow(kStep, std::clamp(steps, 1.0, 6.0));
+    } else if (share < kRoom) {
+        next = share < 0.4 ? scale / (kStep * kStep) : scale / kStep;
+    }
+    moving_scale_ = std::clamp(next, kLeast, 1.0);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/window/app/cluster_view.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/picture/view_canvas.h"
+#include "present/window/panel/panel.h"
+
+namespace kilolux {
+namespace {
+
+constexpr ImU32 kActiveColor = IM_COL32(255, 255, 255, 230);
+constexpr ImU32 kCoarseColor = IM_COL32(90, 200, 255, 150);
+constexpr std::size_t kShownLights = 12;
+
+glm::dvec3 to_world(const Camera& camera, const glm::dvec3& view) {
+    return camera.world_from_view * view + camera.position;
+}
+
+double brightness(const glm::dvec3& radiance) {
+    return std::max({radiance.x, radiance.y, radiance.z});
+}
+
+glm::vec2 on_screen(const glm::dvec4& clip, const ScreenPlace& place) {
+    const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
+    return {std::lerp(place.x0, place.x1, static_cast<float>(0.5 + 0.5 * ndc.x)),
+            std::lerp(place.y1, place.y0, static_cast<float>(0.5 + 0.5 * ndc.y))};
+}
+
+glm::dvec4 to_clip(const glm::dvec3& world, const Camera& camera, const ScreenPlace& place) {
+    const glm::dmat4 clip = clip_from_view(camera, static_cast<int>(place.x1 - place.x0),
+                                           static_cast<int>(place.y1 - place.y0));
+    const glm::dvec3 view = glm::transpose(camera.world_from_view) * (world - camera.position);
+    return clip * glm::dvec4(view, 1.0);
+}
+
+void draw_lines(ImDrawList& draw, const std::vector<ScreenLine>& lines, ImU32 color,
+                float thickness) {
+    for (const ScreenLine& line : lines) {
+        draw.AddLine({line[0].x, line[0].y}, {line[1].x, line[1].y}, color, thickness);
+    }
+}
+
+void draw_lights(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
+                 const ScreenPlace& place) {
+    const double most = pixel.shares.empty() ? 0.0 : brightness(pixel.shares.front().radiance);
+    for (const LightShare& share : pixel.shares) {
+        const auto found =
+            std::find_if(pixel.probe.lights.begin(), pixel.probe.lights.end(),
+                         [&](const ProbedLight& light) { return light.index == share.index; });
+        const float4& relative = found->light.position_range;
+        const glm::dvec3 world =
+            pixel.camera.position + glm::dvec3(relative.x, relative.y, relative.z);
+        const glm::dvec4 clip = to_clip(world, camera, place);
+        if (!(clip.w > 0.0)) continue;
+        const glm::vec2 at = on_screen(clip, place);
+        const double part = most > 0.0 ? brightness(share.radiance) / most : 0.0;
+        const float radius = 2.0f + 5.0f * static_cast<float>(std::sqrt(part));
+        const ImU32 color = part > 0.0 ? IM_COL32(255, 190, 70, 220) : IM_COL32(160, 160, 160, 140);
+        draw.AddCircle({at.x, at.y}, radius, color, 12, 1.5f);
+    }
+}
+
+void share_row(const LightShare& share, double total) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::Text("%u", share.index);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f m", share.distance);
+    ImGui::TableNextColumn();
+    ImGui::Text("%.2f m", share.range);
+    ImGui::TableNextColumn();
+    const double part = total > 0.0 ? brightness(share.radiance) / total : 0.0;
+    char text[48];
+    std::snprintf(text, sizeof text, "%.3g", brightness(share.radiance));
+    ImGui::ProgressBar(static_cast<float>(part), {-FLT_MIN, ImGui::GetFontSize()}, text);
+}
+
+void describe_lights(const ProbedPixel& pixel) {
+    double total = 0.0;
+    std::size_t reaching = 0;
+    for (const LightShare& share : pixel.shares) {
+        total += brightness(share.radiance);
+        reaching += share.distance < share.range ? 1 : 0;
+    }
+    fact_line("List", std::to_string(pixel.shares.size()) + " lights, " + std::to_string(reaching) +
+                          " reach the pixel");
+    if (pixel.shares.empty() || !ImGui::BeginTable("shares", 4)) return;
+    ImGui::TableNextRow();
+    for (const char* text : {"light", "distance", "range", "adds"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", text);
+    }
+    const std::size_t shown = std::min(pixel.shares.size(), kShownLights);
+    for (std::size_t i = 0; i < shown; ++i) share_row(pixel.shares[i], total);
+    ImGui::EndTable();
+    if (pixel.shares.size() > shown) {
+        ImGui::TextDisabled("and %zu more", pixel.shares.size() - shown);
+    }
+}
+
+void describe_lists(const ProbedPixel& pixel) {
+    const PixelProbe& p = pixel.probe;
+    char text[128];
+    std::snprintf(text, sizeof text, "tile %u, %u  slice %u  %u lights", p.tile_x, p.tile_y,
+                  p.slice, p.coarse_count);
+    fact_line("Coarse", text);
+    if (p.active) {
+        const ActiveCluster& a = *p.active;
+        std::snprintf(text, sizeof text, "slice %u  %u pixels  %.2f x %.2f x %.2f m", a.slice,
+                      a.pixel_count, static_cast<double>(a.max_x - a.min_x),
+                      static_cast<double>(a.max_y - a.min_y),
+                      static_cast<double>(a.max_z - a.min_z));
+        fact_line("Active", text);
+    }
+    if (p.has_list) {
+        describe_lights(pixel);
+    } else {
+        ImGui::TextDisabled("this renderer evaluates every light at every pixel");
+    }
+}
+
+}  // namespace
+
+std::vector<ScreenLine> project_edges(const std::array<glm::dvec3, 8>& corners_world,
+                                      const Camera& camera, const ScreenPlace& place) {
+    constexpr double kNear = 1e-4;  // of clip w, which is the depth [m]
+    std::vector<ScreenLine> lines;
+    for (std::size_t from = 0; from < 8; ++from) {
+        for (const std::size_t bit : {1u, 2u, 4u}) {
+            if ((from & bit) != 0) continue;
+            glm::dvec4 a = to_clip(corners_world[from], camera, place);
+            glm::dvec4 b = to_clip(corners_world[from | bit], camera, place);
+            if (a.w < kNear && b.w < kNear) continue;
+            if (a.w < kNear) a = glm::mix(a, b, (kNear - a.w) / (b.w - a.w));
+            if (b.w < kNear) b = glm::mix(b, a, (kNear - b.w) / (a.w - b.w));
+            lines.push_back({on_screen(a, place), on_screen(b, place)});
+        }
+    }
+    return lines;
+}
+
+std::array<glm::dvec3, 8> active_corners(const ProbedPixel& pixel) {
+    const ActiveCluster a = pixel.probe.active.value_or(ActiveCluster{});
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = to_world(pixel.camera,
+                              {(i & 1) != 0 ? a.max_x : a.min_x, (i & 2) != 0 ? a.max_y : a.min_y,
+                               (i & 4) != 0 ? a.max_z : a.min_z});
+    }
+    return corners;
+}
+
+std::array<glm::dvec3, 8> coarse_corners(const ProbedPixel& pixel) {
+    const PixelProbe& p = pixel.probe;
+    const View view = view_of(pixel.camera, pixel.width, pixel.height);
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const auto x = static_cast<float>((p.tile_x + (i & 1)) * p.grid.tile_width);
+        const auto y = static_cast<float>((p.tile_y + (i >> 1 & 1)) * p.grid.tile_height);
+        const float z = depth_of_slice(p.grid, p.slice + static_cast<uint>(i >> 2 & 1));
+        const FV3 at = view_position(view, std::min(x, static_cast<float>(pixel.width)),
+                                     std::min(y, static_cast<float>(pixel.height)), z);
+        corners[i] = to_world(pixel.camera, {at.x, at.y, at.z});
+    }
+    return corners;
+}
+
+void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
+                const ScreenPlace& place) {
+    if (!pixel.probe.drawn()) return;
+    draw.PushClipRect({place.x0, place.y0}, {place.x1, place.y1});
+    if (pixel.probe.has_list) {
+        draw_lines(draw, project_edges(coarse_corners(pixel), camera, place), kCoarseColor, 1.0f);
+    }
+    if (pixel.probe.active) {
+        draw_lines(draw, project_edges(active_corners(pixel), camera, place), kActiveColor, 1.5f);
+    }
+    draw_lights(draw, pixel, camera, place);
+    draw.PopClipRect();
+}
+
+void describe_probe(const ProbedPixel& pixel, const std::array<float, 2>& corner, float scale) {
+    ImGui::SetNextWindowPos({corner[0], corner[1]}, ImGuiCond_Always, {1.0f, 1.0f});
+    ImGui::SetNextWindowSize({scale * 400.0f, 0.0f});
+    ImGui::SetNextWindowBgAlpha(0.85f);
+    ImGui::Begin("probe", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+    char text[128];
+    if (pixel.probe.drawn()) {
+        const auto& s = pixel.probe.surface;
+        const glm::dvec3 world = to_world(
+            pixel.camera, {s[SURFACE_POSITION], s[SURFACE_POSITION + 1], s[SURFACE_POSITION + 2]});
+        std::snprintf(text, sizeof text, "%d, %d  depth %.2f m", pixel.x, pixel.y,
+                      static_cast<double>(s[SURFACE_DEPTH]));
+        fact_line("Pixel", text);
+        std::snprintf(text, sizeof text, "%.2f, %.2f, %.2f m", world.x, world.y, world.z);
+        fact_line("Position", text);
+        describe_lists(pixel);
+    } else {
+        std::snprintf(text, sizeof text, "%d, %d  nothing is there", pixel.x, pixel.y);
+        fact_line("Pixel", text);
+    }
+    ImGui::End();
+}
+
+std::vector<DrawnBox> boxes_of(const FrozenClusters& frozen, uint least) {
+    uint most = 1;
+    for (const ActiveCluster& c : frozen.clusters) most = std::max(most, c.list_count);
+    std::vector<DrawnBox> boxes;
+    for (const ActiveCluster& c : frozen.clusters) {
+        if (c.list_count < least) continue;
+        // From a quarter on: the map's dark end would not be seen.
+        const DisplayColor code = heat_color(0.25 + 0.75 * c.list_count / most);
+        const glm::vec3 color = glm::vec3(code[0], code[1], code[2]) / 255.0f;
+        boxes.push_back(
+            {{c.min_x, c.min_y, c.min_z}, {c.max_x, c.max_y, c.max_z}, glm::vec4(color, 0.85f)});
+    }
+    return boxes;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/window/app/picture_buffers.h"
+
+#include "host/render/renderer.h"
+#include "raster/gl_debug.h"
+
+namespace kilolux {
+
+PictureBuffers::PictureBuffers() = default;
+
+PictureBuffers::~PictureBuffers() {
+    for (Slot& slot : slots_) {
+        if (slot.read != nullptr) glDeleteSync(slot.read);
+    }
+}
+
+void PictureBuffers::allocate(Slot& slot, std::size_t pixels) {
+    slot = Slot{};
+    const auto bytes = static_cast<GLsizeiptr>(pixels * sizeof(uint));
+    if (mapped_) {
+        constexpr GLbitfield kAccess =
+            GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+        slot.buffer = make_buffer();
+        glNamedBufferStorage(slot.buffer.name(), bytes, nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
+        void* mapping = glMapNamedBufferRange(slot.buffer.name(), 0, bytes, kAccess);
+        if (mapping != nullptr) {
+            slot.pixels = {static_cast<uint*>(mapping), pixels};
+            return;
+        }
+        while (glGetError() != GL_NO_ERROR) {
+        }
+        mapped_ = false;
+        slot.buffer = GlBuffer();
+    }
+    slot.memory.resize(pixels);
+    slot.pixels = slot.memory;
+}
+
+bool PictureBuffers::is_free(Slot& slot) {
+    if (slot.used) return false;
+    if (slot.read == nullptr) return true;
+    const GLenum state = glClientWaitSync(slot.read, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+    if (state == GL_TIMEOUT_EXPIRED) return false;
+    glDeleteSync(slot.read);
+    slot.read = nullptr;
+    return true;
+}
+
+std::optional<std::size_t> PictureBuffers::acquire(std::size_t pixels) {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+        if (!is_free(slots_[i])) continue;
+        if (slots_[i].pixels.size() < pixels) allocate(slots_[i], pixels);
+        slots_[i].used = true;
+        return i;
+    }
+    return std::nullopt;
+}
+
+std::span<uint> PictureBuffers::pixels(std::size_t slot) { return slots_.at(slot).pixels; }
+
+void PictureBuffers::release(std::size_t slot) { slots_.at(slot).used = false; }
+
+void PictureBuffers::show(std::size_t index, int width, int height) {
+    Slot& slot = slots_.at(index);
+    if (!texture_ || width != width_ || height != height_) {
+        texture_ = make_texture(GL_TEXTURE_2D);
+        glTextureStorage2D(texture_.name(), 1, GL_RGBA8, width, height);
+        glTextureParameteri(texture_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTextureParameteri(texture_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        glTextureParameteri(texture_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTextureParameteri(texture_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        width_ = width;
+        height_ = height;
+    }
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(display_stride(width)));
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, slot.buffer.name());
+    const void* source = slot.buffer ? nullptr : slot.memory.data();
+    glTextureSubImage2D(texture_.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, source);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    if (slot.buffer) slot.read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    slot.used = false;
+    check_gl_errors("picture texture");
+}
+
+std::size_t PictureBuffers::bytes() const {
+    std::size_t sum = sizeof(uint) * static_cast<std::size_t>(width_ * height_);
+    for (const Slot& slot : slots_) sum += slot.pixels.size_bytes();
+    return sum;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <imgui.h>
+
+#include <optional>
+
+#include "present/window/app/input.h"
+#include "present/window/app/window.h"
+
+namespace kilolux {
+
+/// Dear ImGui in a window: its context, fonts and look, fed with the window's events.
+class Gui {
+ public:
+    /// The window's context is current, and outlives this.
+    explicit Gui(const Window& window);
+    ~Gui();
+    Gui(const Gui&) = delete;
+    Gui& operator=(const Gui&) = delete;
+
+    void take(const InputEvent& event);
+
+    /// Begins a frame: the mouse as `input` has it. `seconds`: what passed since the last frame, if
+    /// not by the clock.
+    void begin(const InputState& input, std::optional<double> seconds);
+
+    /// Draws what was described since begin() to the current framebuffer.
+    void draw();
+    /// Instead of draw(), while nobody sees it.
+    void skip();
+
+    /// Whether the mouse is on a panel, and whether keys belong to a text field.
+    bool wants_mouse() const;
+    bool wants_keys() const;
+
+    /// Heights and widths made for a font of 15 pixels, on this screen.
+    float scaled(float pixels) const { return scale_ * pixels; }
+
+ private:
+    const Window& window_;
+    float scale_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <imgui.h>
+
+#include <cmath>
+
+#include "host/picture/views.h"
+#include "host/scene/lights/light_generator.h"
+#include "present/cli/names.h"
+#include "present/window/panel/panel.h"
+
+namespace kilolux {
+namespace {
+
+template <typename Enum>
+void enum_choice(Widgets& ui, const char* label, Enum& value,
+                 const std::vector<std::string>& names) {
+    int index = static_cast<int>(value);
+    if (ui.choice(label, index, names)) value = static_cast<Enum>(index);
+}
+
+// A value that is automatic at 0: a box to tick, and a slider beside when it is not.
+void automatic_slider(Widgets& ui, const char* label, double& value, double automatic,
+                      const SliderRange& range) {
+    bool is_automatic = value <= 0.0;
+    double shown = is_automatic ? automatic : value;
+    if (ui.slider(label, shown, range, "auto")) {
+        value = shown;
+        is_automatic = false;
+    }
+    ImGui::SameLine();
+    if (ui.checkbox("auto", is_automatic, label)) value = is_automatic ? 0.0 : automatic;
+}
+
+}  // namespace
+
+void Panel::picture() const {
+    if (!ui.section("Picture", true)) return;
+    RenderSettings& s = state.settings;
+    enum_choice(ui, "Renderer", s.renderer, renderer_names());
+    enum_choice(ui, "Shading", s.shading, shading_names());
+    int layout = static_cast<int>(s.gbuffer);
+    if (ui.choice("G-buffer", layout, gbuffer_names())) s.gbuffer = static_cast<uint>(layout);
+    ui.choice("Show", s.show, view_names());
+    ui.slider("Exposure", s.exposure, {-8.0, 8.0, false, "%+.1f EV"});
+    enum_choice(ui, "Tone map", s.tone_curve, tone_curve_names());
+    ui.slider("Bloom", s.bloom, {0.0, 1.0, false, "%.2f"});
+    ui.slider("Ambient", s.ambient, {0.0, 1.0, false, "%.3f"});
+    ui.slider("Samples", s.samples, {1, 16, false, "%.0f"});
+    ui.tip("Jittered samples a pixel");
+}
+
+void Panel::lights() const {
+    if (!ui.section("Lights", true)) return;
+    LightOptions& lights = state.settings.lights;
+    const LightScale scale = automatic_light_scale(lights, facts.scene);
+    ui.slider("Lights", lights.count, {1.0, 1e6, true, "%.0f"});
+    ui.tip("Generated point lights; Ctrl+click to type a number");
+    automatic_slider(ui, "Radius", lights.radius, scale.radius, {0.05, 100.0, true, "%.2f m"});
+    automatic_slider(ui, "Intensity", lights.intensity, scale.intensity,
+                     {1e-4, 1e4, true, "%.3g cd"});
+    ui.checkbox("Lights move", state.lights_move);
+    ui.slider("Speed", state.light_speed, {0.05, 20.0, true, "%.2fx"});
+    ui.slider("Seed", lights.seed, {1, 100, false, "%.0f"});
+}
+
+void Panel::clusters() const {
+    if (!ui.section("Clusters", false)) return;
+    GridSettings& grid = state.settings.grid;
+    ui.slider("Tiles across", grid.tiles_x, {1, 64, true, "%.0f"});
+    ui.slider("Tiles down", grid.tiles_y, {1, 64, true, "%.0f"});
+    ui.slider("Slices", grid.slices_per_octave, {1, 64, true, "%.0f"});
+    ui.tip("Depth slices for each doubling of the distance");
+    ui.slider("Fine slices", grid.fine_per_octave, {1, 64, true, "%.0f"});
+    ui.tip("Of the active clusters: the nearest below that is the slices times a power of two");
+    const std::vector<std::string> lanes = {"auto", "1", "2", "4", "8", "16"};
+    int lane = state.settings.kernels.lanes;
+    lane = lane == 0 ? 0 : 1 + static_cast<int>(std::lround(std::log2(lane)));
+    if (ui.choice("Lanes", lane, lanes)) {
+        state.settings.kernels.lanes = lane == 0 ? 0 : 1 << (lane - 1);
+    }
+    ui.tip("Pixels or lights a work-item treats at once; changes no bit of a picture");
+    ui.checkbox("Point at a pixel", state.probe);
+    ui.tip("Its tile, slice and box, and the lights in its list with what each adds");
+    ui.checkbox("Freeze", state.frozen);
+    ui.tip("Keeps the active clusters of this moment and draws them as boxes");
+    if (!state.frozen) return;
+    ui.slider("Least lights", state.box_lights, {0, 200, false, "%.0f"});
+    fact_line("Boxes", short_count(static_cast<double>(facts.boxes)));
+}
+
+void Panel::camera(const CameraRig& rig) const {
+    if (!ui.section("Camera", false)) return;
+    int mode = static_cast<int>(state.camera_mode);
+    if (ui.choice("Mode", mode, {"fly", "orbit"}))
+        state.camera_mode = static_cast<CameraMode>(mode);
+    if (!facts.scene.cameras.empty()) {
+        std::vector<std::string> names = {"-"};
+        for (std::size_t i = 0; i < facts.scene.cameras.size(); ++i) {
+            const std::string& name = facts.scene.cameras[i].name;
+            names.push_back(std::to_string(i) + (name.empty() ? "" : " " + name));
+        }
+        int chosen = 0;
+        if (ui.choice("Go to", chosen, names) && chosen > 0) wishes.scene_camera = chosen - 1;
+    }
+    char text[96];
+    const glm::dvec3& p = rig.camera().position;
+    std::snprintf(text, sizeof text, "%.2f, %.2f, %.2f m", p.x, p.y, p.z);
+    fact_line("Position", text);
+    std::snprintf(text, sizeof text, "%.3g m/s", rig.speed());
+    fact_line("Fly speed", text);
+    wishes.reset_camera |= ui.button("Reset");
+    ImGui::SameLine();
+    wishes.frame_scene |= ui.button("Frame");
+    ImGui::SameLine();
+    wishes.copy_camera |= ui.button("Copy camera");
+    wishes.copy_command |= ui.button("Copy the command that renders this", true);
+}
+
+void Panel::window() const {
+    if (!ui.section("Window", false)) return;
+    ui.checkbox("Adaptive scale", state.adaptive);
+    ui.tip("Fewer pixels while something moves, so that it stays fluent; all of them at rest");
+    if (state.adaptive) {
+        ui.slider("Target", state.target_ms, {10.0, 1000.0, true, "%.0f ms"});
+    } else {
+        ui.slider("Scale", state.fixed_scale, {0.1, 1.0, false, "%.2f"});
+    }
+    ui.checkbox("Render always", state.continuous);
+    ui.tip("Also when nothing changes: for steady times");
+    ui.checkbox("Vsync", state.vsync);
+    ui.checkbox("Overlay", state.show_overlay);
+    wishes.save_png |= ui.button("Save PNG");
+    ImGui::SameLine();
+    wishes.save_exr |= ui.button("Save EXR");
+    ImGui::SameLine();
+    wishes.full_screen |= ui.button("Full screen");
+    wishes.help |= ui.button("Help");
+    ImGui::SameLine();
+    wishes.reset_settings |= ui.button("All settings to their defaults");
+}
+
+}  // namespace kilolux

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "present/window/panel/panel.h"
+
+namespace kilolux {
+namespace {
+
+std::string fixed(double value, int digits) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+void cell(const std::string& text) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(text.c_str());
+}
+
+void number_cell(const std::string& text) {
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
+    ImGui::TextUnformatted(text.c_str());
+}
+
+void stage_row(const StageHistory& history, std::size_t stage,
+               const std::vector<StageReport>& reports) {
+    const double ms = history.median_ms(stage);
+    if (ms < 0.0) return;
+    const std::string& name = history.stages()[stage];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = 0.62f * ImGui::GetFontSize();
+    const float drop = 0.5f * (ImGui::GetTextLineHeight() - side);
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {at.x, at.y + drop}, {at.x + side, at.y + drop + side}, stage_color(stage), 2.0f);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 1.6f * side);
+    ImGui::TextUnformatted(name.c_str());
+    const auto found = std::find_if(reports.begin(), reports.end(),
+                                    [&](const StageReport& r) { return r.stage == name; });
+    const bool limited = found != reports.end() && found->limit_ms > 0.0;
+    number_cell(fixed(ms, 2));
+    number_cell(limited ? fixed(found->limit_ms, 2) : "");
+    number_cell(limited ? fixed(100.0 * found->limit_ms / ms, 0) + " %" : "");
+    if (limited && ImGui::IsItemHovered()) ImGui::SetTooltip("bound by %s", found->bound.c_str());
+}
+
+void head(const char* text) {
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", text);
+}
+
+void stage_table(const PanelFacts& facts, const std::vector<StageReport>& reports) {
+    if (!ImGui::BeginTable("stages", 4, ImGuiTableFlags_SizingStretchProp)) return;
+    ImGui::TableSetupColumn("stage", 0, 2.4f);
+    ImGui::TableSetupColumn("ms", 0, 1.0f);
+    ImGui::TableSetupColumn("limit", 0, 1.0f);
+    ImGui::TableSetupColumn("ratio", 0, 0.9f);
+    ImGui::TableNextRow();
+    for (const char* text : {"stage", "ms", "limit", "of limit"}) head(text);
+    for (std::size_t i = 0; i < facts.history.stages().size(); ++i) {
+        stage_row(facts.history, i, reports);
+    }
+    ImGui::TableNextRow();
+    cell("whole picture");
+    number_cell(fixed(facts.history.median_frame_ms(), 2));
+    ImGui::EndTable();
+}
+
+std::string lights_text(const FrameStats& s) {
+    std::string out = short_count(static_cast<double>(s.lights_used)) + " used";
+    if (s.lights_rejected > 0) out += ", " + std::to_string(s.lights_rejected) + " rejected";
+    return out + ", dropped = " + std::to_string(s.lights_dropped);
+}
+
+void count_lines(const FrameStats& s) {
+    fact_line("Lights", lights_text(s));
+    if (s.evaluations_per_pixel >= 0.0) {
+        std::string text = "k " + fixed(s.evaluations_per_pixel, 1) + " evaluated";
+        if (s.useful_evaluations_per_pixel >= 0.0) {
+            text += ", k* " + fixed(s.useful_evaluations_per_pixel, 1) + " useful";
+        }
+        fact_line("A pixel", text);
+    }
+    if (s.grid[2] == 0) return;
+    fact_line("Grid", std::to_string(s.grid[0]) + " x " + std::to_string(s.grid[1]) + " x " +
+                          std::to_string(s.grid[2]));
+    if (s.coarse_pairs > 0) {
+        fact_line("Coarse pairs", short_count(static_cast<double>(s.coarse_pairs)));
+    }
+    if (s.active_clusters == 0) return;
+    fact_line("Active", short_count(static_cast<double>(s.active_clusters)) + " clusters, " +
+                            short_count(static_cast<double>(s.refined_pairs)) + " pairs");
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+    return out.empty() ? "nothing" : out;
+}
+
+void wrapped(const char* name, const std::string& text) {
+    ImGui::TextDisabled("%s", name);
+    ImGui::PushTextWrapPos();
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+}  // namespace
+
+void fact_line(const char* name, const std::string& value) {
+    ImGui::TextDisabled("%s", name);
+    ImGui::SameLine(ImGui::GetFontSize() * 6.6f);
+    ImGui::TextUnformatted(value.c_str());
+}
+
+std::string short_count(double value) {
+    char text[32];
+    if (value < 1e4) {
+        std::snprintf(text, sizeof text, "%.0f", value);
+    } else if (value < 1e6) {
+        std::snprintf(text, sizeof text, "%.1f k", 1e-3 * value);
+    } else {
+        std::snprintf(text, sizeof text, "%.2f M", 1e-6 * value);
+    }
+    return text;
+}
+
+std::string byte_text(std::uint64_t bytes) {
+    constexpr double kMiB = 1024.0 * 1024.0;
+    return fixed(static_cast<double>(bytes) / kMiB, 1) + " MiB";
+}
+
+void Panel::speed() const {
+    if (!ui.section("Speed", true)) return;
+    std::vector<StageReport> reports;
+    if (facts.limits) {
+        RenderSettings drawn = state.settings;
+        drawn.width = facts.width;
+        drawn.height = facts.height;
+        reports =
+            stage_reports(facts.stats, *facts.limits, frame_setup(drawn, facts.plan, facts.device));
+    }
+    draw_stage_history(facts.history, 6.0f * ImGui::GetFontSize());
+    stage_table(facts, reports);
+    if (facts.limits) {
+        const Efficiency efficiency = efficiency_of(reports, facts.stats);
+        std::string text = fixed(100.0 * efficiency.hardware, 0) + " % of the device's limits";
+        if (efficiency.algorithm >= 0.0) {
+            text += ", " + fixed(100.0 * efficiency.algorithm, 0) + " % useful";
+        }
+        fact_line("Kernels", text);
+    }
+    count_lines(facts.stats);
+    ui.checkbox("Count k*", state.settings.count_useful);
+    ui.tip("Lights whose range covers the pixel, of those evaluated: one more pass");
+    fact_line("Memory", byte_text(facts.device_bytes) + " OpenCL, " +
+                            byte_text(facts.process_bytes) + " process");
+}
+
+void Panel::device() const {
+    if (!ui.section("Device and scene", false)) return;
+    const DeviceInfo& d = facts.device;
+    wrapped("OpenCL", d.name + ", " + d.version + ", " + std::to_string(d.compute_units) +
+                          " units, " + std::to_string(d.lane_width) + " lanes");
+    wrapped("OpenGL", facts.opengl);
+    wrapped("Picture to the window", facts.picture_way);
+    wrapped("Scene", facts.scene.name + ", " + short_count(static_cast<double>(facts.triangles)) +
+                         " triangles, " + std::to_string(facts.scene.instances.size()) +
+                         " instances, " + std::to_string(facts.scene.materials.size()) +
+                         " materials");
+    wrapped("Compiled in", list_of(facts.plan.features));
+    wrapped("Left out", list_of(facts.plan.left_out));
+    wrapped("G-buffer", std::to_string(facts.plan.gbuffer_bytes_per_pixel) + " bytes a pixel");
+}
+
+}  // namespace kilolux

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/measure/roofline/roofline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/measure/roofline/stage_report.h"
+#include "kernels/shared/evaluate_modes.h"
+
+namespace kilolux {
+namespace {
+
+constexpr const char* kDeviceStages[] = {"prepare_lights", "build_clusters", "cull_lights",
+                                         "bin_pixels",     "refine_lights",  "shade",
+                                         "bloom",          "tonemap"};
+
+// Round numbers, so that times can be worked out by hand.
+DeviceLimits round_limits() {
+    DeviceLimits l;
+    l.lanes = 8;
+    l.fma_flops = 2e11;
+    l.one_lane_fma_flops = 2.5e10;
+    l.lane_instructions_per_s = 1e11;
+    l.rsqrt_per_s = 4e9;
+    l.sqrt_per_s = 5e9;
+    l.divisions_per_s = 8e9;
+    l.read_bandwidth = 4e10;
+    l.write_bandwidth = 2e10;
+    l.copy_bandwidth = 3e10;
+    l.cached_read_bandwidth = 1e11;
+    l.cached_write_bandwidth = 1e11;
+    l.cached_copy_bandwidth = 1e11;
+    l.cache_bytes = 1e6;
+    l.upload_bandwidth = 1e10;
+    l.download_bandwidth = 2e10;
+    l.launch_latency_ms = 0.01;
+    l.launch_event_ms = 0.001;
+    return l;
+}
+
+StageCounts some_counts() {
+    StageCounts c;
+    c.pixels = 1920.0 * 1080.0;
+    c.drawn_pixels = 2e6;
+    c.lights = 5000.0;
+    c.tiles = 8160.0;
+    c.box_intervals = 500.0;
+    c.clusters = 3456.0;
+    c.coarse_pairs = 60000.0;
+    c.active_clusters = 10000.0;
+    c.refine_tests = 250000.0;
+    c.refined_pairs = 40000.0;
+    c.evaluations = 8e6;
+    return c;
+}
+
+KernelFeatures features_of(int shading, bool metallic = false, bool spots = false) {
+    KernelFeatures features;
+    features.shading = shading;
+    features.metallic = metallic;
+    features.spot_lights = spots;
+    return features;
+}
+
+// By hand from kernels/shared/evaluate.h; special functions are among the instructions.
+TEST(LaneWork, OfAnEvaluationIsAsCountedByHand) {
+    // v 3, d2 3, x 1, window 2, n.v 3, max 1; max 1, root 1, cube 1, product 1, division 1; sum 3.
+    EXPECT_EQ(work_of_evaluation(features_of(SHADING_LAMBERT)), (LaneWork{21.0, 0.0, 1.0, 1.0}));
+    // along 3, inverse distance 1, cos 1, cone 1 + 1 + 2, square 1, window 1.
+    EXPECT_EQ(work_of_evaluation(features_of(SHADING_LAMBERT, false, true)),
+              (LaneWork{32.0, 0.0, 1.0, 2.0}));
+    // 13; max 1, root 1, cube 1, product 1, division 1; h 3, h2 3, max 1; n.h 3, square 1, cross 6,
+    // square 3, none from behind 2, pow 36 with a division, weight 1; sums 6.
+    EXPECT_EQ(work_of_evaluation(features_of(SHADING_BLINN_PHONG)),
+              (LaneWork{83.0, 0.0, 1.0, 2.0}));
+    // 19; half vector 7; cross 6, square 3, ggx 2; smith_l 2 + sqrt 1, smith 2; h4 1, lobe 3 +
+    // division 1; schlick 3 + rsqrt 1 + 2, powers 3, g 1; diffuse 1 + 3; specular 2 + 3.
+    EXPECT_EQ(work_of_evaluation(features_of(SHADING_PBR)), (LaneWork{66.0, 2.0, 1.0, 1.0}));
+    // specular 3 * (2 + 1) instead.
+    EXPECT_EQ(work_of_evaluation(features_of(SHADING_PBR, true)), (LaneWork{70.0, 2.0, 1.0, 1.0}));
+}
+
+TEST(LaneWork, OfAPixelGrowsWithWhatItHolds) {
+    KernelFeatures features = features_of(SHADING_LAMBERT);
+    const double lambert = work_of_pixel(features).instructions;
+    EXPECT_DOUBLE_EQ(lambert, 31.0 + 3.0 + 6.0 + 19.0 + 5.0);
+    EXPECT_EQ(work_of_pixel(features).divisions, 2.0);
+    features.material = true;
+    const double material = work_of_pixel(features).instructions;
+    features.occlusion = true;
+    const double occlusion = work_of_pixel(features).instructions;
+    features.shading = SHADING_PBR;
+    const double pbr = work_of_pixel(features).instructions;
+    features.metallic = true;
+    const double metallic = work_of_pixel(features).instructions;
+    EXPECT_LT(lambert, material);
+    EXPECT_LT(material, occlusion);
+    EXPECT_LT(occlusion, pbr);
+    EXPECT_LT(pbr, metallic);
+}
+
+TEST(StageModel, ShadeBytesAreThePlanesTheListsAndTheImage) {
+    const StageCounts c = some_counts();
+    const StageWork work = *stage_work("shade", c);
+    EXPECT_DOUBLE_EQ(work.bytes_read, (12.0 + 1.0) * 2e6 + 48.0 * 10000.0 + 2.0 * 40000.0);
+    EXPECT_DOUBLE_EQ(work.bytes_written, 12.0 * c.pixels);
+    EXPECT_DOUBLE_EQ(work.lanes.instructions, 2e6 * 64.0 + 8e6 * 21.0);
+    EXPECT_DOUBLE_EQ(work.lanes.rsqrts, 0.0);
+    EXPECT_DOUBLE_EQ(work.lanes.divisions, 4e6 + 8e6);
+    EXPECT_EQ(work.launches, 1);
+}
+
+TEST(StageModel, LightStagesMoveEachLightOnce) {
+    const StageWork work = *stage_work("prepare_lights", some_counts());
+    EXPECT_DOUBLE_EQ(work.bytes_read, 48.0 * 5000.0);
+    EXPECT_DOUBLE_EQ(work.bytes_written, (48.0 + 16.0 + 16.0) * 5000.0);
+    StageCounts wide = some_counts();
+    wide.kernels.light_index_bits = 32;
+    const double narrow = stage_work("cull_lights", some_counts())->bytes_written;
+    EXPECT_DOUBLE_EQ(stage_work("cull_lights", wide)->bytes_written - narrow, 2.0 * 60000.0);
+}
+
+TEST(StageModel, LimitIsTheGreatestBoundAndTheLaunches) {
+    const DeviceLimits limits = round_limits();
+    StageWork work;
+    work.launches = 2;
+    EXPECT_NEAR(stage_limit(work, limits).ms, 0.002, 1e-12);
+    EXPECT_EQ(stage_limit(work, limits).bound, Bound::launches);
+    work.lanes.instructions = 1e9;
+    EXPECT_NEAR(stage_limit(work, limits).ms, 10.002, 1e-9);
+    EXPECT_EQ(stage_limit(work, limits).bound, Bound::instructions);
+    work.lanes.rsqrts = 8e7;
+    work.lanes.divisions = 8e7;  // 20 + 10 ms
+    EXPECT_NEAR(stage_limit(work, limits).ms, 30.002, 1e-9);
+    EXPECT_EQ(stage_limit(work, limits).bound, Bound::special_functions);
+    work.bytes_written = 1e9;  // 50 ms
+    EXPECT_NEAR(stage_limit(work, limits).ms, 50.002, 1e-9);
+    EXPECT_EQ(stage_limit(work, limits).bound, Bound::bytes);
+    work.bytes_read = 4e9;  // 100 ms by itself; both at the best rate 125 ms
+    EXPECT_NEAR(stage_limit(work, limits).ms, 125.002, 1e-9);
+}
+
+TEST(StageModel, WhatFitsTheCacheMovesAtItsRate) {
+    StageWork work;
+    work.bytes_read = 1e6;
+    EXPECT_NEAR(stage_limit(work, round_limits()).ms, 0.01, 1e-12);
+    work.bytes_read = 1.1e6;
+    EXPECT_NEAR(stage_limit(work, round_limits()).ms, 0.0275, 1e-12);
+}
+
+TEST(StageModel, IsMonotoneInEveryCount) {
+    double StageCounts::*const fields[] = {&StageCounts::pixels,
+                                           &StageCounts::drawn_pixels,
+                                           &StageCounts::lights,
+                                           &StageCounts::directional_lights,
+                                           &StageCounts::tiles,
+                                           &StageCounts::box_intervals,
+                                           &StageCounts::clusters,
+                                           &StageCounts::coarse_pairs,
+                                           &StageCounts::active_clusters,
+                                           &StageCounts::refine_tests,
+                                           &StageCounts::refined_pairs,
+                                           &StageCounts::evaluations,
+                                           &StageCounts::gbuffer_bytes_per_pixel};
+    for (const char* stage :
+         {"geometry", "gbuffer_bridge", "prepare_lights", "build_clusters", "cull_lights",
+          "bin_pixels", "refine_lights", "shade", "bloom", "tonemap"}) {
+        bool grew = false;
+        for (double StageCounts::*const field : fields) {
+            // More tiles leave fewer further clusters: a tile's first cluster costs less than its
+            // second.
+            if (field == &StageCounts::tiles && std::string_view(stage) == "bin_pixels") continue;
+            StageCounts more = some_counts();
+            more.*field = 2.0 * more.*field + 100.0;
+            const double before = stage_limit(*stage_work(stage, some_counts()), round_limits()).ms;
+            const double after = stage_limit(*stage_work(stage, more), round_limits()).ms;
+            EXPECT_GE(after, before) << stage;
+            grew = grew || after > before;
+        }
+        EXPECT_TRUE(grew) << stage;
+    }
+}
+
+TEST(StageModel, HasALimitForEveryDeviceStageEvenWithoutWork) {
+    for (const char* stage : kDeviceStages) {
+        const auto work = stage_work(stage, StageCounts{});
+        ASSERT_TRUE(work) << stage;
+        const double ms = stage_limit(*work, round_limits()).ms;
+        EXPECT_TRUE(std::isfinite(ms) && ms >= 0.0) << stage << ": " << ms;
+    }
+    EXPECT_FALSE(stage_work("light_input", some_counts()));
+    EXPECT_FALSE(stage_work("no such stage", some_counts()));
+}
+
+FrameSetup some_setup() {
+    FrameSetup setup;
+    setup.width = 64;
+    setup.height = 48;
+    return setup;
+}
+
+FrameStats some_stats() {
+    FrameStats stats;
+    stats.lights_used = 103;
+    stats.directional_lights = 3;
+    stats.drawn_pixels = 1000;
+    stats.evaluations_per_pixel = 5.0;
+    stats.useful_evaluations_per_pixel = 4.0;
+    stats.refine_tests = 700;
+    stats.grid[0] = 4;
+    stats.grid[1] = 3;
+    stats.grid[2] = 10;
+    stats.stages = {{"light_input", 1.0, 7.0}, {"shade", 2.0, 0.0}, {"refine_lights", 1.0, 0.0}};
+    return stats;
+}
+
+TEST(StageCountsTest, ComeFromTheFrame) {
+    const StageCounts c = stage_counts(some_stats(), some_setup());
+    EXPECT_EQ(c.pixels, 3072.0);
+    EXPECT_EQ(c.drawn_pixels, 1000.0);
+    EXPECT_EQ(c.lights, 100.0);
+    EXPECT_EQ(c.directional_lights, 3.0);
+    EXPECT_EQ(c.tiles, 12.0);
+    EXPECT_EQ(c.clusters, 120.0);
+    EXPECT_EQ(c.box_intervals, 80.0);
+    EXPECT_EQ(c.evaluations, 5000.0);
+    FrameSetup all = some_setup();
+    all.renderer = RendererKind::deferred_all;
+    EXPECT_EQ(stage_counts(some_stats(), all).evaluations, 100.0 * 1000.0);
+}
+
+TEST(StageReports, HoldTimesAgainstLimits) {
+    FrameStats stats = some_stats();
+    fill_limits(stats, round_limits(), some_setup());
+    EXPECT_EQ(stats.stages[0].limit_ms, 0.0) << "no model";
+    EXPECT_GT(stats.stages[1].limit_ms, 0.0);
+    const auto reports = stage_reports(stats, round_limits(), some_setup());
+    ASSERT_EQ(reports.size(), 3u);
+    EXPECT_EQ(reports[1].limit_ms, stats.stages[1].limit_ms);
+    EXPECT_DOUBLE_EQ(reports[1].ratio, reports[1].limit_ms / 2.0);
+    EXPECT_DOUBLE_EQ(reports[1].evaluations, 8000.0);  // three directional lights beside
+    EXPECT_DOUBLE_EQ(reports[1].giga_evaluations_per_s, 8000.0 / 2e-3 * 1e-9);
+    EXPECT_DOUBLE_EQ(reports[2].evaluations, 700.0);
+    EXPECT_TRUE(reports[0].bound.empty());
+    const Efficiency efficiency = efficiency_of(reports, stats);
+    EXPECT_DOUBLE_EQ(efficiency.hardware, (reports[1].limit_ms + reports[2].limit_ms) / 3.0);
+    EXPECT_DOUBLE_EQ(efficiency.algorithm, 0.8);
+    stats.useful_evaluations_per_pixel = -1.0;
+    EXPECT_LT(efficiency_of(reports, stats).algorithm, 0.0) << "not counted";
+}
+
+}  // namespace
+}  // namespace kilolux

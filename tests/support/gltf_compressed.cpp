@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/gltf_compressed.h"
+
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#include <meshoptimizer.h>
+
+#include <stdexcept>
+
+namespace kilolux {
+namespace {
+
+using nlohmann::json;
+
+const std::vector<float> kPositions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+}  // namespace
+
+int add_meshopt_view(GltfBuilder& file, const Blob& encoded, const Meshopt& meshopt) {
+    const int view = file.add_view(encoded);
+    json& entry = file.root["bufferViews"][static_cast<std::size_t>(view)];
+    json extension = entry;
+    extension["mode"] = meshopt.mode;
+    extension["filter"] = meshopt.filter;
+    extension["count"] = meshopt.count;
+    extension["byteStride"] = meshopt.stride;
+    entry = {{"buffer", 1},
+             {"byteLength", meshopt.count * meshopt.stride},
+             {"extensions", {{"EXT_meshopt_compression", extension}}}};
+    if (meshopt.mode == "ATTRIBUTES") entry["byteStride"] = meshopt.stride;
+    return view;
+}
+
+void add_fallback_buffer(GltfBuilder& file) {
+    const std::size_t size = file.bin.size();
+    file.root["buffers"] = {{{"byteLength", size}},
+                            {{"byteLength", 65536},
+                             {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    file.root["extensionsUsed"] = {"EXT_meshopt_compression"};
+    file.root["extensionsRequired"] = {"EXT_meshopt_compression"};
+}
+
+Blob encode_vertices(const void* vertices, std::size_t count, std::size_t stride) {
+    Blob out(meshopt_encodeVertexBufferBound(count, stride));
+    out.resize(meshopt_encodeVertexBuffer(out.data(), out.size(), vertices, count, stride));
+    return out;
+}
+
+GltfBuilder meshopt_quad(const std::string& index_mode) {
+    GltfBuilder file;
+    const int positions = add_meshopt_view(file, encode_vertices(kPositions.data(), 4, 12),
+                                           {"ATTRIBUTES", "NONE", 4, 12});
+    const std::vector<unsigned> quad = {0, 1, 2, 0, 2, 3};
+    Blob encoded(1024);
+    if (index_mode == "TRIANGLES") {
+        encoded.resize(meshopt_encodeIndexBuffer(encoded.data(), encoded.size(), quad.data(), 6));
+    } else {
+        encoded.resize(meshopt_encodeIndexSequence(encoded.data(), encoded.size(), quad.data(), 6));
+    }
+    const int indices = add_meshopt_view(file, encoded, {index_mode, "NONE", 6, 2});
+    add_fallback_buffer(file);
+    file.add(
+        "accessors",
+        {{"bufferView", positions}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
+    file.add("accessors", {{"bufferView", indices},
+                           {"componentType", kUnsignedShort},
+                           {"type", "SCALAR"},
+                           {"count", 6}});
+    file.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}});
+    file.add_node({{"mesh", 0}});
+    return file;
+}
+
+Blob draco_quad(int encoding_method) {
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(2);
+    const int position =
+        builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    const int color = builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8);
+    const std::array<std::uint8_t, 4> red = {255, 0, 0, 255};
+    const std::array<std::uint32_t, 6> corners = {0, 1, 2, 0, 2, 3};
+    for (std::uint32_t f = 0; f < 2; ++f) {
+        const auto at = [&](std::uint32_t c) { return &kPositions[3 * corners[3 * f + c]]; };
+        builder.SetAttributeValuesForFace(position, draco::FaceIndex(f), at(0), at(1), at(2));
+        builder.SetAttributeValuesForFace(color, draco::FaceIndex(f), red.data(), red.data(),
+                                          red.data());
+    }
+    const auto mesh = builder.Finalize();
+    draco::Encoder encoder;
+    encoder.SetEncodingMethod(encoding_method);
+    encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
+    draco::EncoderBuffer buffer;
+    if (!encoder.EncodeMeshToBuffer(*mesh, &buffer).ok()) throw std::runtime_error("draco encoder");
+    return Blob(buffer.data(), buffer.data() + buffer.size());
+}
+
+GltfBuilder draco_file(const Blob& encoded) {
+    GltfBuilder file;
+    const int view = file.add_view(encoded);
+    file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
+    file.add(
+        "accessors",
+        {{"componentType", kUnsignedByte}, {"normalized", true}, {"type", "VEC4"}, {"count", 4}});
+    file.add("accessors", {{"componentType", kUnsignedShort}, {"type", "SCALAR"}, {"count", 6}});
+    file.add(
+        "meshes",
+        {{"primitives",
+          {{{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
+            {"indices", 2},
+            {"extensions",
+             {{"KHR_draco_mesh_compression",
+               {{"bufferView", view}, {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}}}}}}}}});
+    file.add_node({{"mesh", 0}});
+    file.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    file.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    return file;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tests/support/gltf_builder.h"
+
+namespace kilolux {
+
+/// How EXT_meshopt_compression holds a buffer view.
+struct Meshopt {
+    std::string mode;
+    std::string filter = "NONE";
+    std::size_t count = 0;
+    std::size_t stride = 0;
+};
+
+/// Adds a buffer view that holds `encoded`; its decoded bytes would stand in buffer 1.
+int add_meshopt_view(GltfBuilder& file, const Blob& encoded, const Meshopt& meshopt);
+
+/// Adds buffer 1, which holds nothing, once all views are added. For GLBs.
+void add_fallback_buffer(GltfBuilder& file);
+
+Blob encode_vertices(const void* vertices, std::size_t count, std::size_t stride);
+
+/// A unit quad whose positions and indices are compressed ("TRIANGLES" or "INDICES").
+GltfBuilder meshopt_quad(const std::string& index_mode);
+
+constexpr int kDracoSequential = 0;
+constexpr int kDracoEdgebreaker = 1;
+
+/// The quad as a Draco bit stream; attribute 0 is the position, 1 a red colour of bytes.
+Blob draco_quad(int encoding_method);
+
+/// A file of one primitive that is such a stream.
+GltfBuilder draco_file(const Blob& encoded);
+
+}  // namespace kilolux

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "host/render/renderer.h"
+#include "host/scene/generated/scenes.h"
+
+namespace kilolux {
+
+/// Settings of a small picture. KILOLUX_TEST_DEVICE chooses the device as --device does.
+inline RenderSettings small_settings(int width = 96, int height = 54, std::uint64_t lights = 300) {
+    RenderSettings settings;
+    settings.width = width;
+    settings.height = height;
+    settings.lights.count = lights;
+    const char* device = std::getenv("KILOLUX_TEST_DEVICE");
+    settings.device = device != nullptr ? device : "";
+    return settings;
+}
+
+inline Camera first_camera(const Scene& scene) {
+    return scene.cameras.empty() ? frame_box(bounds(scene)) : camera_of(scene.cameras.front());
+}
+
+inline Frame render_once(const Scene& scene, const RenderSettings& settings, double time = 0.0) {
+    return Renderer(scene, settings).render(first_camera(scene), time);
+}
+
+/// The grid scene with a directional light and a dozen spots.
+inline Scene grid_with_every_light() {
+    Scene scene = make_generated_scene("grid");
+    const Box box = bounds(scene);
+    for (int i = 0; i < 12; ++i) {
+        SceneLight spot;
+        spot.type = LightType::spot;
+        const double t = (i + 0.5) / 12.0;
+        spot.position = {box.min.x + t * box.size().x, box.max.y + 1.0,
+                         box.min.z + (1.0 - t) * box.size().z};
+        spot.direction = glm::normalize(glm::dvec3(0.2 - 0.4 * t, -1.0, 0.1));
+        spot.intensity = {20.0f, 15.0f + static_cast<float>(i), 10.0f};
+        spot.range = 2.0f * static_cast<float>(glm::length(box.size()));
+        spot.inner_cone = 0.2f;
+        spot.outer_cone = 0.5f;
+        scene.lights.push_back(spot);
+    }
+    SceneLight sun;
+    sun.type = LightType::directional;
+    sun.direction = glm::normalize(glm::dvec3(0.3, -1.0, -0.5));
+    sun.intensity = {0.5f, 0.4f, 0.3f};
+    scene.lights.push_back(sun);
+    return scene;
+}
+
+/// The value at an order statistic, 0.5: the median.
+inline double quantile(std::vector<double> values, double q) {
+    const auto place = static_cast<std::size_t>(q * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
+                     values.end());
+    return values[place];
+}
+
+}  // namespace kilolux

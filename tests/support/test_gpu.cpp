@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/test_gpu.h"
+
+#include <cstdlib>
+
+namespace kilolux {
+namespace {
+
+Gpu first_gpu() {
+    const char* choice = std::getenv("KILOLUX_TEST_DEVICE");
+    return Gpu(choose_device(choice != nullptr ? choice : ""));
+}
+
+}  // namespace
+
+Gpu test_gpu(int lane_width) {
+    static const Gpu gpu = first_gpu();
+    return Gpu(gpu.context, gpu.queue, lane_width);
+}
+
+}  // namespace kilolux
