@@ -107,7 +107,7 @@ void render_background(const Gpu& gpu, Findings& findings) {
     settings.lights.count = 20;
     settings.kernels.lanes = gpu.info.lane_width;
     settings.device = gpu.info.name;
-    settings.aovs = {"depth", "position", "normal"};
+    settings.want.aovs = {"depth", "position", "normal"};
     settings.tone_curve = ToneCurve::none;
     const Frame frame = Renderer(scene, settings).render(camera, 0.0);
     std::uint64_t background = 0;

@@ -81,4 +81,12 @@ std::vector<T> download(const Gpu& gpu, const cl::Buffer& buffer, std::size_t co
     return values;
 }
 
+/// Light indices of a list of `bits`, 16 or 32, widened to 32. Blocks.
+inline std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& list, int bits,
+                                          std::size_t count, std::size_t first = 0) {
+    if (bits == 32) return download<uint>(gpu, list, count, first);
+    const auto narrow = download<std::uint16_t>(gpu, list, count, first);
+    return {narrow.begin(), narrow.end()};
+}
+
 }  // namespace kilolux

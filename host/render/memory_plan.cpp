@@ -71,15 +71,15 @@ struct Need {
 
 Bytes layer_bytes(const RenderSettings& settings) {
     constexpr Bytes kMostChannels = 3;
-    return settings.aovs.size() * kMostChannels * sizeof(float);
+    return settings.want.aovs.size() * kMostChannels * sizeof(float);
 }
 
 // What the whole picture takes on the host, and where stages need all of it, there too.
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
     if (settings.bloom > 0.0f) bytes += 4 * 3 * sizeof(float);
-    if (settings.show != "lit") bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
-    if (settings.show == "difference") bytes *= 2;
+    if (settings.want.view != ViewKind::lit) bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
+    if (settings.want.view == ViewKind::difference) bytes *= 2;
     return bytes;
 }
 
@@ -89,7 +89,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const Bytes tile_rows =
         is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
     const bool blends = has_blended_surfaces(scene);
-    const bool decodes = !settings.aovs.empty() || settings.show != "lit";
+    const bool decodes = settings.want.pixels();
     Need need;
     need.fixed = kProgram + scene_bytes(scene) +
                  (settings.lights.count + scene.lights.size()) * kLight +
@@ -99,7 +99,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
     need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
     if (settings.samples > 1) need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
-    if (decodes || settings.count_useful) need.band_pixel += 4 * sizeof(std::uint32_t);
+    if (decodes || settings.want.counts) need.band_pixel += 4 * sizeof(std::uint32_t);
     if (decodes) {
         need.band_pixel += 2 * SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + layer_bytes(settings);
     }

@@ -59,7 +59,7 @@ TEST(Samples, RadianceIsTheMeanOfJitteredPictures) {
 TEST(Samples, AovsAndCountsAreThoseOfTheCentre) {
     const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_settings(64, 36, 100);
-    settings.aovs = {"depth", "position", "normal", "light-count", "cluster"};
+    settings.want.aovs = {"depth", "position", "normal", "light-count", "cluster"};
     const Frame one = render_once(scene, settings);
     settings.samples = 3;
     const Frame three = render_once(scene, settings);

@@ -17,7 +17,7 @@ ViewState unusual_state() {
     state.settings.renderer = RendererKind::forward_plus;
     state.settings.shading = Shading::lambert;
     state.settings.gbuffer = GBUFFER_HALF;
-    state.settings.show = "slices";
+    state.settings.want.view = ViewKind::slices;
     state.settings.exposure = -1.3f;
     state.settings.tone_curve = ToneCurve::aces;
     state.settings.bloom = 0.1f;
@@ -50,7 +50,7 @@ TEST(SavedState, TheCommandLineWins) {
     const ViewState out = load_view_state(
         file, given, [](const std::string& option) { return option == "--lights"; });
     EXPECT_EQ(out.settings.lights.count, 7u);
-    EXPECT_EQ(out.settings.show, "slices");
+    EXPECT_EQ(out.settings.want.view, ViewKind::slices);
 }
 
 TEST(SavedState, WhatIsNotOursIsLeftOutAsAWhole) {

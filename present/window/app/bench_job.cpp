@@ -79,7 +79,7 @@ std::vector<SweepPoint> points_of(const BenchRequest& request) {
 void run_bench_job(const Scene& scene, const BenchRequest& request, BenchProgress& progress) {
     try {
         RenderSettings base = request.settings;
-        base.show = "lit";
+        base.want.view = ViewKind::lit;
         BenchRun run(scene, base, request.camera, request.time, GlSource::current);
         const std::vector<SweepPoint> points = points_of(request);
         progress.frames_total = run.frame_count(points, request.frames);

@@ -93,7 +93,7 @@ void visit_picture(Visitor& v, RenderSettings& s) {
     as_word(v, "renderer", "--renderer", s.renderer, renderer_names());
     as_word(v, "shading", "--shading", s.shading, shading_names());
     as_word(v, "gbuffer", "--gbuffer", s.gbuffer, gbuffer_names());
-    v.word("show", "--show", s.show, view_names());
+    as_word(v, "show", "--show", s.want.view, view_names());
     as_number(v, "exposure", "--exposure", s.exposure, {-126.0, 126.0});
     as_word(v, "tonemap", "--tonemap", s.tone_curve, tone_curve_names());
     as_number(v, "bloom", "--bloom", s.bloom, {0.0, 1.0});
@@ -107,7 +107,7 @@ void visit_picture(Visitor& v, RenderSettings& s) {
     as_number(v, "tiles_y", "--grid", s.grid.tiles_y, {1, 4096});
     as_number(v, "slices", "--grid", s.grid.slices_per_octave, {1, 64});
     as_number(v, "fine_slices", "--grid", s.grid.fine_per_octave, {1, 64});
-    v.flag("count_useful", s.count_useful);
+    v.flag("count_useful", s.want.counts);
 }
 
 template <typename Visitor>

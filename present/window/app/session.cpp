@@ -219,7 +219,7 @@ PictureRequest ViewSession::wanted() const {
     };
     out.settings.width = edge(area.width);
     out.settings.height = edge(area.height);
-    if (state_.frozen) out.settings.aovs = {"depth"};
+    if (state_.frozen) out.settings.want.aovs = {"depth"};
     out.camera = rig_.camera();
     out.time = time_;
     return out;

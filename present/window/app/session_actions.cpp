@@ -61,7 +61,7 @@ void ViewSession::start_bench() {
     BenchRequest request;
     const PictureRequest now = wanted();
     request.settings = now.settings;
-    request.settings.aovs.clear();
+    request.settings.want.aovs.clear();
     request.camera = now.camera;
     request.time = now.time;
     request.renderers = {RendererKind::deferred, RendererKind::forward_plus};

@@ -94,10 +94,10 @@ void ViewSession::obey_key(const KeyEvent& key) {
             (control ? wishes.copy_camera : wishes.copy_command) = true;
             break;
         case GLFW_KEY_V:
-            s.show = next_of(view_names(), s.show, shift ? -1 : 1);
+            s.want.view = parse_view(next_of(view_names(), name_of(s.want.view), shift ? -1 : 1));
             break;
         case GLFW_KEY_L:
-            s.show = "lit";
+            s.want.view = ViewKind::lit;
             break;
         case GLFW_KEY_SPACE:
             state_.lights_move = !state_.lights_move;

@@ -157,7 +157,7 @@ void Panel::speed() const {
         fact_line("Kernels", text);
     }
     count_lines(facts.stats);
-    ui.checkbox("Count k*", state.settings.count_useful);
+    ui.checkbox("Count k*", state.settings.want.counts);
     ui.tip("Lights whose range covers the pixel, of those evaluated: one more pass");
     fact_line("Memory", byte_text(facts.device_bytes) + " OpenCL, " +
                             byte_text(facts.process_bytes) + " process");
