@@ -65,6 +65,7 @@ Bytes target_pixel_bytes(const ScenePlan& plan) {
 
 struct Need {
     Bytes fixed = 0;            // whatever the bands
+    Bytes device_fixed = 0;     // the part of `fixed` that is device buffers
     Bytes band_pixel = 0;       // for each pixel of a band
     Bytes largest_element = 0;  // of a band's pixel in one buffer
 };
@@ -77,10 +78,17 @@ Bytes layer_bytes(const RenderSettings& settings) {
 // What the whole picture takes on the host, and where stages need all of it, there too.
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
-    if (settings.bloom > 0.0f) bytes += 4 * 3 * sizeof(float);
-    if (settings.want.view != ViewKind::lit) bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
+    if (settings.want.view != ViewKind::lit)
+        bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
     if (settings.want.view == ViewKind::difference) bytes *= 2;
     return bytes;
+}
+
+// Of bloom, which mixes the whole picture: light, its copy, the smaller levels, the display
+// picture.
+Bytes bloom_pixel_bytes(const RenderSettings& settings) {
+    constexpr Bytes kLightPixel = 3 * sizeof(float);
+    return settings.bloom > 0.0f ? 2 * kLightPixel + kLightPixel / 3 + 4 : 0;
 }
 
 Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan) {
@@ -91,8 +99,9 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const bool blends = has_blended_surfaces(scene);
     const bool decodes = settings.want.pixels();
     Need need;
-    need.fixed = kProgram + scene_bytes(scene) +
-                 (settings.lights.count + scene.lights.size()) * kLight +
+    need.device_fixed = (settings.lights.count + scene.lights.size()) * kLight +
+                        width * height * bloom_pixel_bytes(settings);
+    need.fixed = kProgram + scene_bytes(scene) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
     constexpr Bytes kForwardTarget = 20;
     if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
@@ -152,8 +161,7 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
     // A CPU's buffers are memory like the rest: lights and bands as planned, and for lists what is
     // left.
-    out.device_bytes =
-        device.is_cpu ? limit - need.fixed + settings.lights.count * kLight : device.memory_bytes;
+    out.device_bytes = device.is_cpu ? limit - need.fixed + need.device_fixed : device.memory_bytes;
     return out;
 }
 

@@ -74,7 +74,8 @@ TEST(Options, DefaultsInHelpAreTheRealOnes) {
     EXPECT_EQ(std::tie(a.width, a.height, a.samples), std::tie(b.width, b.height, b.samples));
     EXPECT_EQ(std::tie(a.gbuffer, a.shading), std::tie(b.gbuffer, b.shading));
     EXPECT_EQ(std::tie(a.ambient, a.bloom, a.exposure), std::tie(b.ambient, b.bloom, b.exposure));
-    EXPECT_EQ(std::tie(a.tone_curve, a.want.view, a.want.aovs), std::tie(b.tone_curve, b.want.view, b.want.aovs));
+    EXPECT_EQ(std::tie(a.tone_curve, a.want.view, a.want.aovs),
+              std::tie(b.tone_curve, b.want.view, b.want.aovs));
     EXPECT_EQ(std::tie(a.lights.count, a.lights.seed), std::tie(b.lights.count, b.lights.seed));
     EXPECT_EQ(std::tie(a.lights.radius, a.lights.intensity),
               std::tie(b.lights.radius, b.lights.intensity));
