@@ -3,13 +3,6 @@
 
 namespace kilolux {
 
-std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& list, int bits,
-                                   std::size_t count, std::size_t first) {
-    if (bits == 32) return download<uint>(gpu, list, count, first);
-    const auto narrow = download<std::uint16_t>(gpu, list, count, first);
-    return {narrow.begin(), narrow.end()};
-}
-
 CoarseStages::CoarseStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       index_bits_(features.light_index_bits),
@@ -19,7 +12,7 @@ CoarseStages::CoarseStages(const Gpu& gpu, const Tuning& tuning, const KernelFea
 
 CoarseResult CoarseStages::enqueue(const LightInput& input, const View& view,
                                    const ClusterGrid& grid, StageTimer& timer,
-                                   const cl::Buffer& occupied) {
+                                   const DeviceArray<std::uint8_t>& occupied) {
     CoarseResult out;
     out.lights = prepare_.enqueue(input, view, grid, timer);
     out.boxes = build_.enqueue(view, grid, timer);

@@ -22,10 +22,6 @@ struct HostCoarseLists {
     std::vector<uint> lists;
 };
 
-/// Light indices of a list of `bits`, 16 or 32, widened. Blocks.
-std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& list, int bits,
-                                   std::size_t count, std::size_t first = 0);
-
 /// The stages from lights to the coarse grid's lists.
 class CoarseStages {
  public:
@@ -34,7 +30,7 @@ class CoarseStages {
     /// Enqueues all of them with the room that earlier frames needed. `occupied`: see
     /// CullLights.
     CoarseResult enqueue(const LightInput& input, const View& view, const ClusterGrid& grid,
-                         StageTimer& timer, const cl::Buffer& occupied = {});
+                         StageTimer& timer, const DeviceArray<std::uint8_t>& occupied = {});
 
     /// True if the lists of the last enqueue are complete; else room has grown: enqueue again.
     /// Blocks.

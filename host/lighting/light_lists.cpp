@@ -13,8 +13,9 @@ ListStages::ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 LightLists ListStages::enqueue(const LightInput& input, const GBuffer& gbuffer,
                                const ClusterGrid& grid, StageTimer& timer) {
     const ActiveClusters active = bin_.enqueue(gbuffer, grid, timer);
-    const CoarseResult coarse = coarse_.enqueue(input, gbuffer.view, grid, timer,
-                                                everywhere_ ? cl::Buffer() : active.occupied);
+    const CoarseResult coarse =
+        coarse_.enqueue(input, gbuffer.view, grid, timer,
+                        everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
     LightLists lists{coarse.lights, coarse.boxes, coarse.lists, active, {}};
     lists.refined =
         refine_.enqueue(lists.lights, lists.coarse, lists.clusters, gbuffer.view, grid, timer);
@@ -58,8 +59,7 @@ void ListStages::probe(const LightLists& lists, const View& view, int x, int y,
     const uint coarse = cluster_index(probe.grid, probe.tile_x, probe.tile_y, probe.slice);
     const auto ends = download<uint>(gpu_, lists.coarse.offsets, 2, coarse);
     probe.coarse_count = ends[1] - ends[0];
-    const uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
-    const uint tile = static_cast<uint>(y) / FINE_TILE * tiles_x + static_cast<uint>(x) / FINE_TILE;
+    const uint tile = fine_tile_of(view, static_cast<uint>(x), static_cast<uint>(y));
     const auto range = download<uint>(gpu_, lists.clusters.offsets, 2, tile);
     for (const ActiveCluster& cluster :
          download<ActiveCluster>(gpu_, lists.clusters.clusters, range[1] - range[0], range[0])) {

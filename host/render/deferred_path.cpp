@@ -36,7 +36,9 @@ Radiance DeferredPath::light_from_all(const SampleInput& sample, StageTimer& tim
     lists_.lights = prepare_.enqueue(sample.lights, gbuffer_.view, grid_, timer);
     stats.evaluations_per_pixel = sample.lights.count;
     stats.useful_evaluations_per_pixel = -1.0;
-    return shade_.enqueue_all_lights(gbuffer_, lists_.lights, timer);
+    if (!shade_all_) shade_all_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
+    shade_all_->set_ambient(context_.settings.ambient);
+    return shade_all_->enqueue(gbuffer_, lists_.lights, timer);
 }
 
 Radiance DeferredPath::light_from_lists(const SampleInput& sample, StageTimer& timer,

@@ -47,6 +47,7 @@ class DeferredPath {
     PrepareLights prepare_;
     ListStages list_stages_;
     Shade shade_;
+    std::optional<ShadeAll> shade_all_;  // made when first used
     CountLights count_lights_;
     std::optional<ForwardPass> blended_;  // none without materials that blend
     // Of the last light().

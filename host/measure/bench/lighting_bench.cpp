@@ -151,7 +151,7 @@ LightLists LightingBench::Parts::light(Stages& stages, Radiance& radiance) {
 LightingRun LightingBench::Parts::run(const LightingRequest& request) {
     context.make_current();
     set_layout(request.plan.gbuffer);
-    const Gpu lanes_gpu(gpu.context, gpu.queue, request.tuning.lanes);
+    const Gpu lanes_gpu = gpu.with_lanes(request.tuning.lanes);
     Stages stages(lanes_gpu, request, settings);
     LightingRun out;
     out.stats = light_stats;
