@@ -57,12 +57,13 @@ kernel void count_pairs(global const ulong* restrict coarse_pairs,     // [1]
     for (uint i = get_local_id(0); i < share_count; i += GROUP) sums = added(sums, shares[i]);
     sums_of_items[get_local_id(0)] = sums;
     barrier(CLK_LOCAL_MEM_FENCE);  // every item's sum is there
-    if (get_local_id(0) != 0) return;
-    for (uint i = 1; i < GROUP; ++i) sums = added(sums, sums_of_items[i]);
-    counts->coarse_pairs = *coarse_pairs;
-    counts->active_clusters = *active_clusters;
-    counts->refine_tests = *refine_tests;
-    counts->refined_pairs = sums.refined_pairs;
-    counts->drawn_pixels = sums.drawn_pixels;
-    counts->evaluations = sums.evaluations;
+    if (get_local_id(0) == 0) {
+        for (uint i = 1; i < GROUP; ++i) sums = added(sums, sums_of_items[i]);
+        counts->coarse_pairs = *coarse_pairs;
+        counts->active_clusters = *active_clusters;
+        counts->refine_tests = *refine_tests;
+        counts->refined_pairs = sums.refined_pairs;
+        counts->drawn_pixels = sums.drawn_pixels;
+        counts->evaluations = sums.evaluations;
+    }
 }

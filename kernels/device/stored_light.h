@@ -24,8 +24,7 @@ typedef struct StoredLight {
 #endif
 } StoredLight;
 
-static inline ShadeLight load_light(global const StoredLight* lights, uint index) {
-    global const StoredLight* stored = lights + index;
+static inline ShadeLight load_light(global const StoredLight* stored) {
     ShadeLight light;
     light.position_inv_range2 = stored->position_inv_range2;
     light.color_scale =
@@ -36,10 +35,10 @@ static inline ShadeLight load_light(global const StoredLight* lights, uint index
 #endif
     return light;
 }
+#define LIGHT_AT(lights, i) load_light((lights) + (i))
 #else
 typedef ShadeLight StoredLight;
-static inline ShadeLight load_light(global const StoredLight* lights, uint index) {
-    return lights[index];
-}
+// No function: PoCL then copies the light lane by lane.
+#define LIGHT_AT(lights, i) (lights)[i]
 #endif
 #endif

@@ -41,7 +41,7 @@ static inline void stage_batch(LightSet set, global const LIGHT_INDEX* list, uin
     for (uint i = item; first + i < end; i += items) {
         uint light = light_of_entry(list, first + i);
         set.staged_indices[i] = light;
-        set.staged[i] = load_light(set.lights, light);
+        set.staged[i] = LIGHT_AT(set.lights, light);
     }
 }
 #endif
@@ -67,7 +67,7 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
     for (uint i = 0; i < count; ++i) {
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
-        sum.block = evaluate(sum.block, p, load_light(set.lights, light));
+        sum.block = evaluate(sum.block, p, LIGHT_AT(set.lights, light));
     }
 #endif
     return finish_sum(sum);
