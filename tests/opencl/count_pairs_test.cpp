@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/measure/synthetic/vec3d.h"
-#include "tests/opencl/test_gpu.h"
+#include "host/certify/synthetic/vec3d.h"
+#include "tests/support/test_gpu.h"
 
 namespace kilolux {
 namespace {
