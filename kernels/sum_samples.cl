@@ -16,18 +16,18 @@ kernel void sum_samples_add(uint count, uint is_first,
                             global float* restrict sums) {        // in, out [3][count]
     uint i = (uint)get_global_id(0) * VW;
     if (i >= count) return;
-    FV value = load_lanes(values + i);
+    FV value = lane_load(values + i);
     FV high = fv(0.0f), middle = fv(0.0f), low = fv(0.0f);
     if (is_first == 0) {
-        high = load_lanes(sums + i);
-        middle = load_lanes(sums + count + i);
-        low = load_lanes(sums + 2 * count + i);
+        high = lane_load(sums + i);
+        middle = lane_load(sums + count + i);
+        low = lane_load(sums + 2 * count + i);
     }
     FV error = two_sum(high, value, &high);
     error = two_sum(middle, error, &middle);
-    store_lanes(high, sums + i);
-    store_lanes(middle, sums + count + i);
-    store_lanes(low + error, sums + 2 * count + i);
+    lane_store(high, sums + i);
+    lane_store(middle, sums + count + i);
+    lane_store(low + error, sums + 2 * count + i);
 }
 
 // The sum / `samples`, rounded once: the remainder of each quotient is divided, too.
@@ -36,16 +36,16 @@ kernel void sum_samples_mean(uint count, float samples,
                              global float* restrict means) {     // out [count]
     uint i = (uint)get_global_id(0) * VW;
     if (i >= count) return;
-    FV first = load_lanes(sums + i);
+    FV first = lane_load(sums + i);
     FV n = fv(samples);
     FV high, middle, low;
-    middle = two_sum(first, load_lanes(sums + count + i), &high);
-    low = two_sum(middle, load_lanes(sums + 2 * count + i), &middle);
+    middle = two_sum(first, lane_load(sums + count + i), &high);
+    low = two_sum(middle, lane_load(sums + 2 * count + i), &middle);
     middle = two_sum(high, middle, &high) + low;
     FV quotient = high / n;
     FV rest = fma(-quotient, n, high) + middle;
     FV next = rest / n;
     next += fma(-next, n, rest) / n;
     // An infinite sum has no errors to add.
-    store_lanes(select_fv(first - first == fv(0.0f), quotient + next, first), means + i);
+    lane_store(lane_select(first - first == fv(0.0f), quotient + next, first), means + i);
 }

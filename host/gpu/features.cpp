@@ -3,6 +3,14 @@
 
 namespace kilolux {
 
+std::string_view light_index_type(const KernelFeatures& features) {
+    return features.light_index_bits == 16 ? "ushort" : "uint";
+}
+
+std::size_t light_index_bytes(const KernelFeatures& features) {
+    return static_cast<std::size_t>(features.light_index_bits / 8);
+}
+
 BuildOptions feature_options(const KernelFeatures& features) {
     BuildOptions options;
     options.define("SHADING", features.shading)
@@ -14,7 +22,7 @@ BuildOptions feature_options(const KernelFeatures& features) {
         .define("HAS_UNLIT", features.unlit)
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("HAS_DIRECTIONAL_LIGHTS", features.directional_lights)
-        .define("LIGHT_INDEX", features.light_index_bits == 16 ? "ushort" : "uint");
+        .define("LIGHT_INDEX", light_index_type(features));
     return options;
 }
 

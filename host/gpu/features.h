@@ -26,6 +26,10 @@ struct KernelFeatures {
     bool operator==(const KernelFeatures&) const = default;
 };
 
+/// LIGHT_INDEX of the kernels, and its size [byte].
+std::string_view light_index_type(const KernelFeatures& features);
+std::size_t light_index_bytes(const KernelFeatures& features);
+
 BuildOptions feature_options(const KernelFeatures& features);
 
 /// Work sizes by device class. Data, found by measuring (`kilolux bench --tune`); results never

@@ -23,7 +23,7 @@
 #include "host/base/error.h"           // Error: what every function throws
 #include "host/base/gbuffer_layout.h"  // where a G-buffer's planes lie
 #include "host/base/log.h"             // who hears notes and warnings
-#include "host/gpu/buffer.h"           // GrowingBuffer, upload, download
+#include "host/gpu/buffer.h"           // DeviceArray, GrowingBuffer, upload, download
 #include "host/gpu/device.h"           // choose_device, Gpu
 #include "host/gpu/features.h"         // KernelFeatures, Tuning
 #include "host/gpu/flow.h"             // what passes between stages
@@ -34,6 +34,7 @@
 #include "host/stages/bloom.h"
 #include "host/stages/build_clusters.h"
 #include "host/stages/count_lights.h"
+#include "host/stages/count_pairs.h"
 #include "host/stages/cull_lights.h"
 #include "host/stages/decode_gbuffer.h"
 #include "host/stages/prepare_lights.h"

@@ -14,7 +14,7 @@ CoarseLightLists::CoarseLightLists(const Gpu& gpu, const Tuning& tuning,
 CoarseLighting CoarseLightLists::run(const LightInput& input, const View& view,
                                      const ClusterGrid& grid, StageTimer& timer) {
     CoarseLighting out = enqueue(input, view, grid, timer);
-    while (!fits()) {
+    while (!fits(pairs())) {
         timer.take();  // of lists that had no room
         out = enqueue(input, view, grid, timer);
     }
@@ -23,7 +23,7 @@ CoarseLighting CoarseLightLists::run(const LightInput& input, const View& view,
 
 CoarseLighting CoarseLightLists::enqueue(const LightInput& input, const View& view,
                                          const ClusterGrid& grid, StageTimer& timer,
-                                         const cl::Buffer& occupied) {
+                                         const DeviceArray<std::uint8_t>& occupied) {
     CoarseLighting out;
     out.lights = prepare_.enqueue(input, view, grid, timer);
     out.boxes = build_.enqueue(view, grid, timer);
@@ -34,8 +34,7 @@ CoarseLighting CoarseLightLists::enqueue(const LightInput& input, const View& vi
 HostCoarseLists CoarseLightLists::download(const CoarseLighting& coarse) const {
     HostCoarseLists out;
     out.grid = coarse.boxes.grid;
-    out.offsets = kilolux::download<uint>(gpu_, coarse.lists.offsets,
-                                          std::size_t{out.grid.cluster_count} + 1);
+    out.offsets = kilolux::download(gpu_, coarse.lists.offsets);
     out.lists = download_indices(gpu_, coarse.lists.lists, index_bits_, out.offsets.back());
     return out;
 }

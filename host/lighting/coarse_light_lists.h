@@ -35,13 +35,14 @@ class CoarseLightLists {
 
     /// Enqueues the stages with the room that earlier calls needed. `occupied`: see CullLights.
     CoarseLighting enqueue(const LightInput& input, const View& view, const ClusterGrid& grid,
-                           StageTimer& timer, const cl::Buffer& occupied = {});
+                           StageTimer& timer, const DeviceArray<std::uint8_t>& occupied = {});
 
-    /// True if the lists of the last enqueue() are complete; else makes room for the next. Blocks.
-    bool fits() { return cull_.fits(); }
-
-    /// (light, cluster) pairs of the last enqueue(). Blocks.
+    /// (light, cluster) pairs of the last enqueue(): on the device; on the host, which blocks.
+    DeviceArray<std::uint64_t> total() const { return cull_.total(); }
     std::uint64_t pairs() const { return cull_.pairs(); }
+
+    /// True if there is room for the last enqueue's `pairs`; else makes room for the next.
+    bool fits(std::uint64_t pairs) { return cull_.fits(pairs); }
 
     /// Copies complete lists. Blocks.
     HostCoarseLists download(const CoarseLighting& coarse) const;

@@ -26,7 +26,7 @@ AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,
 Radiance AllLightsLighting::light(const LightingInput& input, StageTimer& timer,
                                   const AfterShading& then) {
     lights_ = prepare_.enqueue(input.lights, input.gbuffer.view, input.grid, timer);
-    const Radiance radiance = shade_.enqueue_all_lights(input.gbuffer, lights_, timer);
+    const Radiance radiance = shade_.enqueue(input.gbuffer, lights_, timer);
     if (then) then(radiance);
     return radiance;
 }

@@ -61,7 +61,7 @@ class AllLightsLighting {
 
  private:
     PrepareLights prepare_;
-    Shade shade_;
+    ShadeAll shade_;
     PreparedLights lights_;
 };
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "host/lighting/coarse_light_lists.h"
-#include "host/lighting/list_counts.h"
 #include "host/stages/bin_pixels.h"
+#include "host/stages/count_pairs.h"
 #include "host/stages/refine_lights.h"
 
 namespace kilolux {
@@ -47,7 +47,7 @@ class LightLists {
                      StageTimer& timer, const std::function<void(const ListedLights&)>& then = {});
 
     /// Counts of the last run().
-    const ListCounts& counts() const { return counts_; }
+    const PairCounts& counts() const { return counts_; }
 
     /// What the last run() listed for the pixel (x, y) of the G-buffer, which has depth z > 0.
     /// Blocks.
@@ -62,8 +62,6 @@ class LightLists {
  private:
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer);
-    bool fits();
-    void count(const ListedLights& lists);
 
     Gpu gpu_;
     int index_bits_;
@@ -71,7 +69,8 @@ class LightLists {
     CoarseLightLists coarse_;
     BinPixels bin_;
     RefineLights refine_;
-    ListCounts counts_;
+    CountPairs count_;
+    PairCounts counts_{};
 };
 
 }  // namespace kilolux

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/lighting/list_counts.h"
+#include "kernels/shared/clusters.h"
 
 namespace kilolux {
 
@@ -30,7 +30,9 @@ struct StageTime {
 void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms);
 
 /// Counts of one frame, with those of its lists, all bands together.
-struct FrameStats : ListCounts {
+struct FrameStats : PairCounts {
+    FrameStats() : PairCounts{} {}
+
     std::uint64_t lights_given = 0;
     std::uint64_t lights_used = 0;
     std::uint64_t lights_rejected = 0;  // unusable: not finite, no range, no intensity

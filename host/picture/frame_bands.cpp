@@ -66,7 +66,12 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.useful_evaluations_per_pixel =
         mean_of(whole.useful_evaluations_per_pixel, above, band.useful_evaluations_per_pixel, here);
     std::copy_n(band.grid, 3, whole.grid);
-    whole += band;
+    whole.coarse_pairs += band.coarse_pairs;
+    whole.active_clusters += band.active_clusters;
+    whole.refine_tests += band.refine_tests;
+    whole.refined_pairs += band.refined_pairs;
+    whole.drawn_pixels += band.drawn_pixels;
+    whole.evaluations += band.evaluations;
     for (const StageTime& stage : band.stages) add_stage_time(whole.stages, stage.name, stage.ms);
 }
 

@@ -5,8 +5,8 @@ namespace kilolux {
 namespace {
 
 LitSurfaces lit(const Gpu& gpu, DecodedSurfaces surfaces, const PreparedLights& lights) {
-    return {std::move(surfaces), download<ShadeLight>(gpu, lights.lights, lights.count),
-            download<DirectionalLight>(gpu, lights.directional, lights.directional_count)};
+    return {std::move(surfaces), download(gpu, lights.lights, lights.count),
+            download(gpu, lights.directional, lights.directional_count)};
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
 }
 
 void DeferredPath::set_counts(FrameStats& stats) {
-    static_cast<ListCounts&>(stats) = lighting_.light_lists().counts();
+    static_cast<PairCounts&>(stats) = lighting_.light_lists().counts();
     const auto drawn = static_cast<double>(stats.drawn_pixels);
     stats.evaluations_per_pixel =
         drawn > 0.0 ? static_cast<double>(stats.evaluations) / drawn : 0.0;

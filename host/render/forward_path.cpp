@@ -28,7 +28,7 @@ Radiance ForwardPath::light(const Sample& sample, Measured out, const AfterShadi
     forward_.draw(sample.camera, settings.width, settings.height,
                   forward_lights(sample.rows, settings.ambient, clustered_ ? &lists_ : nullptr));
     const std::vector<float> planes = forward_.read_radiance(view.stride);
-    const Radiance radiance{radiance_.reserve(planes.size() * sizeof(float)), view};
+    const Radiance radiance{radiance_.reserve(planes.size()), view};
     upload<float>(context_.gpu, radiance.planes, planes);
     then(radiance);
     add_stage_time(out.stats.stages, clustered_ ? "forward_plus" : "forward", forward_.last_ms());

@@ -36,7 +36,7 @@ class ForwardPath {
     bool clustered_;
     ForwardPass forward_;
     std::optional<CoarseLightLists> coarse_;  // forward-plus only
-    GrowingBuffer radiance_;
+    GrowingArray<float> radiance_;
     std::optional<SurfacePass> surfaces_;  // made when first asked for
     std::optional<OverdrawPass> overdraw_;
     GBuffer gbuffer_;  // of surfaces_

@@ -81,7 +81,7 @@ class Pipeline {
     SumSamples sum_;
     std::optional<Bloom> bloom_;  // none at a share of 0
     Tonemap tonemap_;
-    GrowingBuffer whole_light_;  // of all bands, where bloom mixes them
+    GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
     FrameReader reader_;
     StageTimer timer_;
     DisplayMemory display_memory_;  // of the render() that runs

@@ -61,7 +61,7 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
     if (want.bloomed && settings.bloom > 0.0f) frame.bloomed.resize(3 * pixels);
     if (blooms_at_end()) {
         const View view = view_of(camera, settings.width, settings.height);
-        whole_light_.reserve(std::size_t{3} * sizeof(float) * view.stride * view.height);
+        whole_light_.reserve(std::size_t{3} * view.stride * view.height);
     }
     frame.stats.zero_normals = scene->zero_normals();
     rows_ = lights_.at(time, camera.position, frame.stats);
@@ -110,7 +110,7 @@ void Pipeline::develop(const Radiance& radiance, Frame& frame) {
     if (!blooms_at_end()) return read_display(radiance, frame);
     const View& view = radiance.view;
     const std::size_t row = sizeof(float) * view.stride;
-    gpu.queue.enqueueCopyBufferRect(radiance.planes, whole_light_.get(), {0, 0, 0},
+    gpu.queue.enqueueCopyBufferRect(radiance.planes, whole_light_.get().buffer(), {0, 0, 0},
                                     {0, view.first_row, 0}, {row, view.height, 3}, row,
                                     row * view.height, row,
                                     row * static_cast<std::size_t>(settings.height));

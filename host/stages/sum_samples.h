@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
@@ -23,12 +22,15 @@ class SumSamples {
     Radiance mean(StageTimer& timer);
 
  private:
-    Gpu gpu_;
-    Tuning tuning_;
+    WorkSize work_size() const;
+
+    uint lanes_;
+    int group_;
     cl::Program program_;
+    Kernel add_, mean_kernel_;
     View view_{};
-    int count_ = 0;
-    GrowingBuffer sums_, mean_;
+    uint count_ = 0;
+    GrowingArray<float> sums_, mean_;
 };
 
 }  // namespace kilolux

@@ -78,24 +78,19 @@ uvec2 light_range(float z) {
 #endif
 }
 
-// Blocked by light index as in kernels/shade.cl, so that a light that adds nothing changes nothing.
+// As kernels/shade.cl: in blocks by light index.
 LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
-    LightSum block = zero_sum();
-    uint current = 0u;
+    RunningSum sum = start_sum(total);
     for (uint i = range.x; i < range.y; ++i) {
 #ifdef CLUSTERED
         uint light = listed_light(i);
 #else
         uint light = i;
 #endif
-        if (light >> SUM_BLOCK_LOG2 != current) {
-            current = light >> SUM_BLOCK_LOG2;
-            total = add_sums(total, block);
-            block = zero_sum();
-        }
-        block = evaluate(block, p, light_at(light));
+        sum = enter_block(sum, light);
+        sum.block = evaluate(sum.block, p, light_at(light));
     }
-    return add_sums(total, block);
+    return finish_sum(sum);
 }
 
 void main() {

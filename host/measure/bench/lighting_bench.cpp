@@ -147,13 +147,13 @@ Radiance LightingBench::Parts::light(Stages& stages) {
 LightingRun LightingBench::Parts::run(const LightingRequest& request) {
     context.make_current();
     set_layout(request.plan.gbuffer);
-    const Gpu lanes_gpu(gpu.context, gpu.queue, request.tuning.lanes);
+    const Gpu lanes_gpu = gpu.with_lanes(request.tuning.lanes);
     Stages stages(lanes_gpu, request, settings);
     LightingRun out;
     out.stats = light_stats;
     Radiance radiance = light(stages);
     timer.take();
-    static_cast<ListCounts&>(out.stats) = stages.lighting.light_lists().counts();
+    static_cast<PairCounts&>(out.stats) = stages.lighting.light_lists().counts();
     const ClusterGrid& grid = stages.lighting.lists().grid;
     std::ranges::copy(std::array{grid.tiles_x, grid.tiles_y, grid.slices}, out.stats.grid);
     out.stats.useful_evaluations_per_pixel = -1.0;
