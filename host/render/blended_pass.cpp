@@ -5,12 +5,8 @@ namespace kilolux {
 
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque) {
     ForwardFeatures features;
+    static_cast<SceneFeatures&>(features) = plan.kernels;
     features.shading = plan.kernels.shading;
-    features.spot_lights = plan.kernels.spot_lights;
-    features.directional_lights = plan.kernels.directional_lights;
-    features.metallic = plan.kernels.metallic;
-    features.specular = plan.kernels.specular;
-    features.unlit = plan.kernels.unlit;
     features.clustered = clustered;
     features.opaque = opaque;
     return features;
