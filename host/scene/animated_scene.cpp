@@ -2,28 +2,32 @@
 #include "host/scene/animated_scene.h"
 
 #include "host/scene/gltf/animation.h"
-#include "host/scene/gltf/image.h"
+#include "host/scene/gltf/material/image.h"
 #include "host/scene/gltf/lights_cameras.h"
 #include "host/scene/gltf/parallel.h"
 #include "host/scene/gltf/shapes.h"
 
 namespace kilolux {
 
-// What of a file its scene is made from again at another time.
+// What evaluating the scene at another time needs of its file.
 struct AnimatedScene::File {
     GltfDocument document;
     GltfMaterials materials;
     std::vector<PrimitiveJob> jobs;
     std::vector<int> mesh_of_job;  // index into Scene::meshes; -1: has no triangles
-    bool built = false;
-    double time = 0.0;  // [s] that the scene stands at
+    double time = 0.0;             // [s] of the scene
 };
 
 namespace {
 
 // Instances of each placement's meshes, in the file's order.
 std::vector<Instance> place_instances(const GltfDocument& document, const ShapePlan& plan,
-                                      const std::vector<std::vector<int>>& meshes_of_shape) {
+                                      const std::vector<PrimitiveJob>& jobs,
+                                      const std::vector<int>& mesh_of_job) {
+    std::vector<std::vector<int>> meshes_of_shape(plan.shapes.size());
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+        if (mesh_of_job[j] >= 0) meshes_of_shape[jobs[j].shape].push_back(mesh_of_job[j]);
+    }
     std::size_t count = 0;
     for (const Placement& placement : plan.placements) {
         count += meshes_of_shape[placement.shape].size();
@@ -68,42 +72,47 @@ AnimatedScene::~AnimatedScene() = default;
 
 void AnimatedScene::set_time(double time) {
     if (!file_ || file_->time == time) return;
-    file_->time = file_->document.options.time = time;
+    file_->document.options.time = time;
     file_->document.budget->refill();
     place();
+    file_->time = time;
     ++scene_.revision;
 }
 
-// Makes the scene of the document at its options' time: all of it, or what can have moved.
+// Makes the scene of the document at its options' time: all of it, or what can have moved. Changes
+// the scene only once nothing can throw any more.
 void AnimatedScene::place() {
     File& file = *file_;
+    const bool first = file.mesh_of_job.empty();
     const PlacedNodes nodes = place_nodes(file.document);
     const ShapePlan plan = plan_shapes(file.document, nodes);
-    scene_.lights = convert_lights(file.document, nodes);
-    scene_.cameras = convert_cameras(file.document, nodes);
-    if (!file.built) file.jobs = list_primitives(file.document, plan);
+    if (first) file.jobs = list_primitives(file.document, plan);
     std::vector<Mesh> meshes(file.jobs.size());
-    parallel_each(file.jobs.size(), [&](std::size_t j) {
+    parallel_each(meshes.size(), [&](std::size_t j) {
         const MeshShape& shape = plan.shapes[file.jobs[j].shape];
-        if (file.built && !shape.moves) return;
+        if (!first && !shape.moves) return;
         meshes[j] = build_primitive(file.document, file.materials, shape, file.jobs[j].primitive);
     });
-    std::vector<std::vector<int>> meshes_of_shape(plan.shapes.size());
-    if (!file.built) file.mesh_of_job.assign(file.jobs.size(), -1);
-    for (std::size_t j = 0; j < file.jobs.size(); ++j) {
-        int& index = file.mesh_of_job[j];
-        if (!file.built && !meshes[j].indices.empty()) {
-            index = static_cast<int>(scene_.meshes.size());
-            scene_.meshes.push_back(std::move(meshes[j]));
-        } else if (file.built && index >= 0 && plan.shapes[file.jobs[j].shape].moves) {
-            Mesh& mesh = scene_.meshes[static_cast<std::size_t>(index)];
-            meshes[j].revision = mesh.revision + 1;
-            mesh = std::move(meshes[j]);
+    if (first) {
+        for (const Mesh& mesh : meshes) {
+            const int next = static_cast<int>(scene_.meshes.size());
+            file.mesh_of_job.push_back(mesh.indices.empty() ? -1 : next);
+            if (!mesh.indices.empty()) scene_.meshes.emplace_back();
         }
-        if (index >= 0) meshes_of_shape[file.jobs[j].shape].push_back(index);
     }
-    file.built = true;
-    scene_.instances = place_instances(file.document, plan, meshes_of_shape);
+    std::vector<Instance> instances =
+        place_instances(file.document, plan, file.jobs, file.mesh_of_job);
+    std::vector<SceneLight> lights = convert_lights(file.document, nodes);
+    std::vector<SceneCamera> cameras = convert_cameras(file.document, nodes);
+    for (std::size_t j = 0; j < meshes.size(); ++j) {
+        if (meshes[j].indices.empty()) continue;
+        Mesh& mesh = scene_.meshes[static_cast<std::size_t>(file.mesh_of_job[j])];
+        if (!first) meshes[j].revision = mesh.revision + 1;
+        mesh = std::move(meshes[j]);
+    }
+    scene_.instances = std::move(instances);
+    scene_.lights = std::move(lights);
+    scene_.cameras = std::move(cameras);
 }
 
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {

@@ -3,19 +3,18 @@
 
 #include <memory>
 
-#include "host/scene/gltf/load_progress.h"
 #include "host/scene/gltf/load_scene.h"
 
 namespace kilolux {
 
-/// A scene that can be put to any time: what moves is evaluated again, what does not stays.
+/// A scene that can be set to any time: what moves is evaluated again, the rest is kept.
 ///
 /// The scene at a time is what load_scene() gives for that time, bit for bit, whatever times came
-/// before. It stays where it is, so that renderers may refer to it; its revision says that it
-/// changed.
+/// before. Its address does not change, so renderers may keep a reference; its revision grows with
+/// every change.
 class AnimatedScene {
  public:
-    /// A scene that stands still.
+    /// A scene without animation.
     explicit AnimatedScene(Scene scene);
 
     /// A glTF file at options.time; throws as load_scene() does.
@@ -32,10 +31,10 @@ class AnimatedScene {
     bool moves() const { return file_ != nullptr; }
 
     /// Evaluates the animations at `time` [s]: transforms, lights, cameras, and the vertices of
-    /// meshes with a skin or with morph weights that are driven. Throws Error as loading does.
+    /// meshes with a skin or with morph weights that are driven. Throws Error as loading does; the
+    /// scene then stays at the time it had.
     void set_time(double time);
 
-    /// Gives the scene away.
     Scene take() && { return std::move(scene_); }
 
  private:
@@ -43,7 +42,7 @@ class AnimatedScene {
     void place();
 
     Scene scene_;
-    std::unique_ptr<File> file_;  // none: stands still
+    std::unique_ptr<File> file_;  // none: no animation
 };
 
 }  // namespace kilolux

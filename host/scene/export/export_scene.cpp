@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/export/export_scene.h"
 
+#include <fmt/core.h>
+
 #include <cctype>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -44,14 +46,13 @@ Json mesh_json(const Mesh& mesh, ExportBuffer& buffer) {
 
 // A file's name as a relative URI: all but what RFC 3986 calls unreserved is encoded.
 std::string percent_encoded(const std::string& name) {
-    constexpr const char* kDigits = "0123456789ABCDEF";
     std::string out;
     for (const char c : name) {
         const auto byte = static_cast<unsigned char>(c);
         if (std::isalnum(byte) != 0 || std::string_view("-._~").find(c) != std::string_view::npos) {
             out += c;
         } else {
-            out += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+            out += fmt::format("%{:02X}", byte);
         }
     }
     return out;
@@ -66,97 +67,6 @@ bool is_glb(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return extension == ".glb";
-}
-
-class Writer {
- public:
-    Writer(const Scene& scene, const std::filesystem::path& file)
-        : scene_(scene), stem_(file.stem().string()), binary_(is_glb(file)) {}
-
-    ExportedScene write(const std::filesystem::path& file);
-
- private:
-    std::vector<int> add_meshes();
-    void add_images();
-    void add_nodes(const std::vector<int>& mesh_of);
-    void add_buffer();
-    void add_extensions();
-    Bytes glb() const;
-
-    const Scene& scene_;
-    std::string stem_;
-    bool binary_;
-    Json root_{{"asset", {{"version", "2.0"}, {"generator", "kilolux"}}}, {"scene", 0}};
-    ExportBuffer buffer_;
-    std::set<std::string> extensions_;
-    ExportedScene out_;
-};
-
-std::vector<int> Writer::add_meshes() {
-    std::vector<int> mesh_of;
-    Json meshes = Json::array();
-    for (const Mesh& mesh : scene_.meshes) {
-        const bool drawn = !mesh.positions.empty() && !mesh.indices.empty();
-        mesh_of.push_back(drawn ? static_cast<int>(meshes.size()) : -1);
-        if (drawn) meshes.push_back(mesh_json(mesh, buffer_));
-    }
-    add_array(root_, "meshes", std::move(meshes));
-    return mesh_of;
-}
-
-void Writer::add_images() {
-    std::vector<Bytes> encoded(scene_.images.size());
-    parallel_each(encoded.size(),
-                  [&](std::size_t i) { encoded[i] = encode_png(scene_.images[i]); });
-    Json images = Json::array();
-    for (std::size_t i = 0; i < encoded.size(); ++i) {
-        Json image = Json::object();
-        if (!scene_.images[i].name.empty()) image["name"] = scene_.images[i].name;
-        if (binary_) {
-            image["bufferView"] = buffer_.add_bytes(encoded[i]);
-            image["mimeType"] = "image/png";
-        } else {
-            const std::string name = stem_ + "_" + std::to_string(i) + ".png";
-            image["uri"] = percent_encoded(name);
-            out_.files.push_back({name, std::move(encoded[i])});
-        }
-        images.push_back(std::move(image));
-    }
-    add_array(root_, "images", std::move(images));
-}
-
-void Writer::add_nodes(const std::vector<int>& mesh_of) {
-    ExportedNodes placed = export_nodes(scene_, mesh_of);
-    out_.lights = placed.lights.size();
-    out_.unusable_lights = placed.unusable_lights;
-    Json scene = Json::object();
-    if (!scene_.name.empty()) scene["name"] = scene_.name;
-    add_array(scene, "nodes", std::move(placed.roots));
-    root_["scenes"] = Json::array({std::move(scene)});
-    add_array(root_, "nodes", std::move(placed.nodes));
-    add_array(root_, "cameras", std::move(placed.cameras));
-    if (placed.lights.empty()) return;
-    extensions_.insert("KHR_lights_punctual");
-    root_["extensions"]["KHR_lights_punctual"]["lights"] = std::move(placed.lights);
-}
-
-void Writer::add_buffer() {
-    if (buffer_.bytes().empty()) return;
-    Json buffer{{"byteLength", buffer_.bytes().size()}};
-    if (!binary_) {
-        const std::string name = stem_ + ".bin";
-        buffer["uri"] = percent_encoded(name);
-        out_.files.push_back({name, buffer_.bytes()});
-    }
-    root_["buffers"] = Json::array({std::move(buffer)});
-    root_["bufferViews"] = buffer_.views();
-    add_array(root_, "accessors", buffer_.accessors());
-}
-
-void Writer::add_extensions() {
-    if (extensions_.empty()) return;
-    root_["extensionsUsed"] = Json::array();
-    for (const std::string& name : extensions_) root_["extensionsUsed"].push_back(name);
 }
 
 void append_word(Bytes& out, std::uint64_t word) {
@@ -174,46 +84,128 @@ void append_chunk(Bytes& out, const char* type, std::span<const unsigned char> b
     while (out.size() % 4 != 0) out.push_back(padding);
 }
 
-Bytes Writer::glb() const {
-    const std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
-    constexpr std::size_t kHeaders = 12 + 8 + 8 + 6;  // and the most that padding takes
-    const std::size_t bytes = json.size() + buffer_.bytes().size() + kHeaders;
-    if (bytes > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error(stem_ + ".glb: would be " + std::to_string(bytes >> 20) +
-                    " MiB, a .glb holds at most 4096; export to .gltf");
-    }
-    Bytes out;
-    out.reserve(bytes);
-    for (const char c : {'g', 'l', 'T', 'F'}) out.push_back(static_cast<unsigned char>(c));
-    append_word(out, 2);
-    append_word(out, 0);
-    append_chunk(out, "JSON", {reinterpret_cast<const unsigned char*>(json.data()), json.size()},
-                 ' ');
-    if (!buffer_.bytes().empty()) append_chunk(out, "BIN\0", buffer_.bytes(), 0);
-    Bytes size;
-    append_word(size, out.size());
-    std::copy(size.begin(), size.end(), out.begin() + 8);
-    return out;
-}
+class Writer {
+ public:
+    Writer(const Scene& scene, const std::filesystem::path& file)
+        : scene_(scene), stem_(file.stem().string()), binary_(is_glb(file)) {}
 
-ExportedScene Writer::write(const std::filesystem::path& file) {
-    const std::vector<int> mesh_of = add_meshes();
-    ExportedMaterials materials = export_materials(scene_, extensions_);
-    add_array(root_, "materials", std::move(materials.materials));
-    add_array(root_, "textures", std::move(materials.textures));
-    add_array(root_, "samplers", std::move(materials.samplers));
-    add_images();
-    add_nodes(mesh_of);
-    add_buffer();
-    add_extensions();
-    if (binary_) {
-        out_.files.push_back({file.filename().string(), glb()});
-    } else {
-        const std::string text = root_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-        out_.files.push_back({file.filename().string(), Bytes(text.begin(), text.end())});
+    ExportedScene write(const std::filesystem::path& file) {
+        const std::vector<int> mesh_of = add_meshes();
+        ExportedMaterials materials = export_materials(scene_, extensions_);
+        add_array(root_, "materials", std::move(materials.materials));
+        add_array(root_, "textures", std::move(materials.textures));
+        add_array(root_, "samplers", std::move(materials.samplers));
+        add_images();
+        add_nodes(mesh_of);
+        add_buffer();
+        add_extensions();
+        if (binary_) {
+            out_.files.push_back({file.filename().string(), glb()});
+        } else {
+            const std::string text = root_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+            out_.files.push_back({file.filename().string(), Bytes(text.begin(), text.end())});
+        }
+        return std::move(out_);
     }
-    return std::move(out_);
-}
+
+ private:
+    std::vector<int> add_meshes() {
+        std::vector<int> mesh_of;
+        Json meshes = Json::array();
+        for (const Mesh& mesh : scene_.meshes) {
+            const bool drawn = !mesh.positions.empty() && !mesh.indices.empty();
+            mesh_of.push_back(drawn ? static_cast<int>(meshes.size()) : -1);
+            if (drawn) meshes.push_back(mesh_json(mesh, buffer_));
+        }
+        add_array(root_, "meshes", std::move(meshes));
+        return mesh_of;
+    }
+
+    void add_images() {
+        std::vector<Bytes> encoded(scene_.images.size());
+        parallel_each(encoded.size(),
+                      [&](std::size_t i) { encoded[i] = encode_png(scene_.images[i]); });
+        Json images = Json::array();
+        for (std::size_t i = 0; i < encoded.size(); ++i) {
+            Json image = Json::object();
+            if (!scene_.images[i].name.empty()) image["name"] = scene_.images[i].name;
+            if (binary_) {
+                image["bufferView"] = buffer_.add_bytes(encoded[i]);
+                image["mimeType"] = "image/png";
+            } else {
+                const std::string name = fmt::format("{}_{}.png", stem_, i);
+                image["uri"] = percent_encoded(name);
+                out_.files.push_back({name, std::move(encoded[i])});
+            }
+            images.push_back(std::move(image));
+        }
+        add_array(root_, "images", std::move(images));
+    }
+
+    void add_nodes(const std::vector<int>& mesh_of) {
+        ExportedNodes placed = export_nodes(scene_, mesh_of);
+        out_.lights = placed.lights.size();
+        out_.unusable_lights = placed.unusable_lights;
+        Json scene = Json::object();
+        if (!scene_.name.empty()) scene["name"] = scene_.name;
+        add_array(scene, "nodes", std::move(placed.roots));
+        root_["scenes"] = Json::array({std::move(scene)});
+        add_array(root_, "nodes", std::move(placed.nodes));
+        add_array(root_, "cameras", std::move(placed.cameras));
+        if (placed.lights.empty()) return;
+        extensions_.insert("KHR_lights_punctual");
+        root_["extensions"]["KHR_lights_punctual"]["lights"] = std::move(placed.lights);
+    }
+
+    void add_buffer() {
+        if (buffer_.bytes().empty()) return;
+        Json buffer{{"byteLength", buffer_.bytes().size()}};
+        if (!binary_) {
+            const std::string name = stem_ + ".bin";
+            buffer["uri"] = percent_encoded(name);
+            out_.files.push_back({name, buffer_.bytes()});
+        }
+        root_["buffers"] = Json::array({std::move(buffer)});
+        root_["bufferViews"] = buffer_.views();
+        add_array(root_, "accessors", buffer_.accessors());
+    }
+
+    void add_extensions() {
+        if (extensions_.empty()) return;
+        root_["extensionsUsed"] = Json::array();
+        for (const std::string& name : extensions_) root_["extensionsUsed"].push_back(name);
+    }
+
+    Bytes glb() const {
+        const std::string json = root_.dump(-1, ' ', false, Json::error_handler_t::replace);
+        constexpr std::size_t kHeaders = 12 + 8 + 8 + 6;  // and the most that padding takes
+        const std::size_t bytes = json.size() + buffer_.bytes().size() + kHeaders;
+        if (bytes > std::numeric_limits<std::uint32_t>::max()) {
+            throw Error(fmt::format("{}.glb: would be {} MiB, a .glb holds at most 4096; export to .gltf",
+                                    stem_, bytes >> 20));
+        }
+        Bytes out;
+        out.reserve(bytes);
+        for (const char c : {'g', 'l', 'T', 'F'}) out.push_back(static_cast<unsigned char>(c));
+        append_word(out, 2);
+        append_word(out, 0);
+        append_chunk(out, "JSON", {reinterpret_cast<const unsigned char*>(json.data()), json.size()},
+                     ' ');
+        if (!buffer_.bytes().empty()) append_chunk(out, "BIN\0", buffer_.bytes(), 0);
+        Bytes size;
+        append_word(size, out.size());
+        std::copy(size.begin(), size.end(), out.begin() + 8);
+        return out;
+    }
+
+    const Scene& scene_;
+    std::string stem_;
+    bool binary_;
+    Json root_{{"asset", {{"version", "2.0"}, {"generator", "kilolux"}}}, {"scene", 0}};
+    ExportBuffer buffer_;
+    std::set<std::string> extensions_;
+    ExportedScene out_;
+};
 
 }  // namespace
 

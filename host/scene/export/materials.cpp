@@ -61,105 +61,96 @@ class MaterialWriter {
  public:
     explicit MaterialWriter(std::set<std::string>& extensions) : extensions_(extensions) {}
 
-    Json material(const Material& m);
+    Json material(const Material& m) {
+        Json out = Json::object();
+        if (!m.name.empty()) out["name"] = m.name;
+        out["pbrMetallicRoughness"] = metallic_roughness(m);
+        add_maps(out, m);
+        add_emission(out, m);
+        if (m.alpha_mode == AlphaMode::mask) {
+            out["alphaMode"] = "MASK";
+            out["alphaCutoff"] = m.alpha_cutoff;
+        } else if (m.alpha_mode == AlphaMode::blend) {
+            out["alphaMode"] = "BLEND";
+        }
+        if (m.double_sided) out["doubleSided"] = true;
+        add_reflectance(out, m);
+        return out;
+    }
 
  private:
-    void add_texture(Json& to, const char* name, const TextureUse& use);
-    Json metallic_roughness(const Material& m);
-    void add_maps(Json& out, const Material& m);
-    void add_emission(Json& out, const Material& m);
-    void add_reflectance(Json& out, const Material& m);
-    Json& extension(Json& of, const char* name);
+    Json& extension(Json& of, const char* name) {
+        extensions_.insert(name);
+        Json& out = of["extensions"][name];
+        if (out.is_null()) out = Json::object();
+        return out;
+    }
+
+    void add_texture(Json& to, const char* name, const TextureUse& use) {
+        if (!use.present()) return;
+        Json out{{"index", use.texture}};
+        if (use.uv_set != 0) out["texCoord"] = use.uv_set;
+        if (use.uv_from_texcoord != glm::mat3(1.0f)) {
+            extension(out, "KHR_texture_transform") = transform_json(use.uv_from_texcoord);
+        }
+        to[name] = std::move(out);
+    }
+
+    Json metallic_roughness(const Material& m) {
+        Json out{{"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}};
+        add_texture(out, "baseColorTexture", m.base_color_texture);
+        out["metallicFactor"] = m.metallic;
+        out["roughnessFactor"] = m.roughness;
+        add_texture(out, "metallicRoughnessTexture", m.metallic_roughness_texture);
+        return out;
+    }
+
+    void add_maps(Json& out, const Material& m) {
+        add_texture(out, "normalTexture", m.normal_texture);
+        if (m.normal_texture.present() && m.normal_scale != 1.0f) {
+            out["normalTexture"]["scale"] = m.normal_scale;
+        }
+        add_texture(out, "occlusionTexture", m.occlusion_texture);
+        if (m.occlusion_texture.present() && m.occlusion_strength != 1.0f) {
+            out["occlusionTexture"]["strength"] = m.occlusion_strength;
+        }
+    }
+
+    // glTF's factor is at most 1. The strength is a power of two, so that the product is exact.
+    void add_emission(Json& out, const Material& m) {
+        const float largest = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
+        double strength = 1.0;
+        while (largest > strength) strength *= 2.0;
+        if (largest > 0.0f) {
+            out["emissiveFactor"] = {m.emissive.x / strength, m.emissive.y / strength,
+                                     m.emissive.z / strength};
+        }
+        add_texture(out, "emissiveTexture", m.emissive_texture);
+        if (strength > 1.0) {
+            extension(out, "KHR_materials_emissive_strength")["emissiveStrength"] = strength;
+        }
+    }
+
+    void add_reflectance(Json& out, const Material& m) {
+        const Material standard;
+        if (m.unlit) {
+            extension(out, "KHR_materials_unlit");
+            return;  // nothing of it reflects
+        }
+        if (m.ior != standard.ior) extension(out, "KHR_materials_ior")["ior"] = m.ior;
+        Json specular = Json::object();
+        if (m.specular != standard.specular) specular["specularFactor"] = m.specular;
+        if (m.specular_color != standard.specular_color) {
+            specular["specularColorFactor"] = {m.specular_color.x, m.specular_color.y,
+                                               m.specular_color.z};
+        }
+        add_texture(specular, "specularTexture", m.specular_texture);
+        add_texture(specular, "specularColorTexture", m.specular_color_texture);
+        if (!specular.empty()) extension(out, "KHR_materials_specular") = std::move(specular);
+    }
 
     std::set<std::string>& extensions_;
 };
-
-Json& MaterialWriter::extension(Json& of, const char* name) {
-    extensions_.insert(name);
-    Json& out = of["extensions"][name];
-    if (out.is_null()) out = Json::object();
-    return out;
-}
-
-void MaterialWriter::add_texture(Json& to, const char* name, const TextureUse& use) {
-    if (!use.present()) return;
-    Json out{{"index", use.texture}};
-    if (use.uv_set != 0) out["texCoord"] = use.uv_set;
-    if (use.uv_from_texcoord != glm::mat3(1.0f)) {
-        extension(out, "KHR_texture_transform") = transform_json(use.uv_from_texcoord);
-    }
-    to[name] = std::move(out);
-}
-
-Json MaterialWriter::metallic_roughness(const Material& m) {
-    Json out{{"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}};
-    add_texture(out, "baseColorTexture", m.base_color_texture);
-    out["metallicFactor"] = m.metallic;
-    out["roughnessFactor"] = m.roughness;
-    add_texture(out, "metallicRoughnessTexture", m.metallic_roughness_texture);
-    return out;
-}
-
-void MaterialWriter::add_maps(Json& out, const Material& m) {
-    add_texture(out, "normalTexture", m.normal_texture);
-    if (m.normal_texture.present() && m.normal_scale != 1.0f) {
-        out["normalTexture"]["scale"] = m.normal_scale;
-    }
-    add_texture(out, "occlusionTexture", m.occlusion_texture);
-    if (m.occlusion_texture.present() && m.occlusion_strength != 1.0f) {
-        out["occlusionTexture"]["strength"] = m.occlusion_strength;
-    }
-}
-
-// glTF's factor is at most 1. The strength is a power of two, so that the product is exact.
-void MaterialWriter::add_emission(Json& out, const Material& m) {
-    const float largest = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
-    double strength = 1.0;
-    while (largest > strength) strength *= 2.0;
-    if (largest > 0.0f) {
-        out["emissiveFactor"] = {m.emissive.x / strength, m.emissive.y / strength,
-                                 m.emissive.z / strength};
-    }
-    add_texture(out, "emissiveTexture", m.emissive_texture);
-    if (strength > 1.0) {
-        extension(out, "KHR_materials_emissive_strength")["emissiveStrength"] = strength;
-    }
-}
-
-void MaterialWriter::add_reflectance(Json& out, const Material& m) {
-    const Material standard;
-    if (m.unlit) {
-        extension(out, "KHR_materials_unlit");
-        return;  // nothing of it reflects
-    }
-    if (m.ior != standard.ior) extension(out, "KHR_materials_ior")["ior"] = m.ior;
-    Json specular = Json::object();
-    if (m.specular != standard.specular) specular["specularFactor"] = m.specular;
-    if (m.specular_color != standard.specular_color) {
-        specular["specularColorFactor"] = {m.specular_color.x, m.specular_color.y,
-                                           m.specular_color.z};
-    }
-    add_texture(specular, "specularTexture", m.specular_texture);
-    add_texture(specular, "specularColorTexture", m.specular_color_texture);
-    if (!specular.empty()) extension(out, "KHR_materials_specular") = std::move(specular);
-}
-
-Json MaterialWriter::material(const Material& m) {
-    Json out = Json::object();
-    if (!m.name.empty()) out["name"] = m.name;
-    out["pbrMetallicRoughness"] = metallic_roughness(m);
-    add_maps(out, m);
-    add_emission(out, m);
-    if (m.alpha_mode == AlphaMode::mask) {
-        out["alphaMode"] = "MASK";
-        out["alphaCutoff"] = m.alpha_cutoff;
-    } else if (m.alpha_mode == AlphaMode::blend) {
-        out["alphaMode"] = "BLEND";
-    }
-    if (m.double_sided) out["doubleSided"] = true;
-    add_reflectance(out, m);
-    return out;
-}
 
 }  // namespace
 

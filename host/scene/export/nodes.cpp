@@ -15,9 +15,7 @@ bool is_finite(const glm::dvec3& v) {
 }
 
 Json matrix_json(const glm::dmat4& m) {
-    Json out = Json::array();
-    for (glm::length_t i = 0; i < 16; ++i) out.push_back(m[i / 4][i % 4]);
-    return out;
+    return std::vector<double>(&m[0][0], &m[0][0] + 16);
 }
 
 glm::dmat4 with_axes(const glm::dmat3& axes, const glm::dvec4& origin) {
@@ -78,14 +76,8 @@ int add_placed(Json& nodes, const glm::dmat4& world_from_node, Json node) {
 }
 
 const char* type_name(LightType type) {
-    switch (type) {
-        case LightType::spot:
-            return "spot";
-        case LightType::directional:
-            return "directional";
-        default:
-            return "point";
-    }
+    if (type == LightType::spot) return "spot";
+    return type == LightType::directional ? "directional" : "point";
 }
 
 bool is_usable(const SceneLight& light) {

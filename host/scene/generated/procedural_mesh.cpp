@@ -45,6 +45,37 @@ glm::vec3 any_perpendicular(const glm::vec3& n) {
     return glm::normalize(glm::cross(n, axis));
 }
 
+// Unit tangents by the directions in which u grows, with glTF's handedness: cross(normal, tangent) * w
+// points where v shrinks, which is up in the image. Simpler than the loader's derive_tangents(): no
+// vertex here is shared by mirrored triangles.
+std::vector<glm::vec4> tangents_of(const Mesh& mesh) {
+    const std::size_t count = mesh.positions.size();
+    std::vector<glm::vec3> along_u(count, glm::vec3(0.0f));
+    std::vector<glm::vec3> along_v(count, glm::vec3(0.0f));
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const std::uint32_t* v = &mesh.indices[i];
+        const glm::vec3 e1 = mesh.positions[v[1]] - mesh.positions[v[0]];
+        const glm::vec3 e2 = mesh.positions[v[2]] - mesh.positions[v[0]];
+        const glm::vec2 d1 = mesh.texcoords[0][v[1]] - mesh.texcoords[0][v[0]];
+        const glm::vec2 d2 = mesh.texcoords[0][v[2]] - mesh.texcoords[0][v[0]];
+        const float sign = d1.x * d2.y - d2.x * d1.y < 0.0f ? -1.0f : 1.0f;
+        for (int k = 0; k < 3; ++k) {
+            along_u[v[k]] += sign * (e1 * d2.y - e2 * d1.y);
+            along_v[v[k]] += sign * (e2 * d1.x - e1 * d2.x);
+        }
+    }
+    std::vector<glm::vec4> tangents;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3& n = mesh.normals[i];
+        const glm::vec3 flat = along_u[i] - n * glm::dot(n, along_u[i]);
+        const bool degenerate = !(glm::dot(flat, flat) > 1e-20f);
+        const glm::vec3 t = degenerate ? any_perpendicular(n) : glm::normalize(flat);
+        const float w = glm::dot(glm::cross(n, t), along_v[i]) > 0.0f ? -1.0f : 1.0f;
+        tangents.emplace_back(t, w);
+    }
+    return tangents;
+}
+
 }  // namespace
 
 std::uint32_t MeshBuilder::add(const SurfacePoint& point) {
@@ -110,6 +141,15 @@ void MeshBuilder::quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
     add({d, n, uv(d)});
     triangle(first, first + 1, first + 2);
     triangle(first, first + 2, first + 3);
+}
+
+void MeshBuilder::level(const glm::dvec2& low, const glm::dvec2& high, double y, double up) {
+    quad({low.x, y, low.y}, {high.x, y, low.y}, {high.x, y, high.y}, {low.x, y, high.y}, {0, up, 0});
+}
+
+void MeshBuilder::wall(const glm::dvec2& low, const glm::dvec2& high, double z, double facing) {
+    quad({low.x, low.y, z}, {high.x, low.y, z}, {high.x, high.y, z}, {low.x, high.y, z},
+         {0, 0, facing});
 }
 
 void MeshBuilder::box(const glm::dvec3& low, const glm::dvec3& high) {
@@ -191,6 +231,12 @@ void MeshBuilder::append(const MeshBuilder& other, const glm::dmat4& to_here) {
     }
 }
 
+MeshBuilder MeshBuilder::moved(const glm::dvec3& by) const {
+    MeshBuilder out;
+    out.append(*this, placed(by));
+    return out;
+}
+
 Mesh MeshBuilder::build(std::string name, int material, double uv_per_metre,
                         bool with_tangents) const {
     Mesh mesh;
@@ -204,34 +250,6 @@ Mesh MeshBuilder::build(std::string name, int material, double uv_per_metre,
     }
     if (with_tangents) mesh.tangents = tangents_of(mesh);
     return mesh;
-}
-
-std::vector<glm::vec4> tangents_of(const Mesh& mesh) {
-    const std::size_t count = mesh.positions.size();
-    std::vector<glm::vec3> along_u(count, glm::vec3(0.0f));
-    std::vector<glm::vec3> along_v(count, glm::vec3(0.0f));
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const std::uint32_t* v = &mesh.indices[i];
-        const glm::vec3 e1 = mesh.positions[v[1]] - mesh.positions[v[0]];
-        const glm::vec3 e2 = mesh.positions[v[2]] - mesh.positions[v[0]];
-        const glm::vec2 d1 = mesh.texcoords[0][v[1]] - mesh.texcoords[0][v[0]];
-        const glm::vec2 d2 = mesh.texcoords[0][v[2]] - mesh.texcoords[0][v[0]];
-        const float sign = d1.x * d2.y - d2.x * d1.y < 0.0f ? -1.0f : 1.0f;
-        for (int k = 0; k < 3; ++k) {
-            along_u[v[k]] += sign * (e1 * d2.y - e2 * d1.y);
-            along_v[v[k]] += sign * (e2 * d1.x - e1 * d2.x);
-        }
-    }
-    std::vector<glm::vec4> tangents;
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec3& n = mesh.normals[i];
-        const glm::vec3 flat = along_u[i] - n * glm::dot(n, along_u[i]);
-        const bool degenerate = !(glm::dot(flat, flat) > 1e-20f);
-        const glm::vec3 t = degenerate ? any_perpendicular(n) : glm::normalize(flat);
-        const float w = glm::dot(glm::cross(n, t), along_v[i]) > 0.0f ? -1.0f : 1.0f;
-        tangents.emplace_back(t, w);
-    }
-    return tangents;
 }
 
 glm::dmat4 placed(const glm::dvec3& offset, int quarters) {

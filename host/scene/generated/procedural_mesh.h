@@ -36,7 +36,7 @@ struct SweepFrame {
 };
 
 /// Collects triangles. Every face is wound counter-clockwise about its vertices' normals, and
-/// triangles without area are left out, so shapes need only get their normals right.
+/// triangles without area are left out, so a shape only needs correct normals.
 class MeshBuilder {
  public:
     /// A surface of (columns + 1) x (rows + 1) points; `at` gets u, v in [0, 1].
@@ -53,10 +53,16 @@ class MeshBuilder {
     void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
               const glm::dvec3& facing);
 
+    /// A rectangle at height y from (x, z) = `low` to `high`; `up` is 1 for a floor, -1 for a ceiling.
+    void level(const glm::dvec2& low, const glm::dvec2& high, double y, double up = 1.0);
+
+    /// A rectangle in the plane of constant z from (x, y) = `low` to `high`, seen from `facing` * z.
+    void wall(const glm::dvec2& low, const glm::dvec2& high, double z, double facing);
+
     /// An axis-aligned box of six faces.
     void box(const glm::dvec3& low, const glm::dvec3& high);
 
-    /// A profile carried along frames (at least two); `smooth` is along the profile's own creases.
+    /// A profile carried along frames (at least two); smooth along the path.
     void sweep(const Profile& profile, std::span<const SweepFrame> frames);
 
     /// A profile of (radius, height) turned about the y axis through `center`.
@@ -65,10 +71,11 @@ class MeshBuilder {
     /// A round tube of `radius` along a path, without caps.
     void tube(std::span<const glm::dvec3> path, double radius, int sides);
 
-    /// Everything of `other`, moved.
-    void append(const MeshBuilder& other, const glm::dmat4& to_here);
+    /// Everything of `other`, transformed.
+    void append(const MeshBuilder& other, const glm::dmat4& to_here = glm::dmat4(1.0));
 
-    std::size_t triangle_count() const { return indices_.size() / 3; }
+    /// The same shape, `by` away.
+    MeshBuilder moved(const glm::dvec3& by) const;
 
     /// The mesh for a material; uv = metres * `uv_per_metre`, tangents only when the material has a
     /// normal map.
@@ -82,11 +89,7 @@ class MeshBuilder {
     std::vector<std::uint32_t> indices_;
 };
 
-/// Unit tangents of a triangle list by the directions in which u grows, with the handedness of
-/// glTF: cross(normal, tangent) * w points where v shrinks, which is up in the image.
-std::vector<glm::vec4> tangents_of(const Mesh& mesh);
-
-/// A move by `offset` after a turn of `quarters` * 90 degrees about +y: exact entries.
+/// A translation by `offset` after a rotation of `quarters` * 90 degrees about +y, exact.
 glm::dmat4 placed(const glm::dvec3& offset, int quarters = 0);
 
 /// Appends a mesh; returns its index.

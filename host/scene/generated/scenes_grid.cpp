@@ -62,17 +62,13 @@ void add_textures(Scene& scene, std::uint32_t seed) {
 }
 
 Material& add_material(Scene& scene, const char* name, const glm::vec3& color) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(color, 1.0f);
-    material.metallic = 0.0f;
-    material.roughness = 0.6f;
-    scene.materials.push_back(material);
+    add_diffuse(scene, name, color);
+    scene.materials.back().roughness = 0.6f;
     return scene.materials.back();
 }
 
-// One material a feature, in the order in which the things stand; the first two are the floor's and
-// the slabs'.
+// One material per feature, in the order in which the objects stand; the first two are those of the
+// floor and of the slabs.
 void add_materials(Scene& scene) {
     add_material(scene, "textured", glm::vec3(1.0f)).base_color_texture.texture = kChecker;
     add_material(scene, "plain", {0.6f, 0.55f, 0.5f});
@@ -139,11 +135,11 @@ void add_things(Scene& scene) {
         if (!scene.meshes.back().tangents.empty()) bumpy = mesh;
         place(scene, mesh, placed(at));
     }
-    // The bumpy ball again, mirrored: its tangents' handedness must follow.
+    // The ball with the normal map again, mirrored: tests the tangents' handedness.
     glm::dmat4 mirrored = placed({5.4, 0.8, 1.0});
     mirrored[0] = -mirrored[0];
     place(scene, bumpy, mirrored);
-    // And stretched: its normals must not be.
+    // And stretched unevenly: tests the transform of normals.
     glm::dmat4 stretched = placed({5.4, 1.0, -1.6}, 1);
     stretched[1] *= 1.3;
     stretched[2] *= 0.4;
@@ -152,7 +148,7 @@ void add_things(Scene& scene) {
 
 void add_floor_and_slabs(Scene& scene) {
     MeshBuilder floor;
-    floor.quad({-7, 0, -6}, {7, 0, -6}, {7, 0, 6}, {-7, 0, 6}, {0, 1, 0});
+    floor.level({-7, -6}, {7, 6}, 0);
     place(scene, add_mesh(scene, floor.build("floor", 0, 0.25, false)));
     MeshBuilder slab;
     slab.box({-1.6, -0.06, -0.9}, {1.6, 0.06, 0.9});

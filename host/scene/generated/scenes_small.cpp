@@ -11,15 +11,6 @@
 namespace kilolux {
 namespace {
 
-int add_diffuse(Scene& scene, const char* name, const glm::vec3& color) {
-    Material material;
-    material.name = name;
-    material.base_color = glm::vec4(color, 1.0f);
-    material.metallic = 0.0f;
-    scene.materials.push_back(material);
-    return static_cast<int>(scene.materials.size()) - 1;
-}
-
 // A mesh of positions and normals alone.
 int add_bare(Scene& scene, const char* name, const MeshBuilder& builder, int material) {
     Mesh mesh = builder.build(name, material, 1.0, false);
@@ -28,6 +19,14 @@ int add_bare(Scene& scene, const char* name, const MeshBuilder& builder, int mat
 }
 
 }  // namespace
+
+int add_diffuse(Scene& scene, const char* name, const glm::vec3& color) {
+    Material& material = scene.materials.emplace_back();
+    material.name = name;
+    material.base_color = glm::vec4(color, 1.0f);
+    material.metallic = 0.0f;
+    return static_cast<int>(scene.materials.size()) - 1;
+}
 
 MeshBuilder ball(double radius, int segments) {
     MeshBuilder builder;
@@ -56,7 +55,7 @@ Scene make_plain(std::uint64_t seed) {
     Scene scene;
     scene.name = "plain";
     MeshBuilder floor;
-    floor.quad({-6, 0, -6}, {6, 0, -6}, {6, 0, 6}, {-6, 0, 6}, {0, 1, 0});
+    floor.level({-6, -6}, {6, 6}, 0);
     place(scene, add_bare(scene, "floor", floor, add_diffuse(scene, "grey", glm::vec3(0.5f))));
     constexpr std::array<glm::vec3, 3> kColors = {
         {{0.8f, 0.2f, 0.15f}, {0.2f, 0.6f, 0.25f}, {0.75f, 0.75f, 0.7f}}};
@@ -83,17 +82,14 @@ Scene make_corridor(std::uint64_t) {
     const int stone = add_diffuse(scene, "stone", {0.55f, 0.52f, 0.48f});
     const int plaster = add_diffuse(scene, "plaster", {0.7f, 0.66f, 0.6f});
     MeshBuilder hall;
-    const auto at = [](double x, double y, double z) { return glm::dvec3(x, y, z); };
     for (const double side : {-1.0, 1.0}) {
         const double x = side * kHalfWidth;
-        hall.quad(at(x, 0, 0), at(x, 0, -kLength), at(x, kHeight, -kLength), at(x, kHeight, 0),
+        hall.quad({x, 0, 0}, {x, 0, -kLength}, {x, kHeight, -kLength}, {x, kHeight, 0},
                   {-side, 0, 0});
         const double y = side > 0.0 ? kHeight : 0.0;
-        hall.quad(at(-kHalfWidth, y, 0), at(kHalfWidth, y, 0), at(kHalfWidth, y, -kLength),
-                  at(-kHalfWidth, y, -kLength), {0, -side, 0});
+        hall.level({-kHalfWidth, 0}, {kHalfWidth, -kLength}, y, -side);
     }
-    hall.quad(at(-kHalfWidth, 0, -kLength), at(kHalfWidth, 0, -kLength),
-              at(kHalfWidth, kHeight, -kLength), at(-kHalfWidth, kHeight, -kLength), {0, 0, 1});
+    hall.wall({-kHalfWidth, 0}, {kHalfWidth, kHeight}, -kLength, 1);
     place(scene, add_bare(scene, "hall", hall, plaster));
     MeshBuilder pillars;
     for (const double side : {-1.0, 1.0}) {

@@ -18,6 +18,9 @@ Scene make_plain(std::uint64_t seed);
 /// A hall 500 m long with a pair of pillars every 10 m, for depth range.
 Scene make_corridor(std::uint64_t seed);
 
+/// Appends a dielectric material of one colour, roughness 1; returns its index.
+int add_diffuse(Scene& scene, const char* name, const glm::vec3& color);
+
 /// A ball of `radius` about the origin with uv once round; poles at +y and -y.
 MeshBuilder ball(double radius, int segments);
 

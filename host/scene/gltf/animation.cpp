@@ -5,7 +5,7 @@
 #include <set>
 
 #include "host/base/log.h"
-#include "host/scene/gltf/accessor.h"
+#include "host/scene/gltf/mesh/accessor.h"
 
 namespace kilolux {
 namespace {
@@ -39,8 +39,7 @@ std::vector<float> read_times(const GltfDocument& document, int accessor) {
         times[i] = read_scalar(input, i);
         if (i > 0 && times[i] < times[i - 1]) {
             document.fail(element_name("accessors", static_cast<std::size_t>(accessor)),
-                          "key time " + std::to_string(i) + " is " + std::to_string(times[i]) +
-                              ", must not be before its predecessor");
+                          "key time {} is {}, must not be before its predecessor", i, times[i]);
         }
     }
     return times;
@@ -60,9 +59,8 @@ Track open_track(const GltfDocument& document, const tinygltf::AnimationSampler&
     const bool fits = track.per_key >= 1 && (components == 1 || track.per_key == 1) &&
                       track.per_key * keys == track.output.count;
     if (!fits) {
-        document.fail(where, "output has " + std::to_string(track.output.count) +
-                                 " values, which do not go with its " +
-                                 std::to_string(track.times.size()) + " key times");
+        document.fail(where, "output has {} values, which do not go with its {} key times",
+                      track.output.count, track.times.size());
     }
     return track;
 }
@@ -168,8 +166,8 @@ void apply_channel(const GltfDocument& document, const tinygltf::Animation& anim
     }
     const auto sampler = static_cast<std::size_t>(channel.sampler);
     if (sampler >= animation.samplers.size()) {
-        document.fail(where, "sampler is " + std::to_string(sampler) + ", must be below " +
-                                 std::to_string(animation.samplers.size()));
+        document.fail(where, "sampler is {}, must be below {}", sampler,
+                      animation.samplers.size());
     }
     const Track track = open_track(document, animation.samplers[sampler], components, where);
     assign(pose, channel.target_path,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/check.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,25 +19,18 @@ constexpr int kMaxDepth = 100;
 
 std::string shown(const json& value) {
     constexpr std::size_t kLongest = 40;
-    if (value.is_array() && value.size() > 16) {
-        return "an array of " + std::to_string(value.size());
-    }
+    if (value.is_array() && value.size() > 16) return fmt::format("an array of {}", value.size());
     if (value.is_object()) return "an object";
     const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
     return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
-std::string number_text(double value) {
-    const std::string text = json(value).dump();
-    return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
-}
-
 std::string range_text(const GltfRule& rule) {
     const bool low = std::isfinite(rule.min);
     const bool high = std::isfinite(rule.max);
-    if (low && high) return " from " + number_text(rule.min) + " to " + number_text(rule.max);
-    if (low) return " of at least " + number_text(rule.min);
-    return high ? " of at most " + number_text(rule.max) : "";
+    if (low && high) return fmt::format(" from {} to {}", rule.min, rule.max);
+    if (low) return fmt::format(" of at least {}", rule.min);
+    return high ? fmt::format(" of at most {}", rule.max) : "";
 }
 
 // tinygltf keeps an extension's integers in 32 bits; larger ones must be floating point.
@@ -84,14 +79,14 @@ void Checker::check_index(const GltfRule& rule, json& value, const std::string& 
                       value.get<double>() < static_cast<double>(target_count);
     if (fits) return;
     const std::string what = rule.target.substr(rule.target.rfind('/') + 1);
-    fail(where, value, "an index into the " + std::to_string(target_count) + " " + what);
+    fail(where, value, fmt::format("an index into the {} {}", target_count, what));
 }
 
 void Checker::check_numbers(const GltfRule& rule, json& value, const std::string& where) const {
     const bool fits =
         value.is_array() && (rule.length == 0 || value.size() == rule.length) &&
         std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); });
-    const std::string count = rule.length == 0 ? "" : std::to_string(rule.length) + " ";
+    const std::string count = rule.length == 0 ? "" : fmt::format("{} ", rule.length);
     if (!fits) fail(where, value, "an array of " + count + "numbers");
     for (json& number : value) make_wide_integer_float(number);
 }
@@ -139,7 +134,7 @@ void Checker::visit(const GltfRule& rule, json& value, std::string_view path,
     if (path.starts_with("[]")) {
         if (!value.is_array()) fail(where, value, "an array");
         for (std::size_t i = 0; i < value.size(); ++i) {
-            visit(rule, value[i], path.substr(2), where + "[" + std::to_string(i) + "]");
+            visit(rule, value[i], path.substr(2), fmt::format("{}[{}]", where, i));
         }
         return;
     }
@@ -184,7 +179,7 @@ int nesting_depth(const std::string& text) {
 
 json parse(const std::string& text, const std::string& name) {
     if (nesting_depth(text) > kMaxDepth) {
-        throw Error(name + ": JSON is nested deeper than " + std::to_string(kMaxDepth) + " levels");
+        throw Error(fmt::format("{}: JSON is nested deeper than {} levels", name, kMaxDepth));
     }
     try {
         return json::parse(text);

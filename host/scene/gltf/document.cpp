@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/document.h"
 
+#include <OpenImageIO/sysutil.h>
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "host/base/error.h"
+#include "host/base/memory.h"
 #include "host/scene/gltf/check.h"
 #include "host/scene/gltf/extensions.h"
-#include "host/scene/gltf/meshopt.h"
-#include "host/scene/gltf/text.h"
+#include "host/scene/gltf/mesh/meshopt.h"
 
 namespace kilolux {
 namespace {
 
 using nlohmann::json;
 
-// What a file may grow to in memory: enough for any honest one (instanced, skinned and compressed
-// meshes included), small enough that a file of a few KiB cannot claim gigabytes.
+// What accessors may decode to: enough for real files with instanced, skinned and compressed meshes,
+// small enough that a file of a few KiB cannot claim gigabytes.
 constexpr std::uint64_t kBudgetFloorBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kBudgetPerFileByte = 1024;
 
@@ -30,18 +31,18 @@ Bytes read_buffer(const GltfDocument& document, const json& buffer, std::size_t 
                   GltfText& text) {
     const std::string where = element_name("buffers", index);
     const auto length = buffer.at("byteLength").get<std::uint64_t>();
+    const bool has_data = buffer.contains("uri") || (index == 0 && text.has_binary);
+    if (!has_data && is_meshopt_fallback(buffer)) return {};
+    if (!has_data) document.fail(where, "has neither a uri nor a GLB's BIN chunk");
+    document.budget->charge_memory(length, document.base.file + ": " + where);
     Bytes bytes;
     if (buffer.contains("uri")) {
         bytes = read_uri(document.base, buffer.at("uri").get<std::string>(), where);
-    } else if (index == 0 && text.has_binary) {
-        bytes = std::move(text.binary);
     } else {
-        if (is_meshopt_fallback(buffer)) return {};
-        document.fail(where, "has neither a uri nor a GLB's BIN chunk");
+        bytes = std::move(text.binary);
     }
     if (bytes.size() < length) {
-        document.fail(where, "byteLength is " + std::to_string(length) + ", the data hold " +
-                                 std::to_string(bytes.size()) + " bytes");
+        document.fail(where, "byteLength is {}, the data hold {} bytes", length, bytes.size());
     }
     bytes.resize(length);
     return bytes;
@@ -56,7 +57,7 @@ void read_buffers(GltfDocument& document, const json& root, GltfText& text) {
             total += document.buffers.back().size();
         }
     }
-    document.budget = std::make_unique<ByteBudget>(kBudgetFloorBytes + kBudgetPerFileByte * total);
+    document.budget->allow_for_file(total);
 }
 
 // What tinygltf is given: without buffers and images, which it would read without our checks, and
@@ -122,10 +123,8 @@ std::span<const unsigned char> view_bytes(const GltfDocument& document, std::siz
     const Bytes& buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
         document.fail(element_name("bufferViews", index),
-                      "byteOffset " + std::to_string(view.byteOffset) + " and byteLength " +
-                          std::to_string(view.byteLength) + " leave buffers[" +
-                          std::to_string(view.buffer) + "] of " + std::to_string(buffer.size()) +
-                          " bytes");
+                      "byteOffset {} and byteLength {} leave buffers[{}] of {} bytes",
+                      view.byteOffset, view.byteLength, view.buffer, buffer.size());
     }
     return std::span(buffer).subspan(view.byteOffset, view.byteLength);
 }
@@ -150,45 +149,71 @@ void check_version(const GltfDocument& document, const json& asset) {
         const bool known =
             key == std::string("version") ? version.starts_with("2.") : version == "2.0";
         if (!known) {
-            throw Error(document.base.file + ": asset." + key + " is '" + shown_uri(version) +
-                        "', must be 2.0; convert the file with gltf-transform");
+            throw Error(fmt::format(
+                "{}: asset.{} is '{}', must be 2.0; convert the file with gltf-transform",
+                document.base.file, key, shown_uri(version)));
         }
     }
 }
 
-}  // namespace
-
-void ByteBudget::charge(std::uint64_t count, std::uint64_t bytes_each, const std::string& where) {
-    const bool overflows = bytes_each != 0 && count > limit_ / bytes_each;
-    const std::uint64_t bytes = overflows ? limit_ + 1 : count * bytes_each;
-    std::uint64_t left = left_.load();
+// Takes bytes from a budget that other threads take from; false when less is left.
+bool take(std::atomic<std::uint64_t>& left, std::uint64_t bytes) {
+    std::uint64_t seen = left.load();
     do {
-        if (bytes > left) {
-            throw Error(where + ": claims " + std::to_string(count) + " elements of " +
-                        std::to_string(bytes_each) + " bytes, more than a file of this size may " +
-                        "decode to (" + std::to_string(limit_ >> 20) + " MiB)");
-        }
-    } while (!left_.compare_exchange_weak(left, left - bytes));
+        if (bytes > seen) return false;
+    } while (!left.compare_exchange_weak(seen, seen - bytes));
+    return true;
 }
 
-void GltfDocument::fail(const std::string& where, const std::string& what) const {
-    throw Error(base.file + ": " + where + ": " + what);
+}  // namespace
+
+LoadBudget::LoadBudget(std::uint64_t memory_bytes)
+    : memory_limit_(memory_bytes), memory_left_(memory_bytes) {}
+
+void LoadBudget::allow_for_file(std::uint64_t file_bytes) {
+    decode_left_ = decode_limit_ = kBudgetFloorBytes + kBudgetPerFileByte * file_bytes;
+}
+
+void LoadBudget::charge(std::uint64_t count, std::uint64_t bytes_each, const std::string& where) {
+    const bool overflows = bytes_each != 0 && count > decode_limit_ / bytes_each;
+    if (overflows || !take(decode_left_, count * bytes_each)) {
+        throw Error(fmt::format("{}: claims {} elements of {} bytes, more than a file of this size "
+                                "may decode to ({})",
+                                where, count, bytes_each, mebibytes(decode_limit_)));
+    }
+    charge_memory(count * bytes_each, where);
+}
+
+void LoadBudget::charge_memory(std::uint64_t bytes, const std::string& where) {
+    if (take(memory_left_, bytes)) return;
+    throw Error(fmt::format("{}: needs {} of memory, {} of {} for buffers, images and meshes are "
+                            "left (--max-memory)",
+                            where, mebibytes(bytes), mebibytes(memory_left_),
+                            mebibytes(memory_limit_)));
+}
+
+void LoadBudget::refill() {
+    memory_left_ += decode_limit_ - decode_left_;
+    decode_left_ = decode_limit_;
 }
 
 std::string element_name(const char* array, std::size_t element) {
-    return std::string(array) + "[" + std::to_string(element) + "]";
+    return fmt::format("{}[{}]", array, element);
 }
 
 float to_float(double value) {
-    if (std::abs(value) <= std::numeric_limits<float>::max()) return static_cast<float>(value);
-    return std::copysign(std::numeric_limits<float>::infinity(),
-                         static_cast<float>(value < 0 ? -1 : 1));
+    using Limits = std::numeric_limits<float>;
+    if (std::abs(value) <= Limits::max()) return static_cast<float>(value);
+    return value < 0 ? -Limits::infinity() : Limits::infinity();
 }
 
 GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOptions& options) {
     GltfDocument document;
     document.options = options;
     document.base = {file.string(), file.parent_path(), options.allow_outside_paths};
+    const std::uint64_t memory = options.max_memory_bytes;
+    document.budget = std::make_unique<LoadBudget>(
+        memory > 0 ? memory : OIIO::Sysutil::physical_memory() / 2);
     GltfText text = read_gltf_text(file, document.base.file);
     const json root = parse_gltf_json(text.json, document.base.file);
     check_version(document, root.at("asset"));

@@ -4,6 +4,7 @@
 // The library is built without stb; images go through OpenImageIO.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <fmt/core.h>
 #include <tiny_gltf.h>
 
 #include <atomic>
@@ -12,25 +13,37 @@
 #include <string>
 #include <vector>
 
+#include "host/base/error.h"
+#include "host/scene/gltf/files.h"
 #include "host/scene/gltf/load_scene.h"
-#include "host/scene/gltf/uri.h"
 
 namespace kilolux {
 
-/// What decoding a file may still allocate, so that a small broken file cannot claim all memory.
-class ByteBudget {
+/// What loading a file may still allocate. Safe to charge from several threads.
+class LoadBudget {
  public:
-    explicit ByteBudget(std::uint64_t limit) : limit_(limit), left_(limit) {}
+    /// All that the scene keeps in memory is bounded by `memory_bytes`.
+    explicit LoadBudget(std::uint64_t memory_bytes);
 
-    /// Takes count * bytes_each; throws Error "<where>: needs ..." when that is more than is left.
+    /// Bounds what charge() takes by the size of the file's JSON and buffers, so that a small
+    /// broken file cannot claim all memory.
+    void allow_for_file(std::uint64_t file_bytes);
+
+    /// Takes count * bytes_each for what accessors decode to. Throws Error that starts with
+    /// "<where>: " when that is more than the file's size or the memory allows.
     void charge(std::uint64_t count, std::uint64_t bytes_each, const std::string& where);
 
-    /// Gives back all that was taken: what is decoded from now on replaces what was decoded before.
-    void refill() { left_ = limit_; }
+    /// Takes bytes for a buffer or an image, which only the memory bounds.
+    void charge_memory(std::uint64_t bytes, const std::string& where);
+
+    /// Gives back what charge() took: what is decoded from now on replaces it.
+    void refill();
 
  private:
-    std::uint64_t limit_;
-    std::atomic<std::uint64_t> left_;
+    std::uint64_t memory_limit_;
+    std::atomic<std::uint64_t> memory_left_;
+    std::uint64_t decode_limit_ = 0;
+    std::atomic<std::uint64_t> decode_left_ = 0;
 };
 
 /// A glTF file whose JSON is checked and whose buffers are in memory.
@@ -44,10 +57,14 @@ struct GltfDocument {
     std::vector<Bytes> buffers;
     std::vector<std::span<const unsigned char>> views;  // one per buffer view, decompressed
     std::vector<Bytes> decompressed;                    // what views of compressed data point into
-    std::unique_ptr<ByteBudget> budget;
+    std::unique_ptr<LoadBudget> budget;
 
-    /// Throws Error "<file>: <where>: <what>".
-    [[noreturn]] void fail(const std::string& where, const std::string& what) const;
+    /// Throws Error "<file>: <where>: <what>", formatted by {fmt}.
+    template <typename... Args>
+    [[noreturn]] void fail(const std::string& where, fmt::format_string<Args...> what,
+                           Args&&... args) const {
+        throw Error(base.file + ": " + where + ": " + fmt::format(what, std::forward<Args>(args)...));
+    }
 };
 
 /// "accessors[7]".

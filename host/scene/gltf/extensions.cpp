@@ -27,9 +27,10 @@ void check_extensions(const GltfDocument& document) {
     const tinygltf::Model& model = document.model;
     for (const std::string& name : model.extensionsRequired) {
         if (is_supported(name)) continue;
-        document.fail("extensionsRequired", "the file needs '" + shown_uri(name) +
-                                                "', which is not supported; convert it with "
-                                                "gltfpack or gltf-transform");
+        document.fail("extensionsRequired",
+                      "the file needs '{}', which is not supported; convert it with gltfpack or "
+                      "gltf-transform",
+                      shown_uri(name));
     }
     for (const std::string& name : model.extensionsUsed) {
         if (is_supported(name)) continue;
@@ -42,22 +43,6 @@ const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions,
                                       const std::string& name) {
     const auto found = extensions.find(name);
     return found == extensions.end() ? nullptr : &found->second;
-}
-
-double number_member(const tinygltf::Value& object, const std::string& key, double otherwise) {
-    if (!object.Has(key) || !object.Get(key).IsNumber()) return otherwise;
-    return object.Get(key).GetNumberAsDouble();
-}
-
-int integer_member(const tinygltf::Value& object, const std::string& key, int otherwise) {
-    if (!object.Has(key) || !object.Get(key).IsNumber()) return otherwise;
-    return object.Get(key).GetNumberAsInt();
-}
-
-std::string text_member(const tinygltf::Value& object, const std::string& key,
-                        const std::string& otherwise) {
-    if (!object.Has(key) || !object.Get(key).IsString()) return otherwise;
-    return object.Get(key).Get<std::string>();
 }
 
 std::vector<double> numbers_member(const tinygltf::Value& object, const std::string& key) {

@@ -15,10 +15,15 @@ const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions,
                                       const std::string& name);
 
 /// A member of an extension's object that the rules have checked, or `otherwise` without it.
-double number_member(const tinygltf::Value& object, const std::string& key, double otherwise);
-int integer_member(const tinygltf::Value& object, const std::string& key, int otherwise);
-std::string text_member(const tinygltf::Value& object, const std::string& key,
-                        const std::string& otherwise);
+template <typename T>
+T member_or(const tinygltf::Value& object, const std::string& key, const T& otherwise) {
+    if (!object.Has(key)) return otherwise;
+    const tinygltf::Value& value = object.Get(key);
+    if constexpr (std::is_same_v<T, double>) return value.GetNumberAsDouble();
+    if constexpr (std::is_same_v<T, int>) return value.GetNumberAsInt();
+    if constexpr (std::is_same_v<T, std::string>) return value.template Get<std::string>();
+}
+
 /// The member's numbers; empty without it.
 std::vector<double> numbers_member(const tinygltf::Value& object, const std::string& key);
 

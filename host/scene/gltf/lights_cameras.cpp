@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <sstream>
 
 #include "host/scene/gltf/extensions.h"
 
@@ -38,9 +37,7 @@ SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_
 void require(const GltfDocument& document, bool holds, const std::string& where, double value,
              const std::string& expected) {
     if (holds) return;
-    std::ostringstream text;
-    text << "is " << value << ", must be " << expected;
-    document.fail(where, text.str());
+    document.fail(where, "is {}, must be {}", value, expected);
 }
 
 void read_perspective(const GltfDocument& document, const tinygltf::PerspectiveCamera& source,
@@ -96,7 +93,7 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
     for (const std::size_t n : nodes.in_scene) {
         const auto* use = find_extension(document.model.nodes[n].extensions, "KHR_lights_punctual");
         if (use == nullptr || !use->Has("light")) continue;
-        const auto light = static_cast<std::size_t>(integer_member(*use, "light", 0));
+        const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
         lights.push_back(convert_light(document.model.lights[light], nodes.world_from_node[n]));
     }
     return lights;

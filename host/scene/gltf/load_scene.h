@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 
 #include "host/scene/scene.h"
 
@@ -9,14 +11,21 @@ namespace kilolux {
 
 struct LoadOptions {
     double time = 0.0;                 // [s] at which the file's animations are evaluated
-    bool allow_outside_paths = false;  // URIs that leave the scene file's folder
+    bool allow_outside_paths = false;  // URIs and links may leave the scene file's folder
+    /// Bytes that buffers, decoded images and decoded meshes may take together; 0: half of the
+    /// machine's memory. The JSON and what a decoder needs meanwhile come on top.
+    std::uint64_t max_memory_bytes = 0;
 };
+
+/// Told how many of a file's images are decoded, which takes most of the loading time: first with
+/// 0, then after each. Never called by two threads at once.
+using LoadProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Reads a glTF 2.0 file (.gltf or .glb) with its buffers and images.
 ///
 /// Instances hold world transforms; meshes are triangle lists with normals, and tangents where a
-/// normal map needs them. Throws Error with file, place and value seen for anything broken or
-/// required and unsupported; names what is optional and unsupported once in a warning.
+/// normal map needs them. Throws Error with file, place and value seen for anything that is broken,
+/// or required and not supported. Warns once of each optional extension that is not supported.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace kilolux

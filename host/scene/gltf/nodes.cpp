@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "host/scene/gltf/animation.h"
 
@@ -21,9 +22,7 @@ NodePose rest_pose(const tinygltf::Node& node) {
     pose.weights = node.weights;
     if (node.matrix.size() == 16) {
         pose.has_matrix = true;
-        for (glm::length_t i = 0; i < 16; ++i) {
-            pose.matrix[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
-        }
+        pose.matrix = glm::make_mat4(node.matrix.data());
         return pose;
     }
     pose.translation = vec3_of(node.translation, glm::dvec3(0.0));
@@ -52,8 +51,7 @@ std::vector<std::size_t> find_parents(const GltfDocument& document) {
             std::size_t& parent = parents[static_cast<std::size_t>(child)];
             if (parent != kNoNode) {
                 document.fail(node_name(document, static_cast<std::size_t>(child)),
-                              "is a child of both nodes[" + std::to_string(parent) +
-                                  "] and nodes[" + std::to_string(n) + "]");
+                              "is a child of both nodes[{}] and nodes[{}]", parent, n);
             }
             parent = n;
         }
@@ -95,7 +93,7 @@ void check_acyclic(const GltfDocument& document, const std::vector<std::size_t>&
     for (const std::size_t node : reached) seen[node] = true;
     const auto lost = std::find(seen.begin(), seen.end(), false);
     document.fail(node_name(document, static_cast<std::size_t>(lost - seen.begin())),
-                  "hangs on a cycle of nodes that are their own ancestors");
+                  "hangs on a cycle of nodes");
 }
 
 }  // namespace
@@ -106,10 +104,8 @@ std::string node_name(const GltfDocument& document, std::size_t node) {
 }
 
 bool is_finite(const glm::dmat4& matrix) {
-    for (glm::length_t i = 0; i < 16; ++i) {
-        if (!std::isfinite(matrix[i / 4][i % 4])) return false;
-    }
-    return true;
+    const double* values = &matrix[0][0];
+    return std::all_of(values, values + 16, [](double value) { return std::isfinite(value); });
 }
 
 PlacedNodes place_nodes(const GltfDocument& document) {

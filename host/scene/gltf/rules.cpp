@@ -8,7 +8,8 @@ namespace {
 
 using Rules = std::vector<GltfRule>;
 
-// 2^53: what a double still counts exactly; sizes that are refused later with a better message.
+// 2^53: what a double still counts exactly. Smaller sizes that do not fit are refused later with a
+// better message.
 constexpr double kMaxBytes = 9007199254740992.0;
 constexpr double kMaxInt = 2147483647.0;
 constexpr double kMaxCount = 4294967294.0;  // indices are 32 bits, and one value is for restarts
@@ -126,6 +127,7 @@ void append_texture_use(Rules& rules, const std::string& slot) {
 Rules material_rules() {
     const std::string pbr = "materials[].pbrMetallicRoughness.";
     const std::string extensions = "materials[].extensions.";
+    const std::string specular = extensions + "KHR_materials_specular.";
     Rules rules = {
         object("materials[]"),
         object("materials[].pbrMetallicRoughness"),
@@ -140,13 +142,15 @@ Rules material_rules() {
         boolean("materials[].doubleSided"),
         number(extensions + "KHR_materials_emissive_strength.emissiveStrength"),
         number(extensions + "KHR_materials_ior.ior"),
-        number(extensions + "KHR_materials_specular.specularFactor"),
-        numbers(extensions + "KHR_materials_specular.specularColorFactor", 3),
+        number(specular + "specularFactor"),
+        numbers(specular + "specularColorFactor", 3),
     };
-    for (const char* slot :
-         {"pbrMetallicRoughness.baseColorTexture", "pbrMetallicRoughness.metallicRoughnessTexture",
-          "normalTexture", "occlusionTexture", "emissiveTexture"}) {
-        append_texture_use(rules, std::string("materials[].") + slot);
+    for (const std::string& slot :
+         {pbr + "baseColorTexture", pbr + "metallicRoughnessTexture",
+          std::string("materials[].normalTexture"), std::string("materials[].occlusionTexture"),
+          std::string("materials[].emissiveTexture"), specular + "specularTexture",
+          specular + "specularColorTexture"}) {
+        append_texture_use(rules, slot);
     }
     return rules;
 }

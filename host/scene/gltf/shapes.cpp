@@ -4,7 +4,7 @@
 #include <map>
 
 #include "host/scene/gltf/animation.h"
-#include "host/scene/gltf/skin.h"
+#include "host/scene/gltf/mesh/skin.h"
 
 namespace kilolux {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/scene/gltf/material.h"
+#include "host/scene/gltf/material/material.h"
 #include "host/scene/gltf/nodes.h"
 
 namespace kilolux {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only integers and the exactly rounded operations of IEEE 754 (+ - * / sqrt, floor, conversions)
-// decide a light, never libm's transcendental functions: so every machine makes the same bits.
+// Lights are computed by integer operations and the exactly rounded ones of IEEE 754 (+ - * / sqrt,
+// floor, conversions), never by libm's transcendental functions: every machine makes the same bits.
 #include "host/scene/lights/light_generator.h"
+
+#include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <thread>
 
 #include "host/base/error.h"
 #include "host/scene/lights/light_generator_hash.h"
@@ -18,11 +19,11 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kCoverage = 10.0;         // mean number of lights that reach a point of the box
 constexpr double kExposedRadiance = 0.24;  // of a surface of albedo 0.5: middle of a tone curve
 constexpr double kExposedAlbedo = 0.5;
-constexpr double kMeanLuminance =
-    0.591;                            // of colour(hue) over all hues, measured; its test holds it
+// Of colour(hue) over all hues, measured; a test checks it.
+constexpr double kMeanLuminance = 0.591;
 constexpr double kMaxSpeed = 1.2;     // [m/s] along one axis
 constexpr double kMinCrossing = 8.0;  // [s] that a light takes at least across the box
-constexpr std::uint64_t kSerialCount = 8192;  // fewer lights than this are not worth a thread
+constexpr std::uint64_t kLightsAtOnce = 4096;  // fewer are not worth a task
 
 enum Stream : std::uint64_t { kPhase = 0, kSpeed = 3, kHue = 6 };
 
@@ -34,8 +35,8 @@ Box light_box(const LightOptions& options, const Scene& scene) {
 }
 
 void check(const LightOptions& options, const Box& box, double time) {
-    const auto require = [](bool holds, const std::string& what, double value) {
-        if (!holds) throw Error("lights: " + what + ", not " + std::to_string(value));
+    const auto require = [](bool holds, const char* what, double value) {
+        if (!holds) throw Error(fmt::format("lights: {}, not {}", what, value));
     };
     const bool box_is_finite = glm::all(glm::lessThan(glm::abs(box.min), glm::dvec3(1e300))) &&
                                glm::all(glm::lessThan(glm::abs(box.max), glm::dvec3(1e300)));
@@ -58,9 +59,9 @@ double cube_root(double x) {
     return root;
 }
 
-// Range [m] with which count lights in a box of these extents cover a point kCoverage times. In a
-// box flatter (thinner) than the range the spheres become discs (intervals); the largest of the
-// three formulas is the one that holds.
+// Range [m] with which `count` lights in a box of these extents cover a point kCoverage times on
+// average. In a box flatter than the range the spheres act as discs, in a thinner one as intervals;
+// the largest of the three results applies.
 double covering_radius(glm::dvec3 size, double count) {
     double extent[3] = {size.x, size.y, size.z};
     std::sort(extent, extent + 3);
@@ -85,8 +86,8 @@ double exposing_intensity(glm::dvec3 size, double count, double radius) {
     return mean / kMeanLuminance;
 }
 
-// A saturated colour whose brightest channel is 1, a fifth of it white; dark hues get white up to a
-// luminance of 0.45, so that blue lights light as well.
+// A saturated colour whose brightest channel is 1, a fifth of it white. Dark hues get more white, up
+// to a luminance of 0.45, so that blue lights contribute as well.
 glm::dvec3 colour(double hue) {
     const double h = hue * 6.0;
     const auto ramp = [](double x) { return std::clamp(x, 0.0, 1.0); };
@@ -97,8 +98,8 @@ glm::dvec3 colour(double hue) {
     return glm::dvec3(white) + (1.0 - white) * pure;
 }
 
-// Where a light that drifts along an axis of this extent and is reflected at its ends is at `time`.
-// The phase is uniform over there and back, so lights are uniform in the box at every time.
+// Position at `time` of a light that drifts along an axis of this extent and is reflected at its
+// ends. The phase is uniform over the whole period, so lights fill the box uniformly at every time.
 double reflected_drift(double extent, double phase, double speed, double time) {
     if (!(extent > 0.0)) return 0.0;
     const double period = 2.0 * extent;
@@ -151,18 +152,12 @@ std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene
     scaled.radius = scale.radius;
     scaled.intensity = scale.intensity;
     std::vector<SceneLight> lights(options.count);
-    const auto fill = [&](std::uint64_t begin, std::uint64_t end) {
-        for (std::uint64_t i = begin; i < end; ++i) {
+    const auto fill = [&](const tbb::blocked_range<std::uint64_t>& range) {
+        for (std::uint64_t i = range.begin(); i < range.end(); ++i) {
             lights[i] = make_light(scaled, scaled.box, i, time);
         }
     };
-    const std::uint64_t cores = std::max(1u, std::thread::hardware_concurrency());
-    const std::uint64_t blocks = std::clamp<std::uint64_t>(options.count / kSerialCount, 1, cores);
-    std::vector<std::jthread> workers;
-    for (std::uint64_t i = 1; i < blocks; ++i) {
-        workers.emplace_back(fill, options.count * i / blocks, options.count * (i + 1) / blocks);
-    }
-    fill(0, options.count / blocks);
+    tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, options.count, kLightsAtOnce), fill);
     return lights;
 }
 

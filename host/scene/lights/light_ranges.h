@@ -8,8 +8,8 @@
 
 namespace kilolux {
 
-/// Radiance that one light without a range may be wrong by on a white diffuse surface: one step of
-/// an 8-bit linear image whose white is 1.
+/// Largest error in radiance of one light without a range on a white diffuse surface: one step of an
+/// 8-bit linear image whose white is 1.
 inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 
 /// Range [m] for a light whose file gives none: where the radiance that it causes on a white
@@ -17,10 +17,10 @@ inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 ///
 ///     range = sqrt(intensity_max_cd / (pi * error_budget))
 ///
-/// With that range the renderer's falloff, (1 - (d/range)^4) / d^2 and 0 beyond, is nowhere off the
-/// inverse square law by more than the budget: the window takes intensity * d^2 / (pi * range^4)
-/// within the range, at most the budget and so at the range itself, and what is cut beyond it is
-/// less.
+/// With that range the renderer's falloff, (1 - (d/range)^4) / d^2 and 0 beyond, differs nowhere
+/// from the inverse square law by more than the budget: within the range the window removes
+/// intensity * d^2 / (pi * range^4), which reaches the budget at the range; beyond it even less is
+/// cut.
 ///
 /// `intensity_max_cd`: the brightest colour channel [cd], >= 0. Throws Error when one of the two is
 /// not finite, the intensity is negative or the budget is not positive.

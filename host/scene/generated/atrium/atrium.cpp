@@ -3,15 +3,10 @@
 
 #include <initializer_list>
 
-#include "host/scene/generated/atrium/bay.h"
-#include "host/scene/generated/atrium/column.h"
-#include "host/scene/generated/atrium/corner.h"
-#include "host/scene/generated/atrium/court.h"
-#include "host/scene/generated/atrium/furnish.h"
+#include "host/scene/generated/atrium/pieces.h"
 #include "host/scene/generated/atrium/materials.h"
 #include "host/scene/generated/atrium/plan.h"
-#include "host/scene/generated/atrium/side.h"
-#include "host/scene/generated/atrium/vault.h"
+#include "host/scene/generated/atrium/arch.h"
 #include "host/scene/generated/scenes_small.h"
 
 namespace kilolux {
@@ -25,14 +20,8 @@ int add(Scene& scene, const char* name, const MeshBuilder& builder, AtriumMateri
 
 MeshBuilder joined(std::initializer_list<MeshBuilder> pieces) {
     MeshBuilder all;
-    for (const MeshBuilder& piece : pieces) all.append(piece, glm::dmat4(1.0));
+    for (const MeshBuilder& piece : pieces) all.append(piece);
     return all;
-}
-
-MeshBuilder moved(const MeshBuilder& piece, const glm::dvec3& by) {
-    MeshBuilder out;
-    out.append(piece, placed(by));
-    return out;
 }
 
 MeshBuilder rib() {
@@ -51,7 +40,7 @@ MeshBuilder bay_vault() {
 void add_bays(Scene& scene) {
     const glm::dvec3 left(-kHalfBay, 0.0, 0.0);
     const MeshBuilder gallery_columns =
-        joined({gallery_column(), moved(gallery_column(), {kHalfBay, 0.0, 0.0})});
+        joined({gallery_column(), gallery_column().moved({kHalfBay, 0.0, 0.0})});
     const int meshes[] = {
         add(scene, "bay-plaster",
             joined({arcade_wall(), aisle_plaster(), bay_vault(), gallery_wall()}),
@@ -60,11 +49,11 @@ void add_bays(Scene& scene) {
         add(scene, "bay-voussoirs", joined({arcade_voussoirs(), gallery_stones()}),
             AtriumMaterial::voussoir),
         add(scene, "bay-mouldings",
-            joined({arcade_mouldings(), aisle_mouldings(), bay_floor_bands(), moved(rib(), left)}),
+            joined({arcade_mouldings(), aisle_mouldings(), bay_floor_bands(), rib().moved(left)}),
             AtriumMaterial::limestone),
-        add(scene, "bay-capital", moved(column_stones(), left), AtriumMaterial::limestone),
+        add(scene, "bay-capital", column_stones().moved(left), AtriumMaterial::limestone),
         add(scene, "bay-shafts",
-            joined({moved(column_shaft(), left), moved(gallery_columns, left)}),
+            joined({column_shaft().moved(left), gallery_columns.moved(left)}),
             AtriumMaterial::marble),
         add(scene, "bay-balustrade", balustrade(), AtriumMaterial::limestone),
         add(scene, "bay-tiles", bay_tiles(), AtriumMaterial::tile),

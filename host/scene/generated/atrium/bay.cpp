@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/bay.h"
+#include "host/scene/generated/atrium/pieces.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "host/scene/generated/atrium/arch.h"
 #include "host/scene/generated/atrium/plan.h"
-#include "host/scene/generated/atrium/vault.h"
 
 namespace kilolux {
 namespace {
@@ -101,9 +100,8 @@ MeshBuilder aisle_plaster() {
     MeshBuilder builder;
     const ArchPanel niche = niche_panel();
     const double z = kAisle + kNicheDepth;
-    builder.quad({-1.0, 0.0, z}, {1.0, 0.0, z}, {1.0, 3.2, z}, {-1.0, 3.2, z}, {0, 0, -1});
-    builder.quad({-niche.radius_x, 0.42, kAisle}, {niche.radius_x, 0.42, kAisle},
-                 {niche.radius_x, 0.42, z}, {-niche.radius_x, 0.42, z}, {0, 1, 0});
+    builder.wall({-1.0, 0.0}, {1.0, 3.2}, z, -1);
+    builder.level({-niche.radius_x, kAisle}, {niche.radius_x, z}, 0.42);
     return builder;
 }
 
@@ -120,13 +118,16 @@ MeshBuilder aisle_mouldings() {
     builder.box({-1.08, 0.40, kAisle - 0.07}, {1.08, 0.46, kAisle + kNicheDepth});
     add_course(builder, {{0.06, 0.0}, {0.06, 0.16}, {0.03, 0.20}, {0.0, 0.21}}, kHalfBay, kAisle);
     // Pilaster under the rib at the bay's left end; the next bay brings the right one.
-    const double x = -kHalfBay;
+    add_pilaster(builder, -kHalfBay);
+    return builder;
+}
+
+void add_pilaster(MeshBuilder& builder, double x) {
     builder.box({x - 0.30, 0.0, kAisle - 0.20}, {x + 0.30, 0.30, kAisle});
     builder.box({x - 0.24, 0.30, kAisle - 0.15}, {x + 0.24, kSpring - 0.26, kAisle});
     builder.box({x - 0.28, kSpring - 0.26, kAisle - 0.19}, {x + 0.28, kSpring - 0.20, kAisle});
     builder.box({x - 0.25, kSpring - 0.20, kAisle - 0.16}, {x + 0.25, kSpring - 0.10, kAisle});
     builder.box({x - 0.31, kSpring - 0.10, kAisle - 0.22}, {x + 0.31, kSpring + 0.02, kAisle});
-    return builder;
 }
 
 MeshBuilder gallery_arches() {
@@ -164,17 +165,15 @@ MeshBuilder gallery_wall() {
     MeshBuilder builder;
     add_arch_face(builder, window_panel(), kAisle, false);
     add_arch_reveal(builder, window_panel(), kAisle, kAisle + kNicheDepth);
-    builder.quad({-kHalfBay, kGalleryFloor, kAisle}, {kHalfBay, kGalleryFloor, kAisle},
-                 {kHalfBay, 6.75, kAisle}, {-kHalfBay, 6.75, kAisle}, {0, 0, -1});
-    builder.quad({-0.6, 6.75, kAisle}, {0.6, 6.75, kAisle}, {0.6, 6.75, kAisle + kNicheDepth},
-                 {-0.6, 6.75, kAisle + kNicheDepth}, {0, 1, 0});
+    builder.wall({-kHalfBay, kGalleryFloor}, {kHalfBay, 6.75}, kAisle, -1);
+    builder.level({-0.6, kAisle}, {0.6, kAisle + kNicheDepth}, 6.75);
     return builder;
 }
 
 MeshBuilder gallery_wood() {
     MeshBuilder builder;
     const double z = kAisle + kNicheDepth - 0.05;
-    builder.quad({-0.6, 6.7, z}, {0.6, 6.7, z}, {0.6, 8.7, z}, {-0.6, 8.7, z}, {0, 0, -1});
+    builder.wall({-0.6, 6.7}, {0.6, 8.7}, z, -1);
     for (int i = 0; i < 8; ++i) {
         const double y = 6.80 + 0.215 * i;
         builder.box({-0.52, y, z - 0.03}, {-0.03, y + 0.14, z});

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/generated/atrium/furniture.h"
+#include "host/scene/generated/atrium/pieces.h"
 
 namespace kilolux {
 namespace {

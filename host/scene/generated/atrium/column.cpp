@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/column.h"
+#include "host/scene/generated/atrium/pieces.h"
 
 #include <cmath>
 #include <numbers>
@@ -114,10 +114,8 @@ void add_abacus(MeshBuilder& builder) {
     MeshBuilder one;
     one.sweep(profile, edge);
     for (int side = 0; side < 4; ++side) builder.append(one, placed(glm::dvec3(0.0), side));
-    builder.quad({-0.40, bottom, -0.40}, {0.40, bottom, -0.40}, {0.40, bottom, 0.40},
-                 {-0.40, bottom, 0.40}, {0, -1, 0});
-    builder.quad({-0.44, kSpring, -0.44}, {0.44, kSpring, -0.44}, {0.44, kSpring, 0.44},
-                 {-0.44, kSpring, 0.44}, {0, 1, 0});
+    builder.level({-0.40, -0.40}, {0.40, 0.40}, bottom, -1);
+    builder.level({-0.44, -0.44}, {0.44, 0.44}, kSpring);
 }
 
 void add_capital(MeshBuilder& builder) {
@@ -184,9 +182,7 @@ MeshBuilder gallery_column() {
     }
     builder.lathe(profile, 12);
     builder.box({-0.22, top - 0.12, -0.22}, {0.22, top, 0.22});
-    MeshBuilder moved;
-    moved.append(builder, placed({0.0, kGalleryFloor, 0.0}));
-    return moved;
+    return builder.moved({0.0, kGalleryFloor, 0.0});
 }
 
 }  // namespace kilolux

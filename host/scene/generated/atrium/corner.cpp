@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/corner.h"
+#include "host/scene/generated/atrium/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 
 #include "host/scene/generated/atrium/arch.h"
 #include "host/scene/generated/atrium/plan.h"
-#include "host/scene/generated/atrium/vault.h"
 
 namespace kilolux {
 namespace {
@@ -20,8 +19,8 @@ constexpr double kStairCeiling = 5.55;  // of the ground floor round the opening
 
 // What stands at the wall z = kAisle, and the same at the wall x = kAisle.
 void add_at_both_walls(MeshBuilder& builder, const MeshBuilder& piece) {
-    builder.append(piece, glm::dmat4(1.0));
-    // x and z change places: a reflection, which append() winds anew.
+    builder.append(piece);
+    // Swaps x and z: a reflection; append() corrects the winding.
     glm::dmat4 swap(0.0);
     swap[0][2] = swap[2][0] = swap[1][1] = swap[3][3] = 1.0;
     builder.append(piece, swap);
@@ -60,11 +59,9 @@ void add_stair_shaft(MeshBuilder& builder) {
 
 MeshBuilder corner_brick() {
     MeshBuilder wall;
-    wall.quad({0, 0, kAisle}, {kAisle, 0, kAisle}, {kAisle, kGalleryFloor, kAisle},
-              {0, kGalleryFloor, kAisle}, {0, 0, -1});
+    wall.wall({0, 0}, {kAisle, kGalleryFloor}, kAisle, -1);
     // The block of the gallery's wall over the corner column.
-    wall.quad({0, kUpperSpring, kUpperWallHalf}, {kUpperWallHalf, kUpperSpring, kUpperWallHalf},
-              {kUpperWallHalf, kCeiling, kUpperWallHalf}, {0, kCeiling, kUpperWallHalf}, {0, 0, 1});
+    wall.wall({0, kUpperSpring}, {kUpperWallHalf, kCeiling}, kUpperWallHalf, 1);
     MeshBuilder builder;
     add_at_both_walls(builder, wall);
     return builder;
@@ -76,25 +73,16 @@ MeshBuilder corner_mouldings() {
                straight_frames({kAisle, 0, kAisle}, {0, 0, kAisle}, {0, 0, -1}));
     MeshBuilder builder;
     add_at_both_walls(builder, wall);
-    // The pilaster at the far end of the side's last bay.
-    builder.box({-0.30, 0.0, kAisle - 0.20}, {0.30, 0.30, kAisle});
-    builder.box({-0.24, 0.30, kAisle - 0.15}, {0.24, kSpring - 0.26, kAisle});
-    builder.box({-0.28, kSpring - 0.26, kAisle - 0.19}, {0.28, kSpring - 0.20, kAisle});
-    builder.box({-0.25, kSpring - 0.20, kAisle - 0.16}, {0.25, kSpring - 0.10, kAisle});
-    builder.box({-0.31, kSpring - 0.10, kAisle - 0.22}, {0.31, kSpring + 0.02, kAisle});
+    add_pilaster(builder, 0.0);  // at the far end of the side's last bay
     return builder;
 }
 
 MeshBuilder corner_floor_bands() {
     MeshBuilder builder;
-    const auto slab = [&](glm::dvec2 low, glm::dvec2 high) {
-        builder.quad({low.x, 0, low.y}, {high.x, 0, low.y}, {high.x, 0, high.y}, {low.x, 0, high.y},
-                     {0, 1, 0});
-    };
-    slab({0, 0}, {kAisle, 0.7});
-    slab({0, 3.9}, {kAisle, kAisle});
-    slab({0, 0.7}, {0.7, 3.9});
-    slab({3.9, 0.7}, {kAisle, 3.9});
+    builder.level({0, 0}, {kAisle, 0.7}, 0);
+    builder.level({0, 3.9}, {kAisle, kAisle}, 0);
+    builder.level({0, 0.7}, {0.7, 3.9}, 0);
+    builder.level({3.9, 0.7}, {kAisle, 3.9}, 0);
     return builder;
 }
 
@@ -106,10 +94,8 @@ MeshBuilder corner_wood() {
 
 MeshBuilder corner_plaster(bool with_stair) {
     MeshBuilder wall;
-    wall.quad({0, kGalleryFloor, kAisle}, {kAisle, kGalleryFloor, kAisle},
-              {kAisle, kCeiling, kAisle}, {0, kCeiling, kAisle}, {0, 0, -1});
-    wall.quad({0, kSpring, kWallHalf}, {kWallHalf, kSpring, kWallHalf},
-              {kWallHalf, kArcadeTop, kWallHalf}, {0, kArcadeTop, kWallHalf}, {0, 0, 1});
+    wall.wall({0, kGalleryFloor}, {kAisle, kCeiling}, kAisle, -1);
+    wall.wall({0, kSpring}, {kWallHalf, kArcadeTop}, kWallHalf, 1);
     MeshBuilder builder;
     add_at_both_walls(builder, wall);
     if (with_stair) {
@@ -122,12 +108,11 @@ MeshBuilder corner_plaster(bool with_stair) {
 
 MeshBuilder corner_tiles(bool with_stair) {
     MeshBuilder builder;
-    builder.quad({0.7, 0, 0.7}, {3.9, 0, 0.7}, {3.9, 0, 3.9}, {0.7, 0, 3.9}, {0, 1, 0});
+    builder.level({0.7, 0.7}, {3.9, 3.9}, 0);
     if (with_stair) {
         add_square_with_hole(builder, kGalleryFloor, true);
     } else {
-        const double y = kGalleryFloor;
-        builder.quad({0, y, 0}, {kAisle, y, 0}, {kAisle, y, kAisle}, {0, y, kAisle}, {0, 1, 0});
+        builder.level({0, 0}, {kAisle, kAisle}, kGalleryFloor);
     }
     return builder;
 }

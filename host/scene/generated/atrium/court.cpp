@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/court.h"
+#include "host/scene/generated/atrium/pieces.h"
 
 #include <cmath>
 
@@ -71,15 +71,11 @@ MeshBuilder court_paving() {
     MeshBuilder builder;
     const double x = kHalfX - kStepsDepth;
     const double z = kHalfZ - kStepsDepth;
-    // Around the basin, so that nothing is drawn below the water.
-    const auto slab = [&](glm::dvec2 low, glm::dvec2 high) {
-        builder.quad({low.x, kCourtFloor, low.y}, {high.x, kCourtFloor, low.y},
-                     {high.x, kCourtFloor, high.y}, {low.x, kCourtFloor, high.y}, {0, 1, 0});
-    };
-    slab({-x, -z}, {-kBasin.x, z});
-    slab({kBasin.x, -z}, {x, z});
-    slab({-kBasin.x, -z}, {kBasin.x, -kBasin.y});
-    slab({-kBasin.x, kBasin.y}, {kBasin.x, z});
+    // Around the basin: nothing is drawn below the water.
+    builder.level({-x, -z}, {-kBasin.x, z}, kCourtFloor);
+    builder.level({kBasin.x, -z}, {x, z}, kCourtFloor);
+    builder.level({-kBasin.x, -z}, {kBasin.x, -kBasin.y}, kCourtFloor);
+    builder.level({-kBasin.x, kBasin.y}, {kBasin.x, z}, kCourtFloor);
     return builder;
 }
 
@@ -111,8 +107,7 @@ MeshBuilder basin_mosaic() {
 
 MeshBuilder fountain_water() {
     MeshBuilder builder;
-    builder.quad({-kBasin.x, kWater, -kBasin.y}, {kBasin.x, kWater, -kBasin.y},
-                 {kBasin.x, kWater, kBasin.y}, {-kBasin.x, kWater, kBasin.y}, {0, 1, 0});
+    builder.level(-kBasin, kBasin, kWater);
     for (const glm::dvec2& bowl : {glm::dvec2(0.88, 1.44), glm::dvec2(0.47, 2.18)}) {
         const glm::dvec3 center(0.0, kCourtFloor + bowl.y, 0.0);
         const std::vector<SweepFrame> frames =
@@ -128,20 +123,15 @@ MeshBuilder fountain_water() {
 
 MeshBuilder bay_tiles() {
     MeshBuilder builder;
-    builder.quad({-kHalfBay, 0, 0.7}, {kHalfBay, 0, 0.7}, {kHalfBay, 0, 3.9}, {-kHalfBay, 0, 3.9},
-                 {0, 1, 0});
-    const double y = kGalleryFloor;
-    builder.quad({-kHalfBay, y, 0}, {kHalfBay, y, 0}, {kHalfBay, y, kAisle}, {-kHalfBay, y, kAisle},
-                 {0, 1, 0});
+    builder.level({-kHalfBay, 0.7}, {kHalfBay, 3.9}, 0);
+    builder.level({-kHalfBay, 0}, {kHalfBay, kAisle}, kGalleryFloor);
     return builder;
 }
 
 MeshBuilder bay_floor_bands() {
     MeshBuilder builder;
-    builder.quad({-kHalfBay, 0, 0}, {kHalfBay, 0, 0}, {kHalfBay, 0, 0.7}, {-kHalfBay, 0, 0.7},
-                 {0, 1, 0});
-    builder.quad({-kHalfBay, 0, 3.9}, {kHalfBay, 0, 3.9}, {kHalfBay, 0, kAisle},
-                 {-kHalfBay, 0, kAisle}, {0, 1, 0});
+    builder.level({-kHalfBay, 0}, {kHalfBay, 0.7}, 0);
+    builder.level({-kHalfBay, 3.9}, {kHalfBay, kAisle}, 0);
     return builder;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/furnish.h"
+#include "host/scene/generated/atrium/atrium.h"
 
 #include <array>
 
-#include "host/scene/generated/atrium/furniture.h"
+#include "host/scene/generated/atrium/pieces.h"
 #include "host/scene/generated/atrium/materials.h"
 #include "host/scene/generated/atrium/plan.h"
 #include "host/scene/lights/light_generator_hash.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/generated/atrium/materials.h"
 
+#include <tbb/parallel_for.h>
+
 #include <array>
-#include <atomic>
-#include <thread>
 #include <utility>
 
 #include "host/scene/generated/atrium/textures.h"
@@ -53,16 +53,9 @@ constexpr std::array<MaterialRow, static_cast<std::size_t>(AtriumMaterial::count
 
 std::vector<SurfaceImages> make_all_images(std::uint64_t seed) {
     std::vector<SurfaceImages> made(kMakers.size());
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < kMakers.size(); i = next++) {
-            made[i] = kMakers[i](static_cast<std::uint32_t>(item_bits(item_key(seed, i), 0)));
-        }
-    };
-    std::vector<std::jthread> workers;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) workers.emplace_back(work);
-    work();
-    workers.clear();
+    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) {
+        made[i] = kMakers[i](static_cast<std::uint32_t>(item_bits(item_key(seed, i), 0)));
+    });
     return made;
 }
 

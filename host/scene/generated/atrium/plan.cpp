@@ -29,16 +29,6 @@ std::vector<Place> bays() {
     return out;
 }
 
-std::vector<Place> columns() {
-    std::vector<Place> out;
-    for (int side = 0; side < 4; ++side) {
-        for (int i = 0; i < bay_count(side); ++i) {
-            out.push_back(on_side(side, i * kBay - half_length(side), i));
-        }
-    }
-    return out;
-}
-
 std::vector<Place> corners() {
     std::vector<Place> out;
     for (int side = 0; side < 4; ++side) out.push_back(on_side(side, half_length(side), side));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/side.h"
+#include "host/scene/generated/atrium/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,8 +131,7 @@ MeshBuilder side_eaves(double half) {
 MeshBuilder side_outer_wall(double half) {
     MeshBuilder builder;
     const double x = half + kOuterFace;
-    builder.quad({-x, kCourtFloor, kOuterFace}, {x, kCourtFloor, kOuterFace},
-                 {x, kRidge, kOuterFace}, {-x, kRidge, kOuterFace}, {0, 0, 1});
+    builder.wall({-x, kCourtFloor}, {x, kRidge}, kOuterFace, 1);
     return builder;
 }
 
@@ -157,9 +156,7 @@ MeshBuilder balustrade() {
             builder.append(baluster, placed({center + 0.22 * (i - 2), 0.0, 0.0}));
         }
     }
-    MeshBuilder moved;
-    moved.append(builder, placed({0.0, kGalleryFloor, 0.0}));
-    return moved;
+    return builder.moved({0.0, kGalleryFloor, 0.0});
 }
 
 }  // namespace kilolux

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/generated/atrium/corner.h"
+#include "host/scene/generated/atrium/pieces.h"
 #include "host/scene/generated/atrium/plan.h"
 
 namespace kilolux {

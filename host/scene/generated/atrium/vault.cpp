@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/atrium/vault.h"
+#include "host/scene/generated/atrium/arch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/generated/atrium/arch.h"
 #include "host/scene/generated/atrium/plan.h"
 
 namespace kilolux {
@@ -95,10 +94,7 @@ void add_coffers(MeshBuilder& builder, glm::dvec2 low, glm::dvec2 high, glm::ive
             add_square_ring(builder, center, first, y, first, y + 0.14);
             add_square_ring(builder, center, first, y + 0.14, second, y + 0.14);
             add_square_ring(builder, center, second, y + 0.14, second, y + 0.24);
-            const glm::dvec2 a = center - second;
-            const glm::dvec2 b = center + second;
-            builder.quad({a.x, y + 0.24, a.y}, {b.x, y + 0.24, a.y}, {b.x, y + 0.24, b.y},
-                         {a.x, y + 0.24, b.y}, {0, -1, 0});
+            builder.level(center - second, center + second, y + 0.24, -1);
         }
     }
 }

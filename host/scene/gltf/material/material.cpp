@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/material.h"
+#include "host/scene/gltf/material/material.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "host/base/log.h"
 #include "host/scene/gltf/extensions.h"
-#include "host/scene/gltf/texture.h"
+#include "host/scene/gltf/material/texture.h"
 
 namespace kilolux {
 namespace {
@@ -29,60 +29,45 @@ AlphaMode convert_alpha_mode(const std::string& mode) {
     return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-// A texture of an extension, which tinygltf leaves as JSON and nobody has checked.
-TextureUse extension_texture(const GltfDocument& document, TextureTable& textures,
-                             const tinygltf::Value& extension, const std::string& name) {
+// A texture slot of an extension, which tinygltf leaves as JSON.
+TextureUse extension_texture(TextureTable& textures, const tinygltf::Value& extension,
+                             const std::string& name) {
     if (!extension.Has(name)) return {};
     const tinygltf::Value& info = extension.Get(name);
-    const auto count = static_cast<int>(document.model.textures.size());
-    FileTextureUse use;
-    use.texture = integer_member(info, "index", -1);
-    use.texcoord = integer_member(info, "texCoord", 0);
-    if (use.texture < 0 || use.texture >= count || use.texcoord < 0) {
-        document.fail(name, "index is " + std::to_string(use.texture) + " and texCoord " +
-                                std::to_string(use.texcoord) + ", must be 0 to " +
-                                std::to_string(count - 1) + " and at least 0");
-    }
     tinygltf::ExtensionMap extensions;
-    if (info.Has("extensions") && info.Get("extensions").IsObject()) {
-        extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
-    }
-    use.extensions = &extensions;
-    return textures.convert(use);
+    if (info.Has("extensions")) extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
+    return textures.convert(
+        {member_or(info, "index", -1), member_or(info, "texCoord", 0), &extensions});
 }
 
-void read_specular(const GltfDocument& document, Material& out, const tinygltf::Value& specular,
-                   TextureTable& textures) {
-    out.specular = unit(number_member(specular, "specularFactor", 1.0));
+void read_specular(Material& out, const tinygltf::Value& specular, TextureTable& textures) {
+    out.specular = unit(member_or(specular, "specularFactor", 1.0));
     const auto color = numbers_member(specular, "specularColorFactor");
     if (color.size() == 3) {
         out.specular_color = {positive(color[0]), positive(color[1]), positive(color[2])};
     }
-    out.specular_texture = extension_texture(document, textures, specular, "specularTexture");
-    out.specular_color_texture =
-        extension_texture(document, textures, specular, "specularColorTexture");
+    out.specular_texture = extension_texture(textures, specular, "specularTexture");
+    out.specular_color_texture = extension_texture(textures, specular, "specularColorTexture");
 }
 
-void read_extensions(const GltfDocument& document, Material& out, const tinygltf::Material& source,
-                     TextureTable& textures) {
+void read_extensions(Material& out, const tinygltf::Material& source, TextureTable& textures) {
     if (const auto* strength =
             find_extension(source.extensions, "KHR_materials_emissive_strength")) {
-        const double scale = number_member(*strength, "emissiveStrength", 1.0);
+        const double scale = member_or(*strength, "emissiveStrength", 1.0);
         for (glm::length_t c = 0; c < 3; ++c) out.emissive[c] = positive(out.emissive[c] * scale);
     }
     out.unlit = find_extension(source.extensions, "KHR_materials_unlit") != nullptr;
     if (const auto* ior = find_extension(source.extensions, "KHR_materials_ior")) {
-        // 0 stands for a Fresnel term of 1; else at least that of vacuum.
-        const double value = number_member(*ior, "ior", 1.5);
+        // 0 means a Fresnel term of 1 (KHR_materials_ior); other values are at least vacuum's.
+        const double value = member_or(*ior, "ior", 1.5);
         out.ior = value == 0.0 ? 0.0f : std::max(positive(value), 1.0f);
     }
     if (const auto* specular = find_extension(source.extensions, "KHR_materials_specular")) {
-        read_specular(document, out, *specular, textures);
+        read_specular(out, *specular, textures);
     }
 }
 
-Material convert_material(const GltfDocument& document, const tinygltf::Material& source,
-                          TextureTable& textures) {
+Material convert_material(const tinygltf::Material& source, TextureTable& textures) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     Material out;
     out.name = source.name;
@@ -104,7 +89,7 @@ Material convert_material(const GltfDocument& document, const tinygltf::Material
     out.alpha_mode = convert_alpha_mode(source.alphaMode);
     out.alpha_cutoff = positive(source.alphaCutoff);
     out.double_sided = source.doubleSided;
-    read_extensions(document, out, source, textures);
+    read_extensions(out, source, textures);
     return out;
 }
 
@@ -127,9 +112,9 @@ std::array<int, 2> pack_texcoord_sets(Material& material) {
     for (TextureUse* use : uses) {
         if (!use->present()) continue;
         if (use->uv_set != sets[0] && use->uv_set != sets[1]) {
-            warn("material '" + material.name + "' uses more than two sets of texture " +
-                 "coordinates; its textures of TEXCOORD_" + std::to_string(use->uv_set) +
-                 " are left out");
+            warn(fmt::format("material '{}' uses more than two sets of texture coordinates; its "
+                             "textures of TEXCOORD_{} are left out",
+                             material.name, use->uv_set));
             *use = {};
         } else {
             use->uv_set = use->uv_set == sets[0] ? 0 : 1;
@@ -144,7 +129,7 @@ GltfMaterials convert_materials(const GltfDocument& document) {
     GltfMaterials out;
     TextureTable textures(document);
     for (const tinygltf::Material& source : document.model.materials) {
-        out.materials.push_back(convert_material(document, source, textures));
+        out.materials.push_back(convert_material(source, textures));
         out.texcoord_sets.push_back(pack_texcoord_sets(out.materials.back()));
     }
     out.textures = textures.textures();

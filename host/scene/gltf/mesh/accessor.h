@@ -5,7 +5,7 @@
 
 namespace kilolux {
 
-/// An accessor's elements where they stand in memory; checked to lie within it.
+/// An accessor's elements in memory, checked to lie within their buffer view.
 struct ElementArray {
     std::string where;  // "scene.gltf: accessors[7]", for messages
     int component_type = TINYGLTF_COMPONENT_TYPE_FLOAT;
@@ -14,8 +14,8 @@ struct ElementArray {
     bool normalized = false;
     std::size_t stride = 0;                        // [byte]
     std::span<const unsigned char> bytes;          // from element 0; empty: all elements are zero
-    std::vector<std::uint32_t> sparse_elements;    // ascending; what replaces them:
-    std::span<const unsigned char> sparse_values;  // tightly packed
+    std::vector<std::uint32_t> sparse_elements;    // ascending; elements that are replaced by
+    std::span<const unsigned char> sparse_values;  // these, tightly packed
 };
 
 /// Throws Error when the accessor leaves its buffer view, or its sparse part is out of order.
@@ -33,6 +33,25 @@ glm::dmat4 read_matrix(const ElementArray& array, std::size_t element);
 
 /// An element of a SCALAR accessor of unsigned integers.
 std::uint32_t read_index(const ElementArray& array, std::size_t element);
+
+/// Calls `visit` with a zero of the C++ type that an accessor's componentType stands for.
+template <typename Visitor>
+auto visit_component_type(int component_type, const Visitor& visit) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return visit(std::int8_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return visit(std::uint8_t{});
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return visit(std::int16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return visit(std::uint16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return visit(std::uint32_t{});
+        default:
+            return visit(0.0f);
+    }
+}
 
 /// Bytes of a component of a type that accessors may have.
 std::size_t component_bytes(int component_type);

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "host/scene/gltf/accessor.h"
+#include "host/scene/gltf/mesh/accessor.h"
 
 namespace kilolux {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/meshopt.h"
+#include "host/scene/gltf/mesh/meshopt.h"
 
 #include <meshoptimizer.h>
 
@@ -24,44 +24,42 @@ MeshoptView read_extension(const GltfDocument& document, std::size_t view,
     const tinygltf::Value& object =
         *find_extension(document.model.bufferViews[view].extensions, kExtension);
     const Bytes& buffer =
-        document.buffers[static_cast<std::size_t>(integer_member(object, "buffer", 0))];
-    const auto offset = static_cast<std::size_t>(integer_member(object, "byteOffset", 0));
-    const auto length = static_cast<std::size_t>(integer_member(object, "byteLength", 0));
+        document.buffers[static_cast<std::size_t>(member_or(object, "buffer", 0))];
+    const auto offset = static_cast<std::size_t>(member_or(object, "byteOffset", 0));
+    const auto length = static_cast<std::size_t>(member_or(object, "byteLength", 0));
     if (offset > buffer.size() || length > buffer.size() - offset) {
-        document.fail(where, "byteOffset " + std::to_string(offset) + " and byteLength " +
-                                 std::to_string(length) + " leave a buffer of " +
-                                 std::to_string(buffer.size()) + " bytes");
+        document.fail(where, "byteOffset {} and byteLength {} leave a buffer of {} bytes", offset,
+                      length, buffer.size());
     }
     MeshoptView out;
     out.source = std::span(buffer).subspan(offset, length);
-    out.count = static_cast<std::size_t>(integer_member(object, "count", 0));
-    out.stride = static_cast<std::size_t>(integer_member(object, "byteStride", 0));
-    out.mode = text_member(object, "mode", "");
-    out.filter = text_member(object, "filter", "NONE");
+    out.count = static_cast<std::size_t>(member_or(object, "count", 0));
+    out.stride = static_cast<std::size_t>(member_or(object, "byteStride", 0));
+    out.mode = member_or<std::string>(object, "mode", "");
+    out.filter = member_or<std::string>(object, "filter", "NONE");
     return out;
 }
 
 // The shapes that the extension allows; the library asserts them.
 void check_shape(const GltfDocument& document, const MeshoptView& view, const std::string& where) {
-    const std::string stride = "byteStride is " + std::to_string(view.stride) + ", must be ";
+    const auto require_stride = [&](bool fits, const std::string& expected) {
+        if (!fits) document.fail(where, "byteStride is {}, must be {}", view.stride, expected);
+    };
     if (view.mode == "ATTRIBUTES") {
-        if (view.stride % 4 != 0) document.fail(where, stride + "a multiple of 4");
-    } else if (view.stride != 2 && view.stride != 4) {
-        document.fail(where, stride + "2 or 4 for mode " + view.mode);
+        require_stride(view.stride % 4 == 0, "a multiple of 4");
+    } else {
+        require_stride(view.stride == 2 || view.stride == 4, "2 or 4 for mode " + view.mode);
+        if (view.filter != "NONE") {
+            document.fail(where, "filter {} goes only with mode ATTRIBUTES", view.filter);
+        }
     }
     if (view.mode == "TRIANGLES" && view.count % 3 != 0) {
-        document.fail(where,
-                      "count is " + std::to_string(view.count) + ", must be a multiple of 3");
+        document.fail(where, "count is {}, must be a multiple of 3", view.count);
     }
-    if (view.filter != "NONE" && view.mode != "ATTRIBUTES") {
-        document.fail(where, "filter " + view.filter + " goes only with mode ATTRIBUTES");
+    if (view.filter == "OCTAHEDRAL") {
+        require_stride(view.stride == 4 || view.stride == 8, "4 or 8 for filter OCTAHEDRAL");
     }
-    if (view.filter == "OCTAHEDRAL" && view.stride != 4 && view.stride != 8) {
-        document.fail(where, stride + "4 or 8 for filter OCTAHEDRAL");
-    }
-    if (view.filter == "QUATERNION" && view.stride != 8) {
-        document.fail(where, stride + "8 for filter QUATERNION");
-    }
+    if (view.filter == "QUATERNION") require_stride(view.stride == 8, "8 for filter QUATERNION");
 }
 
 int decode(const MeshoptView& view, Bytes& out) {
@@ -88,8 +86,7 @@ Bytes decode_meshopt_view(const GltfDocument& document, std::size_t view) {
     document.budget->charge(compressed.count, compressed.stride, document.base.file + ": " + where);
     Bytes out(compressed.count * compressed.stride);
     if (const int error = decode(compressed, out); error != 0) {
-        document.fail(where,
-                      "data are broken (meshoptimizer returned " + std::to_string(error) + ")");
+        document.fail(where, "data are broken (meshoptimizer returned {})", error);
     }
     if (compressed.filter == "OCTAHEDRAL") {
         meshopt_decodeFilterOct(out.data(), compressed.count, compressed.stride);

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/skin.h"
+#include "host/scene/gltf/mesh/skin.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-
-#include "host/base/error.h"
-
 namespace kilolux {
 namespace {
 
@@ -16,8 +13,8 @@ struct JointSet {
 std::vector<JointSet> joint_sets(const PrimitiveArrays& arrays) {
     std::vector<JointSet> sets;
     for (int n = 0;; ++n) {
-        const auto joints = arrays.attributes.find("JOINTS_" + std::to_string(n));
-        const auto weights = arrays.attributes.find("WEIGHTS_" + std::to_string(n));
+        const auto joints = arrays.attributes.find(fmt::format("JOINTS_{}", n));
+        const auto weights = arrays.attributes.find(fmt::format("WEIGHTS_{}", n));
         if (joints == arrays.attributes.end() || weights == arrays.attributes.end()) return sets;
         expect_components(joints->second, {4}, joints->first);
         expect_components(weights->second, {4}, weights->first);
@@ -37,9 +34,9 @@ glm::dmat4 blend(const std::vector<JointSet>& sets, std::size_t element,
             if (weights[c] == 0.0f) continue;
             if (!(joints[c] >= 0.0f) ||
                 !(joints[c] < static_cast<float>(object_from_bind.size()))) {
-                throw Error(set.joints->where + ": element " + std::to_string(element) +
-                            " names joint " + std::to_string(static_cast<double>(joints[c])) +
-                            ", the skin has " + std::to_string(object_from_bind.size()));
+                throw Error(fmt::format("{}: element {} names joint {}, the skin has {}",
+                                        set.joints->where, element, joints[c],
+                                        object_from_bind.size()));
             }
             sum += static_cast<double>(weights[c]) *
                    object_from_bind[static_cast<std::size_t>(joints[c])];
@@ -49,12 +46,18 @@ glm::dmat4 blend(const std::vector<JointSet>& sets, std::size_t element,
     return total == 0.0 ? object_from_bind[0] : sum / total;
 }
 
-// Cofactors, the inverse transpose without its determinant: defined for flattened parts too. Their
-// sign is that of a mirrored part's outside.
+// Cofactors, the inverse transpose times the determinant: also defined for parts scaled to zero. The
+// sign keeps the normals of mirrored parts outwards.
 glm::dmat3 normal_matrix(const glm::dmat3& m) {
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                                glm::cross(m[0], m[1]));
     return glm::determinant(m) < 0.0 ? -cofactors : cofactors;
+}
+
+// Unit before it becomes float: cofactors of small scales would vanish there.
+glm::vec3 unit_or_zero(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0.0 ? glm::vec3(v / length) : glm::vec3(0.0f);
 }
 
 }  // namespace
@@ -63,8 +66,7 @@ PlacedSkin place_skin(const GltfDocument& document, std::size_t index, const Pla
     const tinygltf::Skin& skin = document.model.skins[index];
     PlacedSkin out;
     if (skin.joints.empty()) document.fail(element_name("skins", index), "has no joints");
-    const auto first = static_cast<std::size_t>(skin.joints[0]);
-    const glm::dvec3 origin(nodes.world_from_node[first][3]);
+    const glm::dvec3 origin(nodes.world_from_node[static_cast<std::size_t>(skin.joints[0])][3]);
     out.world_from_object = glm::translate(glm::dmat4(1.0), origin);
     const glm::dmat4 object_from_world = glm::translate(glm::dmat4(1.0), -origin);
     ElementArray bind;
@@ -72,9 +74,8 @@ PlacedSkin place_skin(const GltfDocument& document, std::size_t index, const Pla
         bind = open_accessor(document, skin.inverseBindMatrices);
         expect_components(bind, {16}, "inverseBindMatrices");
         if (bind.count < skin.joints.size()) {
-            document.fail(element_name("skins", index),
-                          "has " + std::to_string(skin.joints.size()) + " joints and " +
-                              std::to_string(bind.count) + " inverse bind matrices");
+            document.fail(element_name("skins", index), "has {} joints and {} inverse bind matrices",
+                          skin.joints.size(), bind.count);
         }
     }
     document.budget->charge(skin.joints.size(), sizeof(glm::dmat4),
@@ -98,16 +99,11 @@ void skin_mesh(Mesh& mesh, const PrimitiveArrays& arrays, std::span<const std::u
         const glm::dmat3 linear(matrix);
         mesh.positions[v] = glm::vec3(matrix * glm::dvec4(glm::dvec3(mesh.positions[v]), 1.0));
         if (!mesh.normals.empty()) {
-            const glm::dvec3 normal = normal_matrix(linear) * glm::dvec3(mesh.normals[v]);
-            // Unit here already: cofactors of small scales would vanish in float.
-            const double length = glm::length(normal);
-            mesh.normals[v] = length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f);
+            mesh.normals[v] = unit_or_zero(normal_matrix(linear) * glm::dvec3(mesh.normals[v]));
         }
         if (!mesh.tangents.empty()) {
             const glm::dvec3 tangent = linear * glm::dvec3(glm::vec3(mesh.tangents[v]));
-            const double length = glm::length(tangent);
-            const glm::vec3 unit = length > 0.0 ? glm::vec3(tangent / length) : glm::vec3(0.0f);
-            mesh.tangents[v] = glm::vec4(unit, mesh.tangents[v].w);
+            mesh.tangents[v] = glm::vec4(unit_or_zero(tangent), mesh.tangents[v].w);
         }
     }
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/accessor.h"
+#include "host/scene/gltf/mesh/accessor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-
-#include "host/base/error.h"
+#include <limits>
 
 namespace kilolux {
 namespace {
@@ -19,41 +18,23 @@ T load(const unsigned char* bytes) {
 
 // glTF 2.0, section 3.11 (accessors of normalized integers).
 float component_value(const ElementArray& array, const unsigned char* bytes) {
-    switch (array.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: {
-            const float value = load<std::int8_t>(bytes);
-            return array.normalized ? std::max(value / 127.0f, -1.0f) : value;
-        }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: {
-            const float value = load<std::uint8_t>(bytes);
-            return array.normalized ? value / 255.0f : value;
-        }
-        case TINYGLTF_COMPONENT_TYPE_SHORT: {
-            const float value = load<std::int16_t>(bytes);
-            return array.normalized ? std::max(value / 32767.0f, -1.0f) : value;
-        }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: {
-            const float value = load<std::uint16_t>(bytes);
-            return array.normalized ? value / 65535.0f : value;
-        }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: {
-            const double value = load<std::uint32_t>(bytes);
-            return static_cast<float>(array.normalized ? value / 4294967295.0 : value);
-        }
-        default:
-            return load<float>(bytes);
-    }
+    return visit_component_type(array.component_type, [&](auto zero) {
+        using T = decltype(zero);
+        const T value = load<T>(bytes);
+        if (std::is_floating_point_v<T> || !array.normalized) return static_cast<float>(value);
+        using Real = std::conditional_t<sizeof(T) == 4, double, float>;
+        const Real largest = static_cast<Real>(std::numeric_limits<T>::max());
+        return static_cast<float>(std::max(static_cast<Real>(value) / largest, Real{-1}));
+    });
 }
 
 float finite_component(const ElementArray& array, std::size_t element, std::size_t component,
                        const unsigned char* bytes) {
     const std::size_t size = component_bytes(array.component_type);
     const float value = component_value(array, bytes + component * size);
-    if (!std::isfinite(value)) {
-        throw Error(array.where + ": element " + std::to_string(element) + " holds " +
-                    std::to_string(value) + ", must be finite");
-    }
-    return value;
+    if (std::isfinite(value)) return value;
+    throw Error(
+        fmt::format("{}: element {} holds {}, must be finite", array.where, element, value));
 }
 
 std::size_t element_bytes(const ElementArray& array) {
@@ -71,17 +52,16 @@ const unsigned char* element_at(const ElementArray& array, std::size_t element) 
     return array.bytes.empty() ? nullptr : array.bytes.data() + element * array.stride;
 }
 
-// The bytes of `count` elements of `size` bytes from `offset` of a buffer view on.
-std::span<const unsigned char> elements_of_view(const GltfDocument& document, int view,
-                                                std::size_t offset, std::size_t last_end,
-                                                const std::string& where) {
+// `size` bytes of a buffer view from `offset` on.
+std::span<const unsigned char> bytes_of_view(const GltfDocument& document, int view,
+                                             std::size_t offset, std::size_t size,
+                                             const std::string& where) {
     const auto bytes = document.views[static_cast<std::size_t>(view)];
-    if (offset > bytes.size() || last_end > bytes.size() - offset) {
-        throw Error(where + ": needs " + std::to_string(last_end) + " bytes from byte " +
-                    std::to_string(offset) + " of bufferViews[" + std::to_string(view) +
-                    "], which has " + std::to_string(bytes.size()));
+    if (offset > bytes.size() || size > bytes.size() - offset) {
+        throw Error(fmt::format("{}: needs {} bytes from byte {} of bufferViews[{}], which has {}",
+                                where, size, offset, view, bytes.size()));
     }
-    return bytes.subspan(offset, last_end);
+    return bytes.subspan(offset, size);
 }
 
 // The sparse part's values and the elements that they replace.
@@ -93,10 +73,10 @@ void open_sparse(const GltfDocument& document, const tinygltf::Accessor& accesso
     indices.where = array.where + ".sparse.indices";
     indices.component_type = sparse.indices.componentType;
     indices.stride = component_bytes(indices.component_type);
-    indices.bytes = elements_of_view(document, sparse.indices.bufferView,
+    indices.bytes = bytes_of_view(document, sparse.indices.bufferView,
                                      static_cast<std::size_t>(sparse.indices.byteOffset),
                                      count * indices.stride, indices.where);
-    array.sparse_values = elements_of_view(
+    array.sparse_values = bytes_of_view(
         document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
         count * element_bytes(array), array.where + ".sparse.values");
     document.budget->charge(count, sizeof(std::uint32_t), indices.where);
@@ -104,9 +84,8 @@ void open_sparse(const GltfDocument& document, const tinygltf::Accessor& accesso
         const std::uint32_t element = read_index(indices, i);
         const bool ascends = i == 0 || element > array.sparse_elements.back();
         if (element >= array.count || !ascends) {
-            throw Error(indices.where + ": value " + std::to_string(i) + " is " +
-                        std::to_string(element) + ", must ascend and be below " +
-                        std::to_string(array.count));
+            throw Error(fmt::format("{}: value {} is {}, must ascend and be below {}",
+                                    indices.where, i, element, array.count));
         }
         array.sparse_elements.push_back(element);
     }
@@ -115,8 +94,7 @@ void open_sparse(const GltfDocument& document, const tinygltf::Accessor& accesso
 }  // namespace
 
 std::size_t component_bytes(int component_type) {
-    return static_cast<std::size_t>(
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
+    return visit_component_type(component_type, [](auto zero) { return sizeof zero; });
 }
 
 ElementArray open_accessor(const GltfDocument& document, int index) {
@@ -137,7 +115,7 @@ ElementArray open_accessor(const GltfDocument& document, int index) {
         if (view.byteStride != 0) array.stride = view.byteStride;
         const std::size_t end = array.count == 0 ? 0 : (array.count - 1) * array.stride + size;
         array.bytes =
-            elements_of_view(document, accessor.bufferView, accessor.byteOffset, end, array.where);
+            bytes_of_view(document, accessor.bufferView, accessor.byteOffset, end, array.where);
     }
     if (accessor.sparse.isSparse) open_sparse(document, accessor, array);
     return array;
@@ -171,21 +149,18 @@ glm::dmat4 read_matrix(const ElementArray& array, std::size_t element) {
 std::uint32_t read_index(const ElementArray& array, std::size_t element) {
     const unsigned char* bytes = element_at(array, element);
     if (bytes == nullptr) return 0;
-    switch (array.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return load<std::uint8_t>(bytes);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return load<std::uint16_t>(bytes);
-        default:
-            return load<std::uint32_t>(bytes);
-    }
+    return visit_component_type(array.component_type, [bytes](auto zero) -> std::uint32_t {
+        using T = decltype(zero);
+        if constexpr (std::is_unsigned_v<T>) return load<T>(bytes);
+        return 0;  // no file gets here: indices of other types are refused
+    });
 }
 
 void expect_components(const ElementArray& array, std::initializer_list<std::size_t> allowed,
                        const std::string& what) {
     if (std::find(allowed.begin(), allowed.end(), array.components) != allowed.end()) return;
-    throw Error(array.where + ": has " + std::to_string(array.components) + " components, which " +
-                what + " cannot have");
+    throw Error(fmt::format("{}: has {} components, which {} cannot have", array.where,
+                            array.components, what));
 }
 
 }  // namespace kilolux

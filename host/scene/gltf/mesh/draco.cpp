@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/draco.h"
+#include "host/scene/gltf/mesh/draco.h"
 
 #include <draco/compression/decode.h>
 #include <draco/core/varint_decoding.h>
@@ -7,7 +7,6 @@
 
 #include <optional>
 
-#include "host/base/error.h"
 #include "host/scene/gltf/extensions.h"
 
 namespace kilolux {
@@ -15,13 +14,13 @@ namespace {
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
 
-// What a bit stream says before its contents.
+// The counts in a bit stream's header.
 struct DracoSize {
     std::uint32_t face_count = 0;
     std::uint32_t vertex_count = 0;
 };
 
-// Reads the counts ahead of the decoder, which allocates for them before it meets the end of a
+// Reads the counts ahead of the decoder, which would allocate for them before it meets the end of a
 // broken stream (Draco bitstream specification 2.2, sections 3 and 4).
 std::optional<DracoSize> peek_size(std::span<const unsigned char> bytes) {
     draco::DecoderBuffer buffer;
@@ -57,7 +56,7 @@ std::unique_ptr<draco::Mesh> decode_mesh(const GltfDocument& document,
                                          const std::string& where) {
     const std::optional<DracoSize> size = peek_size(bytes);
     if (!size) throw Error(where + ": is no triangle mesh of Draco bit stream 2.2");
-    // The decoder's tables per face and per vertex, measured generously.
+    // An upper bound of the decoder's tables per face and per vertex.
     document.budget->charge(size->face_count, 128, where);
     document.budget->charge(size->vertex_count, 128, where);
     draco::DecoderBuffer buffer;
@@ -68,36 +67,20 @@ std::unique_ptr<draco::Mesh> decode_mesh(const GltfDocument& document,
     return std::move(mesh).value();
 }
 
-template <typename T>
-void copy_values(const draco::PointAttribute& attribute, ElementArray& array, Bytes& out) {
-    const auto components = static_cast<std::int8_t>(array.components);
-    for (std::size_t point = 0; point < array.count; ++point) {
-        const auto value =
-            attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(point)));
-        T* target = reinterpret_cast<T*>(out.data() + point * array.stride);
-        if (!attribute.ConvertValue<T>(value, components, target)) {
-            throw Error(array.where + ": Draco value " + std::to_string(point) +
-                        " does not fit the accessor's componentType");
-        }
-    }
-}
-
 // The attribute's values, one per point, in the accessor's own component type.
-void read_values(const draco::PointAttribute& attribute, ElementArray& array, Bytes& out) {
-    switch (array.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return copy_values<std::int8_t>(attribute, array, out);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return copy_values<std::uint8_t>(attribute, array, out);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return copy_values<std::int16_t>(attribute, array, out);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return copy_values<std::uint16_t>(attribute, array, out);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return copy_values<std::uint32_t>(attribute, array, out);
-        default:
-            return copy_values<float>(attribute, array, out);
-    }
+void read_values(const draco::PointAttribute& attribute, const ElementArray& array, Bytes& out) {
+    visit_component_type(array.component_type, [&](auto zero) {
+        using T = decltype(zero);
+        const auto components = static_cast<std::int8_t>(array.components);
+        for (std::size_t point = 0; point < array.count; ++point) {
+            const auto value =
+                attribute.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(point)));
+            T* target = reinterpret_cast<T*>(out.data() + point * array.stride);
+            if (attribute.ConvertValue<T>(value, components, target)) continue;
+            throw Error(fmt::format("{}: Draco value {} does not fit the accessor's componentType",
+                                    array.where, point));
+        }
+    });
 }
 
 void replace_attribute(const GltfDocument& document, const draco::PointAttribute& attribute,
@@ -118,11 +101,11 @@ void replace_attributes(const GltfDocument& document, const tinygltf::Value& ext
     for (const std::string& name : ids.Keys()) {
         const auto entry = arrays.attributes.find(name);
         if (entry == arrays.attributes.end()) continue;
-        const int id = integer_member(ids, name, 0);
+        const int id = member_or(ids, name, 0);
         const auto* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
         if (attribute == nullptr) {
-            throw Error(arrays.where + "." + kExtension + ": " + name + " is attribute " +
-                        std::to_string(id) + ", which the data do not have");
+            throw Error(fmt::format("{}.{}: {} is attribute {}, which the data do not have",
+                                    arrays.where, kExtension, name, id));
         }
         entry->second.count = mesh.num_points();
         replace_attribute(document, *attribute, entry->second, arrays.decoded.emplace_back());
@@ -140,7 +123,7 @@ std::vector<std::uint32_t> decode_draco_primitive(const GltfDocument& document,
                                                   const tinygltf::Primitive& primitive,
                                                   PrimitiveArrays& arrays) {
     const tinygltf::Value& extension = *find_extension(primitive.extensions, kExtension);
-    const auto view = static_cast<std::size_t>(integer_member(extension, "bufferView", 0));
+    const auto view = static_cast<std::size_t>(member_or(extension, "bufferView", 0));
     const auto mesh = decode_mesh(document, document.views[view], arrays.where + "." + kExtension);
     replace_attributes(document, extension, *mesh, arrays);
     std::vector<std::uint32_t> indices;
@@ -148,8 +131,8 @@ std::vector<std::uint32_t> decode_draco_primitive(const GltfDocument& document,
     for (draco::FaceIndex face(0); face < mesh->num_faces(); ++face) {
         for (const draco::PointIndex& point : mesh->face(face)) {
             if (point.value() >= arrays.vertex_count) {
-                throw Error(arrays.where + "." + kExtension + ": vertex index " +
-                            std::to_string(point.value()) + " is out of range");
+                throw Error(fmt::format("{}.{}: vertex index {} is out of range", arrays.where,
+                                        kExtension, point.value()));
             }
             indices.push_back(point.value());
         }

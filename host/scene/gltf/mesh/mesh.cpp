@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/mesh.h"
+#include "host/scene/gltf/mesh/mesh.h"
 
 #include <cmath>
+#include <numeric>
 
-#include "host/base/error.h"
-#include "host/scene/gltf/normals.h"
-#include "host/scene/gltf/skin.h"
-#include "host/scene/gltf/tangents.h"
+#include "host/scene/gltf/mesh/normals.h"
+#include "host/scene/gltf/mesh/skin.h"
+#include "host/scene/gltf/mesh/tangents.h"
 
 namespace kilolux {
 namespace {
@@ -25,13 +25,11 @@ struct MorphedArray {
 
 VertexPlan plan_unshared(const PrimitiveArrays& arrays) {
     VertexPlan plan{arrays.corners, std::vector<std::uint32_t>(arrays.corners.size())};
-    for (std::size_t i = 0; i < plan.indices.size(); ++i) {
-        plan.indices[i] = static_cast<std::uint32_t>(i);
-    }
+    std::iota(plan.indices.begin(), plan.indices.end(), 0u);
     return plan;
 }
 
-// The used vertices in their order: exporters share one large accessor among many primitives.
+// The used vertices in their order: some exporters share one accessor among many primitives.
 VertexPlan plan_used(const PrimitiveArrays& arrays) {
     VertexPlan plan;
     std::vector<std::uint32_t> vertex_of(arrays.vertex_count, 0);
@@ -84,7 +82,7 @@ std::vector<glm::vec4> read_colors(const PrimitiveArrays& arrays, const VertexPl
     if (array.base == nullptr) return {};
     expect_components(*array.base, {3, 4}, "COLOR_0");
     ElementArray colors = *array.base;
-    // Integers must be normalized (glTF 2.0, section 3.7.2.1), which some writers forget to say.
+    // Integers are normalized (glTF 2.0, section 3.7.2.1); some writers leave out the flag.
     colors.normalized = true;
     array.base = &colors;
     auto out = read_attribute<glm::vec4>(array, plan);
@@ -99,8 +97,8 @@ void check_positions(const PrimitiveArrays& arrays, const Mesh& mesh) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const glm::vec3& p = mesh.positions[v];
         if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-        throw Error(arrays.where + ": vertex " + std::to_string(v) +
-                    " is not finite once morph targets and skin are applied");
+        throw Error(fmt::format("{}: vertex {} is not finite once morph targets and skin are applied",
+                                arrays.where, v));
     }
 }
 
@@ -120,7 +118,7 @@ void read_attributes(Mesh& mesh, const PrimitiveArrays& arrays, const MeshShadin
     mesh.normals = read_attribute<glm::vec3>(normals, plan);
     mesh.colors = read_colors(arrays, plan, weights);
     for (std::size_t set = 0; set < 2; ++set) {
-        const std::string name = "TEXCOORD_" + std::to_string(shading.texcoord_sets[set]);
+        const std::string name = fmt::format("TEXCOORD_{}", shading.texcoord_sets[set]);
         const MorphedArray array = find_array(arrays, name, weights);
         if (array.base != nullptr) expect_components(*array.base, {2}, name);
         mesh.texcoords[set] = read_attribute<glm::vec2>(array, plan);

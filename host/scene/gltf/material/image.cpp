@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/image.h"
+#include "host/scene/gltf/material/image.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <OpenImageIO/sysutil.h>
 
 #include <algorithm>
 #include <mutex>
 
-#include "host/base/error.h"
 #include "host/scene/gltf/parallel.h"
-#include "host/scene/gltf/png_chunks.h"
+#include "host/scene/gltf/material/png_chunks.h"
 
 namespace kilolux {
 namespace {
 
 constexpr int kMaxSide = 16384;  // [pixel]; what OpenGL implementations take
-// Refuses headers that claim far more pixels than any encoder packs into the bytes behind them.
+// A header that claims more than both is refused: no encoder packs that many pixels into its bytes.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kMaxExpansion = 8192;
 
@@ -42,7 +40,6 @@ constexpr std::array kMagics = {
     Magic{"jP  "sv, 4, "jpeg2000"},
     Magic{"P6"sv, 0, "pnm"},
     Magic{"P5"sv, 0, "pnm"},
-    Magic{"TRUEVISION-XFILE"sv, 0, "targa"},
 };
 
 // An image of the file, still encoded.
@@ -72,21 +69,18 @@ EncodedImage read_encoded(const GltfDocument& document, int image) {
     return out;
 }
 
-// By the first bytes, as names and MIME types lie; a TGA's stand at its end.
+// OpenImageIO's name of the format by the bytes, as file names and MIME types may be wrong. A TGA
+// file has its signature at the end.
 std::string format_of(std::span<const unsigned char> bytes, const std::string& uri) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     for (const Magic& magic : kMagics) {
-        const bool at_end = std::string_view(magic.format) == "targa";
-        if (!at_end && text.size() > magic.offset &&
-            text.substr(magic.offset).starts_with(magic.bytes)) {
-            return magic.format;
-        }
-        if (at_end &&
-            text.substr(text.size() - std::min<std::size_t>(text.size(), 26)).find(magic.bytes) !=
-                std::string_view::npos) {
+        if (text.size() > magic.offset && text.substr(magic.offset).starts_with(magic.bytes)) {
             return magic.format;
         }
     }
+    constexpr std::size_t kTargaFooterBytes = 26;
+    const std::size_t footer = text.size() - std::min(text.size(), kTargaFooterBytes);
+    if (text.find("TRUEVISION-XFILE", footer) != std::string_view::npos) return "targa";
     const std::size_t dot = uri.starts_with("data:") ? std::string::npos : uri.rfind('.');
     return dot == std::string::npos ? "" : uri.substr(dot + 1);
 }
@@ -96,22 +90,24 @@ std::string reason(std::string text) {
     return text.empty() ? "is broken" : text;
 }
 
+// Throws where the image is too large for a texture, for its bytes or for the memory left.
 void check_size(const GltfDocument& document, const std::string& name, const OIIO::ImageSpec& spec,
                 std::size_t encoded_bytes) {
-    const std::string size = std::to_string(spec.width) + "x" + std::to_string(spec.height);
     if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide) {
-        document.fail(name, "is " + size + " pixels, must be from 1x1 to 16384x16384");
+        document.fail(name, "is {}x{} pixels, must be from 1x1 to {}x{}", spec.width, spec.height,
+                      kMaxSide, kMaxSide);
     }
     if (spec.nchannels < 1 || spec.nchannels > 16 || spec.depth > 1) {
-        document.fail(name, "has " + std::to_string(spec.nchannels) + " channels and depth " +
-                                std::to_string(spec.depth) + ", which no texture has");
+        document.fail(name, "has {} channels and depth {}, which no texture has", spec.nchannels,
+                      spec.depth);
     }
     const std::uint64_t bytes =
         4 * static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
     if (bytes > std::max(kFreeBytes, kMaxExpansion * encoded_bytes)) {
-        document.fail(name, "claims " + size + " pixels in " + std::to_string(encoded_bytes) +
-                                " bytes, which no image holds");
+        document.fail(name, "claims {}x{} pixels in {} bytes, which no image holds", spec.width,
+                      spec.height, encoded_bytes);
     }
+    document.budget->charge_memory(bytes, document.base.file + ": " + name);
 }
 
 // Pixels of `channels` channels as RGBA; one or two channels are grey.
@@ -129,8 +125,8 @@ std::vector<std::uint8_t> to_rgba(const std::vector<std::uint8_t>& pixels, std::
     return rgba;
 }
 
-// glTF's alpha is not multiplied in. Some readers of OpenImageIO deliver it so whatever they are
-// asked (WebP does in 2.4), which costs their darkest pixels precision.
+// glTF's colours are not multiplied by alpha. Some readers of OpenImageIO multiply whatever they are
+// asked for (WebP in 2.4); dividing restores the colours up to rounding.
 void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
         const unsigned alpha = rgba[i + 3];
@@ -142,7 +138,7 @@ void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
     }
 }
 
-Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
+Image decode(const GltfDocument& document, int index) {
     const std::string name = name_of(document, index);
     const tinygltf::Image& source = document.model.images[static_cast<std::size_t>(index)];
     const EncodedImage encoded = read_encoded(document, index);
@@ -159,17 +155,15 @@ Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
     wanted.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::ImageSpec spec;
     if (!input->set_ioproxy(&reader) || !input->open("image." + format, spec, wanted)) {
-        document.fail(name, reason(input->geterror()));
+        document.fail(name, "{}", reason(input->geterror()));
     }
     check_size(document, name, spec, encoded.bytes.size());
-    memory.charge(4 * static_cast<std::uint64_t>(spec.width),
-                  static_cast<std::uint64_t>(spec.height), document.base.file + ": " + name);
     const auto channels = static_cast<std::size_t>(std::min(spec.nchannels, 4));
     std::vector<std::uint8_t> pixels(channels * static_cast<std::size_t>(spec.width) *
                                      static_cast<std::size_t>(spec.height));
     if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8,
                            pixels.data())) {
-        document.fail(name, reason(input->geterror()));
+        document.fail(name, "{}", reason(input->geterror()));
     }
     Image out{source.name, spec.width, spec.height, {}};
     out.rgba = channels == 4 ? std::move(pixels) : to_rgba(pixels, channels);
@@ -182,7 +176,6 @@ Image decode(const GltfDocument& document, int index, ByteBudget& memory) {
 std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images,
                                  const LoadProgress& progress) {
     std::vector<Image> out(images.size());
-    ByteBudget memory(OIIO::Sysutil::physical_memory() / 2);
     std::mutex telling;
     std::size_t done = 0;
     const auto tell = [&](std::size_t more) {
@@ -192,7 +185,7 @@ std::vector<Image> decode_images(const GltfDocument& document, const std::vector
     };
     if (!images.empty()) tell(0);
     parallel_each(images.size(), [&](std::size_t i) {
-        out[i] = decode(document, images[i], memory);
+        out[i] = decode(document, images[i]);
         tell(1);
     });
     return out;

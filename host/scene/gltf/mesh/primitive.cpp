@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/primitive.h"
+#include "host/scene/gltf/mesh/primitive.h"
 
-#include "host/base/error.h"
+#include <numeric>
+
 #include "host/base/log.h"
-#include "host/scene/gltf/draco.h"
+#include "host/scene/gltf/mesh/draco.h"
 
 namespace kilolux {
 namespace {
@@ -21,8 +22,8 @@ AttributeArrays open_attributes(const GltfDocument& document,
 void check_counts(const PrimitiveArrays& arrays, const AttributeArrays& attributes) {
     for (const auto& [name, array] : attributes) {
         if (array.count >= arrays.vertex_count) continue;
-        throw Error(arrays.where + ": " + name + " has " + std::to_string(array.count) +
-                    " elements, POSITION has " + std::to_string(arrays.vertex_count));
+        throw Error(fmt::format("{}: {} has {} elements, POSITION has {}", arrays.where, name,
+                                array.count, arrays.vertex_count));
     }
 }
 
@@ -31,7 +32,7 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, const Prim
     if (accessor < 0) {
         document.budget->charge(arrays.vertex_count, 4 * sizeof(std::uint32_t), arrays.where);
         std::vector<std::uint32_t> indices(arrays.vertex_count);
-        for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(i);
+        std::iota(indices.begin(), indices.end(), 0u);
         return indices;
     }
     const ElementArray array = open_accessor(document, accessor);
@@ -39,17 +40,16 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, const Prim
     if (array.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
         array.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
         array.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-        throw Error(array.where + ": componentType is " + std::to_string(array.component_type) +
-                    ", must be unsigned for indices");
+        throw Error(fmt::format("{}: componentType is {}, must be unsigned for indices",
+                                array.where, array.component_type));
     }
     document.budget->charge(array.count, 4 * sizeof(std::uint32_t), array.where);
     std::vector<std::uint32_t> indices(array.count);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         indices[i] = read_index(array, i);
         if (indices[i] < arrays.vertex_count) continue;
-        throw Error(array.where + ": index " + std::to_string(i) + " is " +
-                    std::to_string(indices[i]) + ", must be below the " +
-                    std::to_string(arrays.vertex_count) + " vertices of " + arrays.where);
+        throw Error(fmt::format("{}: index {} is {}, must be below the {} vertices of {}",
+                                array.where, i, indices[i], arrays.vertex_count, arrays.where));
     }
     return indices;
 }
@@ -101,7 +101,7 @@ PrimitiveArrays open_primitive(const GltfDocument& document, const tinygltf::Pri
     arrays.attributes = open_attributes(document, primitive.attributes);
     arrays.vertex_count = arrays.attributes.at("POSITION").count;
     if (is_draco_compressed(primitive)) {
-        std::vector<std::uint32_t> indices = decode_draco_primitive(document, primitive, arrays);
+        const auto indices = decode_draco_primitive(document, primitive, arrays);
         arrays.corners = triangle_list(indices, TINYGLTF_MODE_TRIANGLES);
     } else {
         const auto indices = read_indices(document, arrays, primitive.indices);

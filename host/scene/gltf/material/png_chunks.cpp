@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/png_chunks.h"
+#include "host/scene/gltf/material/png_chunks.h"
+
+#include <fmt/core.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -19,25 +22,6 @@ constexpr std::size_t kFrameBytes = 12;  // of a chunk: length, type, checksum
 // What pixels depend on: the critical chunks and transparency.
 constexpr std::array<std::string_view, 5> kNeeded = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS"};
 
-// CRC-32 of ISO 3309, as PNG (W3C, 2003, annex D) computes it.
-constexpr std::array<std::uint32_t, 256> make_crc_table() {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t n = 0; n < 256; ++n) {
-        std::uint32_t c = n;
-        for (int bit = 0; bit < 8; ++bit) c = (c & 1u) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-        table[n] = c;
-    }
-    return table;
-}
-
-constexpr std::array<std::uint32_t, 256> kCrcTable = make_crc_table();
-
-std::uint32_t crc_of(Span bytes) {
-    std::uint32_t c = 0xffffffffu;
-    for (const unsigned char byte : bytes) c = kCrcTable[(c ^ byte) & 255u] ^ (c >> 8);
-    return c ^ 0xffffffffu;
-}
-
 std::uint32_t big_endian(Span bytes) {
     return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |
            std::uint32_t{bytes[2]} << 8 | std::uint32_t{bytes[3]};
@@ -52,8 +36,8 @@ struct Chunk {
 Chunk chunk_at(Span png, std::size_t offset, const std::string& where) {
     const Span rest = png.subspan(offset);
     if (rest.size() < kFrameBytes || big_endian(rest) > rest.size() - kFrameBytes) {
-        throw Error(where + ": is cut off in the chunk at byte " + std::to_string(offset) + " of " +
-                    std::to_string(png.size()));
+        throw Error(fmt::format("{}: is cut off in the chunk at byte {} of {}", where, offset,
+                                png.size()));
     }
     return {rest.first(kFrameBytes + big_endian(rest)), offset,
             std::string_view(reinterpret_cast<const char*>(rest.data()) + 4, 4)};
@@ -64,18 +48,18 @@ Chunk chunk_at(Span png, std::size_t offset, const std::string& where) {
     for (char& c : type) {
         if (!std::isalpha(static_cast<unsigned char>(c))) c = '?';
     }
-    throw Error(where + ": chunk " + type + " at byte " + std::to_string(chunk.offset) + " " +
-                what);
+    throw Error(fmt::format("{}: chunk {} at byte {} {}", where, type, chunk.offset, what));
 }
 
-// Throws when a decoder must read it and cannot. What else is wrong is skipped without a word.
+// Throws when a decoder must read the chunk and cannot. Broken chunks that it may skip pass.
 void check_chunk(const Chunk& chunk, const std::string& where) {
     if (std::find(kNeeded.begin(), kNeeded.end(), chunk.type) == kNeeded.end()) {
         if (std::islower(static_cast<unsigned char>(chunk.type[0]))) return;
         fail(chunk, where, "is of no type that PNG decoders know");
     }
     const Span bytes = chunk.bytes;
-    if (crc_of(bytes.subspan(4, bytes.size() - 8)) != big_endian(bytes.last(4))) {
+    const Span checked = bytes.subspan(4, bytes.size() - 8);  // type and data
+    if (crc32_z(0, checked.data(), checked.size()) != big_endian(bytes.last(4))) {
         fail(chunk, where, "is damaged: its checksum is wrong");
     }
     if ((chunk.offset == kSignature.size()) != (chunk.type == "IHDR")) {

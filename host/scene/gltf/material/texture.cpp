@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/texture.h"
+#include "host/scene/gltf/material/texture.h"
 
 #include <cmath>
 
@@ -37,18 +37,18 @@ Sampler convert_sampler(const tinygltf::Sampler& source) {
     return out;
 }
 
-// The image a texture shows: the WebP one where the file offers both, as it is the wanted one.
+// The image a texture shows: the WebP one where the file offers both.
 int source_image(const tinygltf::Texture& texture) {
     const tinygltf::Value* webp = find_extension(texture.extensions, "EXT_texture_webp");
-    return webp == nullptr ? texture.source : integer_member(*webp, "source", texture.source);
+    return webp == nullptr ? texture.source : member_or(*webp, "source", texture.source);
 }
 
-// KHR_texture_transform: scale, then rotate, then shift. The rotation's sign is that of the
-// extension's text and first example and of its viewers; the matrix in its GLSL is the transpose.
+// KHR_texture_transform: scale, then rotate, then shift. The rotation's sign follows the extension's
+// text and first example; the matrix in its GLSL example is the transpose.
 glm::mat3 uv_transform(const tinygltf::Value& transform) {
     const std::vector<double> offset = numbers_member(transform, "offset");
     const std::vector<double> scale = numbers_member(transform, "scale");
-    const double angle = number_member(transform, "rotation", 0.0);
+    const double angle = member_or(transform, "rotation", 0.0);
     const double sx = scale.empty() ? 1.0 : scale[0];
     const double sy = scale.empty() ? 1.0 : scale[1];
     glm::mat3 out(1.0f);
@@ -88,7 +88,7 @@ TextureUse TextureTable::convert(const FileTextureUse& use) {
     out.texture = entry->second;
     out.uv_set = use.texcoord;
     if (const auto* transform = find_extension(*use.extensions, "KHR_texture_transform")) {
-        out.uv_set = integer_member(*transform, "texCoord", out.uv_set);
+        out.uv_set = member_or(*transform, "texCoord", out.uv_set);
         out.uv_from_texcoord = uv_transform(*transform);
     }
     return out;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/scene/gltf/primitive.h"
+#include "host/scene/gltf/mesh/primitive.h"
 
 namespace kilolux {
 

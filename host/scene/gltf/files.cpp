@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/files.h"
+
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include <fmt/core.h>
+#include <tiny_gltf.h>
+
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <span>
+
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+using ByteSpan = std::span<const unsigned char>;
+
+// glTF 2.0 specification, section 4.4 (binary glTF layout); all little-endian.
+constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
+constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN\0"
+constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+
+constexpr std::string_view kBase64 =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+std::uint32_t read_u32(ByteSpan bytes, std::size_t offset) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+// The chunk at `offset`; throws when its claimed length does not fit.
+ByteSpan chunk_at(ByteSpan bytes, std::size_t offset, const std::string& name) {
+    const std::size_t length = read_u32(bytes, offset);
+    const std::size_t left = bytes.size() - offset - kChunkHeaderBytes;
+    if (length > left) {
+        throw Error(fmt::format("{}: GLB chunk at byte {} claims {} bytes, the file holds {}", name,
+                                offset, length, left));
+    }
+    return bytes.subspan(offset + kChunkHeaderBytes, length);
+}
+
+GltfText split_glb(ByteSpan bytes, const std::string& name) {
+    if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) {
+        throw Error(
+            fmt::format("{}: GLB of {} bytes is shorter than its headers", name, bytes.size()));
+    }
+    if (const std::uint32_t version = read_u32(bytes, 4); version != 2) {
+        throw Error(fmt::format("{}: GLB version is {}, must be 2", name, version));
+    }
+    const std::size_t length = read_u32(bytes, 8);
+    if (length > bytes.size() || length < kHeaderBytes + kChunkHeaderBytes) {
+        throw Error(fmt::format("{}: GLB header claims {} bytes, the file holds {}", name, length,
+                                bytes.size()));
+    }
+    bytes = bytes.first(length);
+    if (read_u32(bytes, kHeaderBytes + 4) != kJsonChunk) {
+        throw Error(name + ": the first chunk of the GLB is not JSON");
+    }
+    GltfText out;
+    const auto json = chunk_at(bytes, kHeaderBytes, name);
+    out.json.assign(json.begin(), json.end());
+    std::size_t offset = kHeaderBytes + kChunkHeaderBytes + (json.size() + 3) / 4 * 4;
+    // Chunks of other types may stand anywhere after the first and are skipped (section 4.4.3.1).
+    while (!out.has_binary && offset + kChunkHeaderBytes <= bytes.size()) {
+        const auto chunk = chunk_at(bytes, offset, name);
+        if (read_u32(bytes, offset + 4) == kBinChunk) {
+            out.has_binary = true;
+            out.binary.assign(chunk.begin(), chunk.end());
+        }
+        offset += kChunkHeaderBytes + (chunk.size() + 3) / 4 * 4;
+    }
+    return out;
+}
+
+// Bytes of a regular file. `where` starts the error message.
+Bytes read_file_bytes(const fs::path& path, const std::string& where) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+        throw Error(where + ": " + (error ? "no such file" : "is not a regular file"));
+    }
+    Bytes bytes(fs::file_size(path));
+    std::ifstream in(path, std::ios::binary);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!in) throw Error(where + ": cannot be read");
+    return bytes;
+}
+
+// The text with %XX replaced; a '%' that no two hex digits follow stands for itself.
+std::string percent_decoded(const std::string& text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned value = 0;
+        const char* digits = text.data() + i + 1;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+            out += static_cast<char>(value);
+            i += 2;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
+Bytes decode_base64(std::string_view text, const std::string& where) {
+    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+    const std::size_t bad = std::min(text.find_first_not_of(kBase64), text.size());
+    if (bad < text.size() || text.size() % 4 == 1) {
+        throw Error(
+            fmt::format("{}: data URI holds broken base64 at its character {}", where, bad));
+    }
+    if (text.size() > std::numeric_limits<int>::max() / 2) {
+        throw Error(where + ": data URI is larger than 1 GiB");
+    }
+    Bytes out;
+    std::string mime_type;
+    const std::string uri = "data:application/octet-stream;base64," + std::string(text);
+    if (!text.empty() && !tinygltf::DecodeDataURI(&out, mime_type, uri, 0, false)) {
+        throw Error(where + ": data URI holds broken base64");
+    }
+    return out;
+}
+
+Bytes read_data_uri(const std::string& uri, const std::string& where) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos) throw Error(where + ": data URI has no ','");
+    const std::string_view header = std::string_view(uri).substr(0, comma);
+    if (header.ends_with(";base64")) {
+        return decode_base64(std::string_view(uri).substr(comma + 1), where);
+    }
+    const std::string decoded = percent_decoded(uri.substr(comma + 1));
+    return {decoded.begin(), decoded.end()};
+}
+
+// "http:" and the like; one letter would be a drive of Windows, which a path check names better.
+bool has_scheme(const std::string& uri) {
+    const std::size_t colon = uri.find(':');
+    if (colon == std::string::npos || colon < 2) return false;
+    return std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '+' || c == '-' || c == '.';
+    });
+}
+
+bool leaves_folder(const fs::path& path) {
+    const fs::path normal = path.lexically_normal();
+    return path.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+}
+
+// Whether a file that stands in the folder by its name is a link, or below a link, to elsewhere.
+bool links_out_of_folder(const fs::path& folder, const fs::path& relative) {
+    std::error_code error;
+    const fs::path root = fs::canonical(folder.empty() ? "." : folder, error);
+    const fs::path target = fs::weakly_canonical(root / relative, error);
+    // What cannot be resolved cannot be read either, which has a message of its own.
+    return !error && leaves_folder(target.lexically_relative(root));
+}
+
+fs::path path_of_uri(const UriBase& base, const std::string& uri, const std::string& where) {
+    if (has_scheme(uri)) {
+        throw Error(where + ": uri '" + shown_uri(uri) + "' is neither a data URI nor a file path");
+    }
+    // Some writers do not encode: a name that exists as it stands is taken so.
+    std::error_code ignored;
+    fs::path relative = uri;
+    if (leaves_folder(relative) || !fs::exists(base.folder / relative, ignored)) {
+        relative = percent_decoded(uri);
+    }
+    if (relative.native().find('\0') != std::string::npos) {
+        throw Error(where + ": uri '" + shown_uri(uri) + "' holds a zero byte");
+    }
+    if (!base.allow_outside_paths &&
+        (leaves_folder(relative) || links_out_of_folder(base.folder, relative))) {
+        throw Error(where + ": uri '" + shown_uri(uri) +
+                    "' leaves the scene file's folder; allow it with --allow-outside-paths");
+    }
+    return base.folder / relative;
+}
+
+}  // namespace
+
+std::string shown_uri(const std::string& uri) {
+    constexpr std::size_t kLongest = 80;
+    std::string shown = uri.substr(0, kLongest);
+    for (char& c : shown) {
+        if (std::iscntrl(static_cast<unsigned char>(c))) c = '?';
+    }
+    return uri.size() > kLongest ? shown + "..." : shown;
+}
+
+GltfText read_gltf_text(const fs::path& file, const std::string& name) {
+    const Bytes bytes = read_file_bytes(file, name);
+    if (bytes.size() >= 4 && read_u32(bytes, 0) == kMagic) return split_glb(bytes, name);
+    return {std::string(bytes.begin(), bytes.end()), {}, false};
+}
+
+Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& where) {
+    const std::string place = base.file + ": " + where;
+    if (uri.starts_with("data:")) return read_data_uri(uri, place);
+    return read_file_bytes(path_of_uri(base, uri, place),
+                           place + ": file '" + shown_uri(uri) + "'");
+}
+
+}  // namespace kilolux
