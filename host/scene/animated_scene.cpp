@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/animated_scene.h"
 
-#include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/material/image.h"
-#include "host/scene/gltf/lights_cameras.h"
+#include "host/scene/gltf/nodes.h"
 #include "host/scene/gltf/parallel.h"
 #include "host/scene/gltf/shapes.h"
 

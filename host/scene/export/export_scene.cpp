@@ -9,9 +9,7 @@
 #include <set>
 
 #include "host/base/error.h"
-#include "host/scene/export/buffer.h"
-#include "host/scene/export/materials.h"
-#include "host/scene/export/nodes.h"
+#include "host/scene/export/parts.h"
 #include "host/scene/gltf/parallel.h"
 
 namespace kilolux {
@@ -102,7 +100,8 @@ class Writer {
         if (binary_) {
             out_.files.push_back({file.filename().string(), glb()});
         } else {
-            const std::string text = root_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+            const std::string text =
+                root_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
             out_.files.push_back({file.filename().string(), Bytes(text.begin(), text.end())});
         }
         return std::move(out_);
@@ -181,16 +180,17 @@ class Writer {
         constexpr std::size_t kHeaders = 12 + 8 + 8 + 6;  // and the most that padding takes
         const std::size_t bytes = json.size() + buffer_.bytes().size() + kHeaders;
         if (bytes > std::numeric_limits<std::uint32_t>::max()) {
-            throw Error(fmt::format("{}.glb: would be {} MiB, a .glb holds at most 4096; export to .gltf",
-                                    stem_, bytes >> 20));
+            throw Error(
+                fmt::format("{}.glb: would be {} MiB, a .glb holds at most 4096; export to .gltf",
+                            stem_, bytes >> 20));
         }
         Bytes out;
         out.reserve(bytes);
         for (const char c : {'g', 'l', 'T', 'F'}) out.push_back(static_cast<unsigned char>(c));
         append_word(out, 2);
         append_word(out, 0);
-        append_chunk(out, "JSON", {reinterpret_cast<const unsigned char*>(json.data()), json.size()},
-                     ' ');
+        append_chunk(out, "JSON",
+                     {reinterpret_cast<const unsigned char*>(json.data()), json.size()}, ' ');
         if (!buffer_.bytes().empty()) append_chunk(out, "BIN\0", buffer_.bytes(), 0);
         Bytes size;
         append_word(size, out.size());

@@ -3,7 +3,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "host/base/error.h"
-#include "host/scene/export/materials.h"
+#include "host/scene/export/parts.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/export/materials.h"
+#include "host/scene/export/parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,8 @@ class MaterialWriter {
     }
 
     Json metallic_roughness(const Material& m) {
-        Json out{{"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}};
+        Json out{
+            {"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}};
         add_texture(out, "baseColorTexture", m.base_color_texture);
         out["metallicFactor"] = m.metallic;
         out["roughnessFactor"] = m.roughness;

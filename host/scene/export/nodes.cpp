@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/export/nodes.h"
+#include "host/scene/export/parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,7 @@ bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-Json matrix_json(const glm::dmat4& m) {
-    return std::vector<double>(&m[0][0], &m[0][0] + 16);
-}
+Json matrix_json(const glm::dmat4& m) { return std::vector<double>(&m[0][0], &m[0][0] + 16); }
 
 glm::dmat4 with_axes(const glm::dmat3& axes, const glm::dvec4& origin) {
     glm::dmat4 out(axes);

@@ -45,9 +45,9 @@ glm::vec3 any_perpendicular(const glm::vec3& n) {
     return glm::normalize(glm::cross(n, axis));
 }
 
-// Unit tangents by the directions in which u grows, with glTF's handedness: cross(normal, tangent) * w
-// points where v shrinks, which is up in the image. Simpler than the loader's derive_tangents(): no
-// vertex here is shared by mirrored triangles.
+// Unit tangents by the directions in which u grows, with glTF's handedness: cross(normal, tangent)
+// * w points where v shrinks, which is up in the image. Simpler than the loader's
+// derive_tangents(): no vertex here is shared by mirrored triangles.
 std::vector<glm::vec4> tangents_of(const Mesh& mesh) {
     const std::size_t count = mesh.positions.size();
     std::vector<glm::vec3> along_u(count, glm::vec3(0.0f));
@@ -144,7 +144,8 @@ void MeshBuilder::quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec
 }
 
 void MeshBuilder::level(const glm::dvec2& low, const glm::dvec2& high, double y, double up) {
-    quad({low.x, y, low.y}, {high.x, y, low.y}, {high.x, y, high.y}, {low.x, y, high.y}, {0, up, 0});
+    quad({low.x, y, low.y}, {high.x, y, low.y}, {high.x, y, high.y}, {low.x, y, high.y},
+         {0, up, 0});
 }
 
 void MeshBuilder::wall(const glm::dvec2& low, const glm::dvec2& high, double z, double facing) {

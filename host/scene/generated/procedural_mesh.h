@@ -19,10 +19,12 @@ struct SurfacePoint {
     glm::dvec2 uv{0.0};        // [m]
 };
 
+using Point2 = glm::dvec2;  // of a profile [m]
+
 /// A polyline to sweep: outside is to the right of its direction, so a profile that goes up has its
 /// outside at larger x. Corners sharper than `crease_rad` stay sharp.
 struct Profile {
-    std::vector<glm::dvec2> points;  // [m]
+    std::vector<Point2> points;
     double crease_rad = 0.6;
 };
 
@@ -53,10 +55,12 @@ class MeshBuilder {
     void quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
               const glm::dvec3& facing);
 
-    /// A rectangle at height y from (x, z) = `low` to `high`; `up` is 1 for a floor, -1 for a ceiling.
+    /// A rectangle at height y from (x, z) = `low` to `high`; `up` is 1 for a floor, -1 for a
+    /// ceiling.
     void level(const glm::dvec2& low, const glm::dvec2& high, double y, double up = 1.0);
 
-    /// A rectangle in the plane of constant z from (x, y) = `low` to `high`, seen from `facing` * z.
+    /// A rectangle in the plane of constant z from (x, y) = `low` to `high`, seen from `facing` *
+    /// z.
     void wall(const glm::dvec2& low, const glm::dvec2& high, double z, double facing);
 
     /// An axis-aligned box of six faces.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/animation.h"
+#include "host/scene/gltf/nodes.h"
 
 #include <algorithm>
 #include <set>
@@ -166,8 +166,7 @@ void apply_channel(const GltfDocument& document, const tinygltf::Animation& anim
     }
     const auto sampler = static_cast<std::size_t>(channel.sampler);
     if (sampler >= animation.samplers.size()) {
-        document.fail(where, "sampler is {}, must be below {}", sampler,
-                      animation.samplers.size());
+        document.fail(where, "sampler is {}, must be below {}", sampler, animation.samplers.size());
     }
     const Track track = open_track(document, animation.samplers[sampler], components, where);
     assign(pose, channel.target_path,

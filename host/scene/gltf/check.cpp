@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/check.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,23 +40,6 @@ void make_wide_integer_float(json& value) {
     value = value.get<double>();
 }
 
-// One check of a file: its document, and the place that is being looked at.
-struct Checker {
-    const std::string& name;
-    std::size_t target_count = 0;  // of the array that the rule's indices point into
-
-    [[noreturn]] void fail(const std::string& where, const json& value,
-                           const std::string& expected) const {
-        throw Error(name + ": " + where + " is " + shown(value) + ", must be " + expected);
-    }
-    void visit(const GltfRule& rule, json& value, std::string_view path, const std::string& where);
-    void check(const GltfRule& rule, json& value, const std::string& where) const;
-    void check_integer(const GltfRule& rule, json& value, const std::string& where) const;
-    void check_index(const GltfRule& rule, json& value, const std::string& where) const;
-    void check_numbers(const GltfRule& rule, json& value, const std::string& where) const;
-    void check_choice(const GltfRule& rule, json& value, const std::string& where) const;
-};
-
 void make_whole_number_integer(json& value) {
     constexpr double kExact = 9007199254740992.0;  // 2^53
     if (!value.is_number_float()) return;
@@ -66,97 +49,103 @@ void make_whole_number_integer(json& value) {
     }
 }
 
-void Checker::check_integer(const GltfRule& rule, json& value, const std::string& where) const {
+bool is_integer_in(json& value, double min, double max) {
     make_whole_number_integer(value);
-    const bool fits = value.is_number_integer() && value.get<double>() >= rule.min &&
-                      value.get<double>() <= rule.max;
-    if (!fits) fail(where, value, "an integer" + range_text(rule));
+    return value.is_number_integer() && value.get<double>() >= min && value.get<double>() <= max;
 }
 
-void Checker::check_index(const GltfRule& rule, json& value, const std::string& where) const {
-    make_whole_number_integer(value);
-    const bool fits = value.is_number_integer() && value.get<double>() >= 0 &&
-                      value.get<double>() < static_cast<double>(target_count);
-    if (fits) return;
-    const std::string what = rule.target.substr(rule.target.rfind('/') + 1);
-    fail(where, value, fmt::format("an index into the {} {}", target_count, what));
-}
-
-void Checker::check_numbers(const GltfRule& rule, json& value, const std::string& where) const {
-    const bool fits =
-        value.is_array() && (rule.length == 0 || value.size() == rule.length) &&
-        std::all_of(value.begin(), value.end(), [](const json& v) { return v.is_number(); });
-    const std::string count = rule.length == 0 ? "" : fmt::format("{} ", rule.length);
-    if (!fits) fail(where, value, "an array of " + count + "numbers");
-    for (json& number : value) make_wide_integer_float(number);
-}
-
-void Checker::check_choice(const GltfRule& rule, json& value, const std::string& where) const {
-    make_whole_number_integer(value);
-    const std::string text = value.is_string()   ? value.get<std::string>()
-                             : value.is_number() ? value.dump()
-                                                 : std::string();
-    if (std::find(rule.allowed.begin(), rule.allowed.end(), text) != rule.allowed.end()) return;
-    std::string list;
-    for (const std::string& allowed : rule.allowed) list += (list.empty() ? "" : ", ") + allowed;
-    fail(where, value, "one of " + list);
-}
-
-void Checker::check(const GltfRule& rule, json& value, const std::string& where) const {
-    switch (rule.kind) {
-        case JsonKind::object:
-            if (!value.is_object()) fail(where, value, "an object");
-            return;
-        case JsonKind::text:
-            if (!value.is_string()) fail(where, value, "a string");
-            return;
-        case JsonKind::boolean:
-            if (!value.is_boolean()) fail(where, value, "true or false");
-            return;
-        case JsonKind::number:
-            if (!value.is_number()) fail(where, value, "a number");
-            return make_wide_integer_float(value);
-        case JsonKind::integer:
-            return check_integer(rule, value, where);
-        case JsonKind::index:
-            return check_index(rule, value, where);
-        case JsonKind::numbers:
-            return check_numbers(rule, value, where);
-        case JsonKind::choice:
-            return check_choice(rule, value, where);
+bool are_numbers(json& value, std::size_t length) {
+    if (!value.is_array() || (length != 0 && value.size() != length)) return false;
+    for (json& number : value) {
+        if (!number.is_number()) return false;
+        make_wide_integer_float(number);
     }
+    return true;
 }
 
-// Follows what is left of the rule's path; `where` says how `value` was reached.
-void Checker::visit(const GltfRule& rule, json& value, std::string_view path,
-                    const std::string& where) {
-    if (path.empty()) return check(rule, value, where);
-    if (path.starts_with("[]")) {
-        if (!value.is_array()) fail(where, value, "an array");
-        for (std::size_t i = 0; i < value.size(); ++i) {
-            visit(rule, value[i], path.substr(2), fmt::format("{}[{}]", where, i));
+bool is_one_of(json& value, const std::vector<std::string>& allowed) {
+    make_whole_number_integer(value);
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    return std::find(allowed.begin(), allowed.end(), text) != allowed.end();
+}
+
+// One rule on its way through a file.
+struct Checker {
+    const std::string& name;  // of the file
+    const GltfRule& rule;
+    std::size_t target_count;  // of the array that the rule's indices point into
+
+    [[noreturn]] void fail(const std::string& where, const json& value,
+                           const std::string& expected) const {
+        throw Error(fmt::format("{}: {} is {}, must be {}", name, where, shown(value), expected));
+    }
+
+    void require(bool fits, const std::string& where, const json& value,
+                 const char* expected) const {
+        if (!fits) fail(where, value, expected);
+    }
+
+    void check(json& value, const std::string& where) const {
+        switch (rule.kind) {
+            case JsonKind::object:
+                return require(value.is_object(), where, value, "an object");
+            case JsonKind::text:
+                return require(value.is_string(), where, value, "a string");
+            case JsonKind::boolean:
+                return require(value.is_boolean(), where, value, "true or false");
+            case JsonKind::number:
+                require(value.is_number(), where, value, "a number");
+                return make_wide_integer_float(value);
+            case JsonKind::integer:
+                if (is_integer_in(value, rule.min, rule.max)) return;
+                fail(where, value, "an integer" + range_text(rule));
+            case JsonKind::index:
+                if (is_integer_in(value, 0, static_cast<double>(target_count) - 1)) return;
+                fail(where, value,
+                     fmt::format("an index into the {} {}", target_count,
+                                 rule.target.substr(rule.target.rfind('/') + 1)));
+            case JsonKind::numbers:
+                if (are_numbers(value, rule.length)) return;
+                fail(where, value,
+                     rule.length == 0 ? "an array of numbers"
+                                      : fmt::format("an array of {} numbers", rule.length));
+            case JsonKind::choice:
+                if (is_one_of(value, rule.allowed)) return;
+                fail(where, value, fmt::format("one of {}", fmt::join(rule.allowed, ", ")));
         }
-        return;
     }
-    if (path.front() == '.') path.remove_prefix(1);
-    if (!value.is_object()) fail(where.empty() ? "the file" : where, value, "an object");
-    const std::string prefix = where.empty() ? "" : where + ".";
-    if (path.starts_with("{}")) {
-        for (auto& [key, member] : value.items()) {
-            visit(rule, member, path.substr(2), prefix + shown(key));
-        }
-        return;
-    }
-    const std::size_t end = std::min(path.find_first_of(".[{"), path.size());
-    const std::string key(path.substr(0, end));
-    const std::string_view rest = path.substr(end);
-    const auto member = value.find(key);
-    if (member != value.end()) return visit(rule, *member, rest, prefix + key);
-    if (rule.required && rest.empty()) throw Error(name + ": " + prefix + key + " is missing");
-}
 
-// Levels of arrays and objects; counted on the text because JSON readers may recurse, and the
-// parser's own callback costs time quadratic in an array's length.
+    // Follows the rest of the rule's path; `where` says how `value` was reached.
+    void visit(json& value, std::string_view path, const std::string& where) const {
+        if (path.empty()) return check(value, where);
+        if (path.starts_with("[]")) {
+            require(value.is_array(), where, value, "an array");
+            for (std::size_t i = 0; i < value.size(); ++i) {
+                visit(value[i], path.substr(2), fmt::format("{}[{}]", where, i));
+            }
+            return;
+        }
+        if (path.front() == '.') path.remove_prefix(1);
+        require(value.is_object(), where.empty() ? std::string("the file") : where, value,
+                "an object");
+        const std::string prefix = where.empty() ? "" : where + ".";
+        if (path.starts_with("{}")) {
+            for (auto& [key, member] : value.items()) {
+                visit(member, path.substr(2), prefix + shown(key));
+            }
+            return;
+        }
+        const std::size_t end = std::min(path.find_first_of(".[{"), path.size());
+        const std::string key(path.substr(0, end));
+        const std::string_view rest = path.substr(end);
+        const auto member = value.find(key);
+        if (member != value.end()) return visit(*member, rest, prefix + key);
+        if (rule.required && rest.empty()) throw Error(name + ": " + prefix + key + " is missing");
+    }
+};
+
+// Levels of arrays and objects. Counted on the text: JSON readers may recurse, and the parser's
+// callback takes time quadratic in an array's length.
 int nesting_depth(const std::string& text) {
     int depth = 0;
     int deepest = 0;
@@ -194,12 +183,9 @@ json parse(const std::string& text, const std::string& name) {
 json parse_gltf_json(const std::string& text, const std::string& name) {
     json root = parse(text, name);
     for (const GltfRule& rule : gltf_rules()) {
-        Checker checker{name};
         const json::json_pointer target(rule.target);
-        if (rule.kind == JsonKind::index && root.contains(target)) {
-            checker.target_count = root.at(target).size();
-        }
-        checker.visit(rule, root, rule.path, "");
+        const bool has_target = rule.kind == JsonKind::index && root.contains(target);
+        Checker{name, rule, has_target ? root.at(target).size() : 0}.visit(root, rule.path, "");
     }
     return root;
 }

@@ -17,8 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-// What accessors may decode to: enough for real files with instanced, skinned and compressed meshes,
-// small enough that a file of a few KiB cannot claim gigabytes.
+// What accessors may decode to: enough for real files with instanced, skinned and compressed
+// meshes, small enough that a file of a few KiB cannot claim gigabytes.
 constexpr std::uint64_t kBudgetFloorBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kBudgetPerFileByte = 1024;
 
@@ -177,19 +177,20 @@ void LoadBudget::allow_for_file(std::uint64_t file_bytes) {
 void LoadBudget::charge(std::uint64_t count, std::uint64_t bytes_each, const std::string& where) {
     const bool overflows = bytes_each != 0 && count > decode_limit_ / bytes_each;
     if (overflows || !take(decode_left_, count * bytes_each)) {
-        throw Error(fmt::format("{}: claims {} elements of {} bytes, more than a file of this size "
-                                "may decode to ({})",
-                                where, count, bytes_each, mebibytes(decode_limit_)));
+        throw Error(
+            fmt::format("{}: claims {} elements of {} bytes, more than a file of this size "
+                        "may decode to ({})",
+                        where, count, bytes_each, mebibytes(decode_limit_)));
     }
     charge_memory(count * bytes_each, where);
 }
 
 void LoadBudget::charge_memory(std::uint64_t bytes, const std::string& where) {
     if (take(memory_left_, bytes)) return;
-    throw Error(fmt::format("{}: needs {} of memory, {} of {} for buffers, images and meshes are "
-                            "left (--max-memory)",
-                            where, mebibytes(bytes), mebibytes(memory_left_),
-                            mebibytes(memory_limit_)));
+    throw Error(
+        fmt::format("{}: needs {} of memory, {} of {} for buffers, images and meshes are "
+                    "left (--max-memory)",
+                    where, mebibytes(bytes), mebibytes(memory_left_), mebibytes(memory_limit_)));
 }
 
 void LoadBudget::refill() {
@@ -212,8 +213,8 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     document.options = options;
     document.base = {file.string(), file.parent_path(), options.allow_outside_paths};
     const std::uint64_t memory = options.max_memory_bytes;
-    document.budget = std::make_unique<LoadBudget>(
-        memory > 0 ? memory : OIIO::Sysutil::physical_memory() / 2);
+    document.budget =
+        std::make_unique<LoadBudget>(memory > 0 ? memory : OIIO::Sysutil::physical_memory() / 2);
     GltfText text = read_gltf_text(file, document.base.file);
     const json root = parse_gltf_json(text.json, document.base.file);
     check_version(document, root.at("asset"));

@@ -63,7 +63,8 @@ struct GltfDocument {
     template <typename... Args>
     [[noreturn]] void fail(const std::string& where, fmt::format_string<Args...> what,
                            Args&&... args) const {
-        throw Error(base.file + ": " + where + ": " + fmt::format(what, std::forward<Args>(args)...));
+        throw Error(base.file + ": " + where + ": " +
+                    fmt::format(what, std::forward<Args>(args)...));
     }
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstring>

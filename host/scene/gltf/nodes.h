@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
+#include <set>
 
 #include "host/scene/gltf/document.h"
 
@@ -34,5 +35,25 @@ PlacedNodes place_nodes(const GltfDocument& document);
 std::string node_name(const GltfDocument& document, std::size_t node);
 
 bool is_finite(const glm::dmat4& matrix);
+
+/// Sets what the file's animations drive in `poses` (one per node) to its value at the options'
+/// time.
+///
+/// All animations play at once and hold their first and last key outside of their range. Where two
+/// drive the same property, the first in the file wins.
+void apply_animations(const GltfDocument& document, std::vector<NodePose>& poses);
+
+/// Whether any animation of the file drives a node.
+bool has_animations(const GltfDocument& document);
+
+/// Nodes whose morph weights an animation drives.
+std::set<int> nodes_with_driven_weights(const GltfDocument& document);
+
+/// The lights of KHR_lights_punctual at their nodes. Unusable values are kept: the renderer rejects
+/// and counts those lights.
+std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes);
+
+/// The cameras at their nodes, parents first. Throws Error for invalid values.
+std::vector<SceneCamera> convert_cameras(const GltfDocument& document, const PlacedNodes& nodes);
 
 }  // namespace kilolux

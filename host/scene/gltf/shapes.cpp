@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/mesh/skin.h"
+#include "host/scene/gltf/nodes.h"
 
 namespace kilolux {
 namespace {

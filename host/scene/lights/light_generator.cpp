@@ -21,8 +21,8 @@ constexpr double kExposedRadiance = 0.24;  // of a surface of albedo 0.5: middle
 constexpr double kExposedAlbedo = 0.5;
 // Of colour(hue) over all hues, measured; a test checks it.
 constexpr double kMeanLuminance = 0.591;
-constexpr double kMaxSpeed = 1.2;     // [m/s] along one axis
-constexpr double kMinCrossing = 8.0;  // [s] that a light takes at least across the box
+constexpr double kMaxSpeed = 1.2;              // [m/s] along one axis
+constexpr double kMinCrossing = 8.0;           // [s] that a light takes at least across the box
 constexpr std::uint64_t kLightsAtOnce = 4096;  // fewer are not worth a task
 
 enum Stream : std::uint64_t { kPhase = 0, kSpeed = 3, kHue = 6 };
@@ -86,8 +86,8 @@ double exposing_intensity(glm::dvec3 size, double count, double radius) {
     return mean / kMeanLuminance;
 }
 
-// A saturated colour whose brightest channel is 1, a fifth of it white. Dark hues get more white, up
-// to a luminance of 0.45, so that blue lights contribute as well.
+// A saturated colour whose brightest channel is 1, a fifth of it white. Dark hues get more white,
+// up to a luminance of 0.45, so that blue lights contribute as well.
 glm::dvec3 colour(double hue) {
     const double h = hue * 6.0;
     const auto ramp = [](double x) { return std::clamp(x, 0.0, 1.0); };

@@ -17,8 +17,8 @@ double range_of_light(double intensity_max_cd, double error_budget) {
                                 intensity_max_cd));
     }
     if (!(std::isfinite(error_budget) && error_budget > 0.0)) {
-        throw Error(fmt::format("light range: error budget is {}, must be finite and > 0",
-                                error_budget));
+        throw Error(
+            fmt::format("light range: error budget is {}, must be finite and > 0", error_budget));
     }
     return std::sqrt(intensity_max_cd / (std::numbers::pi * error_budget));
 }

@@ -8,8 +8,8 @@
 
 namespace kilolux {
 
-/// Largest error in radiance of one light without a range on a white diffuse surface: one step of an
-/// 8-bit linear image whose white is 1.
+/// Largest error in radiance of one light without a range on a white diffuse surface: one step of
+/// an 8-bit linear image whose white is 1.
 inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 
 /// Range [m] for a light whose file gives none: where the radiance that it causes on a white

@@ -80,13 +80,10 @@ void add_voussoirs(MeshBuilder& builder, const ArchPanel& panel, double wall_hal
 
 void add_label(MeshBuilder& builder, const ArchPanel& panel, double z, double ring,
                bool to_plus_z) {
-    const Profile profile{{{ring + 0.11, 0.0},
-                           {ring + 0.11, 0.07},
-                           {ring + 0.07, 0.09},
-                           {ring + 0.04, 0.07},
-                           {ring + 0.02, 0.045},
-                           {ring - 0.01, 0.03}},
-                          0.9};
+    const Profile profile{
+        {Point2(ring + 0.11, 0.0), Point2(ring + 0.11, 0.07), Point2(ring + 0.07, 0.09),
+         Point2(ring + 0.04, 0.07), Point2(ring + 0.02, 0.045), Point2(ring - 0.01, 0.03)},
+        0.9};
     builder.sweep(profile,
                   arch_frames(panel, z, to_plus_z, std::numbers::pi * (panel.radius_x + ring)));
 }

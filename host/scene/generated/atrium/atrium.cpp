@@ -3,10 +3,10 @@
 
 #include <initializer_list>
 
-#include "host/scene/generated/atrium/pieces.h"
-#include "host/scene/generated/atrium/materials.h"
-#include "host/scene/generated/atrium/plan.h"
 #include "host/scene/generated/atrium/arch.h"
+#include "host/scene/generated/atrium/materials.h"
+#include "host/scene/generated/atrium/pieces.h"
+#include "host/scene/generated/atrium/plan.h"
 #include "host/scene/generated/scenes_small.h"
 
 namespace kilolux {
@@ -52,8 +52,7 @@ void add_bays(Scene& scene) {
             joined({arcade_mouldings(), aisle_mouldings(), bay_floor_bands(), rib().moved(left)}),
             AtriumMaterial::limestone),
         add(scene, "bay-capital", column_stones().moved(left), AtriumMaterial::limestone),
-        add(scene, "bay-shafts",
-            joined({column_shaft().moved(left), gallery_columns.moved(left)}),
+        add(scene, "bay-shafts", joined({column_shaft().moved(left), gallery_columns.moved(left)}),
             AtriumMaterial::marble),
         add(scene, "bay-balustrade", balustrade(), AtriumMaterial::limestone),
         add(scene, "bay-tiles", bay_tiles(), AtriumMaterial::tile),

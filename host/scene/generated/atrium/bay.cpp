@@ -53,8 +53,9 @@ void add_course(MeshBuilder& builder, const std::vector<glm::dvec2>& points, dou
 
 // A disc that stands out from a wall at z, with a rim.
 void add_medallion(MeshBuilder& builder, glm::dvec2 at, double z, bool to_plus_z) {
-    const Profile profile{
-        {{0.17, 0.0}, {0.17, 0.035}, {0.15, 0.05}, {0.13, 0.035}, {0.12, 0.012}, {0.0, 0.03}}, 0.5};
+    const Profile profile{{Point2(0.17, 0.0), Point2(0.17, 0.035), Point2(0.15, 0.05),
+                           Point2(0.13, 0.035), Point2(0.12, 0.012), Point2(0.0, 0.03)},
+                          0.5};
     std::vector<SweepFrame> frames;
     const glm::dvec3 out(0.0, 0.0, to_plus_z ? 1.0 : -1.0);
     for (int i = 0; i <= 16; ++i) {

@@ -26,41 +26,22 @@ void add_round_basin(MeshBuilder& builder, const Profile& profile) {
 // Pedestal and two bowls, one above the other, with a finial.
 void add_fountain(MeshBuilder& builder) {
     const double f = kCourtFloor;
-    builder.lathe({{{0.42, f},
-                    {0.42, f + 0.45},
-                    {0.36, f + 0.50},
-                    {0.20, f + 0.60},
-                    {0.14, f + 0.85},
-                    {0.17, f + 1.05},
-                    {0.30, f + 1.14},
-                    {0.72, f + 1.24},
-                    {0.92, f + 1.38},
-                    {0.96, f + 1.46},
-                    {0.92, f + 1.48},
-                    {0.86, f + 1.44},
-                    {0.70, f + 1.34}},
-                   0.8},
-                  40);
-    builder.lathe({{{0.11, f + 1.30},
-                    {0.12, f + 1.50},
-                    {0.08, f + 1.60},
-                    {0.09, f + 1.90},
-                    {0.16, f + 1.98},
-                    {0.40, f + 2.06},
-                    {0.50, f + 2.16},
-                    {0.50, f + 2.20},
-                    {0.46, f + 2.19},
-                    {0.36, f + 2.12}},
+    builder.lathe(
+        {{Point2(0.42, f), Point2(0.42, f + 0.45), Point2(0.36, f + 0.50), Point2(0.20, f + 0.60),
+          Point2(0.14, f + 0.85), Point2(0.17, f + 1.05), Point2(0.30, f + 1.14),
+          Point2(0.72, f + 1.24), Point2(0.92, f + 1.38), Point2(0.96, f + 1.46),
+          Point2(0.92, f + 1.48), Point2(0.86, f + 1.44), Point2(0.70, f + 1.34)},
+         0.8},
+        40);
+    builder.lathe({{Point2(0.11, f + 1.30), Point2(0.12, f + 1.50), Point2(0.08, f + 1.60),
+                    Point2(0.09, f + 1.90), Point2(0.16, f + 1.98), Point2(0.40, f + 2.06),
+                    Point2(0.50, f + 2.16), Point2(0.50, f + 2.20), Point2(0.46, f + 2.19),
+                    Point2(0.36, f + 2.12)},
                    0.8},
                   32);
-    builder.lathe({{{0.07, f + 2.10},
-                    {0.05, f + 2.28},
-                    {0.09, f + 2.34},
-                    {0.13, f + 2.44},
-                    {0.12, f + 2.54},
-                    {0.06, f + 2.64},
-                    {0.02, f + 2.74},
-                    {0.0, f + 2.78}},
+    builder.lathe({{Point2(0.07, f + 2.10), Point2(0.05, f + 2.28), Point2(0.09, f + 2.34),
+                    Point2(0.13, f + 2.44), Point2(0.12, f + 2.54), Point2(0.06, f + 2.64),
+                    Point2(0.02, f + 2.74), Point2(0.0, f + 2.78)},
                    0.9},
                   20);
 }
@@ -82,19 +63,12 @@ MeshBuilder court_paving() {
 MeshBuilder fountain_marble() {
     MeshBuilder builder;
     const double f = kCourtFloor;
-    add_round_basin(builder, {{{0.42, f},
-                               {0.42, f + 0.10},
-                               {0.36, f + 0.14},
-                               {0.33, f + 0.34},
-                               {0.36, f + 0.40},
-                               {0.42, f + 0.44},
-                               {0.43, f + 0.50},
-                               {0.40, f + 0.53},
-                               {0.02, f + 0.53},
-                               {-0.02, f + 0.50},
-                               {-0.02, f + 0.44},
-                               {0.0, f + 0.43}},
-                              0.6});
+    add_round_basin(builder,
+                    {{Point2(0.42, f), Point2(0.42, f + 0.10), Point2(0.36, f + 0.14),
+                      Point2(0.33, f + 0.34), Point2(0.36, f + 0.40), Point2(0.42, f + 0.44),
+                      Point2(0.43, f + 0.50), Point2(0.40, f + 0.53), Point2(0.02, f + 0.53),
+                      Point2(-0.02, f + 0.50), Point2(-0.02, f + 0.44), Point2(0.0, f + 0.43)},
+                     0.6});
     add_fountain(builder);
     return builder;
 }

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "host/scene/generated/atrium/pieces.h"
 #include "host/scene/generated/atrium/materials.h"
+#include "host/scene/generated/atrium/pieces.h"
 #include "host/scene/generated/atrium/plan.h"
 #include "host/scene/lights/light_generator_hash.h"
 

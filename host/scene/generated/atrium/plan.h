@@ -31,8 +31,8 @@ inline constexpr double kEaves = 10.35;    // the roof's lower edge
 inline constexpr double kRidge = 12.0;     // the roof's upper edge, on the outer wall
 inline constexpr double kOuterFace = 4.7;  // column axis to the outer wall's outer face
 
-/// Where a piece made in a bay's frame goes. The frame's origin is on the hall's floor, y = 0, midway
-/// between two columns; x runs along the arcade, +z to the outer wall.
+/// Where a piece made in a bay's frame goes. The frame's origin is on the hall's floor, y = 0,
+/// midway between two columns; x runs along the arcade, +z to the outer wall.
 struct Place {
     glm::dmat4 world_from_piece{1.0};
     int side = 0;   // 0 south (+z), 1 east (+x), 2 north, 3 west

@@ -40,30 +40,17 @@ void add_dentils(MeshBuilder& builder, double half, double z, double y) {
 
 MeshBuilder side_cornices(double half) {
     MeshBuilder builder;
-    add_court_course(builder,
-                     {{0.0, 5.22},
-                      {0.04, 5.24},
-                      {0.06, 5.30},
-                      {0.06, 5.52},
-                      {0.16, 5.53},
-                      {0.30, 5.56},
-                      {0.30, 5.64},
-                      {0.33, 5.67},
-                      {0.39, 5.76},
-                      {0.40, 5.80},
-                      {-kWallHalf, 5.80}},
-                     half, -kWallHalf);
+    add_court_course(
+        builder,
+        {Point2(0.0, 5.22), Point2(0.04, 5.24), Point2(0.06, 5.30), Point2(0.06, 5.52),
+         Point2(0.16, 5.53), Point2(0.30, 5.56), Point2(0.30, 5.64), Point2(0.33, 5.67),
+         Point2(0.39, 5.76), Point2(0.40, 5.80), Point2(-kWallHalf, 5.80)},
+        half, -kWallHalf);
     add_dentils(builder, half, -kWallHalf, 5.40);
     add_court_course(builder,
-                     {{0.0, 9.66},
-                      {0.04, 9.68},
-                      {0.05, 9.76},
-                      {0.05, 9.98},
-                      {0.16, 9.99},
-                      {0.18, 10.05},
-                      {0.24, 10.12},
-                      {0.24, 10.16},
-                      {0.0, 10.16}},
+                     {Point2(0.0, 9.66), Point2(0.04, 9.68), Point2(0.05, 9.76), Point2(0.05, 9.98),
+                      Point2(0.16, 9.99), Point2(0.18, 10.05), Point2(0.24, 10.12),
+                      Point2(0.24, 10.16), Point2(0.0, 10.16)},
                      half, -kUpperWallHalf);
     add_dentils(builder, half, -kUpperWallHalf, 9.86);
     return builder;
@@ -137,15 +124,9 @@ MeshBuilder side_outer_wall(double half) {
 
 MeshBuilder balustrade() {
     MeshBuilder baluster;
-    const Profile profile{{{0.055, 0.12},
-                           {0.055, 0.17},
-                           {0.032, 0.20},
-                           {0.068, 0.34},
-                           {0.062, 0.42},
-                           {0.030, 0.62},
-                           {0.030, 0.70},
-                           {0.050, 0.73},
-                           {0.050, 0.78}},
+    const Profile profile{{Point2(0.055, 0.12), Point2(0.055, 0.17), Point2(0.032, 0.20),
+                           Point2(0.068, 0.34), Point2(0.062, 0.42), Point2(0.030, 0.62),
+                           Point2(0.030, 0.70), Point2(0.050, 0.73), Point2(0.050, 0.78)},
                           0.9};
     baluster.lathe(profile, 8);
     MeshBuilder builder;

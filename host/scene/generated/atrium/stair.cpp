@@ -57,14 +57,12 @@ void add_step(MeshBuilder& builder, int step) {
 
 MeshBuilder stair_stones() {
     MeshBuilder builder;
-    builder.lathe({{{kInner + 0.02, 0.0},
-                    {kInner + 0.02, kGalleryFloor + 0.95},
-                    {kInner + 0.07, kGalleryFloor + 0.98},
-                    {kInner + 0.07, kGalleryFloor + 1.05},
-                    {0.10, kGalleryFloor + 1.12},
-                    {0.0, kGalleryFloor + 1.2}},
-                   0.5},
-                  20, kAxis);
+    builder.lathe(
+        {{Point2(kInner + 0.02, 0.0), Point2(kInner + 0.02, kGalleryFloor + 0.95),
+          Point2(kInner + 0.07, kGalleryFloor + 0.98), Point2(kInner + 0.07, kGalleryFloor + 1.05),
+          Point2(0.10, kGalleryFloor + 1.12), Point2(0.0, kGalleryFloor + 1.2)},
+         0.5},
+        20, kAxis);
     for (int step = 0; step < kSteps; ++step) add_step(builder, step);
     return builder;
 }

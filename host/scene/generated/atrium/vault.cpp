@@ -67,15 +67,10 @@ void add_rib(MeshBuilder& builder) {
     const double half = kAisle / 2;
     const ArchPanel span{
         .center = 0.0, .radius_x = half, .radius_y = kVaultRise, .spring = kSpring, .segments = 20};
-    const Profile profile{{{0.05, 0.20},
-                           {-0.06, 0.20},
-                           {-0.08, 0.17},
-                           {-0.13, 0.15},
-                           {-0.13, -0.15},
-                           {-0.08, -0.17},
-                           {-0.06, -0.20},
-                           {0.05, -0.20}},
-                          0.3};
+    const Profile profile{
+        {Point2(0.05, 0.20), Point2(-0.06, 0.20), Point2(-0.08, 0.17), Point2(-0.13, 0.15),
+         Point2(-0.13, -0.15), Point2(-0.08, -0.17), Point2(-0.06, -0.20), Point2(0.05, -0.20)},
+        0.3};
     MeshBuilder rib;
     rib.sweep(profile, arch_frames(span, 0.0, true, 5.7));
     builder.append(rib, placed({0.0, 0.0, half}, 1));

@@ -8,7 +8,6 @@
 #include <mutex>
 
 #include "host/scene/gltf/parallel.h"
-#include "host/scene/gltf/material/png_chunks.h"
 
 namespace kilolux {
 namespace {
@@ -26,20 +25,13 @@ struct Magic {
 
 using namespace std::string_view_literals;
 constexpr std::array kMagics = {
-    Magic{"\x89PNG"sv, 0, "png"},
-    Magic{"\xff\xd8\xff"sv, 0, "jpeg"},
-    Magic{"WEBP"sv, 8, "webp"},
-    Magic{"GIF8"sv, 0, "gif"},
-    Magic{"BM"sv, 0, "bmp"},
-    Magic{"DDS "sv, 0, "dds"},
-    Magic{"II*\0"sv, 0, "tiff"},
-    Magic{"MM\0*"sv, 0, "tiff"},
-    Magic{"v/1\x01"sv, 0, "openexr"},
-    Magic{"#?RADIANCE"sv, 0, "hdr"},
-    Magic{"8BPS"sv, 0, "psd"},
-    Magic{"jP  "sv, 4, "jpeg2000"},
-    Magic{"P6"sv, 0, "pnm"},
-    Magic{"P5"sv, 0, "pnm"},
+    Magic{"\x89PNG"sv, 0, "png"},     Magic{"\xff\xd8\xff"sv, 0, "jpeg"},
+    Magic{"WEBP"sv, 8, "webp"},       Magic{"GIF8"sv, 0, "gif"},
+    Magic{"BM"sv, 0, "bmp"},          Magic{"DDS "sv, 0, "dds"},
+    Magic{"II*\0"sv, 0, "tiff"},      Magic{"MM\0*"sv, 0, "tiff"},
+    Magic{"v/1\x01"sv, 0, "openexr"}, Magic{"#?RADIANCE"sv, 0, "hdr"},
+    Magic{"8BPS"sv, 0, "psd"},        Magic{"jP  "sv, 4, "jpeg2000"},
+    Magic{"P6"sv, 0, "pnm"},          Magic{"P5"sv, 0, "pnm"},
 };
 
 // An image of the file, still encoded.
@@ -125,8 +117,8 @@ std::vector<std::uint8_t> to_rgba(const std::vector<std::uint8_t>& pixels, std::
     return rgba;
 }
 
-// glTF's colours are not multiplied by alpha. Some readers of OpenImageIO multiply whatever they are
-// asked for (WebP in 2.4); dividing restores the colours up to rounding.
+// glTF's colours are not multiplied by alpha. Some readers of OpenImageIO multiply whatever they
+// are asked for (WebP in 2.4); dividing restores the colours up to rounding.
 void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
     for (std::size_t i = 0; i < rgba.size(); i += 4) {
         const unsigned alpha = rgba[i + 3];

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "host/scene/gltf/document.h"
 
 namespace kilolux {
@@ -11,5 +14,9 @@ namespace kilolux {
 /// image that is missing, broken or too large (16384 x 16384 pixels, the document's memory budget).
 std::vector<Image> decode_images(const GltfDocument& document, const std::vector<int>& images,
                                  const LoadProgress& progress = {});
+
+/// Throws Error "<where>: ..." when a PNG file is cut off, or a part that its pixels are made from
+/// is damaged or unknown: libpng would write its own complaint to standard error first.
+void check_png(std::span<const unsigned char> png, const std::string& where);
 
 }  // namespace kilolux

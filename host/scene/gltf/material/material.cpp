@@ -6,7 +6,6 @@
 
 #include "host/base/log.h"
 #include "host/scene/gltf/extensions.h"
-#include "host/scene/gltf/material/texture.h"
 
 namespace kilolux {
 namespace {
@@ -112,9 +111,10 @@ std::array<int, 2> pack_texcoord_sets(Material& material) {
     for (TextureUse* use : uses) {
         if (!use->present()) continue;
         if (use->uv_set != sets[0] && use->uv_set != sets[1]) {
-            warn(fmt::format("material '{}' uses more than two sets of texture coordinates; its "
-                             "textures of TEXCOORD_{} are left out",
-                             material.name, use->uv_set));
+            warn(
+                fmt::format("material '{}' uses more than two sets of texture coordinates; its "
+                            "textures of TEXCOORD_{} are left out",
+                            material.name, use->uv_set));
             *use = {};
         } else {
             use->uv_set = use->uv_set == sets[0] ? 0 : 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/material/png_chunks.h"
+#include "host/scene/gltf/material/image.h"
 
 #include <fmt/core.h>
 #include <zlib.h>
@@ -36,8 +36,8 @@ struct Chunk {
 Chunk chunk_at(Span png, std::size_t offset, const std::string& where) {
     const Span rest = png.subspan(offset);
     if (rest.size() < kFrameBytes || big_endian(rest) > rest.size() - kFrameBytes) {
-        throw Error(fmt::format("{}: is cut off in the chunk at byte {} of {}", where, offset,
-                                png.size()));
+        throw Error(
+            fmt::format("{}: is cut off in the chunk at byte {} of {}", where, offset, png.size()));
     }
     return {rest.first(kFrameBytes + big_endian(rest)), offset,
             std::string_view(reinterpret_cast<const char*>(rest.data()) + 4, 4)};

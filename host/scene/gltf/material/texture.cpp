@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/material/texture.h"
+#include "host/scene/gltf/material/material.h"
 
 #include <cmath>
 
@@ -43,8 +43,8 @@ int source_image(const tinygltf::Texture& texture) {
     return webp == nullptr ? texture.source : member_or(*webp, "source", texture.source);
 }
 
-// KHR_texture_transform: scale, then rotate, then shift. The rotation's sign follows the extension's
-// text and first example; the matrix in its GLSL example is the transpose.
+// KHR_texture_transform: scale, then rotate, then shift. The rotation's sign follows the
+// extension's text and first example; the matrix in its GLSL example is the transpose.
 glm::mat3 uv_transform(const tinygltf::Value& transform) {
     const std::vector<double> offset = numbers_member(transform, "offset");
     const std::vector<double> scale = numbers_member(transform, "scale");

@@ -74,8 +74,8 @@ void open_sparse(const GltfDocument& document, const tinygltf::Accessor& accesso
     indices.component_type = sparse.indices.componentType;
     indices.stride = component_bytes(indices.component_type);
     indices.bytes = bytes_of_view(document, sparse.indices.bufferView,
-                                     static_cast<std::size_t>(sparse.indices.byteOffset),
-                                     count * indices.stride, indices.where);
+                                  static_cast<std::size_t>(sparse.indices.byteOffset),
+                                  count * indices.stride, indices.where);
     array.sparse_values = bytes_of_view(
         document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
         count * element_bytes(array), array.where + ".sparse.values");

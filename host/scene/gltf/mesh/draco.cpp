@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/mesh/draco.h"
+#include "host/scene/gltf/mesh/primitive.h"
 
 #include <draco/compression/decode.h>
 #include <draco/core/varint_decoding.h>

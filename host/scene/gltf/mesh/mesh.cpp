@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "host/scene/gltf/mesh/normals.h"
+#include "host/scene/gltf/mesh/directions.h"
 #include "host/scene/gltf/mesh/skin.h"
-#include "host/scene/gltf/mesh/tangents.h"
 
 namespace kilolux {
 namespace {
@@ -97,8 +96,9 @@ void check_positions(const PrimitiveArrays& arrays, const Mesh& mesh) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const glm::vec3& p = mesh.positions[v];
         if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-        throw Error(fmt::format("{}: vertex {} is not finite once morph targets and skin are applied",
-                                arrays.where, v));
+        throw Error(
+            fmt::format("{}: vertex {} is not finite once morph targets and skin are applied",
+                        arrays.where, v));
     }
 }
 

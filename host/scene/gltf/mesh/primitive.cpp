@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "host/base/log.h"
-#include "host/scene/gltf/mesh/draco.h"
 
 namespace kilolux {
 namespace {

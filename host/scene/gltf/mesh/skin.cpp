@@ -46,8 +46,8 @@ glm::dmat4 blend(const std::vector<JointSet>& sets, std::size_t element,
     return total == 0.0 ? object_from_bind[0] : sum / total;
 }
 
-// Cofactors, the inverse transpose times the determinant: also defined for parts scaled to zero. The
-// sign keeps the normals of mirrored parts outwards.
+// Cofactors, the inverse transpose times the determinant: also defined for parts scaled to zero.
+// The sign keeps the normals of mirrored parts outwards.
 glm::dmat3 normal_matrix(const glm::dmat3& m) {
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                                glm::cross(m[0], m[1]));
@@ -74,8 +74,9 @@ PlacedSkin place_skin(const GltfDocument& document, std::size_t index, const Pla
         bind = open_accessor(document, skin.inverseBindMatrices);
         expect_components(bind, {16}, "inverseBindMatrices");
         if (bind.count < skin.joints.size()) {
-            document.fail(element_name("skins", index), "has {} joints and {} inverse bind matrices",
-                          skin.joints.size(), bind.count);
+            document.fail(element_name("skins", index),
+                          "has {} joints and {} inverse bind matrices", skin.joints.size(),
+                          bind.count);
         }
     }
     document.budget->charge(skin.joints.size(), sizeof(glm::dmat4),

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/mesh/tangents.h"
+#include "host/scene/gltf/mesh/directions.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <unordered_map>
-
-#include "host/scene/gltf/mesh/normals.h"
 
 namespace kilolux {
 namespace {

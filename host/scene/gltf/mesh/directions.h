@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// Gives every vertex its triangle's normal. No vertex may be shared between triangles; those of
+/// triangles without area get +Z.
+void derive_flat_normals(Mesh& mesh);
+
+/// Makes all normals unit. Those that are zero or not finite become the area-weighted mean of the
+/// triangles around, or +Z where those have no area.
+void mend_normals(Mesh& mesh);
+
+/// Whether a vector is unit to within float32's rounding. Such vectors are not normalised again, so
+/// that an exported scene is read back with the same bits.
+bool is_unit(const glm::dvec3& v);
+
+/// Some unit vector perpendicular to a unit normal, continuous almost everywhere.
+glm::vec3 any_perpendicular(const glm::vec3& normal);
+
+/// Cross product of two edges of a triangle, in double: its length is twice the area.
+glm::dvec3 triangle_cross(const Mesh& mesh, std::size_t triangle);
+
+/// Derives tangents for a normal map from positions, normals and the texture coordinates that the
+/// map uses, as MikkTSpace does: per triangle the direction of growing u, projected into each
+/// corner's tangent plane and summed with the corner's angle over all vertices of equal position,
+/// normal and texture coordinate. Triangles with mirrored texture coordinates have sums of their
+/// own.
+///
+/// Vertices where both orientations meet are split, so the mesh's arrays and indices may grow; w is
+/// +1 where the image's up is cross(normal, tangent). Unlike MikkTSpace, the triangles around a
+/// vertex need not be connected. Where texture coordinates are degenerate, any perpendicular of the
+/// normal is taken: the result is always finite and unit.
+void derive_tangents(Mesh& mesh, const TextureUse& normal_texture);
+
+/// Makes tangents of a file unit and perpendicular enough to be used: zero ones become any
+/// perpendicular of the normal, and w becomes +1 or -1.
+void mend_tangents(Mesh& mesh);
+
+}  // namespace kilolux
