@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "host/base/error.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/scene/export_scenes.h"
 #include "tests/support/gltf_builder.h"
@@ -101,6 +104,23 @@ TEST(AnimatedScene, ThousandsOfTimesDoNotUseUpWhatAFileMayDecodeTo) {
     AnimatedScene scene(path, {});
     for (int i = 1; i < 3000; ++i) scene.set_time(i / 1000.0);
     EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {2.999})), "");
+}
+
+TEST(AnimatedScene, StaysAtItsTimeWhereAnotherOneFails) {
+    GltfBuilder file = moving_file();
+    const float odd = std::numeric_limits<float>::quiet_NaN();
+    file.root["animations"][0]["samplers"][0]["output"] =
+        file.add_floats("VEC3", {0, 0, 0, 2, 1, 0, 2, odd, 0});
+    const TempFolder folder;
+    const auto path = folder.path() / "m.glb";
+    write_file(path, file.glb());
+    AnimatedScene scene(path, {0.5});
+    const std::uint32_t revision = scene.scene().revision;
+    for (int repeat = 0; repeat < 2; ++repeat) EXPECT_THROW(scene.set_time(3.0), Error);
+    EXPECT_EQ(scene.scene().revision, revision);
+    EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {0.5})), "");
+    scene.set_time(0.75);
+    EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {0.75})), "");
 }
 
 TEST(AnimatedScene, StandsStillWithoutAnimations) {

@@ -58,9 +58,36 @@ TEST(LoadSceneFeatures, SpecularHasTexturesAndDefaults) {
     EXPECT_EQ(m.specular_color_texture.uv_from_texcoord[2].x, 0.5f);
     EXPECT_EQ(m.specular, 1.0f);
     EXPECT_EQ(m.specular_color, glm::vec3(1.0f));
-    file.root["materials"][0]["extensions"]["KHR_materials_specular"]["specularTexture"]["index"] =
-        2;
-    EXPECT_NE(load_error(file).find("specularTexture: index is 2"), std::string::npos);
+}
+
+TEST(LoadSceneFeatures, SpecularTexturesObeyTheRulesOfTextureSlots) {
+    for (const char* slot : {"specularTexture", "specularColorTexture"}) {
+        const auto expect_error = [&](const json& texture, const std::string& what) {
+            GltfBuilder file = triangle_file();
+            file.add_texture(encode_image("png", 1, 4, {1, 2, 3, 4}), "image/png");
+            file.add("materials", json::object());
+            file.add("materials",
+                     {{"extensions", {{"KHR_materials_specular", {{slot, texture}}}}}});
+            const std::string expected =
+                std::string("materials[1].extensions.KHR_materials_specular.") + slot + what;
+            const std::string error = load_error(file);
+            EXPECT_NE(error.find(expected), std::string::npos) << error;
+        };
+        const auto transformed = [](const json& transform) -> json {
+            return {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+        };
+        const std::string transform = ".extensions.KHR_texture_transform.";
+        expect_error({{"index", 1}}, ".index is 1, must be an index into the 1 textures");
+        expect_error({{"texCoord", 0}}, ".index is missing");
+        expect_error({{"index", 0}, {"texCoord", -1}}, ".texCoord is -1, must be an integer");
+        expect_error(7, " is 7, must be an object");
+        expect_error({{"index", 0}, {"extensions", {1}}}, ".extensions is [1], must be an object");
+        expect_error(transformed({{"offset", {1}}}),
+                     transform + "offset is [1], must be an array of 2 numbers");
+        expect_error(transformed({{"scale", {1, "x"}}}), transform + "scale is [1,\"x\"]");
+        expect_error(transformed({{"rotation", "x"}}), transform + "rotation is \"x\"");
+        expect_error(transformed({{"texCoord", -2}}), transform + "texCoord is -2");
+    }
 }
 
 TEST(LoadSceneFeatures, EmissiveStrengthScalesWhatIsThere) {

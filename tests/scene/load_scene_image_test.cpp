@@ -2,17 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "host/scene/gltf/load_scene.h"
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_seeds.h"
 
 namespace kilolux {
 namespace {
 
 using nlohmann::json;
-
-// 4x4 pixels (200, 100, 50, alpha 64), lossless WebP made by libwebp.
-const Blob kWebp = {0x52, 0x49, 0x46, 0x46, 0x1e, 0,    0,    0,    0x57, 0x45, 0x42, 0x50, 0x56,
-                    0x50, 0x38, 0x4c, 0x11, 0,    0,    0,    0x2f, 0x03, 0xc0, 0,    0x10, 0x07,
-                    0x50, 0xb2, 0x22, 0x57, 0xa6, 0x40, 0x81, 0x88, 0xe8, 0x7f, 0,    0};
+namespace fs = std::filesystem;
 
 // A file whose material shows images[0], which is not there yet.
 GltfBuilder file_with_image(const json& image) {
@@ -64,8 +60,8 @@ TEST(LoadSceneImage, ReadsJpegByItsBytesWhateverItsNameSays) {
 
 TEST(LoadSceneImage, ReadsWebpThroughItsExtension) {
     GltfBuilder file = file_with_image({{"uri", "fallback, not there.png"}});
-    const int webp =
-        file.add("images", {{"bufferView", file.add_view(kWebp)}, {"mimeType", "image/webp"}});
+    const int webp = file.add(
+        "images", {{"bufferView", file.add_view(webp_image())}, {"mimeType", "image/webp"}});
     file.root["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", webp}}}};
     file.root["extensionsUsed"] = {"EXT_texture_webp"};
     file.root["extensionsRequired"] = {"EXT_texture_webp"};
@@ -82,8 +78,8 @@ TEST(LoadSceneImage, TakesWebpWhereTheFileOffersBoth) {
     GltfBuilder file = triangle_file();
     const int texture = file.add_texture(encode_image("png", 1, 3, {1, 2, 3}), "image/png");
     file.add("materials", {{"emissiveTexture", {{"index", texture}}}});
-    const int webp =
-        file.add("images", {{"bufferView", file.add_view(kWebp)}, {"mimeType", "image/webp"}});
+    const int webp = file.add(
+        "images", {{"bufferView", file.add_view(webp_image())}, {"mimeType", "image/webp"}});
     file.root["extensionsUsed"] = {"EXT_texture_webp"};
     EXPECT_EQ(load(file).images.at(0).width, 1) << "this texture does not use it";
     file.root["textures"][0]["extensions"] = {{"EXT_texture_webp", {{"source", webp}}}};
@@ -144,6 +140,37 @@ TEST(LoadSceneImage, StaysInTheSceneFilesFolder) {
         write_file(file, file_with_image({{"uri", uri}}).gltf());
         EXPECT_EQ(load_error(file, options), "") << uri;
     }
+}
+
+TEST(LoadSceneImage, RefusesLinksOutOfTheSceneFilesFolder) {
+    const TempFolder folder;
+    const fs::path scenes = folder.path() / "scenes";
+    fs::create_directories(scenes / "maps");
+    fs::create_directory(folder.path() / "elsewhere");
+    const Blob png = encode_image("png", 1, 3, {1, 2, 3});
+    write_file(folder.path() / "elsewhere" / "a.png", png);
+    write_file(scenes / "maps" / "a.png", png);
+    fs::create_symlink("../elsewhere/a.png", scenes / "file link.png");
+    fs::create_directory_symlink(folder.path() / "elsewhere", scenes / "folder link");
+    fs::create_symlink("maps/a.png", scenes / "inner link.png");
+    fs::create_symlink("nowhere.png", scenes / "broken.png");
+    fs::create_directory_symlink(scenes, folder.path() / "linked scenes");
+    const auto error_of = [&](const char* uri, const LoadOptions& options = {}) {
+        write_file(scenes / "scene.gltf", file_with_image({{"uri", uri}}).gltf());
+        return load_error(scenes / "scene.gltf", options);
+    };
+    LoadOptions outside;
+    outside.allow_outside_paths = true;
+    for (const char* uri :
+         {"file%20link.png", "folder link/a.png", "maps/../folder%20link/a.png"}) {
+        EXPECT_TRUE(contains(error_of(uri), "leaves the scene file's folder")) << uri;
+        EXPECT_EQ(error_of(uri, outside), "") << uri;
+    }
+    EXPECT_EQ(error_of("inner link.png"), "");
+    EXPECT_TRUE(contains(error_of("broken.png"), "no such file"));
+    error_of("maps/a.png");
+    EXPECT_EQ(load_error(folder.path() / "linked scenes" / "scene.gltf"), "")
+        << "the folder itself";
 }
 
 TEST(LoadSceneImage, RefusesUrisThatAreNoFiles) {

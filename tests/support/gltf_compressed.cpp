@@ -46,8 +46,7 @@ Blob encode_vertices(const void* vertices, std::size_t count, std::size_t stride
     return out;
 }
 
-GltfBuilder meshopt_quad(const std::string& index_mode) {
-    GltfBuilder file;
+void add_meshopt_quad(GltfBuilder& file, const std::string& index_mode) {
     const int positions = add_meshopt_view(file, encode_vertices(kPositions.data(), 4, 12),
                                            {"ATTRIBUTES", "NONE", 4, 12});
     const std::vector<unsigned> quad = {0, 1, 2, 0, 2, 3};
@@ -58,16 +57,23 @@ GltfBuilder meshopt_quad(const std::string& index_mode) {
         encoded.resize(meshopt_encodeIndexSequence(encoded.data(), encoded.size(), quad.data(), 6));
     }
     const int indices = add_meshopt_view(file, encoded, {index_mode, "NONE", 6, 2});
-    add_fallback_buffer(file);
-    file.add(
+    const int position = file.add(
         "accessors",
         {{"bufferView", positions}, {"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
-    file.add("accessors", {{"bufferView", indices},
-                           {"componentType", kUnsignedShort},
-                           {"type", "SCALAR"},
-                           {"count", 6}});
-    file.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}});
-    file.add_node({{"mesh", 0}});
+    const int index = file.add("accessors", {{"bufferView", indices},
+                                             {"componentType", kUnsignedShort},
+                                             {"type", "SCALAR"},
+                                             {"count", 6}});
+    const int mesh = file.add(
+        "meshes",
+        {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"indices", index}}}}});
+    file.add_node({{"mesh", mesh}});
+}
+
+GltfBuilder meshopt_quad(const std::string& index_mode) {
+    GltfBuilder file;
+    add_meshopt_quad(file, index_mode);
+    add_fallback_buffer(file);
     return file;
 }
 
@@ -94,23 +100,28 @@ Blob draco_quad(int encoding_method) {
     return Blob(buffer.data(), buffer.data() + buffer.size());
 }
 
-GltfBuilder draco_file(const Blob& encoded) {
-    GltfBuilder file;
+void add_draco_quad(GltfBuilder& file, const Blob& encoded) {
     const int view = file.add_view(encoded);
-    file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
-    file.add(
+    const int position =
+        file.add("accessors", {{"componentType", kFloat}, {"type", "VEC3"}, {"count", 4}});
+    const int color = file.add(
         "accessors",
         {{"componentType", kUnsignedByte}, {"normalized", true}, {"type", "VEC4"}, {"count", 4}});
-    file.add("accessors", {{"componentType", kUnsignedShort}, {"type", "SCALAR"}, {"count", 6}});
-    file.add(
-        "meshes",
-        {{"primitives",
-          {{{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
-            {"indices", 2},
-            {"extensions",
-             {{"KHR_draco_mesh_compression",
-               {{"bufferView", view}, {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}}}}}}}}});
-    file.add_node({{"mesh", 0}});
+    const int index = file.add(
+        "accessors", {{"componentType", kUnsignedShort}, {"type", "SCALAR"}, {"count", 6}});
+    const json compression = {{"bufferView", view},
+                              {"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}}};
+    const int mesh =
+        file.add("meshes", {{"primitives",
+                             {{{"attributes", {{"POSITION", position}, {"COLOR_0", color}}},
+                               {"indices", index},
+                               {"extensions", {{"KHR_draco_mesh_compression", compression}}}}}}});
+    file.add_node({{"mesh", mesh}});
+}
+
+GltfBuilder draco_file(const Blob& encoded) {
+    GltfBuilder file;
+    add_draco_quad(file, encoded);
     file.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
     file.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     return file;

@@ -21,7 +21,11 @@ void add_fallback_buffer(GltfBuilder& file);
 
 Blob encode_vertices(const void* vertices, std::size_t count, std::size_t stride);
 
-/// A unit quad whose positions and indices are compressed ("TRIANGLES" or "INDICES").
+/// Adds a node with a unit quad whose positions and indices are compressed ("TRIANGLES" or
+/// "INDICES"); the fallback buffer is still to be added.
+void add_meshopt_quad(GltfBuilder& file, const std::string& index_mode);
+
+/// A file of such a quad alone.
 GltfBuilder meshopt_quad(const std::string& index_mode);
 
 constexpr int kDracoSequential = 0;
@@ -30,7 +34,10 @@ constexpr int kDracoEdgebreaker = 1;
 /// The quad as a Draco bit stream; attribute 0 is the position, 1 a red colour of bytes.
 Blob draco_quad(int encoding_method);
 
-/// A file of one primitive that is such a stream.
+/// Adds a node with a primitive that is such a stream.
+void add_draco_quad(GltfBuilder& file, const Blob& encoded);
+
+/// A file of such a primitive alone.
 GltfBuilder draco_file(const Blob& encoded);
 
 }  // namespace kilolux

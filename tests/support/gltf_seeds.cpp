@@ -8,14 +8,20 @@ namespace {
 
 using nlohmann::json;
 
-// A quad with everything that a file may say about nodes: lights, cameras, skin, morph, animation.
-GltfBuilder busy_file() {
+json transform(double offset, double rotation, double scale) {
+    return {{"KHR_texture_transform",
+             {{"offset", {offset, 1}}, {"rotation", rotation}, {"scale", {scale, 2}}}}};
+}
+
+// Node 0: a quad with a normal map, a skin, a morph target with a sparse part, an animated joint.
+GltfBuilder deformed_quad() {
     GltfBuilder file = quad_with_normal_map();
     json& attributes = file.primitive()["attributes"];
     attributes["JOINTS_0"] = file.add_accessor(Blob(16), {kUnsignedByte, "VEC4", 4, false, 0});
     attributes["WEIGHTS_0"] =
         file.add_floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
     attributes["COLOR_0"] = file.add_accessor(Blob(16, 200), {kUnsignedByte, "VEC4", 4, true, 0});
+    attributes["TEXCOORD_1"] = file.add_floats("VEC2", {0, 2, 2, 2, 2, 0, 0, 0});
     const int delta = file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
     file.primitive()["targets"] = {{{"POSITION", delta}}};
     file.root["accessors"][static_cast<std::size_t>(delta)]["sparse"] = {
@@ -25,12 +31,7 @@ GltfBuilder busy_file() {
     file.root["meshes"][0]["weights"] = {0.5};
     file.add("skins", {{"joints", {1}}});
     file.root["nodes"][0]["skin"] = 0;
-    file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
-    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "spot"}, {"color", {1, 1, 1}}, {"range", 3}, {"spot", {{"outerConeAngle", 1}}}}};
-    file.add_node({{"camera", 0},
-                   {"children", {2}},
-                   {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.add_node({{"children", {2}}});
     file.add("nodes", {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1}}});
     const int input = file.add_floats("SCALAR", {0, 1, 2});
     const int output = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 2, 0, 0});
@@ -38,17 +39,106 @@ GltfBuilder busy_file() {
         "animations",
         {{"samplers", {{{"input", input}, {"output", output}, {"interpolation", "LINEAR"}}}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
-    file.root["materials"][0]["extensions"] = {{"KHR_materials_ior", {{"ior", 1.4}}}};
-    file.root["materials"][0]["normalTexture"]["extensions"] = {
-        {"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1}, {"scale", {2, 2}}}}};
-    file.root["textures"][0]["sampler"] = file.add("samplers", {{"wrapS", 33071}});
     return file;
+}
+
+// material 0 has every texture slot and factor; 1 is unlit and blended.
+void add_materials(GltfBuilder& file) {
+    const int jpeg = file.add_texture(encode_image("jpeg", 8, 3, Blob(192, 90)), "image/jpeg");
+    const int webp = file.add_texture(webp_image(), "image/webp");
+    json& texture = file.root["textures"][static_cast<std::size_t>(webp)];
+    texture["extensions"]["EXT_texture_webp"]["source"] = texture["source"];
+    texture.erase("source");
+    texture["sampler"] =
+        file.add("samplers", {{"wrapS", 33071}, {"magFilter", 9728}, {"minFilter", 9985}});
+    json& all = file.root["materials"][0];
+    all["name"] = "everything";
+    all["pbrMetallicRoughness"] = {
+        {"baseColorTexture", {{"index", webp}}},
+        {"baseColorFactor", {0.5, 0.25, 1, 0.75}},
+        {"metallicFactor", 0.5},
+        {"roughnessFactor", 0.25},
+        {"metallicRoughnessTexture", {{"index", jpeg}, {"texCoord", 1}}}};
+    all["normalTexture"]["extensions"] = transform(0, 1, 2);
+    all["occlusionTexture"] = {{"index", jpeg}, {"strength", 0.5}};
+    all["emissiveTexture"] = {{"index", jpeg}};
+    all["emissiveFactor"] = {1, 0.5, 0};
+    all["alphaMode"] = "MASK";
+    all["alphaCutoff"] = 0.25;
+    all["doubleSided"] = true;
+    all["extensions"] = {
+        {"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}},
+        {"KHR_materials_ior", {{"ior", 1.25}}},
+        {"KHR_materials_specular",
+         {{"specularFactor", 0.5},
+          {"specularColorFactor", {1, 0.5, 2}},
+          {"specularTexture", {{"index", webp}, {"extensions", transform(0.5, 0, 1)}}},
+          {"specularColorTexture", {{"index", jpeg}, {"texCoord", 1}}}}}};
+    file.add("materials", {{"name", "lamp"},
+                           {"alphaMode", "BLEND"},
+                           {"extensions", {{"KHR_materials_unlit", json::object()}}}});
+}
+
+// A mesh of a strip and a fan of four quantized vertices, without normals, in two nodes.
+void add_strip_and_fan(GltfBuilder& file) {
+    const int positions = file.add_accessor(bytes_of<std::int16_t>({0, 0, 0, 0, 4, 0, 0, 0,  //
+                                                                    0, 4, 0, 0, 4, 4, 0, 0}),
+                                            {kShort, "VEC3", 4, false, 8});
+    json strip = {{"attributes", {{"POSITION", positions}}}, {"mode", 5}, {"material", 1}};
+    json fan = strip;
+    fan["mode"] = 6;
+    const int mesh = file.add("meshes", {{"name", "ribbon"}, {"primitives", {strip, fan}}});
+    file.add_node({{"mesh", mesh}, {"scale", {0.25, 0.25, 0.25}}});
+    file.add_node({{"mesh", mesh}, {"rotation", {0, 0, 1, 0}}, {"translation", {0, 0, -4}}});
+}
+
+void add_lights_and_cameras(GltfBuilder& file) {
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 30}},
+        {{"type", "spot"}, {"color", {1, 0.5, 0}}, {"range", 3}, {"spot", {{"outerConeAngle", 1}}}},
+        {{"type", "directional"}, {"intensity", 500}}};
+    file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+    file.add("cameras", {{"type", "orthographic"},
+                         {"orthographic", {{"xmag", 2}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}});
+    for (int i = 0; i < 3; ++i) {
+        json node = {{"translation", {i, 2, 0}},
+                     {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}};
+        if (i < 2) node["camera"] = i;
+        file.add_node(node);
+    }
 }
 
 }  // namespace
 
+const Blob& webp_image() {
+    static const Blob bytes = {0x52, 0x49, 0x46, 0x46, 0x1e, 0,    0,    0,    0x57, 0x45,
+                               0x42, 0x50, 0x56, 0x50, 0x38, 0x4c, 0x11, 0,    0,    0,
+                               0x2f, 0x03, 0xc0, 0,    0x10, 0x07, 0x50, 0xb2, 0x22, 0x57,
+                               0xa6, 0x40, 0x81, 0x88, 0xe8, 0x7f, 0,    0};
+    return bytes;
+}
+
+GltfBuilder every_feature_file() {
+    GltfBuilder file = deformed_quad();
+    add_materials(file);
+    add_strip_and_fan(file);
+    add_lights_and_cameras(file);
+    add_meshopt_quad(file, "TRIANGLES");
+    add_draco_quad(file, draco_quad(kDracoEdgebreaker));
+    add_fallback_buffer(file);
+    file.root["extensionsRequired"] = {
+        "KHR_lights_punctual",        "KHR_texture_transform",
+        "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
+        "KHR_materials_unlit",        "KHR_materials_ior",
+        "KHR_materials_specular",     "EXT_meshopt_compression",
+        "KHR_draco_mesh_compression", "EXT_texture_webp"};
+    file.root["extensionsUsed"] = file.root["extensionsRequired"];
+    return file;
+}
+
 std::vector<GltfBuilder> gltf_seeds() {
-    return {busy_file(),
+    return {every_feature_file(),
+            deformed_quad(),
             triangle_file(),
             meshopt_quad("TRIANGLES"),
             meshopt_quad("INDICES"),

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {
 
-/// Right files that together say everything that a glTF file may say: what mutations start from.
+/// An image of 4x4 pixels (200, 100, 50, alpha 64): lossless WebP made by libwebp.
+const Blob& webp_image();
+
+/// A file with everything that the loader supports, every extension required: skin, morph targets,
+/// sparse accessor and animation; strip and fan; both compressions; quantization; vertex colours;
+/// materials with every slot and extension; PNG, JPEG and WebP; lights and cameras of all types.
+///
+/// A .glb: its second buffer is the fallback of EXT_meshopt_compression.
+GltfBuilder every_feature_file();
+
+/// Valid files that between them use what the loader knows; what mutated and fuzzed files start
+/// from.
 std::vector<GltfBuilder> gltf_seeds();
 
 }  // namespace kilolux
