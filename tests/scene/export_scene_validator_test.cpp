@@ -10,7 +10,7 @@
 #include "host/scene/generated/scenes.h"
 #include "host/scene/lights/light_generator.h"
 #include "tests/scene/export_scenes.h"
-#include "tests/support/gltf_builder.h"
+#include "tests/support/gltf_seeds.h"
 #include "tests/support/paths.h"
 
 namespace kilolux {
@@ -39,6 +39,11 @@ Output run(const std::string& command) {
 fs::path install_validator(std::string& why) {
     const fs::path source = fs::path(source_root()) / "tests" / "gltf_validator";
     const fs::path folder = fs::path(program_file()).parent_path() / "gltf_validator";
+    for (const char* tool : {"node", "npm"}) {
+        if (run(std::string(tool) + " --version").status == 0) continue;
+        why = std::string(tool) + " is not installed";
+        return {};
+    }
     if (fs::exists(folder / "node_modules" / "gltf-validator" / "index.js")) return folder;
     fs::create_directories(folder);
     for (const char* name : {"package.json", "package-lock.json"}) {
@@ -88,6 +93,8 @@ TEST(ExportSceneValidator, FindsNoErrorAndNoWarning) {
     add(sheared_scene(), "sheared.gltf");
     add(lit("corridor"), "corridor.glb");
     add(lit("atrium"), "atrium.glb");
+    write_file(folder.path() / "features.glb", every_feature_file().glb());
+    add(load_scene(folder.path() / "features.glb"), "features.glb");
     add({}, "empty.glb");
     const fs::path script = fs::path(source_root()) / "tests" / "gltf_validator" / "validate.js";
     const Output out = run("node '" + script.string() + "' '" + validator.string() + "'" + files);

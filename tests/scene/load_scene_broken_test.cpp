@@ -47,6 +47,7 @@ TEST(LoadSceneBroken, NamesTypesThatAreWrong) {
     expect_error("/materials", {{{"alphaMode", "GLASS"}}}, "materials[0].alphaMode is \"GLASS\"");
     expect_error("/cameras", {{{"type", "fisheye"}}}, "cameras[0].type is \"fisheye\"");
     expect_error("/asset", json::object(), "asset.version is missing");
+    expect_error("/asset/version", "", "asset.version is '', must be 2.0");
     expect_error("/asset/version", "1.0", "asset.version is '1.0', must be 2.0");
     expect_error("/asset/minVersion", "2.7", "asset.minVersion is '2.7'");
 }
@@ -188,6 +189,24 @@ TEST(LoadSceneBroken, NamesFilesThatAreNoGltf) {
     EXPECT_NE(error_of(std::string(1000000, '[')).find("nested deeper"), std::string::npos);
     EXPECT_NE(load_error(folder.path() / "none.gltf").find("no such file"), std::string::npos);
     EXPECT_NE(load_error(folder.path()).find("not a regular file"), std::string::npos);
+}
+
+TEST(LoadSceneBroken, LoadsFilesWithHarmlessDefects) {
+    GltfBuilder skeleton;  // a skin and its nodes without a mesh
+    skeleton.add_node({{"children", {1}}});
+    skeleton.add("nodes", {{"name", "joint"}});
+    skeleton.add("skins", {{"joints", {0, 1}}});
+    EXPECT_EQ(load_error(skeleton), "");
+    GltfBuilder unused = triangle_file();  // a skin that no node uses
+    unused.add("skins", {{"joints", {0}}, {"skeleton", 0}});
+    EXPECT_EQ(triangle_count(load(unused)), 1u);
+    // An empty BIN chunk behind the JSON, which needs none.
+    Blob glb = GltfBuilder{}.glb();
+    glb.insert(glb.end(), {0, 0, 0, 0, 'B', 'I', 'N', 0});
+    glb[8] = static_cast<unsigned char>(glb.size());
+    const TempFolder folder;
+    write_file(folder.path() / "x.glb", glb);
+    EXPECT_EQ(load_error(folder.path() / "x.glb"), "");
 }
 
 TEST(LoadSceneBroken, RefusesATruncatedGlbAtEveryLength) {

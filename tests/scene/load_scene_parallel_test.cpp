@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/thread.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <random>
 
@@ -11,17 +11,12 @@
 namespace kilolux {
 namespace {
 
-// Threads beside the calling one while this lives.
-class HelperThreads {
- public:
-    explicit HelperThreads(int count) { OIIO::default_thread_pool()->resize(count); }
-    ~HelperThreads() { OIIO::default_thread_pool()->resize(before_); }
-    HelperThreads(const HelperThreads&) = delete;
-    HelperThreads& operator=(const HelperThreads&) = delete;
+using Threads = tbb::global_control;
 
- private:
-    int before_ = OIIO::default_thread_pool()->size();
-};
+// Threads that loading uses while the result lives, the calling one among them.
+Threads limit_threads(std::size_t count) {
+    return Threads(Threads::max_allowed_parallelism, count);
+}
 
 // Meshes that need tangents, with images of all sizes and formats.
 GltfBuilder large_file() {
@@ -65,15 +60,15 @@ TEST(LoadSceneParallel, GivesTheSameSceneOnAnyNumberOfThreads) {
     const TempFolder folder;
     const std::filesystem::path file = folder.path() / "scene.glb";
     write_file(file, large_file().glb());
-    const auto loaded = [&](int helpers) {
-        const HelperThreads threads(helpers);
+    const auto loaded = [&](std::size_t count) {
+        const Threads threads = limit_threads(count);
         return load_scene(file);
     };
-    const Scene alone = loaded(0);
+    const Scene alone = loaded(1);
     ASSERT_EQ(alone.images.size(), 25u);
-    for (const int helpers : {1, 3, 16}) {
-        SCOPED_TRACE(std::to_string(helpers) + " helpers");
-        expect_same(alone, loaded(helpers));
+    for (const std::size_t count : {2u, 4u, 16u}) {
+        SCOPED_TRACE(std::to_string(count) + " threads");
+        expect_same(alone, loaded(count));
     }
 }
 
@@ -81,12 +76,12 @@ TEST(LoadSceneParallel, NamesTheFirstBrokenImageOnAnyNumberOfThreads) {
     GltfBuilder file = large_file();
     for (const std::size_t image : {9u, 17u, 20u}) file.root["images"][image]["bufferView"] = 0;
     const std::string alone = [&] {
-        const HelperThreads threads(0);
+        const Threads threads = limit_threads(1);
         return load_error(file);
     }();
     EXPECT_NE(alone.find("images[9]: is of no image format"), std::string::npos) << alone;
     for (int repeat = 0; repeat < 8; ++repeat) {
-        const HelperThreads threads(3);
+        const Threads threads = limit_threads(4);
         const std::string error = load_error(file);
         EXPECT_EQ(error.substr(error.rfind('/')), alone.substr(alone.rfind('/')));
     }
@@ -95,7 +90,7 @@ TEST(LoadSceneParallel, NamesTheFirstBrokenImageOnAnyNumberOfThreads) {
 TEST(LoadSceneParallel, TellsEveryImageOnceAndInOrder) {
     const TempFolder folder;
     write_file(folder.path() / "scene.glb", large_file().glb());
-    const HelperThreads threads(3);
+    const Threads threads = limit_threads(4);
     std::vector<std::size_t> told;
     const AnimatedScene scene(folder.path() / "scene.glb", {},
                               [&](std::size_t done, std::size_t total) {
@@ -107,7 +102,7 @@ TEST(LoadSceneParallel, TellsEveryImageOnceAndInOrder) {
 }
 
 TEST(LoadSceneParallel, DoesAllWorkBesideWhatFails) {
-    const HelperThreads threads(3);
+    const Threads threads = limit_threads(4);
     std::vector<int> done(100, 0);
     const auto work = [&](std::size_t i) {
         done[i] = 1;

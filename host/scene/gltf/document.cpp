@@ -188,9 +188,9 @@ void LoadBudget::charge(std::uint64_t count, std::uint64_t bytes_each, const std
 void LoadBudget::charge_memory(std::uint64_t bytes, const std::string& where) {
     if (take(memory_left_, bytes)) return;
     throw Error(
-        fmt::format("{}: needs {} of memory, {} of {} for buffers, images and meshes are "
+        fmt::format("{}: needs {} of memory, {} MiB of {} for buffers, images and meshes are "
                     "left (--max-memory)",
-                    where, mebibytes(bytes), mebibytes(memory_left_), mebibytes(memory_limit_)));
+                    where, mebibytes(bytes), memory_left_ >> 20, mebibytes(memory_limit_)));
 }
 
 void LoadBudget::refill() {
