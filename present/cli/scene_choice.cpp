@@ -59,7 +59,8 @@ AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
         return AnimatedScene(make_generated_scene(options.scene));
     }
     LoadBar bar(!options.quiet);
-    return AnimatedScene(scene_file(options.scene), {time, options.allow_outside_paths},
+    return AnimatedScene(scene_file(options.scene),
+                         {time, options.allow_outside_paths, options.settings.max_memory_bytes},
                          [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
 }
 

@@ -16,12 +16,6 @@ struct VertexPlan {
     std::vector<std::uint32_t> indices;
 };
 
-// An attribute with the morph targets that have a weight.
-struct MorphedArray {
-    const ElementArray* base = nullptr;
-    std::vector<std::pair<float, const ElementArray*>> deltas;
-};
-
 VertexPlan plan_unshared(const PrimitiveArrays& arrays) {
     VertexPlan plan{arrays.corners, std::vector<std::uint32_t>(arrays.corners.size())};
     std::iota(plan.indices.begin(), plan.indices.end(), 0u);
@@ -43,54 +37,41 @@ VertexPlan plan_used(const PrimitiveArrays& arrays) {
     return plan;
 }
 
-MorphedArray find_array(const PrimitiveArrays& arrays, const std::string& name,
-                        const std::vector<double>& weights) {
-    MorphedArray out;
-    const auto found = arrays.attributes.find(name);
-    if (found == arrays.attributes.end()) return out;
-    out.base = &found->second;
-    for (std::size_t t = 0; t < std::min(weights.size(), arrays.targets.size()); ++t) {
-        const auto delta = arrays.targets[t].find(name);
-        if (weights[t] == 0.0 || delta == arrays.targets[t].end()) continue;
-        out.deltas.emplace_back(to_float(weights[t]), &delta->second);
-    }
-    return out;
-}
+// Reads attributes for all vertices of a plan, with the morph targets that have a weight.
+struct AttributeReader {
+    const PrimitiveArrays& arrays;
+    const VertexPlan& plan;
+    const std::vector<double>& weights;
 
-glm::vec4 read_morphed(const MorphedArray& array, std::size_t element) {
-    glm::vec4 value = read_vector(*array.base, element);
-    for (const auto& [weight, delta] : array.deltas) value += weight * read_vector(*delta, element);
-    return value;
-}
+    using Components = std::initializer_list<std::size_t>;
 
-// An attribute for all vertices of the plan; empty when the primitive lacks it.
-template <typename Vector>
-std::vector<Vector> read_attribute(const MorphedArray& array, const VertexPlan& plan) {
-    std::vector<Vector> out;
-    if (array.base == nullptr) return out;
-    out.reserve(plan.elements.size());
-    for (const std::uint32_t element : plan.elements) {
-        out.emplace_back(read_morphed(array, element));
+    // Empty when the primitive lacks the attribute. `normalized`: also where the file does not say
+    // so.
+    template <typename Vector>
+    std::vector<Vector> read(const std::string& name, Components allowed,
+                             bool normalized = false) const {
+        const auto found = arrays.attributes.find(name);
+        if (found == arrays.attributes.end()) return {};
+        ElementArray base = found->second;
+        expect_components(base, allowed, name);
+        base.normalized = base.normalized || normalized;
+        std::vector<std::pair<float, const ElementArray*>> deltas;
+        for (std::size_t t = 0; t < std::min(weights.size(), arrays.targets.size()); ++t) {
+            const auto delta = arrays.targets[t].find(name);
+            if (weights[t] == 0.0 || delta == arrays.targets[t].end()) continue;
+            deltas.emplace_back(to_float(weights[t]), &delta->second);
+        }
+        std::vector<Vector> out;
+        out.reserve(plan.elements.size());
+        for (const std::uint32_t element : plan.elements) {
+            glm::vec4 value = read_vector(base, element);
+            for (const auto& [weight, delta] : deltas)
+                value += weight * read_vector(*delta, element);
+            out.emplace_back(value);
+        }
+        return out;
     }
-    return out;
-}
-
-std::vector<glm::vec4> read_colors(const PrimitiveArrays& arrays, const VertexPlan& plan,
-                                   const std::vector<double>& weights) {
-    MorphedArray array = find_array(arrays, "COLOR_0", weights);
-    if (array.base == nullptr) return {};
-    expect_components(*array.base, {3, 4}, "COLOR_0");
-    ElementArray colors = *array.base;
-    // Integers are normalized (glTF 2.0, section 3.7.2.1); some writers leave out the flag.
-    colors.normalized = true;
-    array.base = &colors;
-    auto out = read_attribute<glm::vec4>(array, plan);
-    for (glm::vec4& color : out) {
-        if (colors.components == 3) color.w = 1.0f;
-        color = glm::max(color, glm::vec4(0.0f));
-    }
-    return out;
-}
+};
 
 void check_positions(const PrimitiveArrays& arrays, const Mesh& mesh) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -102,30 +83,23 @@ void check_positions(const PrimitiveArrays& arrays, const Mesh& mesh) {
     }
 }
 
-void read_tangents(Mesh& mesh, const MorphedArray& array, const VertexPlan& plan) {
-    if (array.base == nullptr) return;
-    expect_components(*array.base, {4}, "TANGENT");
-    mesh.tangents = read_attribute<glm::vec4>(array, plan);
-}
-
-void read_attributes(Mesh& mesh, const PrimitiveArrays& arrays, const MeshShading& shading,
-                     const VertexPlan& plan, const std::vector<double>& weights) {
-    const MorphedArray positions = find_array(arrays, "POSITION", weights);
-    const MorphedArray normals = find_array(arrays, "NORMAL", weights);
-    expect_components(*positions.base, {3}, "POSITION");
-    mesh.positions = read_attribute<glm::vec3>(positions, plan);
-    if (normals.base != nullptr) expect_components(*normals.base, {3}, "NORMAL");
-    mesh.normals = read_attribute<glm::vec3>(normals, plan);
-    mesh.colors = read_colors(arrays, plan, weights);
-    for (std::size_t set = 0; set < 2; ++set) {
-        const std::string name = fmt::format("TEXCOORD_{}", shading.texcoord_sets[set]);
-        const MorphedArray array = find_array(arrays, name, weights);
-        if (array.base != nullptr) expect_components(*array.base, {2}, name);
-        mesh.texcoords[set] = read_attribute<glm::vec2>(array, plan);
+void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShading& shading) {
+    const AttributeArrays& attributes = reader.arrays.attributes;
+    mesh.positions = reader.read<glm::vec3>("POSITION", {3});
+    mesh.normals = reader.read<glm::vec3>("NORMAL", {3});
+    // Integers are normalized (glTF 2.0, section 3.7.2.1); some writers leave out the flag.
+    mesh.colors = reader.read<glm::vec4>("COLOR_0", {3, 4}, true);
+    for (glm::vec4& color : mesh.colors) {
+        if (attributes.at("COLOR_0").components == 3) color.w = 1.0f;
+        color = glm::max(color, glm::vec4(0.0f));
     }
-    // Tangents of a file hold only beside the normals of the file (glTF 2.0, section 3.7.2.1).
-    if (shading.normal_texture.present() && normals.base != nullptr) {
-        read_tangents(mesh, find_array(arrays, "TANGENT", weights), plan);
+    for (std::size_t set = 0; set < 2; ++set) {
+        mesh.texcoords[set] =
+            reader.read<glm::vec2>(fmt::format("TEXCOORD_{}", shading.texcoord_sets[set]), {2});
+    }
+    // A file's tangents are valid only with the file's normals (glTF 2.0, section 3.7.2.1).
+    if (shading.normal_texture.present() && attributes.contains("NORMAL")) {
+        mesh.tangents = reader.read<glm::vec4>("TANGENT", {4});
     }
 }
 
@@ -142,7 +116,7 @@ Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
     document.budget->charge(plan.elements.size(), kVertexBytes, arrays.where);
     Mesh mesh;
     mesh.material = shading.material;
-    read_attributes(mesh, arrays, shading, plan, deformation.weights);
+    read_attributes(mesh, {arrays, plan, deformation.weights}, shading);
     mesh.indices = std::move(plan.indices);
     if (!deformation.object_from_bind.empty()) {
         skin_mesh(mesh, arrays, plan.elements, deformation.object_from_bind);
