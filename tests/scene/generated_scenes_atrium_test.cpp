@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "host/scene/generated/procedural_noise.h"
+#include "host/scene/generated/noise.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/scene/generated_scenes_fixture.h"
 

@@ -3,7 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/generated/atrium/atrium.h"
-#include "host/scene/generated/scenes_small.h"
+#include "host/scene/generated/small.h"
 
 namespace kilolux {
 namespace {

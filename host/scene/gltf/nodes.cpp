@@ -11,24 +11,17 @@ namespace {
 
 constexpr std::size_t kNoNode = static_cast<std::size_t>(-1);
 
-glm::dvec3 vec3_of(const std::vector<double>& v, const glm::dvec3& otherwise) {
-    return v.size() == 3 ? glm::dvec3(v[0], v[1], v[2]) : otherwise;
-}
-
 NodePose rest_pose(const tinygltf::Node& node) {
     NodePose pose;
     pose.weights = node.weights;
-    if (node.matrix.size() == 16) {
+    if (!node.matrix.empty()) {
         pose.has_matrix = true;
         pose.matrix = glm::make_mat4(node.matrix.data());
         return pose;
     }
-    pose.translation = vec3_of(node.translation, glm::dvec3(0.0));
-    pose.scale = vec3_of(node.scale, glm::dvec3(1.0));
-    if (node.rotation.size() == 4) {
-        pose.rotation =
-            glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    }
+    if (!node.translation.empty()) pose.translation = glm::make_vec3(node.translation.data());
+    if (!node.scale.empty()) pose.scale = glm::make_vec3(node.scale.data());
+    if (const auto& q = node.rotation; !q.empty()) pose.rotation = {q[3], q[0], q[1], q[2]};
     return pose;
 }
 

@@ -4,7 +4,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "host/scene/generated/procedural_mesh.h"
+#include "host/scene/generated/mesh_builder.h"
 
 namespace kilolux {
 

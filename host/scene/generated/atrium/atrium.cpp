@@ -7,16 +7,12 @@
 #include "host/scene/generated/atrium/materials.h"
 #include "host/scene/generated/atrium/pieces.h"
 #include "host/scene/generated/atrium/plan.h"
-#include "host/scene/generated/scenes_small.h"
+#include "host/scene/generated/small.h"
 
 namespace kilolux {
 namespace {
 
 using namespace atrium_plan;
-
-int add(Scene& scene, const char* name, const MeshBuilder& builder, AtriumMaterial material) {
-    return add_mesh(scene, atrium_mesh(name, builder, material));
-}
 
 MeshBuilder joined(std::initializer_list<MeshBuilder> pieces) {
     MeshBuilder all;
@@ -42,21 +38,25 @@ void add_bays(Scene& scene) {
     const MeshBuilder gallery_columns =
         joined({gallery_column(), gallery_column().moved({kHalfBay, 0.0, 0.0})});
     const int meshes[] = {
-        add(scene, "bay-plaster",
-            joined({arcade_wall(), aisle_plaster(), bay_vault(), gallery_wall()}),
-            AtriumMaterial::plaster),
-        add(scene, "bay-brick", joined({aisle_wall(), gallery_arches()}), AtriumMaterial::brick),
-        add(scene, "bay-voussoirs", joined({arcade_voussoirs(), gallery_stones()}),
-            AtriumMaterial::voussoir),
-        add(scene, "bay-mouldings",
+        add_atrium_mesh(scene, "bay-plaster",
+                        joined({arcade_wall(), aisle_plaster(), bay_vault(), gallery_wall()}),
+                        AtriumMaterial::plaster),
+        add_atrium_mesh(scene, "bay-brick", joined({aisle_wall(), gallery_arches()}),
+                        AtriumMaterial::brick),
+        add_atrium_mesh(scene, "bay-voussoirs", joined({arcade_voussoirs(), gallery_stones()}),
+                        AtriumMaterial::voussoir),
+        add_atrium_mesh(
+            scene, "bay-mouldings",
             joined({arcade_mouldings(), aisle_mouldings(), bay_floor_bands(), rib().moved(left)}),
             AtriumMaterial::limestone),
-        add(scene, "bay-capital", column_stones().moved(left), AtriumMaterial::limestone),
-        add(scene, "bay-shafts", joined({column_shaft().moved(left), gallery_columns.moved(left)}),
-            AtriumMaterial::marble),
-        add(scene, "bay-balustrade", balustrade(), AtriumMaterial::limestone),
-        add(scene, "bay-tiles", bay_tiles(), AtriumMaterial::tile),
-        add(scene, "bay-wood", gallery_wood(), AtriumMaterial::wood),
+        add_atrium_mesh(scene, "bay-capital", column_stones().moved(left),
+                        AtriumMaterial::limestone),
+        add_atrium_mesh(scene, "bay-shafts",
+                        joined({column_shaft().moved(left), gallery_columns.moved(left)}),
+                        AtriumMaterial::marble),
+        add_atrium_mesh(scene, "bay-balustrade", balustrade(), AtriumMaterial::limestone),
+        add_atrium_mesh(scene, "bay-tiles", bay_tiles(), AtriumMaterial::tile),
+        add_atrium_mesh(scene, "bay-wood", gallery_wood(), AtriumMaterial::wood),
     };
     for (const int mesh : meshes) {
         for (const Place& bay : bays()) place(scene, mesh, bay.world_from_piece);
@@ -65,20 +65,21 @@ void add_bays(Scene& scene) {
 
 void add_corners(Scene& scene) {
     const int shared[] = {
-        add(scene, "corner-brick", corner_brick(), AtriumMaterial::brick),
-        add(scene, "corner-mouldings", joined({corner_mouldings(), corner_floor_bands(), rib()}),
-            AtriumMaterial::limestone),
-        add(scene, "corner-wood", corner_wood(), AtriumMaterial::wood),
+        add_atrium_mesh(scene, "corner-brick", corner_brick(), AtriumMaterial::brick),
+        add_atrium_mesh(scene, "corner-mouldings",
+                        joined({corner_mouldings(), corner_floor_bands(), rib()}),
+                        AtriumMaterial::limestone),
+        add_atrium_mesh(scene, "corner-wood", corner_wood(), AtriumMaterial::wood),
     };
     const int vaulted[] = {
-        add(scene, "corner-plaster", corner_plaster(false), AtriumMaterial::plaster),
-        add(scene, "corner-tiles", corner_tiles(false), AtriumMaterial::tile),
+        add_atrium_mesh(scene, "corner-plaster", corner_plaster(false), AtriumMaterial::plaster),
+        add_atrium_mesh(scene, "corner-tiles", corner_tiles(false), AtriumMaterial::tile),
     };
     const int with_stair[] = {
-        add(scene, "stair-plaster", corner_plaster(true), AtriumMaterial::plaster),
-        add(scene, "stair-tiles", corner_tiles(true), AtriumMaterial::tile),
-        add(scene, "stair", stair_stones(), AtriumMaterial::marble),
-        add(scene, "stair-rails", stair_rails(), AtriumMaterial::iron),
+        add_atrium_mesh(scene, "stair-plaster", corner_plaster(true), AtriumMaterial::plaster),
+        add_atrium_mesh(scene, "stair-tiles", corner_tiles(true), AtriumMaterial::tile),
+        add_atrium_mesh(scene, "stair", stair_stones(), AtriumMaterial::marble),
+        add_atrium_mesh(scene, "stair-rails", stair_rails(), AtriumMaterial::iron),
     };
     for (const Place& corner : corners()) {
         const glm::dmat4& at = corner.world_from_piece;
@@ -95,11 +96,11 @@ void add_sides(Scene& scene) {
     for (const int parity : {0, 1}) {
         const double half = half_length(parity);
         const int meshes[] = {
-            add(scene, "cornices", side_cornices(half), AtriumMaterial::limestone),
-            add(scene, "steps", side_steps(half), AtriumMaterial::limestone),
-            add(scene, "roof", side_roof(half), AtriumMaterial::terracotta),
-            add(scene, "eaves", side_eaves(half), AtriumMaterial::wood),
-            add(scene, "outer-wall", side_outer_wall(half), AtriumMaterial::brick),
+            add_atrium_mesh(scene, "cornices", side_cornices(half), AtriumMaterial::limestone),
+            add_atrium_mesh(scene, "steps", side_steps(half), AtriumMaterial::limestone),
+            add_atrium_mesh(scene, "roof", side_roof(half), AtriumMaterial::terracotta),
+            add_atrium_mesh(scene, "eaves", side_eaves(half), AtriumMaterial::wood),
+            add_atrium_mesh(scene, "outer-wall", side_outer_wall(half), AtriumMaterial::brick),
         };
         for (const Place& side : sides()) {
             if (side.side % 2 != parity) continue;
@@ -109,10 +110,10 @@ void add_sides(Scene& scene) {
 }
 
 void add_court(Scene& scene) {
-    place(scene, add(scene, "paving", court_paving(), AtriumMaterial::paving));
-    place(scene, add(scene, "fountain", fountain_marble(), AtriumMaterial::marble));
-    place(scene, add(scene, "basin", basin_mosaic(), AtriumMaterial::mosaic));
-    place(scene, add(scene, "water", fountain_water(), AtriumMaterial::water));
+    place(scene, add_atrium_mesh(scene, "paving", court_paving(), AtriumMaterial::paving));
+    place(scene, add_atrium_mesh(scene, "fountain", fountain_marble(), AtriumMaterial::marble));
+    place(scene, add_atrium_mesh(scene, "basin", basin_mosaic(), AtriumMaterial::mosaic));
+    place(scene, add_atrium_mesh(scene, "water", fountain_water(), AtriumMaterial::water));
 }
 
 }  // namespace

@@ -15,34 +15,20 @@ using namespace atrium_plan;
 constexpr double kRing = 0.30;        // width of the dressed stones round an arch [m]
 constexpr double kNicheDepth = 0.35;  // [m]
 
-ArchPanel arcade_panel() {
-    return {.half_width = kHalfBay,
-            .bottom = kSpring,
-            .top = kArcadeTop,
-            .radius_x = kArchRadius,
-            .radius_y = kArchRadius,
-            .spring = kSpring,
-            .segments = 28};
+// A bay's panel with a round-headed opening in its middle.
+constexpr ArchPanel bay_panel(double bottom, double top, double radius, double spring,
+                              int segments) {
+    return {0.0, kHalfBay, bottom, top, radius, radius, spring, segments};
 }
 
-ArchPanel niche_panel() {
-    return {.half_width = kHalfBay,
-            .bottom = 0.0,
-            .top = kGalleryFloor,
-            .radius_x = 0.95,
-            .radius_y = 0.95,
-            .spring = 2.15,
-            .segments = 20};
-}
+constexpr ArchPanel kArcade = bay_panel(kSpring, kArcadeTop, kArchRadius, kSpring, 28);
+constexpr ArchPanel kNiche = bay_panel(0.0, kGalleryFloor, 0.95, 2.15, 20);
+constexpr ArchPanel kWindow = bay_panel(6.75, kCeiling, 0.55, 8.1, 14);
 
-ArchPanel window_panel() {
-    return {.half_width = kHalfBay,
-            .bottom = 6.75,
-            .top = kCeiling,
-            .radius_x = 0.55,
-            .radius_y = 0.55,
-            .spring = 8.1,
-            .segments = 14};
+// One of the two arches of the gallery in a bay.
+ArchPanel gallery_panel(double center) {
+    return {center,       0.5 * kHalfBay, kUpperSpring, kCeiling,
+            kUpperRadius, kUpperRadius,   kUpperSpring, 16};
 }
 
 // A moulding on a wall's face at z, which looks to -z, from x = -half to half.
@@ -70,55 +56,53 @@ void add_medallion(MeshBuilder& builder, glm::dvec2 at, double z, bool to_plus_z
 
 MeshBuilder arcade_wall() {
     MeshBuilder builder;
-    add_arch_face(builder, arcade_panel(), -kWallHalf, false);
-    add_arch_face(builder, arcade_panel(), kWallHalf, true);
+    add_arch_face(builder, kArcade, -kWallHalf, false);
+    add_arch_face(builder, kArcade, kWallHalf, true);
     return builder;
 }
 
 MeshBuilder arcade_voussoirs() {
     MeshBuilder builder;
-    add_voussoirs(builder, arcade_panel(), kWallHalf, kRing, false);
-    add_voussoirs(builder, arcade_panel(), kWallHalf, kRing, true);
+    add_voussoirs(builder, kArcade, kWallHalf, kRing, false);
+    add_voussoirs(builder, kArcade, kWallHalf, kRing, true);
     return builder;
 }
 
 MeshBuilder arcade_mouldings() {
     MeshBuilder builder;
-    add_label(builder, arcade_panel(), -kWallHalf, kRing, false);
-    add_label(builder, arcade_panel(), kWallHalf, kRing, true);
+    add_label(builder, kArcade, -kWallHalf, kRing, false);
+    add_label(builder, kArcade, kWallHalf, kRing, true);
     add_medallion(builder, {-kHalfBay, 4.78}, -kWallHalf, false);
     return builder;
 }
 
 MeshBuilder aisle_wall() {
     MeshBuilder builder;
-    add_arch_face(builder, niche_panel(), kAisle, false);
-    add_arch_reveal(builder, niche_panel(), kAisle, kAisle + kNicheDepth);
+    add_arch_face(builder, kNiche, kAisle, false);
+    add_arch_reveal(builder, kNiche, kAisle, kAisle + kNicheDepth);
     return builder;
 }
 
 MeshBuilder aisle_plaster() {
     MeshBuilder builder;
-    const ArchPanel niche = niche_panel();
     const double z = kAisle + kNicheDepth;
     builder.wall({-1.0, 0.0}, {1.0, 3.2}, z, -1);
-    builder.level({-niche.radius_x, kAisle}, {niche.radius_x, z}, 0.42);
+    builder.level({-kNiche.radius_x, kAisle}, {kNiche.radius_x, z}, 0.42);
     return builder;
 }
 
 MeshBuilder aisle_mouldings() {
     MeshBuilder builder;
-    const ArchPanel niche = niche_panel();
-    add_label(builder, niche, kAisle, 0.10, false);
+    add_label(builder, kNiche, kAisle, 0.10, false);
     for (const double side : {-1.08, 1.08}) {
-        builder.box({side - 0.11, niche.spring - 0.10, kAisle - 0.11},
-                    {side + 0.11, niche.spring, kAisle});
+        builder.box({side - 0.11, kNiche.spring - 0.10, kAisle - 0.11},
+                    {side + 0.11, kNiche.spring, kAisle});
     }
-    // The parapet below the niche, and its sill.
+    // The parapet below the niche and its sill.
     builder.box({-0.97, 0.0, kAisle - 0.02}, {0.97, 0.40, kAisle + kNicheDepth});
     builder.box({-1.08, 0.40, kAisle - 0.07}, {1.08, 0.46, kAisle + kNicheDepth});
     add_course(builder, {{0.06, 0.0}, {0.06, 0.16}, {0.03, 0.20}, {0.0, 0.21}}, kHalfBay, kAisle);
-    // Pilaster under the rib at the bay's left end; the next bay brings the right one.
+    // Under the rib at the bay's left end; the right one belongs to the next bay.
     add_pilaster(builder, -kHalfBay);
     return builder;
 }
@@ -134,16 +118,8 @@ void add_pilaster(MeshBuilder& builder, double x) {
 MeshBuilder gallery_arches() {
     MeshBuilder builder;
     for (const double center : {-0.5 * kHalfBay, 0.5 * kHalfBay}) {
-        const ArchPanel panel{.center = center,
-                              .half_width = 0.5 * kHalfBay,
-                              .bottom = kUpperSpring,
-                              .top = kCeiling,
-                              .radius_x = kUpperRadius,
-                              .radius_y = kUpperRadius,
-                              .spring = kUpperSpring,
-                              .segments = 16};
-        add_arch_face(builder, panel, -kUpperWallHalf, false);
-        add_arch_face(builder, panel, kUpperWallHalf, true);
+        add_arch_face(builder, gallery_panel(center), -kUpperWallHalf, false);
+        add_arch_face(builder, gallery_panel(center), kUpperWallHalf, true);
     }
     return builder;
 }
@@ -151,21 +127,16 @@ MeshBuilder gallery_arches() {
 MeshBuilder gallery_stones() {
     MeshBuilder builder;
     for (const double center : {-0.5 * kHalfBay, 0.5 * kHalfBay}) {
-        const ArchPanel panel{.center = center,
-                              .radius_x = kUpperRadius,
-                              .radius_y = kUpperRadius,
-                              .spring = kUpperSpring,
-                              .segments = 16};
-        add_voussoirs(builder, panel, kUpperWallHalf, 0.14, false);
-        add_voussoirs(builder, panel, kUpperWallHalf, 0.14, true);
+        add_voussoirs(builder, gallery_panel(center), kUpperWallHalf, 0.14, false);
+        add_voussoirs(builder, gallery_panel(center), kUpperWallHalf, 0.14, true);
     }
     return builder;
 }
 
 MeshBuilder gallery_wall() {
     MeshBuilder builder;
-    add_arch_face(builder, window_panel(), kAisle, false);
-    add_arch_reveal(builder, window_panel(), kAisle, kAisle + kNicheDepth);
+    add_arch_face(builder, kWindow, kAisle, false);
+    add_arch_reveal(builder, kWindow, kAisle, kAisle + kNicheDepth);
     builder.wall({-kHalfBay, kGalleryFloor}, {kHalfBay, 6.75}, kAisle, -1);
     builder.level({-0.6, kAisle}, {0.6, kAisle + kNicheDepth}, 6.75);
     return builder;

@@ -45,12 +45,9 @@ void add_base(MeshBuilder& builder) {
     builder.box({-0.42, 0.0, -0.42}, {0.42, 0.12, 0.42});
     Profile base{{{0.30, 0.12}}, 0.7};
     add_bulge(base, 0.35, 0.12, 0.10, 6);
-    base.points.emplace_back(0.345, 0.225);
-    base.points.emplace_back(0.325, 0.25);
-    base.points.emplace_back(0.335, 0.275);
+    base.points.insert(base.points.end(), {{0.345, 0.225}, {0.325, 0.25}, {0.335, 0.275}});
     add_bulge(base, 0.325, 0.28, 0.06, 5);
-    base.points.emplace_back(0.315, 0.345);
-    base.points.emplace_back(kRadius, kShaftBottom);
+    base.points.insert(base.points.end(), {{0.315, 0.345}, {kRadius, kShaftBottom}});
     builder.lathe(base, 22);
 }
 
@@ -106,7 +103,7 @@ void add_abacus(MeshBuilder& builder) {
     const double middle = kSpring - 0.06;
     const Profile profile{{{0.40, bottom}, {0.40, bottom + 0.03}, {0.44, middle}, {0.44, kSpring}},
                           0.3};
-    // Both ends of an edge start at the axis: the mitre alone gives it its length.
+    // Both ends of an edge start at the axis; the mitre gives the edge its length.
     const glm::dvec3 up(0, 1, 0);
     const glm::dvec3 out(0, 0, 1);
     const SweepFrame edge[2] = {{glm::dvec3(0.0), {-1, 0, 1}, up, out, -0.42},
@@ -173,13 +170,11 @@ MeshBuilder gallery_column() {
     builder.box({-0.21, 0.0, -0.21}, {0.21, 0.14, 0.21});
     Profile profile{{{0.16, 0.14}}, 0.5};
     add_bulge(profile, 0.165, 0.14, 0.07, 4);
-    for (const auto& [radius, y] :
-         {glm::dvec2(0.15, 0.23), glm::dvec2(0.135, 0.26), glm::dvec2(0.13, 1.0),
-          glm::dvec2(0.118, top - 0.40), glm::dvec2(0.14, top - 0.38), glm::dvec2(0.14, top - 0.35),
-          glm::dvec2(0.118, top - 0.34), glm::dvec2(0.13, top - 0.24), glm::dvec2(0.17, top - 0.16),
-          glm::dvec2(0.20, top - 0.12)}) {
-        profile.points.emplace_back(radius, y);
-    }
+    profile.points.insert(
+        profile.points.end(),
+        {Point2(0.15, 0.23), Point2(0.135, 0.26), Point2(0.13, 1.0), Point2(0.118, top - 0.40),
+         Point2(0.14, top - 0.38), Point2(0.14, top - 0.35), Point2(0.118, top - 0.34),
+         Point2(0.13, top - 0.24), Point2(0.17, top - 0.16), Point2(0.20, top - 0.12)});
     builder.lathe(profile, 12);
     builder.box({-0.22, top - 0.12, -0.22}, {0.22, top, 0.22});
     return builder.moved({0.0, kGalleryFloor, 0.0});

@@ -18,8 +18,8 @@ constexpr double kPotHeight = 0.56;  // [m] of the soil
 bool even(const Place& bay) { return (bay.index + bay.side) % 2 == 0; }
 
 void add_niche_things(Scene& scene) {
-    const int urn_mesh = add_mesh(scene, atrium_mesh("urn", urn(), AtriumMaterial::terracotta));
-    const int bench_mesh = add_mesh(scene, atrium_mesh("bench", bench(), AtriumMaterial::marble));
+    const int urn_mesh = add_atrium_mesh(scene, "urn", urn(), AtriumMaterial::terracotta);
+    const int bench_mesh = add_atrium_mesh(scene, "bench", bench(), AtriumMaterial::marble);
     for (const Place& bay : bays()) {
         const glm::dvec3 at =
             even(bay) ? glm::dvec3(0.0, 0.46, kAisle + 0.10) : glm::dvec3(0.0, 0.0, kAisle - 0.42);
@@ -29,10 +29,9 @@ void add_niche_things(Scene& scene) {
 
 void add_lanterns(Scene& scene) {
     constexpr double kChain = 1.9;
-    const int iron =
-        add_mesh(scene, atrium_mesh("lantern", lantern_iron(kChain), AtriumMaterial::iron));
+    const int iron = add_atrium_mesh(scene, "lantern", lantern_iron(kChain), AtriumMaterial::iron);
     const int glass =
-        add_mesh(scene, atrium_mesh("lantern-panes", lantern_glass(kChain), AtriumMaterial::glass));
+        add_atrium_mesh(scene, "lantern-panes", lantern_glass(kChain), AtriumMaterial::glass);
     for (const Place& bay : bays()) {
         if (!even(bay)) continue;
         const glm::dmat4 crown =
@@ -47,12 +46,11 @@ void add_cloth(Scene& scene, std::uint64_t seed) {
                                     AtriumMaterial::cloth_gold};
     std::array<int, 3> banners{};
     for (std::size_t i = 0; i < kCloths.size(); ++i) {
-        banners[i] = add_mesh(scene, atrium_mesh("banner", banner(), kCloths[i]));
+        banners[i] = add_atrium_mesh(scene, "banner", banner(), kCloths[i]);
     }
     std::uint64_t colour = item_bits(seed, 3);
-    const int drapes = add_mesh(scene, atrium_mesh("curtain", curtain(), kCloths[seed % 2]));
-    const int rod =
-        add_mesh(scene, atrium_mesh("curtain-rod", curtain_rod(), AtriumMaterial::iron));
+    const int drapes = add_atrium_mesh(scene, "curtain", curtain(), kCloths[seed % 2]);
+    const int rod = add_atrium_mesh(scene, "curtain-rod", curtain_rod(), AtriumMaterial::iron);
     for (const Place& bay : bays()) {
         if (bay.side % 2 == 1) {
             place(scene, drapes, bay.world_from_piece);
@@ -65,19 +63,17 @@ void add_cloth(Scene& scene, std::uint64_t seed) {
 }
 
 void add_plants(Scene& scene, std::uint64_t seed) {
-    const int pots = add_mesh(scene, atrium_mesh("pot", pot(), AtriumMaterial::terracotta));
+    const int pots = add_atrium_mesh(scene, "pot", pot(), AtriumMaterial::terracotta);
     const int trunk =
-        add_mesh(scene, atrium_mesh("trunk", tree_trunk(kPotHeight - 0.02), AtriumMaterial::wood));
-    const int crown = add_mesh(
-        scene,
-        atrium_mesh("crown", foliage(2.15, 0.72, 460, item_bits(seed, 1)), AtriumMaterial::leaf));
-    const int shrub = add_mesh(
-        scene,
-        atrium_mesh("shrub", foliage(0.85, 0.42, 200, item_bits(seed, 2)), AtriumMaterial::leaf));
+        add_atrium_mesh(scene, "trunk", tree_trunk(kPotHeight - 0.02), AtriumMaterial::wood);
+    const int crown = add_atrium_mesh(scene, "crown", foliage(2.15, 0.72, 460, item_bits(seed, 1)),
+                                      AtriumMaterial::leaf);
+    const int shrub = add_atrium_mesh(scene, "shrub", foliage(0.85, 0.42, 200, item_bits(seed, 2)),
+                                      AtriumMaterial::leaf);
     for (int i = 0; i < 4; ++i) {
         const double x = i % 2 == 0 ? -1.0 : 1.0;
         const double z = i < 2 ? -1.0 : 1.0;
-        // A quarter turn each, so that four trees are not one.
+        // A quarter turn each, so that the four trees differ.
         const glm::dmat4 tree = placed({x * 4.4, kCourtFloor, z * 2.6}, i);
         for (const int mesh : {pots, trunk, crown}) place(scene, mesh, tree);
         const glm::dmat4 low = placed({x * 7.4, kCourtFloor, z * 2.75}, i + 1);

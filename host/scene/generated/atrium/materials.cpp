@@ -100,10 +100,11 @@ void add_atrium_materials(Scene& scene, std::uint64_t seed) {
     }
 }
 
-Mesh atrium_mesh(std::string name, const MeshBuilder& builder, AtriumMaterial material) {
+int add_atrium_mesh(Scene& scene, const char* name, const MeshBuilder& builder,
+                    AtriumMaterial material) {
     const auto index = static_cast<int>(material);
     const MaterialRow& row = kRows[static_cast<std::size_t>(index)];
-    return builder.build(std::move(name), index, 1.0 / row.metres, row.normal_map);
+    return add_mesh(scene, builder.build(name, index, 1.0 / row.metres, row.normal_map));
 }
 
 }  // namespace kilolux

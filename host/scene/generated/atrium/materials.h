@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
-#include "host/scene/generated/procedural_mesh.h"
+#include "host/scene/generated/mesh_builder.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
 
-/// The atrium's materials, in the order in which they stand in Scene::materials.
+/// The atrium's materials, in the order of Scene::materials.
 enum class AtriumMaterial {
     marble,
     limestone,
@@ -31,12 +30,13 @@ enum class AtriumMaterial {
     count
 };
 
-/// Appends the atrium's images, textures and materials to an empty scene. Dielectric throughout and
-/// without emission, so that the G-buffer needs no fourth plane. Images are made on all cores.
+/// Appends the atrium's images, textures and materials to an empty scene. All are dielectric and
+/// without emission, so that the G-buffer needs no fourth plane. Runs on all cores.
 void add_atrium_materials(Scene& scene, std::uint64_t seed);
 
-/// The mesh of `builder` with the material's texture density and, where it has a normal map,
-/// tangents.
-Mesh atrium_mesh(std::string name, const MeshBuilder& builder, AtriumMaterial material);
+/// Appends the mesh of `builder` with the material's texture density and, where it has a normal
+/// map, tangents; returns its index.
+int add_atrium_mesh(Scene& scene, const char* name, const MeshBuilder& builder,
+                    AtriumMaterial material);
 
 }  // namespace kilolux

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host/scene/generated/procedural_mesh.h"
+#include "host/scene/generated/mesh_builder.h"
 
 // The pieces that the atrium is built from, one builder per piece and material.
 namespace kilolux {

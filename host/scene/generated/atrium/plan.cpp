@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/generated/atrium/plan.h"
 
-#include "host/scene/generated/procedural_mesh.h"
+#include "host/scene/generated/mesh_builder.h"
 
 namespace kilolux::atrium_plan {
 namespace {

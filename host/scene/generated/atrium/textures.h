@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host/scene/generated/procedural_texture.h"
+#include "host/scene/generated/bake.h"
 
 namespace kilolux {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "host/scene/generated/atrium/textures.h"
-#include "host/scene/generated/procedural_noise.h"
+#include "host/scene/generated/noise.h"
 
 namespace kilolux {
 namespace {

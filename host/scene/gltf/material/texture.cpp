@@ -25,11 +25,8 @@ Sampler convert_sampler(const tinygltf::Sampler& source) {
     out.wrap_s = convert_wrap(source.wrapS);
     out.wrap_t = convert_wrap(source.wrapT);
     if (source.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) out.magnify = Filter::nearest;
-    const int code = source.minFilter;
-    const bool nearest = code == TINYGLTF_TEXTURE_FILTER_NEAREST ||
-                         code == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
-                         code == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
-    out.minify = nearest ? Filter::nearest : Filter::linear;
+    const int code = source.minFilter;  // even: nearest within a level; -1: not given
+    out.minify = code > 0 && code % 2 == 0 ? Filter::nearest : Filter::linear;
     out.mipmaps = code != TINYGLTF_TEXTURE_FILTER_NEAREST && code != TINYGLTF_TEXTURE_FILTER_LINEAR;
     const bool between_nearest = code == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
                                  code == TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST;

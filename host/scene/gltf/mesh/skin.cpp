@@ -2,6 +2,7 @@
 #include "host/scene/gltf/mesh/skin.h"
 
 #include <glm/gtc/matrix_transform.hpp>
+
 namespace kilolux {
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/scenes_small.h"
+#include "host/scene/generated/small.h"
 
 #include <array>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <functional>
 
-#include "host/scene/generated/procedural_noise.h"
-#include "host/scene/generated/procedural_texture.h"
-#include "host/scene/generated/scenes_small.h"
+#include "host/scene/generated/bake.h"
+#include "host/scene/generated/noise.h"
+#include "host/scene/generated/small.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/generated/procedural_texture.h"
+#include "host/scene/generated/bake.h"
 
 #include <algorithm>
 #include <cmath>

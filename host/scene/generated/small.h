@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host/scene/generated/procedural_mesh.h"
+#include "host/scene/generated/mesh_builder.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
