@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-// What evaluating the scene at another time needs of its file.
+// What the scene is evaluated from at another time.
 struct AnimatedScene::File {
     GltfDocument document;
     GltfMaterials materials;

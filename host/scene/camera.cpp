@@ -63,8 +63,7 @@ Camera frame_box(const Box& box) {
 
 glm::dmat4 clip_from_view(const Camera& camera, int width, int height) {
     const glm::dvec2 extent = half_extent(camera, width, height);
-    // A sample right and below the centre sees what a shift of the picture left and up brings
-    // there.
+    // Moving the sample right and down is moving the picture left and up.
     const glm::dvec2 offset =
         camera.shear + glm::dvec2(-2.0 * camera.jitter.x / width, 2.0 * camera.jitter.y / height);
     const double n = camera.z_near;

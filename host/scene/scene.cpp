@@ -6,7 +6,7 @@
 namespace kilolux {
 
 glm::vec3 dielectric_reflectance(const Material& material) {
-    // Exactly the constant of kernels/shared/evaluate.h where nothing says otherwise.
+    // The default ior gives exactly the constant of kernels/shared/evaluate.h.
     const float root = (material.ior - 1.0f) / (material.ior + 1.0f);
     const float f0 = material.ior == Material{}.ior ? 0.04f : root * root;
     return f0 * material.specular_color;

@@ -64,6 +64,16 @@ TEST(SceneFile, LeavesItsFolderOnlyWithPermission) {
     EXPECT_EQ(allowed.code, 0) << allowed.err;
 }
 
+TEST(SceneFile, LoadsWithinTheBoundOfMemory) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "s.glb").string();
+    ASSERT_EQ(run_kilolux({"export", "grid", "-q", "-o", file}).code, 0);
+    const ChildResult refused = render(file, folder / "a.png", {"--max-memory", "100K"});
+    EXPECT_EQ(refused.code, 1);
+    EXPECT_TRUE(contains(refused.err, "buffers[0]: needs")) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "--max-memory")) << refused.err;
+}
+
 TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
     const TemporaryFolder folder;
     setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);

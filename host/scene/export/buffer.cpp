@@ -22,7 +22,7 @@ std::span<const unsigned char> bytes_of(std::span<const T> values) {
     return {reinterpret_cast<const unsigned char*>(values.data()), values.size_bytes()};
 }
 
-// Least and largest of each component, as doubles: what a float is in JSON.
+// Least and largest of each component; doubles, as JSON writes them exactly.
 void add_bounds(Json& accessor, std::span<const float> values, std::size_t components) {
     std::vector<double> least(components, std::numeric_limits<double>::infinity());
     std::vector<double> largest(components, -std::numeric_limits<double>::infinity());
@@ -62,7 +62,7 @@ int ExportBuffer::add_vertices(std::span<const float> values, int components, bo
 }
 
 int ExportBuffer::add_indices(std::span<const std::uint32_t> indices) {
-    // The largest 16-bit index is not one: it restarts primitives.
+    // The largest 16-bit value restarts primitives and is not an index.
     const bool narrow = std::all_of(indices.begin(), indices.end(), [](std::uint32_t i) {
         return i < std::numeric_limits<std::uint16_t>::max();
     });

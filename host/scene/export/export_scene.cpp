@@ -42,7 +42,7 @@ Json mesh_json(const Mesh& mesh, ExportBuffer& buffer) {
     return out;
 }
 
-// A file's name as a relative URI: all but what RFC 3986 calls unreserved is encoded.
+// A file's name as a relative URI; all but RFC 3986's unreserved characters are encoded.
 std::string percent_encoded(const std::string& name) {
     std::string out;
     for (const char c : name) {
@@ -56,7 +56,7 @@ std::string percent_encoded(const std::string& name) {
     return out;
 }
 
-// An array that is empty must not be there.
+// glTF allows no empty arrays.
 void add_array(Json& root, const char* name, Json array) {
     if (!array.empty()) root[name] = std::move(array);
 }

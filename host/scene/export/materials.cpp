@@ -34,7 +34,7 @@ Json sampler_json(const Sampler& sampler) {
             {"wrapT", wrap_code(sampler.wrap_t)}};
 }
 
-// Index of an element in an array that has each once.
+// Index of an element in an array without duplicates; appended where it is new.
 int place_of(Json& array, const Json& element) {
     const auto found = std::find(array.begin(), array.end(), element);
     if (found != array.end()) return static_cast<int>(found - array.begin());

@@ -48,7 +48,7 @@ bool is_orthogonal(const glm::dmat3& m) {
     return true;
 }
 
-// The node of a transform, and above it the index of the one to hang into the scene. A matrix M
+// Adds a node with a transform; returns the index of the node that belongs to the scene. A matrix
 // that shears is U V^T with orthogonal columns in U and a rotation V: a parent and a child.
 int add_placed(Json& nodes, const glm::dmat4& world_from_node, Json node) {
     glm::dmat3 axes(world_from_node);
@@ -150,7 +150,7 @@ Json perspective_json(const SceneCamera& camera) {
 }
 
 void add_camera(ExportedNodes& out, const SceneCamera& camera) {
-    // glTF's depths are not negative: a parallel camera that sees behind itself steps back.
+    // glTF's depths are not negative: a parallel camera with a negative z_near is moved back.
     const double shift = camera.orthographic ? std::max(-camera.z_near, 0.0) : 0.0;
     const char* type = camera.orthographic ? "orthographic" : "perspective";
     Json entry{{"type", type}};

@@ -50,7 +50,7 @@ Image normal_map(const std::string& name, const std::vector<float>& heights, int
     const double slope = size / (2.0 * metres);
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
-            // Rows go down, the tangent space's y goes up: hence the plus.
+            // Rows go down and the tangent space's y goes up, so the second slope is not negated.
             const glm::dvec3 n =
                 glm::normalize(glm::dvec3(-slope * (height(x + 1, y) - height(x - 1, y)),
                                           slope * (height(x, y + 1) - height(x, y - 1)), 1.0));

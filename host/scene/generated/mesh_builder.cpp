@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMinArea2 = 1e-9;  // twice a triangle's area [m^2]; less is a sliver
 
-// Outward unit normals at both ends of each segment of a profile: shared over soft corners.
+// Outward unit normals at both ends of a segment of a profile; soft corners share theirs.
 struct SegmentNormals {
     glm::dvec2 begin;
     glm::dvec2 end;
@@ -191,7 +191,7 @@ void MeshBuilder::sweep(const Profile& profile, std::span<const SweepFrame> fram
 void MeshBuilder::lathe(const Profile& profile, int segments, const glm::dvec3& center) {
     double widest = 0.0;
     for (const glm::dvec2& p : profile.points) widest = std::max(widest, p.x);
-    // Whole metres round, so that a texture whose size divides a metre has no seam.
+    // Whole metres around: a texture whose size divides a metre has no seam.
     const double around = std::max(1.0, std::round(2.0 * std::numbers::pi * widest));
     sweep(profile, round_frames(center, segments, 0.0, 2.0 * std::numbers::pi, around));
 }

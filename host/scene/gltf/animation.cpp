@@ -14,7 +14,7 @@ using Values = std::vector<double>;  // of one key: 3, 4, or as many as there ar
 
 enum class Interpolation { step, linear, cubic };
 
-// A channel's keys, opened.
+// A channel's key times and values.
 struct Track {
     std::vector<float> times;  // [s], ascending, at least one
     ElementArray output;
@@ -22,7 +22,7 @@ struct Track {
     std::size_t per_key = 1;  // output elements of one value
 };
 
-// Where a time falls between two keys.
+// Position of a time between two keys.
 struct Span {
     std::size_t first = 0;
     std::size_t second = 0;

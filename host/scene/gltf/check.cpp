@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Deeper than any sane file; readers of JSON may recurse.
+// Deeper than any real file. Limited because readers of JSON may recurse.
 constexpr int kMaxDepth = 100;
 
 std::string shown(const json& value) {
@@ -69,7 +69,7 @@ bool is_one_of(json& value, const std::vector<std::string>& allowed) {
     return std::find(allowed.begin(), allowed.end(), text) != allowed.end();
 }
 
-// One rule on its way through a file.
+// Applies one rule to a file.
 struct Checker {
     const std::string& name;  // of the file
     const GltfRule& rule;

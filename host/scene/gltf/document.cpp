@@ -60,8 +60,8 @@ void read_buffers(GltfDocument& document, const json& root, GltfText& text) {
     document.budget->allow_for_file(total);
 }
 
-// What tinygltf is given: without buffers and images, which it would read without our checks, and
-// without what it refuses though it is valid.
+// The JSON for tinygltf: without buffers and images, which it would read without our checks, and
+// changed where it refuses valid files.
 json for_tinygltf(const json& root) {
     json out = root;
     out.erase("buffers");
@@ -77,7 +77,7 @@ json for_tinygltf(const json& root) {
     for (json& mesh : out.at("meshes")) {
         if (!mesh.contains("primitives")) continue;
         for (json& primitive : mesh.at("primitives")) {
-            // Their accessor has no buffer view; the triangles come out of the compressed data.
+            // The accessor has no buffer view; the triangles are in the compressed data.
             if (primitive.contains(json::json_pointer("/extensions/KHR_draco_mesh_compression"))) {
                 primitive.erase("indices");
             }
@@ -156,7 +156,7 @@ void check_version(const GltfDocument& document, const json& asset) {
     }
 }
 
-// Takes bytes from a budget that other threads take from; false when less is left.
+// Takes bytes from a budget shared with other threads; false when fewer are left.
 bool take(std::atomic<std::uint64_t>& left, std::uint64_t bytes) {
     std::uint64_t seen = left.load();
     do {

@@ -142,7 +142,7 @@ Bytes read_data_uri(const std::string& uri, const std::string& where) {
     return {decoded.begin(), decoded.end()};
 }
 
-// "http:" and the like; one letter would be a drive of Windows, which a path check names better.
+// "http:" and the like. One letter is a drive of Windows, which the check of paths refuses.
 bool has_scheme(const std::string& uri) {
     const std::size_t colon = uri.find(':');
     if (colon == std::string::npos || colon < 2) return false;
@@ -156,12 +156,12 @@ bool leaves_folder(const fs::path& path) {
     return path.is_absolute() || (!normal.empty() && *normal.begin() == "..");
 }
 
-// Whether a file that stands in the folder by its name is a link, or below a link, to elsewhere.
+// Whether a symbolic link on the way to the file leads out of the folder.
 bool links_out_of_folder(const fs::path& folder, const fs::path& relative) {
     std::error_code error;
     const fs::path root = fs::canonical(folder.empty() ? "." : folder, error);
     const fs::path target = fs::weakly_canonical(root / relative, error);
-    // What cannot be resolved cannot be read either, which has a message of its own.
+    // A path that cannot be resolved cannot be read either; reading has the better message.
     return !error && leaves_folder(target.lexically_relative(root));
 }
 
@@ -169,7 +169,7 @@ fs::path path_of_uri(const UriBase& base, const std::string& uri, const std::str
     if (has_scheme(uri)) {
         throw Error(where + ": uri '" + shown_uri(uri) + "' is neither a data URI nor a file path");
     }
-    // Some writers do not encode: a name that exists as it stands is taken so.
+    // Some writers do not encode URIs: a file with the undecoded name is preferred.
     std::error_code ignored;
     fs::path relative = uri;
     if (leaves_folder(relative) || !fs::exists(base.folder / relative, ignored)) {

@@ -50,7 +50,7 @@ std::vector<std::size_t> find_parents(const GltfDocument& document) {
     return parents;
 }
 
-// Nodes reached from `roots`, each once and parents first, as a depth-first walk meets them.
+// Nodes reached from `roots` in depth-first order, each once, parents first.
 std::vector<std::size_t> walk(const GltfDocument& document, const std::vector<std::size_t>& roots) {
     std::vector<bool> seen(document.model.nodes.size(), false);
     std::vector<std::size_t> order;

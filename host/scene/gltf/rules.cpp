@@ -8,8 +8,8 @@ namespace {
 
 using Rules = std::vector<GltfRule>;
 
-// 2^53: what a double still counts exactly. Smaller sizes that do not fit are refused later with a
-// better message.
+// 2^53, the largest integer range that a double holds exactly. Sizes below it that do not fit are
+// refused later, with a better message.
 constexpr double kMaxBytes = 9007199254740992.0;
 constexpr double kMaxInt = 2147483647.0;
 constexpr double kMaxCount = 4294967294.0;  // indices are 32 bits, and one value is for restarts

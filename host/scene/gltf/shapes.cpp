@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// Morph weights that a node's mesh stands with; empty when all are 0.
+// Morph weights of a node's mesh; empty when all are 0.
 std::vector<double> morph_weights(const tinygltf::Mesh& mesh, const std::vector<double>& of_node) {
     const std::vector<double>& weights = of_node.empty() ? mesh.weights : of_node;
     for (const double weight : weights) {

@@ -70,7 +70,7 @@ std::vector<SweepFrame> arch_frames(const ArchPanel& panel, double z, bool to_pl
 void add_voussoirs(MeshBuilder& builder, const ArchPanel& panel, double wall_half, double ring,
                    bool to_plus_z) {
     constexpr double kProud = 0.03;
-    // An odd number, so that both ends are of one colour and a keystone closes the arch.
+    // An odd number: both ends have the same colour and a keystone closes the arch.
     const double length = std::numbers::pi * panel.radius_x;
     const double wedges = 2.0 * std::round(length / 0.27 / 2.0) + 1.0;
     const Profile profile{{{ring, 0.0}, {ring, kProud}, {0.0, kProud}, {0.0, -wall_half}}, 0.3};

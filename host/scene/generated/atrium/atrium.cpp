@@ -32,7 +32,7 @@ MeshBuilder bay_vault() {
     return builder;
 }
 
-// A bay's masonry, one mesh a material; the column at its left end comes with it.
+// A bay's masonry with the column at its left end, one mesh per material.
 void add_bays(Scene& scene) {
     const glm::dvec3 left(-kHalfBay, 0.0, 0.0);
     const MeshBuilder gallery_columns =

@@ -31,7 +31,7 @@ ArchPanel gallery_panel(double center) {
             kUpperRadius, kUpperRadius,   kUpperSpring, 16};
 }
 
-// A moulding on a wall's face at z, which looks to -z, from x = -half to half.
+// A moulding on a wall's face at z that faces -z, from x = -half to half.
 void add_course(MeshBuilder& builder, const std::vector<glm::dvec2>& points, double half,
                 double z) {
     builder.sweep({points, 0.5}, straight_frames({half, 0, z}, {-half, 0, z}, {0, 0, -1}));

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Half width of a tied curtain's cloth at a share of its height from the top: wide at the rod,
-// narrow at the tie, a little wider at the hem.
+// Half width of a tied curtain at a share `down` of its height: wide at the rod, narrow at the tie,
+// a little wider at the hem.
 double curtain_spread(double down) {
     constexpr double kTie = 0.60;
     if (down < kTie) {

@@ -22,7 +22,7 @@ constexpr int kFlutes = 18;
 // Entasis: the shaft thins towards the top, along a parabola.
 double shaft_radius(double share) { return kRadius * (1.0 - 0.14 * share * share); }
 
-// Depth of the fluting at an angle, and 0 where flutes run out at the ends of the shaft.
+// Depth of the fluting at an angle; flutes run out at the ends of the shaft.
 double flute_depth(double angle, double share) {
     const double turn = angle * kFlutes / (2.0 * kPi);
     const double across = 2.0 * (turn - std::floor(turn)) - 1.0;  // -1..1 over a flute

@@ -17,7 +17,7 @@ constexpr double kMiddle = kAisle / 2;
 constexpr double kStairWell = 1.75;     // radius of the opening [m]
 constexpr double kStairCeiling = 5.55;  // of the ground floor round the opening
 
-// What stands at the wall z = kAisle, and the same at the wall x = kAisle.
+// A piece at the wall z = kAisle, and again at the wall x = kAisle.
 void add_at_both_walls(MeshBuilder& builder, const MeshBuilder& piece) {
     builder.append(piece);
     // Swaps x and z: a reflection; append() corrects the winding.

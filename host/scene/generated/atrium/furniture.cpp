@@ -82,7 +82,7 @@ MeshBuilder foliage(double height, double radius, int leaves, std::uint64_t seed
         const double ring = std::sqrt(1.0 - y * y);
         const glm::dvec3 out(ring * std::cos(angle), y, ring * std::sin(angle));
         const double r = radius * (0.55 + 0.45 * std::sqrt(random(2)));
-        // The leaf looks outwards, about, and hangs a little.
+        // The leaf faces roughly outwards and hangs a little.
         const glm::dvec3 tilt(random(3) - 0.5, 0.55, random(4) - 0.5);
         const glm::dvec3 n = glm::normalize(out + 0.7 * tilt);
         const glm::dvec3 along =

@@ -19,7 +19,7 @@ double roof_height(double z) {
     return kEaves + (kRidge - kEaves) * (z - kEaveDepth) / (kOuterFace - kEaveDepth);
 }
 
-// A profile along the court's edge at depth z: x of it goes into the court, where the side is
+// A profile along the court's edge at depth z; its x points into the court, where the side is
 // shorter.
 void add_court_course(MeshBuilder& builder, const std::vector<glm::dvec2>& points, double half,
                       double z) {

@@ -84,7 +84,7 @@ MeshBuilder stair_rails() {
                                     at(angle, kOuter - 0.06, foot + kRailHeight + 0.5 * kRise)};
         builder.tube(post, 0.014, 5);
     }
-    // Round the opening, but for the last steps, where one comes out.
+    // Round the opening, with a gap at the last steps.
     const double last = kStart + kSteps * kTread;
     std::vector<glm::dvec3> ring;
     constexpr int kPosts = 36;

@@ -68,7 +68,7 @@ SurfaceImages wood_images(std::uint32_t seed) {
         const double across = v * kPlanks - plank;
         const double tone = lattice_value(plank, 3, kPlanks, seed);
         const double bend = fractal_noise({u, v}, 3, 3, seed + 1u);
-        // Grain lines follow the plank and wander; whole periods keep the texture tiling.
+        // Grain lines follow the plank with noise; whole periods keep the texture tiling.
         const double rings =
             0.5 + 0.5 * std::sin(2.0 * std::numbers::pi * (9.0 * v * kPlanks + 3.0 * bend + tone));
         const double fibre = gradient_noise({u * 8.0, v * 128.0}, {8, 128}, seed + 2u);
@@ -96,7 +96,7 @@ SurfaceImages terracotta_images(std::uint32_t seed) {
 
 SurfaceImages cloth_images(std::uint32_t seed) {
     return bake({.name = "cloth", .metres = 0.8}, [seed](double u, double v) {
-        // Damask: a flower on a half-drop lattice, told from the ground by its sheen only.
+        // Damask: a flower on a half-drop lattice, only brighter than the ground.
         const glm::dvec2 cell = glm::dvec2(u, v) * 4.0;
         const double shift = 0.5 * (static_cast<int>(cell.x) % 2);
         const glm::dvec2 p = glm::fract(glm::dvec2(cell.x, cell.y + shift)) - 0.5;

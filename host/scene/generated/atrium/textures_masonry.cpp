@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// The stone of a course in which (x, y) lies, in texture shares.
+// The stone that holds a point of the texture.
 struct Stone {
     int column;
     int row;
@@ -52,7 +52,7 @@ Texel blend(const Texel& a, const Texel& b, double t) {
             a.roughness + (b.roughness - a.roughness) * t};
 }
 
-// 1 in a joint of half width `joint`, 0 on the stone, both in shares of the texture.
+// 1 within `joint` of the joint's middle, 0 on the stone; distances in shares of the texture.
 double joint_share(double edge, double joint, double bevel) {
     return 1.0 - smooth_step(joint, joint + bevel, edge);
 }
@@ -77,7 +77,7 @@ Texel octagon_or_dot(double u, double v, std::uint32_t seed) {
     stone.color =
         (dot ? glm::dvec3(0.20, 0.24, 0.24) : plain) * (0.93 + 0.14 * tone + 0.10 * cloud);
     stone.color = glm::mix(stone.color, glm::dvec3(0.92, 0.90, 0.86), dot ? 0.0 : 0.25 * vein);
-    // Tiles lie a little askew, each its own way: highlights break at the joints.
+    // Each tile is tilted a little, so that highlights break at the joints.
     stone.height = 0.0012 * ((tone - 0.5) * in.x + (0.5 - tone * tone) * in.y) + 0.00006 * cloud;
     stone.roughness = 0.24 + 0.12 * tone + 0.08 * std::abs(cloud);
     const Texel grout{{0.47, 0.43, 0.38}, -0.0025, 0.85};

@@ -12,8 +12,8 @@ namespace {
 
 using namespace atrium_plan;
 
-// Quarter of a groin vault: the barrel whose axis is z where it is the higher one, |x/a| <= |z/b|,
-// on the side of z's sign. Swapping x and z gives the other two.
+// Quarter of a groin vault: the barrel along z where it is the higher one, |x/a| <= |z/b|, on the
+// side of `sign`. Swapping x and z gives the other two quarters.
 void add_sector(MeshBuilder& builder, glm::dvec2 center, glm::dvec2 half, double sign, bool swap) {
     const double a = swap ? half.y : half.x;
     const double b = swap ? half.x : half.y;
@@ -35,7 +35,7 @@ void add_sector(MeshBuilder& builder, glm::dvec2 center, glm::dvec2 half, double
     });
 }
 
-// Four quads between two squares of half size in x and z about a centre, at two heights.
+// Four quads between two rectangles about a centre, given by half extents in x and z and heights.
 void add_square_ring(MeshBuilder& builder, glm::dvec2 center, glm::dvec2 outer, double outer_y,
                      glm::dvec2 inner, double inner_y) {
     const auto corner = [&](int i, glm::dvec2 half, double y) {
@@ -63,7 +63,7 @@ void add_groin_vault(MeshBuilder& builder, glm::dvec2 center, glm::dvec2 half) {
 }
 
 void add_rib(MeshBuilder& builder) {
-    // Made across x like every arch, then turned to span z.
+    // Built along x like every arch, then turned to span z.
     const double half = kAisle / 2;
     const ArchPanel span{
         .center = 0.0, .radius_x = half, .radius_y = kVaultRise, .spring = kSpring, .segments = 20};

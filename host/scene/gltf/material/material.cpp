@@ -92,8 +92,8 @@ Material convert_material(const tinygltf::Material& source, TextureTable& textur
     return out;
 }
 
-// Renames the TEXCOORD_n that a material uses to 0 and 1; returns which ones they are. Its textures
-// beyond the second set are left out.
+// Renames the TEXCOORD_n that a material uses to 0 and 1 and returns their numbers. Textures of
+// further sets are left out.
 std::array<int, 2> pack_texcoord_sets(Material& material) {
     const std::array<TextureUse*, 7> uses = {
         &material.base_color_texture,    &material.metallic_roughness_texture,

@@ -19,7 +19,7 @@ using Span = std::span<const unsigned char>;
 
 constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
 constexpr std::size_t kFrameBytes = 12;  // of a chunk: length, type, checksum
-// What pixels depend on: the critical chunks and transparency.
+// The chunks that pixels depend on: the critical ones and transparency.
 constexpr std::array<std::string_view, 5> kNeeded = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS"};
 
 std::uint32_t big_endian(Span bytes) {

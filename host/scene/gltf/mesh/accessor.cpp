@@ -41,7 +41,7 @@ std::size_t element_bytes(const ElementArray& array) {
     return component_bytes(array.component_type) * array.components;
 }
 
-// Where an element's components stand; nullptr for an element of zeros.
+// An element's components in memory; nullptr for an element of zeros.
 const unsigned char* element_at(const ElementArray& array, std::size_t element) {
     const auto& sparse = array.sparse_elements;
     const auto found = std::lower_bound(sparse.begin(), sparse.end(), element);

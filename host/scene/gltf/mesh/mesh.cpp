@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-// Which element of the attributes each vertex of the mesh takes, and its triangles.
+// For each vertex of the mesh its element of the attributes, and the triangles.
 struct VertexPlan {
     std::vector<std::uint32_t> elements;
     std::vector<std::uint32_t> indices;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kExtension = "EXT_meshopt_compression";
 
-// The extension's object, read.
+// The values of the extension's object.
 struct MeshoptView {
     std::span<const unsigned char> source;
     std::size_t count = 0;
@@ -40,7 +40,7 @@ MeshoptView read_extension(const GltfDocument& document, std::size_t view,
     return out;
 }
 
-// The shapes that the extension allows; the library asserts them.
+// Throws for strides and counts that the extension does not allow; the library would assert.
 void check_shape(const GltfDocument& document, const MeshoptView& view, const std::string& where) {
     const auto require_stride = [&](bool fits, const std::string& expected) {
         if (!fits) document.fail(where, "byteStride is {}, must be {}", view.stride, expected);

@@ -12,7 +12,7 @@ AttributeArrays open_attributes(const GltfDocument& document,
                                 const std::map<std::string, int>& attributes) {
     AttributeArrays arrays;
     for (const auto& [name, accessor] : attributes) {
-        // Names that start with an underscore are the application's own.
+        // Names that start with an underscore are application-specific.
         if (!name.starts_with("_")) arrays.emplace(name, open_accessor(document, accessor));
     }
     return arrays;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
-// What must be equal for two vertices to share a tangent; compared by bits, -0 made 0.
+// Vertices with equal keys share a tangent. Compared by bits, with -0 made 0.
 using VertexKey = std::array<float, 8>;
 
 struct VertexKeyHash {
@@ -78,7 +78,7 @@ TriangleFrame triangle_frame(const Mesh& mesh, const std::vector<glm::dvec2>& uv
     return {area > 0.0 ? kPreserving : kMirrored, along_u / length};
 }
 
-// v in the plane perpendicular to n, unit; zero where nothing is left.
+// v projected into the plane perpendicular to n, unit; zero where v is parallel to n.
 glm::dvec3 in_plane(const glm::dvec3& v, const glm::dvec3& n) {
     const glm::dvec3 flat = v - n * glm::dot(n, v);
     const double length = glm::length(flat);
@@ -124,7 +124,7 @@ std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
     return copy;
 }
 
-// Gives each vertex its tangent, and mirrored triangles their own copy of a vertex that others use.
+// Gives each vertex its tangent; a vertex of triangles of both orientations is split.
 void assign_tangents(Mesh& mesh, const std::vector<TriangleFrame>& frames,
                      const std::vector<std::uint32_t>& group,
                      const std::vector<TangentSums>& sums) {
