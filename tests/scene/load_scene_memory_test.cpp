@@ -57,7 +57,7 @@ TEST(LoadSceneMemory, BoundsImagesTogether) {
                          "left (--max-memory)"),
               std::string::npos)
         << error;
-    EXPECT_EQ(error_with(file_with_images(40), 0), "") << "half of the machine's memory";
+    EXPECT_EQ(error_with(file_with_images(40), 0), "") << "half of what is available";
 }
 
 TEST(LoadSceneMemory, BoundsBuffersBeforeTheyAreRead) {

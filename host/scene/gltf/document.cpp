@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/document.h"
 
-#include <OpenImageIO/sysutil.h>
-
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -214,7 +212,7 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     document.base = {file.string(), file.parent_path(), options.allow_outside_paths};
     const std::uint64_t memory = options.max_memory_bytes;
     document.budget =
-        std::make_unique<LoadBudget>(memory > 0 ? memory : OIIO::Sysutil::physical_memory() / 2);
+        std::make_unique<LoadBudget>(memory > 0 ? memory : available_memory_bytes() / 2);
     GltfText text = read_gltf_text(file, document.base.file);
     const json root = parse_gltf_json(text.json, document.base.file);
     check_version(document, root.at("asset"));

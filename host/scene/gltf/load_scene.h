@@ -12,8 +12,8 @@ namespace kilolux {
 struct LoadOptions {
     double time = 0.0;                 // [s] at which the file's animations are evaluated
     bool allow_outside_paths = false;  // URIs and links may leave the scene file's folder
-    /// Bytes that buffers, decoded images and decoded meshes may take together; 0: half of the
-    /// machine's memory. The JSON and what a decoder needs meanwhile come on top.
+    /// Bytes that buffers, decoded images and decoded meshes may take together; 0: half of what is
+    /// available. The JSON and what a decoder needs meanwhile come on top.
     std::uint64_t max_memory_bytes = 0;
 };
 
