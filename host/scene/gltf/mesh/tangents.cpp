@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/base/hash.h"
 #include "host/scene/gltf/mesh/directions.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <unordered_map>
 
 namespace kilolux {
@@ -16,12 +17,8 @@ using VertexKey = std::array<float, 8>;
 
 struct VertexKeyHash {
     std::size_t operator()(const VertexKey& key) const {
-        std::size_t hash = 1469598103934665603u;  // FNV-1a over the words
-        for (const float value : key) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, &value, sizeof bits);
-            hash = (hash ^ bits) * 1099511628211u;
-        }
+        const std::size_t hash =
+            Fnv1a().add_words(std::bit_cast<std::array<std::uint32_t, 8>>(key)).value();
         return hash ^ (hash >> 29);
     }
 };
