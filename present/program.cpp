@@ -26,7 +26,7 @@ constexpr const char* kExitCodes =
     "  0  done\n"
     "  1  something outside failed: a file, a device, a driver; one line says what\n"
     "  2  the command line cannot be obeyed\n"
-    "  3  a comparison with --reference failed\n"
+    "  3  a comparison with --reference, or a hard case of certify, failed\n"
     "130  interrupted";
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
@@ -54,6 +54,7 @@ Program::Program() : app_(kMeaning, "kilolux") {
     add_view_command(*this);
     add_bench_command(*this);
     add_report_command(*this);
+    add_certify_command(*this);
     add_info_command(*this);
     add_export_command(*this);
 }

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "host/certify/cases.h"
-#include "host/certify/shot.h"
+#include "host/certify/lighting_case.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -13,26 +13,15 @@ namespace {
 
 constexpr double kAngles[] = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
 
-SurfaceSample matt_surface(double z, const glm::dvec3& normal) {
-    SurfaceSample s;
-    s.position = {0, 0, -z};
-    s.normal = normal;
-    s.albedo = glm::dvec3(0.5);
-    s.roughness = 0.5;
-    s.kind = SurfaceKind::lit;
-    return s;
-}
-
-// Surfaces on the axis, each with a light that no other one sees. Light comes along x, where the
-// normal, not the light's position, makes the angle: float32 holds 1e-7 there.
-Shot grazing_shot(int shading) {
+// Surfaces on the axis, each with a light that reaches no other. The normal, not the light's
+// position, sets the angle: float32 holds 1e-7 there.
+LightingCase grazing_case(int shading) {
     std::vector<SurfaceSample> surfaces;
     std::vector<Light> lights;
     const auto add = [&](const glm::dvec3& normal, const glm::dvec3& to_light) {
         const double z = 1.0 + 0.5 * static_cast<double>(surfaces.size());
-        surfaces.push_back(matt_surface(z, normal));
-        const glm::dvec3 p = surfaces.back().position + 0.2 * to_light;
-        lights.push_back(point_light({p.x, p.y, p.z}, 0.4, {1, 1, 1}));
+        surfaces.push_back(grey_surface({0, 0, -z}, normal));
+        lights.push_back(point_light(surfaces.back().position + 0.2 * to_light, 0.4));
     };
     for (const double angle : kAngles) {
         for (const double a : {angle, -angle}) {
@@ -41,15 +30,14 @@ Shot grazing_shot(int shading) {
             add({0, std::cos(a), std::sin(a)}, {std::cos(a), std::sin(a), 0});  // both
         }
     }
-    Shot shot = surface_shot(surfaces, shading);
-    shot.lights = lights;
-    return shot;
+    LightingCase input = surface_case(surfaces, shading);
+    input.lights = lights;
+    return input;
 }
 
-// Random unit vectors whose sine of the angle above the horizon of `l` is `sine`.
+// A random unit vector at an angle of asin(sine) above the horizon of `l`.
 glm::dvec3 tilted(const glm::dvec3& l, double sine, Random& random) {
-    const Vec3d r = random.direction();
-    const glm::dvec3 across = glm::normalize(glm::cross(l, glm::dvec3(r.x, r.y, r.z)));
+    const glm::dvec3 across = glm::normalize(glm::cross(l, random.direction()));
     return sine * l + std::sqrt(1.0 - sine * sine) * across;
 }
 
@@ -62,44 +50,42 @@ uint packed_normal(const glm::dvec3& n) {
     return code(e.x) | code(e.y) << 16;
 }
 
-// A sun 1e-4 rad below every pixel's horizon, more than 2x16 bits turn a normal by (6.6e-5 rad).
-std::uint64_t pixels_lit_from_behind(const Gpu& gpu, std::uint64_t& pixels) {
-    Shot shot = noise_shot({64, 48}, noise_depth(1.0, 9.0, 0, 4), every_feature(SHADING_LAMBERT));
-    put_out_surfaces(shot);
-    const Vec3d sun = normalized({0.3, 0.5, 0.7});
-    shot.suns = {
-        {{static_cast<float>(sun.x), static_cast<float>(sun.y), static_cast<float>(sun.z), 0},
-         {1, 1, 1, 0}}};
-    const Vec3d v = view_from_world(shot.image.view, sun);
-    const glm::dvec3 l = glm::normalize(glm::dvec3(v.x, v.y, v.z));
+// A directional light 1e-4 rad below every pixel's horizon: more than the 6.6e-5 rad by which 2x16
+// bits turn a normal.
+void check_lit_from_behind(const Gpu& gpu, Findings& findings) {
+    LightingCase input =
+        noise_case({64, 48}, noise_depth(1.0, 9.0, 0, 4), every_feature(SHADING_LAMBERT));
+    put_out_surfaces(input);
+    const glm::vec3 to_light(glm::normalize(glm::dvec3(0.3, 0.5, 0.7)));
+    input.directional_lights = {{{to_light.x, to_light.y, to_light.z, 0}, {1, 1, 1, 0}}};
+    const glm::dvec3 l = glm::normalize(view_from_world(input.image.view, to_light));
     Random random(23);
-    auto* normals = shot.image.plane<uint>(PLANE_NORMAL);
-    pixels = std::size_t{shot.image.view.stride} * shot.image.view.height;
+    auto* normals = input.image.plane<uint>(PLANE_NORMAL);
+    const std::size_t pixels = std::size_t{input.image.view.stride} * input.image.view.height;
     for (std::size_t i = 0; i < pixels; ++i) {
         normals[i] = packed_normal(tilted(l, -std::sin(1e-4), random));
     }
-    std::uint64_t lit = 0;
-    for (const float value : expose(gpu, shot).listed) lit += value != 0.0f ? 1 : 0;
-    return lit;
+    const std::uint64_t lit = count_lit(light_on_device(gpu, input).listed);
+    findings.none("values lit from 1e-4 rad below the horizon", lit, 3 * pixels);
 }
 
-// A surface that faces any way, the eye's side or not, and is lit from any other.
-Shot facing_away_shot() {
+// Surfaces that face in random directions, also away from the eye, lit by one light.
+LightingCase facing_away_case() {
     std::vector<SurfaceSample> surfaces;
     Random random(231);
     for (int i = 0; i < 1024; ++i) {
-        const Vec3d n = random.direction();
-        surfaces.push_back(matt_surface(random.uniform(2, 6), {n.x, n.y, n.z}));
+        const glm::dvec3 normal = random.direction();
+        surfaces.push_back(grey_surface({0, 0, -random.uniform(2, 6)}, normal));
         surfaces.back().roughness = i % 4 == 0 ? 1.0 : random.uniform(0.3, 1.0);
     }
-    Shot shot = surface_shot(surfaces, SHADING_BLINN_PHONG, 64);
-    shot.lights = {point_light({1, 2, -9}, 90.0, {50, 50, 50})};
-    return shot;
+    LightingCase input = surface_case(surfaces, SHADING_BLINN_PHONG, 64);
+    input.lights = {point_light({1, 2, -9}, 90.0, {50, 50, 50})};
+    return input;
 }
 
-// How much the lobe (n + 2) / (8 pi) (n.h)^n changes where n.h is off by 8 u, what unit vectors of
-// float32 leave open. For exponents n < 1, that is roughness above 0.904, its slope at n.h = 0 is
-// infinite and this is not small: (8 u)^0.1 = 0.23. Times F0 (0.04).
+// F0 (0.04) times the change of the lobe (n + 2) / (8 pi) (n.h)^n where n.h is off by 8 u, the
+// error of float32 unit vectors. For exponents n < 1 (roughness above 0.904) the slope at n.h = 0
+// is infinite, and the change is large: (8 u)^0.1 = 0.23.
 double lobe_uncertainty(const SurfaceSample& s, const glm::dvec3& l) {
     constexpr double kOff = 8 * 0x1p-24;
     const double alpha2 = std::pow(std::max(s.roughness, 0.045), 4.0);
@@ -114,47 +100,42 @@ double lobe_uncertainty(const SurfaceSample& s, const glm::dvec3& l) {
 }
 
 // |x - r| in units of 1e-5 max(r, E) plus the lobe's uncertainty.
-Worst facing_away_error(const Shot& shot, const Exposure& e) {
-    const ReferencePicture r1 = r1_picture(shot, e);
-    const SurfaceSamples surfaces = decoded_surfaces(shot, e);
-    const float4 light = e.lights.front().position_inv_range2;
-    const View& view = shot.image.view;
+Worst facing_away_error(const LightingCase& input, const DeviceResult& result) {
+    const ReferencePicture r1 = r1_picture(input, result);
+    const SurfaceSamples surfaces = decoded_surfaces(input, result);
+    const float4 light = result.lights.front().position_inv_range2;
     Worst worst;
-    for (uint y = 0; y < view.height; ++y) {
-        for (uint x = 0; x < view.width; ++x) {
-            const std::size_t i = std::size_t{y} * view.width + x;
-            const SurfaceSample& s = surfaces.pixels[i];
-            const glm::dvec3 l = glm::normalize(glm::dvec3(light.x, light.y, light.z) - s.position);
-            const double scale = r1.scale.rgb[3 * i];
-            const double allowed =
-                1e-5 * std::max(r1.radiance.rgb[3 * i], scale) +
-                scale * std::max(glm::dot(s.normal, l), 0.0) * lobe_uncertainty(s, l);
-            const double found = e.listed[std::size_t{y} * view.stride + x];
-            worst.see(std::abs(found - r1.radiance.rgb[3 * i]) / allowed, [&] {
-                return at_pixel(x, y) + ", roughness " + std::to_string(s.roughness);
-            });
-        }
-    }
+    std::size_t i = 0;
+    for_each_pixel(input.image.view, [&](uint x, uint y) {
+        const SurfaceSample& s = surfaces.pixels[i];
+        const glm::dvec3 l = glm::normalize(glm::dvec3(light.x, light.y, light.z) - s.position);
+        const double expected = r1.radiance.rgb[3 * i];
+        const double scale = r1.scale.rgb[3 * i++];
+        const double allowed =
+            1e-5 * std::max(expected, scale) +
+            scale * std::max(glm::dot(s.normal, l), 0.0) * lobe_uncertainty(s, l);
+        worst.see(std::abs(result.radiance(x, y, 0) - expected) / allowed,
+                  [&] { return at_pixel(x, y) + ", roughness " + std::to_string(s.roughness); });
+    });
     return worst;
 }
 
 }  // namespace
 
 void try_grazing_angles(const Gpu& gpu, Findings& findings) {
-    const Shot lambert = grazing_shot(SHADING_LAMBERT);
-    const Exposure matt = expose(gpu, lambert);
+    const LightingCase lambert = grazing_case(SHADING_LAMBERT);
+    const DeviceResult matt = light_on_device(gpu, lambert);
     findings.at_most("Lambert: |x-r|/E", error_against_r1(lambert, matt), 1e-6);
     check_exact(findings, lambert, matt);
     for (const int shading : {SHADING_BLINN_PHONG, SHADING_PBR}) {
-        const Shot shot = grazing_shot(shading);
-        findings.at_most("lobes: |x-r|/max(r,E)", error_against_r1(shot, expose(gpu, shot)), 1e-5);
+        const LightingCase input = grazing_case(shading);
+        findings.at_most("lobes: |x-r|/max(r,E)",
+                         error_against_r1(input, light_on_device(gpu, input)), 1e-5);
     }
-    std::uint64_t pixels = 0;
-    const std::uint64_t lit = pixels_lit_from_behind(gpu, pixels);
-    findings.none("values lit from 1e-4 rad below the horizon", lit, 3 * pixels);
-    const Shot away = facing_away_shot();
+    check_lit_from_behind(gpu, findings);
+    const LightingCase away = facing_away_case();
     findings.at_most("Blinn-Phong facing away: error / bound",
-                     facing_away_error(away, expose(gpu, away)), 1.0);
+                     facing_away_error(away, light_on_device(gpu, away)), 1.0);
 }
 
 }  // namespace kilolux

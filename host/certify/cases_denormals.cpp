@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers too small to be normal, flushed to zero or not.
+// Denormal numbers, flushed to zero or not.
 #include <bit>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include <immintrin.h>
 #endif
 
-// The model of the copy that is compiled for the host: the one with long tails.
+// The shading model of the copy compiled for the host: the one with long tails.
 #include "kernels/shared/evaluate_modes.h"
 #define SHADING SHADING_BLINN_PHONG
 #pragma GCC diagnostic push
@@ -16,7 +16,7 @@
 #pragma GCC diagnostic pop
 
 #include "host/certify/cases.h"
-#include "host/certify/shot.h"
+#include "host/certify/lighting_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
 #include "host/render/light_rows.h"
@@ -27,7 +27,7 @@ namespace {
 constexpr double kSmallestNormal = 0x1p-126;  // 1.2e-38
 constexpr std::string_view kEvaluateHeaders[] = {
     "kernels/device/lanes.h", "kernels/shared/evaluate.h", "kernels/shared/cluster_grid.h"};
-// Point i before the lights, shaded by all of them; and the slice of its depth.
+// Shades point i with all lights, and computes the slice of a depth.
 constexpr std::string_view kEvaluateProbe = R"(
 kernel void probe(global const float* x, global const ShadeLight* lights, uint light_count, float roughness,
                   ClusterGrid grid, global float* out, global uint* slices) {
@@ -57,7 +57,7 @@ struct DenormalInput {
 // Lights of 1e-38 and of 1, seen off the mirror direction: tails of lobes and denormal products.
 DenormalInput denormal_input() {
     DenormalInput in;
-    for (int i = 0; i < 256; ++i) in.x.push_back(0.05f * static_cast<float>(i - 128));
+    for (int i = -128; i < 128; ++i) in.x.push_back(0.05f * static_cast<float>(i));
     Random random(20);
     for (int i = 0; i < 64; ++i) {
         const float intensity = i % 4 == 3 ? 1.0f : (i % 4 == 2 ? 1e-40f : 1e-38f);
@@ -89,7 +89,7 @@ DenormalOutput on_device(Gpu gpu, const DenormalInput& in, int shading, bool flu
     return {download<float>(gpu, out, in.x.size()), download<uint>(gpu, slices, in.x.size())};
 }
 
-// The same text compiled for the host, with the processor's flags set to flush or not.
+// The same functions compiled for the host, with the processor set to flush or not.
 DenormalOutput on_host(const DenormalInput& in, bool flush) {
 #if defined(__SSE2__)
     const unsigned before = _mm_getcsr();
@@ -134,15 +134,11 @@ void try_denormals(const Gpu& gpu, Findings& findings) {
         compare(findings, on_device(gpu, in, shading, false), on_device(gpu, in, shading, true), k);
     }
     compare(findings, on_host(in, false), on_host(in, true), k);
-    // A stage's own run: lights of 1e-38 are listed, and by lists the picture is the same.
-    Shot shot = noise_shot({33, 17}, noise_depth(0.5, 20.0, 0.1, 4));
-    LightMix mix;
-    mix.count = 300;
-    shot.lights = random_lights(shot.image.view, mix);
-    for (Light& light : shot.lights) {
-        light.color_scale = {1e-38f, 2e-39f, 1e-40f, 1.0f};
-    }
-    check_lists(findings, gpu, shot, 300);
+    // Lights of 1e-38 are listed, and the lists give the picture of all lights.
+    LightingCase input = noise_case({33, 17}, noise_depth(0.5, 20.0, 0.1, 4));
+    input.lights = random_lights(input.image.view, {.count = 300});
+    for (Light& light : input.lights) light.color_scale = {1e-38f, 2e-39f, 1e-40f, 1.0f};
+    check_lists(findings, gpu, input, 300);
     const std::vector<SceneLight> dim(1, {.intensity = glm::vec3(1e-38f), .range = 1.0f});
     findings.require("a light of 1e-38 is kept", make_light_rows(dim, {}).rejected == 0);
     // Slices begin far from denormals: z_first is at least 2^-100.

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "host/certify/cases.h"
-#include "host/certify/shot.h"
+#include "host/certify/lighting_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
 #include "host/scene/camera.h"
@@ -15,7 +15,7 @@
 namespace kilolux {
 namespace {
 
-// --- 1: slices are the same everywhere ---
+// --- 1 ---
 
 constexpr std::string_view kSliceHeaders[] = {"kernels/device/lanes.h",
                                               "kernels/shared/cluster_grid.h"};
@@ -62,7 +62,7 @@ std::vector<float> depths_to_slice(const ClusterGrid& grid, bool random_ones) {
     return z;
 }
 
-// By the slices' ends alone, without bit tricks.
+// By comparing with the ends of the slices.
 std::vector<uint> slices_by_search(const ClusterGrid& grid, const std::vector<float>& z) {
     std::vector<float> ends;
     for (uint slice = 1; slice < grid.slices; ++slice) ends.push_back(depth_of_slice(grid, slice));
@@ -85,14 +85,14 @@ void compare_slices(Findings& findings, std::string_view what, const std::vector
     findings.none(what, different, z.size(), where);
 }
 
-// --- 2, 3: images of slabs at a depth each ---
+// --- 2, 3 ---
 
 double tile_noise(uint x, uint y) {
     const uint h = (x / FINE_TILE * 73u + y / FINE_TILE * 151u + 7u) * 2654435761u;
     return (h >> 8) * 0x1p-24;
 }
 
-// Every tile at its own depth in [near, far], slanted by a tenth of it.
+// Every tile has its own depth in [near, far], and slants by a tenth of it.
 DepthOf slab_depth(double near, double far) {
     return [=](uint x, uint y) {
         const double slant = 1.0 + 0.1 * (x % FINE_TILE + y % FINE_TILE) / 32.0;
@@ -100,52 +100,34 @@ DepthOf slab_depth(double near, double far) {
     };
 }
 
-struct DeepShot {
-    Shot shot;
-    Worst depth_error;  // of the reconstructed z, relative
-};
+// Depth buffer values as a camera in double gives them, rounded to float once.
+void draw_depths(LightingCase& input, const Camera& camera, const DepthOf& depth) {
+    const View& view = input.image.view;
+    const double inverse_far = 1.0 / camera.z_far;
+    for_each_pixel(view, [&](uint x, uint y) {
+        const double d = (1.0 / depth(x, y) - inverse_far) / (1.0 / camera.z_near - inverse_far);
+        input.image.put(PLANE_DEPTH, std::size_t{y} * view.stride + x, d);
+    });
+}
 
-Camera deep_camera(double near, double far) {
+LightingCase deep_case(double near, double far, const DepthOf& depth) {
     Camera camera;
     camera.z_near = near;
     camera.z_far = far;
-    return camera;
-}
-
-// Depth buffer values as a camera in double gives them, rounded to float once.
-void draw_depths(Shot& shot, const Camera& camera, const DepthOf& depth) {
-    const View& view = shot.image.view;
-    const double inverse_far = 1.0 / camera.z_far;
-    for (uint y = 0; y < view.height; ++y) {
-        for (uint x = 0; x < view.width; ++x) {
-            const double d =
-                (1.0 / depth(x, y) - inverse_far) / (1.0 / camera.z_near - inverse_far);
-            shot.image.plane<float>(PLANE_DEPTH)[y * view.stride + x] = static_cast<float>(d);
-        }
-    }
-}
-
-Shot deep_shot(double near, double far, const DepthOf& depth) {
-    const Camera camera = deep_camera(near, far);
-    Shot shot;
+    LightingCase input;
     const View view = view_of(camera, 129, 97);
-    shot.image = make_synthetic(view, {}, depth);
-    draw_depths(shot, camera, depth);
-    shot.request = {8, 6, 4, static_cast<float>(near), static_cast<float>(far), 0.0f};
+    input.image = make_synthetic(view, {}, depth);
+    draw_depths(input, camera, depth);
+    input.request = {8, 6, 4, static_cast<float>(near), static_cast<float>(far), 0.0f};
     Random random(3);
     constexpr int kLights = 1500;
     for (int i = 0; i < kLights; ++i) {
         const double z = near * std::pow(far / near, (i + random.unit()) / kLights);
-        const Vec3d p{random.uniform(0, 129) * view.ray.x + view.ray.y,
-                      random.uniform(0, 97) * view.ray.z + view.ray.w, -1.0};
-        shot.lights.push_back(point_light(p * z, 0.4 * z, Vec3d{1, 2, 3} * (z * z)));
+        const double px = random.uniform(0, 129);
+        const glm::dvec3 p = position_at(view, px, random.uniform(0, 97), z);
+        input.lights.push_back(point_light(p, 0.4 * z, glm::dvec3(1, 2, 3) * (z * z)));
     }
-    return shot;
-}
-
-double useful_share(const Shot& shot, const Exposure& exposure) {
-    const LightsPerPixel k = lights_per_pixel(shot, exposure);
-    return k.reaching / k.listed;
+    return input;
 }
 
 }  // namespace
@@ -174,21 +156,16 @@ void try_slice_boundaries(const Gpu& gpu, Findings& findings) {
 void try_far_over_near(const Gpu& gpu, Findings& findings) {
     const auto try_one = [&](double near, double far) {
         const DepthOf depth = slab_depth(near, far);
-        const Shot shot = deep_shot(near, far, depth);
-        const Exposure exposure = expose(gpu, shot);
-        const std::uint64_t pairs = check_none_missing(findings, shot, exposure);
-        findings.tried("pairs that reach", pairs, 500);
-        check_exact(findings, shot, exposure);
+        const LightingCase input = deep_case(near, far, depth);
+        const DeviceResult result = check_lists(findings, gpu, input, 500);
         Worst error;
-        for (uint y = 0; y < 97; ++y) {
-            for (uint x = 0; x < 129; ++x) {
-                const double found = exposure.planes.at(SURFACE_DEPTH, x, y);
-                error.see(std::abs(found / depth(x, y) - 1.0), [&] { return at_pixel(x, y); });
-            }
-        }
+        for_each_pixel(input.image.view, [&](uint x, uint y) {
+            const double found = result.planes.at(SURFACE_DEPTH, x, y);
+            error.see(std::abs(found / depth(x, y) - 1.0), [&] { return at_pixel(x, y); });
+        });
         // u each for the depth value, its coefficient, the fma and the division: 4 * 6e-8.
         findings.at_most("relative error of z", error, 2.5e-7);
-        return useful_share(shot, exposure);
+        return useful_share(input, result);
     };
     const double usual = try_one(0.1, 100.0);
     for (const double share : {try_one(1e-3, 1e4), try_one(0.1, 1e6)}) {
@@ -199,16 +176,15 @@ void try_far_over_near(const Gpu& gpu, Findings& findings) {
 void try_beyond_the_grid(const Gpu& gpu, Findings& findings) {
     // The grid spans 1..10 m; pixels lie at 0.05..0.9 m and 11..5000 m, and so do the lights.
     for (const auto& [near, far] : {std::array{0.05, 0.9}, std::array{11.0, 5000.0}}) {
-        Shot shot = deep_shot(0.02, std::numeric_limits<double>::infinity(), slab_depth(near, far));
-        shot.request = {8, 6, 4, 1.0f, 10.0f, 0.0f};
-        LightMix mix;
-        mix.count = 800;
-        mix.z_near = near;
-        mix.z_far = far;
-        mix.range_min = 0.05 * near;
-        mix.range_max = 0.2 * far;
-        shot.lights = random_lights(shot.image.view, mix);
-        check_lists(findings, gpu, shot);
+        LightingCase input =
+            deep_case(0.02, std::numeric_limits<double>::infinity(), slab_depth(near, far));
+        input.request = {8, 6, 4, 1.0f, 10.0f, 0.0f};
+        input.lights = random_lights(input.image.view, {.count = 800,
+                                                        .z_near = near,
+                                                        .z_far = far,
+                                                        .range_min = 0.05 * near,
+                                                        .range_max = 0.2 * far});
+        check_lists(findings, gpu, input);
     }
 }
 

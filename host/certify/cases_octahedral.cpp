@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/certify/cases.h"
-#include "host/certify/shot.h"
+#include "host/certify/lighting_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
 #include "raster/compute_probe.h"
@@ -51,8 +51,8 @@ void main() {
 }
 )";
 
-// 6 axes, 12 edges, 8 faces of the octahedron, with zeros of both signs; then random ones, some of
-// them by the seams z = 0 and x = 0.
+// 6 axes, 12 edges and 8 faces of the octahedron, with zeros of both signs; then random directions,
+// some of them near the seams z = 0 and x = 0.
 std::vector<float4> hard_directions() {
     std::vector<float4> out;
     const auto add = [&](glm::dvec3 v, bool negative_zero) {
@@ -68,11 +68,11 @@ std::vector<float4> hard_directions() {
     }
     Random random(25);
     while (out.size() < 1000000) {
-        Vec3d v = random.direction();
+        glm::dvec3 v = random.direction();
         const std::size_t kind = out.size() % 10;
         if (kind == 0) v.z *= random.log_uniform(1e-8, 1e-2);
         if (kind == 1) v.x *= random.log_uniform(1e-8, 1e-2);
-        add({v.x, v.y, v.z}, false);
+        add(v, false);
     }
     return out;
 }
@@ -131,10 +131,9 @@ void try_octahedral_wrap(const Gpu& gpu, Findings& findings) {
     findings.at_most("degrees off after 2x16 bits", degrees, 0.0038);
     findings.at_most("axes off [rad]", axes, 1e-4);
     findings.tried("axes", axes.checked, 12);
-    // Two ulp are less than GLSL 4.50 (4.7.1) allows a driver: its fma need not be one operation,
-    // which moves x and y by u each, and the face's slope sqrt(3) makes 2.5 ulp of that; its
-    // division is good to 2.5 ulp, and sqrt inherits 2 + 2.5. Ulp are those of a component in [1/2,
-    // 1).
+    // What GLSL 4.50 (4.7.1) allows a driver, in ulp of a component in [1/2, 1): an fma of two
+    // roundings moves x and y by u each, 2.5 ulp at the face's slope of sqrt(3); division 2.5 ulp;
+    // sqrt inherits 2 + 2.5.
     findings.at_most("GLSL against OpenCL [ulp]", apart, 2.5 + 2.5 + 4.5);
 }
 

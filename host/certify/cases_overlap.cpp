@@ -6,54 +6,52 @@
 #include <optional>
 
 #include "host/certify/cases.h"
-#include "host/certify/shot.h"
+#include "host/certify/lighting_case.h"
 
 namespace kilolux {
 namespace {
 
 struct Plane {
-    Vec3d normal;  // unit, outwards
+    glm::dvec3 normal;  // unit, outwards
     double offset;
 };
 
-// A cell of the frustum: four sides through the camera, two ends.
+// A cell of the frustum: four sides through the camera, two ends. Not of the first slice, which
+// begins at the camera, nor of the last, which has no end.
 using Cell = std::array<Plane, 6>;
 
-Plane side(Vec3d a, Vec3d b, Vec3d inside) {
-    Vec3d n = normalized(cross(a, b));
-    if (dot(n, inside) > 0) n = n * -1.0;
-    return {n, 0.0};
+Plane side(glm::dvec3 a, glm::dvec3 b, glm::dvec3 inside) {
+    const glm::dvec3 n = glm::normalize(glm::cross(a, b));
+    return {glm::dot(n, inside) > 0 ? -n : n, 0.0};
 }
 
 Cell cell_of(const View& view, const ClusterGrid& grid, uint column, uint row, uint slice) {
-    const auto ray = [&](double px, double py) {
-        return Vec3d{px * view.ray.x + view.ray.y, py * view.ray.z + view.ray.w, -1.0};
-    };
+    const auto ray = [&](double px, double py) { return position_at(view, px, py, 1.0); };
     const double x0 = column * grid.tile_width;
     const double x1 = x0 + grid.tile_width;
     const double y0 = row * grid.tile_height;
     const double y1 = y0 + grid.tile_height;
-    const Vec3d inside = ray((x0 + x1) / 2, (y0 + y1) / 2);
-    const double near = slice == 0 ? 0.0 : depth_of_slice(grid, slice);
-    const double far = slice + 1 == grid.slices ? 1e6 : depth_of_slice(grid, slice + 1);
+    const glm::dvec3 inside = ray((x0 + x1) / 2, (y0 + y1) / 2);
     return {side(ray(x0, y0), ray(x0, y1), inside),
             side(ray(x1, y0), ray(x1, y1), inside),
             side(ray(x0, y0), ray(x1, y0), inside),
             side(ray(x0, y1), ray(x1, y1), inside),
-            Plane{{0, 0, 1}, -near},
-            Plane{{0, 0, -1}, far}};
+            Plane{{0, 0, 1}, -depth_of_slice(grid, slice)},
+            Plane{{0, 0, -1}, depth_of_slice(grid, slice + 1)}};
 }
 
-bool is_inside(const Cell& cell, Vec3d p, double slack) {
+bool is_inside(const Cell& cell, glm::dvec3 p, double slack) {
     return std::all_of(cell.begin(), cell.end(), [&](const Plane& plane) {
         return dot(plane.normal, p) - plane.offset <= slack;
     });
 }
 
-Vec3d on_plane(const Plane& a, Vec3d p) { return p - a.normal * (dot(a.normal, p) - a.offset); }
+glm::dvec3 on_plane(const Plane& a, glm::dvec3 p) {
+    return p - a.normal * (dot(a.normal, p) - a.offset);
+}
 
-// The point of two planes' line that is nearest to p; none if they are parallel.
-std::optional<Vec3d> on_line(const Plane& a, const Plane& b, Vec3d p) {
+// The point nearest to p on the line where two planes meet; none if they are parallel.
+std::optional<glm::dvec3> on_line(const Plane& a, const Plane& b, glm::dvec3 p) {
     const double c = dot(a.normal, b.normal);
     const double det = 1.0 - c * c;
     if (det < 1e-12) return std::nullopt;
@@ -62,8 +60,8 @@ std::optional<Vec3d> on_line(const Plane& a, const Plane& b, Vec3d p) {
     return p - a.normal * ((da - c * db) / det) - b.normal * ((db - c * da) / det);
 }
 
-std::optional<Vec3d> corner(const Plane& a, const Plane& b, const Plane& c) {
-    const Vec3d bc = cross(b.normal, c.normal);
+std::optional<glm::dvec3> corner(const Plane& a, const Plane& b, const Plane& c) {
+    const glm::dvec3 bc = cross(b.normal, c.normal);
     const double det = dot(a.normal, bc);
     if (std::abs(det) < 1e-12) return std::nullopt;
     return (bc * a.offset + cross(c.normal, a.normal) * b.offset +
@@ -71,13 +69,13 @@ std::optional<Vec3d> corner(const Plane& a, const Plane& b, const Plane& c) {
            (1.0 / det);
 }
 
-// Distance of p to the cell. The nearest point is p's projection on the cell's face, edge or corner
-// that it lies on, so it is the nearest of all such projections that belong to the cell.
-double distance_to(const Cell& cell, Vec3d p) {
+// Distance of p to the cell. The nearest point is the projection of p on a face, edge or corner, so
+// it is the nearest of those projections that lie in the cell.
+double distance_to(const Cell& cell, glm::dvec3 p) {
     const double slack = 1e-9 * (1.0 + length(p));
     if (is_inside(cell, p, 0.0)) return 0.0;
     double least = 1e300;
-    const auto consider = [&](const std::optional<Vec3d>& q) {
+    const auto consider = [&](const std::optional<glm::dvec3>& q) {
         if (q && is_inside(cell, *q, slack)) least = std::min(least, length(*q - p));
     };
     for (std::size_t a = 0; a < 6; ++a) {
@@ -90,7 +88,7 @@ double distance_to(const Cell& cell, Vec3d p) {
     return least;
 }
 
-// The longer of a cell's depth and its width at the far end: what "as large as a cell" means.
+// The size of a cell: the longer of its depth and its width at the far end.
 double size_of(const View& view, const ClusterGrid& grid, uint slice) {
     const double near = depth_of_slice(grid, slice);
     const double far = depth_of_slice(grid, slice + 1);
@@ -104,16 +102,22 @@ struct Overlap {
     std::uint64_t listed_small = 0, true_small = 0;
 };
 
-void count_cell(Overlap& sum, const Shot& shot, const Exposure& e, uint index) {
-    const ClusterGrid& grid = e.grid;
+struct CoarseResult {
+    ClusterGrid grid{};
+    HostLists lists;
+    std::vector<ShadeLight> lights;  // view space
+};
+
+void count_cell(Overlap& sum, const LightingCase& input, const CoarseResult& result, uint index) {
+    const ClusterGrid& grid = result.grid;
     const uint slice = index / grid.tiles_x / grid.tiles_y;
-    const Cell cell = cell_of(shot.image.view, grid, index % grid.tiles_x,
+    const Cell cell = cell_of(input.image.view, grid, index % grid.tiles_x,
                               index / grid.tiles_x % grid.tiles_y, slice);
-    const double size = size_of(shot.image.view, grid, slice);
-    const auto list = e.lists.coarse_of(index);
-    for (uint light = 0; light < shot.lights.size(); ++light) {
-        const float4 p = e.lights[light].position_inv_range2;
-        const double range = shot.lights[light].position_range.w;
+    const double size = size_of(input.image.view, grid, slice);
+    const auto list = result.lists.coarse_of(index);
+    for (uint light = 0; light < input.lights.size(); ++light) {
+        const float4 p = result.lights[light].position_inv_range2;
+        const double range = input.lights[light].position_range.w;
         const bool touches = distance_to(cell, {p.x, p.y, p.z}) < range;
         const bool listed = std::binary_search(list.begin(), list.end(), light);
         ++sum.pairs;
@@ -126,22 +130,19 @@ void count_cell(Overlap& sum, const Shot& shot, const Exposure& e, uint index) {
 }  // namespace
 
 void try_false_positives(const Gpu& gpu, Findings& findings) {
-    ViewShape shape{160, 96};
-    shape.half_y = shape.half_x * 96 / 160;
-    Shot shot = noise_shot(shape, noise_depth(0.5, 50.0, 0, 4));
-    shot.request = {10, 6, 4, 0.5f, 50.0f, 0.0f};
-    LightMix mix;
-    mix.count = 160;
-    mix.range_min = 0.1;
-    mix.range_max = 10.0;
-    mix.spread = 1.0;
-    shot.lights = random_lights(shot.image.view, mix);
-    const Exposure e = expose(gpu, shot);
+    LightingCase input = noise_case(square_pixels(160, 96), noise_depth(0.5, 50.0, 0, 4));
+    input.request = {10, 6, 4, 0.5f, 50.0f, 0.0f};
+    input.lights = random_lights(
+        input.image.view, {.count = 160, .range_min = 0.1, .range_max = 10.0, .spread = 1.0});
+    // Every cell is checked, also those without pixels, which blended surfaces read.
+    const ListedLights lists =
+        list_everywhere(gpu, default_tuning(gpu.info), input.features, upload(gpu, input));
+    const CoarseResult result{lists.grid, download_lists(gpu, input.features, lists),
+                              download<ShadeLight>(gpu, lists.lights.lights, input.lights.size())};
     Overlap sum;
-    // The last slice has no far end; the first begins at the camera.
-    const uint cells = e.grid.tiles_x * e.grid.tiles_y;
-    for (uint index = cells; index < e.grid.cluster_count - cells; ++index) {
-        count_cell(sum, shot, e, index);
+    const uint cells = result.grid.tiles_x * result.grid.tiles_y;
+    for (uint index = cells; index < result.grid.cluster_count - cells; ++index) {
+        count_cell(sum, input, result, index);
     }
     findings.none("missed by float64 overlap", sum.missed, sum.pairs);
     findings.tried("overlaps", sum.true_large + sum.true_small, 5000);

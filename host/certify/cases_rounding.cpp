@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// sRGB codes: where devices round differently.
+// Rounding to 8-bit sRGB codes.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "host/base/gbuffer_layout.h"
 #include "host/base/srgb.h"
 #include "host/certify/cases.h"
-#include "host/certify/shot.h"
+#include "host/certify/lighting_case.h"
+#include "host/certify/scene_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/stages/tonemap.h"
 #include "kernels/shared/tone_curve.h"
@@ -18,7 +20,7 @@
 namespace kilolux {
 namespace {
 
-// IEC 61966-2-1 at each boundary between two codes.
+// The linear value between a code and the next (IEC 61966-2-1).
 double boundary_above(int code) { return srgb_to_linear((code + 0.5) / 255.0); }
 
 int code_of(double linear) {
@@ -27,7 +29,7 @@ int code_of(double linear) {
 
 struct SrgbValues {
     std::vector<float> linear;
-    std::size_t boundary_count = 0;  // the first of them lie at boundaries
+    std::size_t boundary_count = 0;  // values at boundaries, which come first
 };
 
 SrgbValues srgb_values() {
@@ -39,7 +41,7 @@ SrgbValues srgb_values() {
         out.linear.push_back(std::nextafter(middle, 1.0f));
     }
     out.boundary_count = out.linear.size();
-    // As 256 codes and in the eye's scale: what pictures hold.
+    // The 256 codes, and values spread evenly over the curve.
     for (int code = 0; code < 256; ++code) {
         out.linear.push_back(static_cast<float>(srgb_to_linear(code / 255.0)));
     }
@@ -70,8 +72,8 @@ std::vector<int> codes_of_tonemap(const Gpu& gpu, const std::vector<float>& line
     return codes;
 }
 
-// One quad a pixel, in its colour, seen by a parallel camera; the codes that OpenGL's framebuffer
-// makes of it. The G-buffer's albedo plane is written that way.
+// The codes that OpenGL's framebuffer makes of quads, one per pixel, under an orthographic camera.
+// The G-buffer's albedo plane is written that way.
 std::vector<int> codes_of_opengl(const std::vector<float>& linear) {
     constexpr int kWidth = 160;
     const int height = static_cast<int>(linear.size() + kWidth - 1) / kWidth;
@@ -79,29 +81,13 @@ std::vector<int> codes_of_opengl(const std::vector<float>& linear) {
     for (std::size_t i = 0; i < linear.size(); ++i) {
         const auto x = static_cast<float>(i % kWidth);
         const auto y = static_cast<float>(height - 1) - static_cast<float>(i / kWidth);
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (const glm::vec2 corner : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
-            mesh.positions.emplace_back(x + corner.x, y + corner.y, 0.0f);
-            mesh.normals.emplace_back(0.0f, 0.0f, 1.0f);
-            mesh.colors.emplace_back(linear[i], linear[i], linear[i], 1.0f);
-        }
-        for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u}) {
-            mesh.indices.push_back(first + corner);
-        }
+        add_quad(mesh, {x, y}, 1.0f, {0, 0, 1});
+        mesh.colors.insert(mesh.colors.end(), 4, {linear[i], linear[i], linear[i], 1.0f});
     }
-    mesh.material = 0;
-    Scene scene;
-    scene.meshes.push_back(mesh);
-    scene.materials.emplace_back();
-    scene.instances.push_back({0, glm::dmat4(1.0)});
-    Camera camera =
-        look_at({kWidth / 2.0, height / 2.0, 10}, {kWidth / 2.0, height / 2.0, 0}, {0, 1, 0}, 1.0);
-    camera.orthographic = true;
-    camera.y_extent = height / 2.0;
-    camera.z_far = 20.0;
+    const Scene scene = quad_scene(std::move(mesh));
     const GpuScene gpu_scene(scene);
     GeometryPass pass(gpu_scene, {});
-    pass.draw(camera, kWidth, height);
+    pass.draw(quad_camera(kWidth, height), kWidth, height);
     const GBufferLayout layout = make_gbuffer_layout({}, kWidth, static_cast<uint>(height));
     const std::vector<std::byte> bytes = read_gbuffer(pass.targets(), layout, kWidth);
     const auto* albedo =
@@ -131,10 +117,9 @@ void try_srgb_rounding(const Gpu& gpu, Findings& findings) {
     }
     findings.none("own codes wrong", wrong, own.size());
     findings.at_most("OpenGL's codes off by", off, 1.0);
-    // "99.9 % equal" would ask of drivers what OpenGL does not (it bounds no conversion): one that
-    // is off by e codes before it rounds puts a share of 2 e of all values on a boundary's other
-    // side, 20 % at the 0.1 code that Direct3D allows; 99.9 % needs e = 0.0005. llvmpipe's e is
-    // 0.15. What must hold is that each value gets one of the two codes beside it.
+    // OpenGL does not bound the error e of the conversion before rounding (Direct3D allows 0.1
+    // code, llvmpipe has 0.15), which moves a share of 2 e of all values over a boundary. So a
+    // share of equal codes is no criterion: each value must get one of the two codes beside it.
     findings.at_most("OpenGL's codes from the exact value", from_exact, 1.0);
     std::uint64_t trips = 0;
     for (std::size_t code = 0; code < 256; ++code) {

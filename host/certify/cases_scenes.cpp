@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole scenes through OpenGL and OpenCL: bad numbers, far origins, broken meshes, stale frames.
+// Whole scenes through OpenGL and OpenCL: bad numbers, far origins, degenerate meshes, stale
+// frames.
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "host/certify/cases.h"
-#include "host/certify/shot.h"
+#include "host/certify/lighting_case.h"
+#include "host/certify/scene_case.h"
 #include "host/render/light_source.h"
 #include "host/render/renderer.h"
 #include "host/scene/generated/scenes.h"
@@ -16,21 +18,11 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-RenderSettings small_settings(const Gpu& gpu, int width, int height) {
-    RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
-    settings.lights.count = 0;
-    settings.kernels.lanes = gpu.info.lane_width;
-    settings.device = gpu.info.name;
-    return settings;
-}
-
 // --- 15 ---
 
 SceneLight usual_light(Random& random, const Box& box) {
     SceneLight light;
-    const glm::dvec3 t(random.unit(), random.unit(), random.unit());
+    const glm::dvec3 t{random.unit(), random.unit(), random.unit()};
     light.position = box.min + t * box.size();
     light.intensity = {random.unit(), random.unit(), 1.0};
     light.range = static_cast<float>(random.uniform(0.1, 0.3) * glm::length(box.size()));
@@ -45,7 +37,7 @@ struct BadLight {
     SceneLight light;
 };
 
-// Each field with each value that makes a light unusable.
+// Lights with one invalid value: each field, each kind of value.
 std::vector<BadLight> bad_lights(const Box& box) {
     Random random(15);
     std::vector<BadLight> out;
@@ -100,7 +92,7 @@ Scene scene_with_lights(Random& random, int count) {
     return scene;
 }
 
-// One bad light in a thousand: its rows must be those of the other 999.
+// With one bad light in a thousand, the rows must be those of the other 999.
 void check_rows(const Gpu& gpu, Findings& findings) {
     Random random(151);
     Scene scene = scene_with_lights(random, 999);
@@ -130,32 +122,23 @@ Frame render_first_camera(const Scene& scene, const RenderSettings& settings) {
 
 enum class Quad { usual, zero_normal, short_normal, long_normal, sliver, no_area };
 
-// Eight by four quads before a camera at +z, with what is wrong about them by column.
+// Eight by four quads; the column says what is wrong with a quad.
 Scene broken_scene(bool mended) {
     Mesh mesh;
     for (int i = 0; i < 32; ++i) {
         const auto kind = static_cast<Quad>(i % 8 % 6);
-        const glm::vec3 p(static_cast<float>(i % 8), static_cast<float>(i / 8), 0.0f);
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        const float width =
-            mended || kind < Quad::sliver ? 1.0f : (kind == Quad::sliver ? 1e-6f : 0.0f);
-        for (const glm::vec2 corner : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
-            mesh.positions.push_back(p + glm::vec3(corner.x * width, corner.y, 0.0f));
-            glm::vec3 normal(0.6f, 0.0f, 0.8f);
-            if (kind == Quad::zero_normal) normal = glm::vec3(0.0f, 0.0f, mended ? 1.0f : 0.0f);
-            if (kind == Quad::short_normal && !mended) normal *= 1e-20f;
-            if (kind == Quad::long_normal && !mended) normal *= 1e20f;
-            mesh.normals.push_back(normal);
-        }
-        for (const std::uint32_t c : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + c);
+        const bool broken = !mended;
+        float width = 1.0f;
+        if (kind == Quad::sliver && broken) width = 1e-6f;
+        if (kind == Quad::no_area && broken) width = 0.0f;
+        glm::vec3 normal(0.6f, 0.0f, 0.8f);
+        if (kind == Quad::zero_normal) normal = glm::vec3(0.0f, 0.0f, broken ? 0.0f : 1.0f);
+        if (kind == Quad::short_normal && broken) normal *= 1e-20f;
+        if (kind == Quad::long_normal && broken) normal *= 1e20f;
+        add_quad(mesh, {i % 8, i / 8}, width, normal);
     }
-    mesh.material = 0;
-    Scene scene;
-    scene.name = "broken";
-    scene.meshes.push_back(mesh);
-    scene.materials.emplace_back();
+    Scene scene = quad_scene(mesh);
     scene.materials.back().metallic = 0.0f;
-    scene.instances.push_back({0, glm::dmat4(1.0)});
     SceneLight light;
     light.position = {4, 2, 3};
     light.range = 20.0f;
@@ -164,35 +147,25 @@ Scene broken_scene(bool mended) {
     return scene;
 }
 
-Camera broken_camera() {
-    Camera camera = look_at({4, 2, 10}, {4, 2, 0}, {0, 1, 0}, 1.0);
-    camera.orthographic = true;
-    camera.y_extent = 2.0;
-    camera.z_far = 20.0;
-    return camera;
-}
-
 // --- 19 ---
 
-double to_multiple(double v) {
-    constexpr double kStep = 0x1p-20;
-    return std::round(v / kStep) * kStep;
+template <typename Vector>
+Vector to_multiple(const Vector& v) {
+    return glm::round(v * 0x1p20) * 0x1p-20;
 }
 
-// The plain scene with its places on multiples of 2^-20 m, which move by 2^20 or 1e6 m exactly.
+// The plain scene with positions on multiples of 2^-20 m, so that moves by 2^20 and 1e6 m are
+// exact.
 Scene movable_scene() {
     Scene scene = make_generated_scene("plain");
     for (Instance& instance : scene.instances) {
-        for (int c = 0; c < 3; ++c) {
-            instance.world_from_object[3][c] = to_multiple(instance.world_from_object[3][c]);
-        }
+        instance.world_from_object[3] = to_multiple(instance.world_from_object[3]);
     }
     Random random(19);
     const Box box = bounds(scene);
     for (int i = 0; i < 60; ++i) {
-        SceneLight light = usual_light(random, box);
-        for (int c = 0; c < 3; ++c) light.position[c] = to_multiple(light.position[c]);
-        scene.lights.push_back(light);
+        scene.lights.push_back(usual_light(random, box));
+        scene.lights.back().position = to_multiple(scene.lights.back().position);
     }
     return scene;
 }
@@ -203,8 +176,7 @@ Frame render_moved(Scene scene, const glm::dvec3& offset, const RenderSettings& 
     }
     for (SceneLight& light : scene.lights) light.position += offset;
     Camera camera = camera_of(scene.cameras.front());
-    for (int c = 0; c < 3; ++c) camera.position[c] = to_multiple(camera.position[c]);
-    camera.position += offset;
+    camera.position = to_multiple(camera.position) + offset;
     return Renderer(scene, settings).render(camera, 0.0);
 }
 
@@ -225,10 +197,10 @@ Worst relative_difference(const Frame& a, const Frame& b) {
 
 void try_bad_numbers(const Gpu& gpu, Findings& findings) {
     check_rows(gpu, findings);
-    // The picture of a scene with one bad light of each kind, and a mesh without a place.
+    // The picture of a scene with every bad light, and an instance with a NaN matrix.
     Random random(152);
     Scene scene = scene_with_lights(random, 200);
-    const RenderSettings settings = small_settings(gpu, 64, 36);
+    const RenderSettings settings = scene_settings(gpu, 64, 36);
     const Frame expected = render_first_camera(scene, settings);
     const std::vector<BadLight> bad = bad_lights(bounds(scene));
     for (const BadLight& b : bad) {
@@ -247,7 +219,7 @@ void try_bad_numbers(const Gpu& gpu, Findings& findings) {
 
 void try_far_from_origin(const Gpu& gpu, Findings& findings) {
     const Scene scene = movable_scene();
-    const RenderSettings settings = small_settings(gpu, 80, 45);
+    const RenderSettings settings = scene_settings(gpu, 80, 45);
     const Frame expected = render_moved(scene, glm::dvec3(0.0), settings);
     const glm::dvec3 power(0x1p20, -0x1p20, 0x1p20);
     findings.at_most("moved by 2^20 m: relative difference",
@@ -260,16 +232,14 @@ void try_far_from_origin(const Gpu& gpu, Findings& findings) {
 void try_degenerate_surfaces(const Gpu& gpu, Findings& findings) {
     const Scene broken = broken_scene(false);
     const Scene mended = broken_scene(true);
-    RenderSettings settings = small_settings(gpu, 64, 32);
+    RenderSettings settings = scene_settings(gpu, 64, 32);
     settings.want.aovs = {"normal", "depth"};
-    const Frame found = Renderer(broken, settings).render(broken_camera(), 0.0);
-    const Frame expected = Renderer(mended, settings).render(broken_camera(), 0.0);
-    std::uint64_t not_finite = 0;
-    for (const float v : found.radiance) not_finite += std::isfinite(v) && v >= 0.0f ? 0 : 1;
+    const Frame found = Renderer(broken, settings).render(quad_camera(8, 4), 0.0);
+    const Frame expected = Renderer(mended, settings).render(quad_camera(8, 4), 0.0);
+    std::uint64_t not_finite = count_invalid(found.radiance);
     for (const float v : found.aovs[0].values) not_finite += std::isfinite(v) ? 0 : 1;
     findings.none("NaN, Inf or negative", not_finite, found.radiance.size());
-    // What is drawn of the broken quads, all but the slivers, looks as the mended ones do: zero
-    // normals became +z of the view, which theirs is.
+    // The drawn pixels of broken quads equal those of mended ones, whose zero normals are +z.
     std::uint64_t drawn = 0;
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < found.aovs[1].values.size(); ++i) {
@@ -289,7 +259,7 @@ void try_alternating_frames(const Gpu& gpu, Findings& findings) {
     const Scene scene = scene_with_lights(random, 100);
     Camera cameras[2] = {camera_of(scene.cameras.front()), camera_of(scene.cameras.front())};
     cameras[1].position += glm::dvec3(0.4, 0.1, -0.3);
-    Renderer renderer(scene, small_settings(gpu, 96, 54));
+    Renderer renderer(scene, scene_settings(gpu, 96, 54));
     const Frame first[2] = {renderer.render(cameras[0], 0.0), renderer.render(cameras[1], 0.0)};
     findings.require("the two frames differ",
                      different_bits(first[0].radiance, first[1].radiance).value > 1000);

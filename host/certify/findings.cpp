@@ -13,13 +13,9 @@ void Findings::at_most(std::string_view what, const Worst& worst, double limit) 
         return;
     }
     found->checked += worst.checked;
-    // Limits may differ from one use to the next: what is nearest to its limit counts.
-    const auto share = [](double value, double of) {
-        return of > 0.0 ? value / of : value * std::numeric_limits<double>::infinity();
-    };
-    const double old_share = found->worst > 0.0 ? share(found->worst, found->limit) : 0.0;
-    const double new_share = worst.value > 0.0 ? share(worst.value, limit) : 0.0;
-    if (new_share <= old_share) return;
+    // Limits may differ from one use to the next.
+    const auto share = [](double value, double of) { return value > 0.0 ? value / of : 0.0; };
+    if (share(worst.value, limit) <= share(found->worst, found->limit)) return;
     found->worst = worst.value;
     found->limit = limit;
     found->where = worst.where;
@@ -48,6 +44,12 @@ void Findings::tried(std::string_view what, std::uint64_t count, std::uint64_t l
     if (count >= least) return;
     none(std::string("too few ") + std::string(what), least - count, least,
          std::to_string(count) + " of " + std::to_string(least));
+}
+
+void Findings::merge(const Findings& other) {
+    for (const Finding& f : other.findings_) {
+        at_most(f.what, Worst{f.worst, f.checked, f.where}, f.limit);
+    }
 }
 
 bool Findings::passed() const {

@@ -10,13 +10,13 @@
 
 namespace kilolux {
 
-/// The largest of the errors it is shown, and where it was.
+/// The largest of several errors, and where it was.
 struct Worst {
     double value = 0.0;  // NaN counts as infinite
     std::uint64_t checked = 0;
     std::string where;
 
-    /// `place()` makes the text; called only for a new worst.
+    /// Takes an error into account. `place()` gives the text; called only for a new worst.
     template <typename Place>
     void see(double error, Place&& place) {
         ++checked;
@@ -36,22 +36,26 @@ struct Finding {
     bool passed() const { return worst <= limit; }
 };
 
-/// Everything that a case found. The same `what` seen again keeps its worst.
+/// Everything that a case found. A `what` given again keeps the finding nearest to its limit.
 class Findings {
  public:
     void at_most(std::string_view what, const Worst& worst, double limit);
     void at_most(std::string_view what, double value, double limit, std::string_view where = {});
-    /// None of `count` may be.
+    /// `count` of `of` values are wrong; none may be.
     void none(std::string_view what, std::uint64_t count, std::uint64_t of,
               std::string_view where = {});
     /// A condition without a number.
     void require(std::string_view what, bool holds, std::string_view where = {});
     /// Reported without a limit.
     void report(std::string_view what, double value);
-    /// Guards against a case that tries nothing: `count` things were tried, and must be `least`.
+    /// Fails a case that tries too little: `count` must be at least `least`.
     void tried(std::string_view what, std::uint64_t count, std::uint64_t least);
 
+    /// Adds what the same case found in another run.
+    void merge(const Findings& other);
+
     const std::vector<Finding>& all() const { return findings_; }
+    /// Whether there are findings and all pass.
     bool passed() const;
 
  private:

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/certify/findings.h"
@@ -12,39 +13,37 @@
 
 namespace kilolux {
 
-/// A numerically hard case: what is tried on one device at one lane width, and how well it went.
+/// A numerically hard case, or a metamorphic test.
 struct HardCase {
-    std::string label;      // "1" .. "30"; metamorphic tests "M1" .. "M8"
-    std::string name;       // a word or three
-    std::string tried;      // what is tried, in a sentence
-    std::string threshold;  // what must hold
-    bool needs_gl = false;
-    void (*run)(const Gpu& gpu, Findings& findings) = nullptr;
+    std::string_view label;                                     // "1" .. "30", "M1" .. "M8"
+    std::string_view name;                                      // "slice-boundaries"
+    std::string_view tried;                                     // what is made hard
+    std::string_view threshold;                                 // what must hold
+    void (*run)(const Gpu& gpu, Findings& findings) = nullptr;  // at the lane width of `gpu`
 };
 
 /// All of them, in order. Needs no device.
-std::vector<HardCase> hard_cases();
+std::span<const HardCase> hard_cases();
 
 /// A case with what it found over the lane widths that it ran at.
 struct HardCaseRow {
     HardCase hard_case;
     std::vector<int> lanes;
-    std::vector<Finding> findings;  // the worst over the widths
-    std::string error;              // of a case that could not run
-    bool passed = false;
+    Findings findings;  // the worst over the widths
+    std::string error;  // of a case that could not run
+    bool passed() const { return error.empty() && findings.passed(); }
 };
 
 /// Runs every case at every lane width, one after the other. A case that throws fails with the
-/// error's text. `only`: labels to run; empty: all. Calls `step` after each case at each width;
-/// what that throws comes out. Throws UsageError when `only` names no case.
-std::vector<HardCaseRow> run_hard_cases(const Gpu& gpu, std::span<const int> lanes,
-                                        std::span<const std::string> only = {},
-                                        const std::function<void()>& step = {});
+/// error's text. Calls `step` after each case at each width; what that throws comes out.
+std::vector<HardCaseRow> run_hard_cases(const Gpu& gpu, std::span<const HardCase> cases,
+                                        std::span<const int> lanes,
+                                        const std::function<void()>& step);
 
-/// case | name | tried | worst error | threshold | lanes | pass
+/// case | name | tried | worst error (limit) | threshold | lanes | pass
 Table hard_case_table(const std::vector<HardCaseRow>& rows);
 
-/// A finding as text: "missed lights 0 of 12000"; "|d|/E 3.1e-7 (at most 1e-5)".
+/// A finding as text: "missed lights: 0 of 12000"; "|d|/E: 3.1e-07 (1e-05)".
 std::string finding_text(const Finding& finding);
 
 }  // namespace kilolux

@@ -56,6 +56,9 @@ std::vector<std::array<int, 3>> parse_grids(const std::string& option, const std
 std::vector<SweepPoint> bench_points(const BenchOptions& options);
 BenchFrames bench_frames(const BenchOptions& options);
 
+/// {"version", "commit"}
+nlohmann::ordered_json program_json();
+
 /// What results were measured with: program, device, scene, camera and everything else that stays
 /// the same over a run.
 nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFrames& frames,

@@ -45,9 +45,11 @@ Json settings_json(const SharedOptions& shared) {
 
 }  // namespace
 
+Json program_json() { return {{"version", version()}, {"commit", KILOLUX_COMMIT}}; }
+
 Json bench_context(const SharedOptions& shared, const BenchFrames& frames, const Scene& scene,
                    const Camera& camera, const DeviceInfo& device) {
-    return {{"program", {{"version", version()}, {"commit", KILOLUX_COMMIT}}},
+    return {{"program", program_json()},
             {"device", device_json(device)},
             {"scene",
              {{"name", shared.scene},

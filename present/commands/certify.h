@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// `kilolux report --hard-cases`: the numerically hard cases as a table.
+// What the parts of `kilolux certify` share.
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -11,23 +10,14 @@
 
 namespace kilolux {
 
-struct HardCaseOptions {
-    std::string device;                         // as --device
-    std::vector<int> lanes = {1, 2, 4, 8, 16};  // widths that every case runs at
-    std::vector<std::string> only;              // labels, e.g. "7", "M3"; empty: all
-    std::filesystem::path output;  // folder for hard_cases.csv, .json, .md; empty: none
-    bool json = false;             // JSON instead of a Markdown table on stdout
-    bool quiet = false;            // no progress bar
-};
+/// {"program": {"version", "commit"}, "device": {...}, "passed": bool, "failed": [labels],
+/// "cases": [{"case", "name", "tried", "threshold", "lanes", "passed", "error", "findings":
+/// [{"what", "worst", "limit", "checked", "where"}]}]}. A limit of null: reported, not judged. A
+/// worst that is infinite or NaN is null. No times: the same result is the same text.
+nlohmann::ordered_json certificate_json(const DeviceInfo& device,
+                                        const std::vector<HardCaseRow>& rows);
 
-/// Runs the cases and prints the table. Returns whether all passed. Throws UsageError when `only`
-/// names no case, Error when a device or a file fails.
-bool report_hard_cases(const HardCaseOptions& options);
-
-/// {"device": {...}, "passed": bool, "cases": [{"case", "name", "tried", "threshold", "lanes",
-/// "passed", "error", "findings": [{"what", "worst", "limit", "checked", "where"}]}]}.
-/// A limit of null: reported, not judged. An infinite worst, as of NaN, is null.
-nlohmann::ordered_json hard_cases_json(const DeviceInfo& device,
-                                       const std::vector<HardCaseRow>& rows);
+/// Throws ComparisonFailed with the names of the cases that failed.
+void require_all_passed(const std::vector<HardCaseRow>& rows);
 
 }  // namespace kilolux

@@ -10,6 +10,7 @@ void add_render_command(Program& program);
 void add_view_command(Program& program);
 void add_bench_command(Program& program);
 void add_report_command(Program& program);
+void add_certify_command(Program& program);
 void add_info_command(Program& program);
 void add_export_command(Program& program);
 

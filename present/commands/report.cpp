@@ -13,7 +13,6 @@
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
-#include "present/commands/certify.h"
 #include "present/commands/commands.h"
 
 namespace kilolux {
@@ -52,22 +51,11 @@ std::vector<ReportRow> measure(const ReportOptions& options, ReportRun& run,
     return rows;
 }
 
-void report_cases(const ReportOptions& options) {
-    const bool passed = report_hard_cases({.device = options.shared.settings.device,
-                                           .only = options.cases,
-                                           .output = options.output,
-                                           .json = options.json,
-                                           .quiet = options.shared.quiet});
-    if (!passed)
-        throw ComparisonFailed("report: hard cases missed their thresholds; see the table");
-}
-
 void run_report(const ReportOptions& options) {
     if (options.shared.quiet && options.shared.verbose) {
         throw UsageError("--quiet and --verbose exclude each other");
     }
     set_verbosity(verbosity_of(options.shared));
-    if (options.hard_cases) return report_cases(options);
     make_output_folder(options.output);
     const SharedOptions& shared = options.shared;
     const Scene scene = open_scene(shared);
@@ -104,7 +92,6 @@ void apply_quick(const CLI::App& command, ReportOptions& options) {
 constexpr const char* kExamples =
     "  kilolux report -o results\n"
     "  kilolux report --quick\n"
-    "  kilolux report --hard-cases -o results\n"
     "  kilolux report town.glb --lights 0 -o results\n"
     "  kilolux report --trades gbuffer,grid --resolution 1280,720 -o results";
 

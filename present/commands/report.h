@@ -22,8 +22,6 @@ struct ReportOptions {
     std::vector<std::string> trades;  // words of report_trade_names(); empty: all
     bool json = false;
     bool quick = false;
-    bool hard_cases = false;         // the numerically hard cases instead of settings
-    std::vector<std::string> cases;  // labels of those to run; empty: all
     BudgetOptions budget;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/suggest.h"
-#include "host/certify/hard_case.h"
 #include "present/cli/option_builder.h"
 #include "present/commands/report.h"
 
@@ -9,16 +8,6 @@ namespace kilolux {
 std::vector<std::string> report_trade_names() {
     return {"gbuffer", "lanes", "math", "grid", "renderer", "shading", "cut-off"};
 }
-
-namespace {
-
-std::vector<std::string> hard_case_labels() {
-    std::vector<std::string> labels;
-    for (const HardCase& hard_case : hard_cases()) labels.push_back(hard_case.label);
-    return labels;
-}
-
-}  // namespace
 
 void add_report_options(CLI::App& command, ReportOptions& options) {
     using Text = const std::string&;
@@ -42,14 +31,6 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
         .value({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
                [&options](Text, Text text) { options.output = text; })
         .flag("--json", options.json, "JSON instead of a table on standard output");
-    Registrar(command, "Numerically hard cases, instead of settings")
-        .flag("--hard-cases", options.hard_cases,
-              "Run them at every lane width; exit 3 where one misses its threshold")
-        .value({"--cases", "LABEL,...", "all", "Which of them, e.g. 7,M3; implies --hard-cases"},
-               [&options](Text name, Text text) {
-                   options.hard_cases = true;
-                   options.cases = parse_name_list(name, text, hard_case_labels());
-               });
     add_budget_options(command, options.budget);
 }
 

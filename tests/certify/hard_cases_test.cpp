@@ -2,7 +2,7 @@
 // The numerically hard cases and the metamorphic tests, each at every lane width.
 #include <gtest/gtest.h>
 
-#include <cctype>
+#include <algorithm>
 #include <cstdlib>
 
 #include "host/certify/hard_case.h"
@@ -31,18 +31,11 @@ TEST_P(HardCases, HoldsItsThreshold) {
     EXPECT_TRUE(findings.passed()) << "nothing was tried";
 }
 
+// "Case7_off_centre_Lanes8"
 std::string name_of(const testing::TestParamInfo<Parameter>& info) {
     const auto& [hard_case, lanes] = info.param;
-    std::string name = "Case" + hard_case.label + "_";
-    bool upper = true;
-    for (const char c : hard_case.name) {
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0) {
-            upper = true;
-            continue;
-        }
-        name += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
-        upper = false;
-    }
+    std::string name = "Case" + std::string(hard_case.label) + "_" + std::string(hard_case.name);
+    std::replace(name.begin(), name.end(), '-', '_');
     return name + "_Lanes" + std::to_string(lanes);
 }
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "host/certify/synthetic/stage_run.h"
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/synthetic.h"
 #include "tests/support/test_gpu.h"
 
@@ -31,10 +31,10 @@ BoxMap expected_boxes(const ClusterGrid& grid, const Planes& planes) {
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.width; ++x) {
             // Background decodes to no normal.
-            const Vec3d normal = planes.vector(SURFACE_NORMAL, x, y);
+            const glm::dvec3 normal = planes.vector(SURFACE_NORMAL, x, y);
             if (dot(normal, normal) == 0.0) continue;
             const uint slice = slice_by_search(fine_grid(grid), planes.at(SURFACE_DEPTH, x, y));
-            Box& box = boxes[{fine_tile(view, x, y), slice}];
+            Box& box = boxes[{fine_tile_of(view, x, y), slice}];
             const float px = planes.at(SURFACE_POSITION, x, y);
             const float py = planes.at(SURFACE_POSITION + 1, x, y);
             const float pz = planes.at(SURFACE_POSITION + 2, x, y);
@@ -105,7 +105,7 @@ void expect_order(const Gpu& gpu, const ActiveClusters& found, const ClusterGrid
                 const uint x = tile % tiles_x * FINE_TILE + pixel % FINE_TILE;
                 const uint y = first_y + pixel / FINE_TILE;
                 if (x >= view.width || y >= view.height) return std::pair(kNoCluster, pixel);
-                const Vec3d normal = planes.vector(SURFACE_NORMAL, x, y);
+                const glm::dvec3 normal = planes.vector(SURFACE_NORMAL, x, y);
                 if (dot(normal, normal) == 0.0) return std::pair(kNoCluster, pixel);
                 const float z = planes.at(SURFACE_DEPTH, x, y);
                 return std::pair(slice_by_search(fine_grid(grid), z), pixel);

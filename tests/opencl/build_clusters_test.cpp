@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
-#include "host/certify/synthetic/stage_run.h"
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/synthetic.h"
 #include "tests/support/test_gpu.h"
 

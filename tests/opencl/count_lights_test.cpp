@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/light_sets.h"
-#include "host/certify/synthetic/stage_run.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -16,11 +16,12 @@ struct Bracket {
 };
 
 // Lights whose range covers p for certain, and those that may by rounding.
-Bracket covering(const std::vector<float4>& bounds, const std::vector<Light>& lights, Vec3d p) {
+Bracket covering(const std::vector<float4>& bounds, const std::vector<Light>& lights,
+                 glm::dvec3 p) {
     Bracket count;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const double ratio =
-            length(p - Vec3d{bounds[i].x, bounds[i].y, bounds[i].z}) / lights[i].position_range.w;
+        const double ratio = length(p - glm::dvec3{bounds[i].x, bounds[i].y, bounds[i].z}) /
+                             lights[i].position_range.w;
         count.low += ratio < 1 - 1e-6 ? 1 : 0;
         count.high += ratio < 1 + 1e-6 ? 1 : 0;
     }
@@ -48,9 +49,9 @@ Counted count_lights(int lanes, std::uint32_t light_count) {
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, {}, noise_depth(0.3, 60, 0.2, 8)));
     const Tuning tuning = default_tuning(gpu.info);
-    StageRun stages(gpu, tuning, {});
-    const DeviceLists device = stages.run(upload_lights(gpu, out.lights), gbuffer, out.grid);
-    out.lists = download_lists(gpu, {}, out.grid, device);
+    const ListedLights device =
+        list_everywhere(gpu, tuning, {}, {gbuffer, upload_lights(gpu, out.lights), out.grid});
+    out.lists = download_lists(gpu, {}, device);
     CountLights stage(gpu, tuning, {});
     StageTimer timer;
     const LightCounts counts =
@@ -74,7 +75,7 @@ void expect_counts(const Counted& c) {
                 continue;
             }
             const ActiveCluster* cluster =
-                c.lists.find(fine_tile(view, x, y),
+                c.lists.find(fine_tile_of(view, x, y),
                              slice_by_search(fine_grid(c.grid), c.planes.at(SURFACE_DEPTH, x, y)));
             ASSERT_NE(cluster, nullptr);
             ASSERT_EQ(c.evaluated[i], cluster->list_count) << "pixel " << x << ", " << y;

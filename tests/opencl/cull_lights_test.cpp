@@ -10,7 +10,7 @@
 #include <map>
 #include <numeric>
 
-#include "host/certify/synthetic/cull_scenarios.h"
+#include "tests/opencl/cull_scenarios.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -21,17 +21,17 @@ struct ReachTest {
     std::vector<ShadeLight> lights;
     std::vector<double> ranges;
 
-    Vec3d offset(std::size_t i, Vec3d p) const {
+    glm::dvec3 offset(std::size_t i, glm::dvec3 p) const {
         const float4 c = lights[i].position_inv_range2;
-        return p - Vec3d{c.x, c.y, c.z};
+        return p - glm::dvec3{c.x, c.y, c.z};
     }
-    bool reaches(std::size_t i, Vec3d p) const {
-        const Vec3d v = offset(i, p);
+    bool reaches(std::size_t i, glm::dvec3 p) const {
+        const glm::dvec3 v = offset(i, p);
         const double d2 = dot(v, v);
         if (d2 >= ranges[i] * ranges[i]) return false;
         const float4 axis = lights[i].axis_cos;
         if (axis.w <= -1.0f) return true;
-        return dot(v, Vec3d{axis.x, axis.y, axis.z}) > axis.w * std::sqrt(d2);
+        return dot(v, glm::dvec3{axis.x, axis.y, axis.z}) > axis.w * std::sqrt(d2);
     }
 };
 
@@ -53,7 +53,7 @@ Pairs expect_none_missing(const CullCase& c, const ReachTest& test, const HostLi
         const uint x = pixel % view.width;
         const uint y = pixel / view.width;
         const uint slice = slice_by_search(fine_grid(c.grid), c.planes.at(SURFACE_DEPTH, x, y));
-        const ActiveCluster* cluster = lists.find(fine_tile(view, x, y), slice);
+        const ActiveCluster* cluster = lists.find(fine_tile_of(view, x, y), slice);
         if (cluster == nullptr) {
             ADD_FAILURE() << "pixel " << x << ", " << y << " has no active cluster";
             return pairs;
@@ -64,7 +64,7 @@ Pairs expect_none_missing(const CullCase& c, const ReachTest& test, const HostLi
         std::vector<bool> listed(c.lights.size(), false);
         for (const uint light : lists.refined_of(*cluster)) listed[light] = true;
         for (const uint pixel : pixels) {
-            const Vec3d p =
+            const glm::dvec3 p =
                 c.planes.vector(SURFACE_POSITION, pixel % view.width, pixel / view.width);
             for (std::size_t light = 0; light < c.lights.size(); ++light) {
                 if (!test.reaches(light, p)) continue;
@@ -93,16 +93,16 @@ void expect_no_idlers(const CullCase& c, const ReachTest& test, const HostLists&
         for (const uint light : list) {
             ASSERT_LT(light, c.lights.size());
             const float4 p = test.lights[light].position_inv_range2;
-            const Vec3d d{interval_distance(p.x, box.min_x, box.max_x),
-                          interval_distance(p.y, box.min_y, box.max_y),
-                          interval_distance(p.z, box.min_z, box.max_z)};
+            const glm::dvec3 d{interval_distance(p.x, box.min_x, box.max_x),
+                               interval_distance(p.y, box.min_y, box.max_y),
+                               interval_distance(p.z, box.min_z, box.max_z)};
             ASSERT_LE(length(d), test.ranges[light] * 1.000002) << "light " << light;
         }
     }
 }
 
 // The walk's lists equal the brute-force kernel's, entry by entry.
-void expect_as_brute_force(const Gpu& gpu, const CullCase& c, const DeviceLists& device,
+void expect_as_brute_force(const Gpu& gpu, const CullCase& c, const ListedLights& device,
                            const HostLists& lists) {
     CullLights oracle(gpu, default_tuning(gpu.info), c.features);
     StageTimer timer;
@@ -125,9 +125,10 @@ TEST(CullLights, NoLightIsMissingByFloat64AndFewAreListedInVain) {
     for (const CullScenario& scenario : cull_scenarios()) {
         SCOPED_TRACE(scenario.name);
         const CullCase c = make_cull_case(gpu, scenario);
-        StageRun stages(gpu, default_tuning(gpu.info), c.features);
-        const DeviceLists device = stages.run(upload_lights(gpu, c.lights), c.gbuffer, c.grid);
-        const HostLists lists = download_lists(gpu, c.features, c.grid, device);
+        const ListedLights device =
+            list_everywhere(gpu, default_tuning(gpu.info), c.features,
+                            {c.gbuffer, upload_lights(gpu, c.lights), c.grid});
+        const HostLists lists = download_lists(gpu, c.features, device);
         const ReachTest test = reach_test_of(gpu, c, device.lights);
         const Pairs pairs = expect_none_missing(c, test, lists);
         expect_no_idlers(c, test, lists);
@@ -151,9 +152,9 @@ TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
     for (const CullScenario& scenario : cull_scenarios()) {
         SCOPED_TRACE(scenario.name);
         const CullCase c = make_cull_case(gpu, scenario);
-        StageRun stages(gpu, default_tuning(gpu.info), c.features);
-        DeviceLists device = stages.run(upload_lights(gpu, c.lights), c.gbuffer, c.grid);
-        const HostLists all = download_lists(gpu, c.features, c.grid, device);
+        ListedLights device = list_everywhere(gpu, default_tuning(gpu.info), c.features,
+                                              {c.gbuffer, upload_lights(gpu, c.lights), c.grid});
+        const HostLists all = download_lists(gpu, c.features, device);
         const auto occupied =
             download<std::uint8_t>(gpu, device.clusters.occupied, c.grid.cluster_count);
         CullLights cull(gpu, default_tuning(gpu.info), c.features);
@@ -162,7 +163,7 @@ TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
             device.coarse =
                 cull.enqueue(device.lights, device.boxes, timer, device.clusters.occupied);
         } while (!cull.fits());
-        const HostLists some = download_lists(gpu, c.features, c.grid, device);
+        const HostLists some = download_lists(gpu, c.features, device);
         for (uint cluster = 0; cluster < c.grid.cluster_count; ++cluster) {
             const auto expected = all.coarse_of(cluster);
             const auto found = some.coarse_of(cluster);
@@ -178,9 +179,9 @@ TEST(CullLights, ListsOfOccupiedClustersAreThoseOfAllAndOthersAreEmpty) {
 }
 
 std::string lists_of(const Gpu& gpu, const CullCase& c, const Tuning& tuning) {
-    StageRun stages(gpu, tuning, c.features);
-    const DeviceLists device = stages.run(upload_lights(gpu, c.lights), c.gbuffer, c.grid);
-    return fingerprint(download_lists(gpu, c.features, c.grid, device));
+    const ListedLights device =
+        list_everywhere(gpu, tuning, c.features, {c.gbuffer, upload_lights(gpu, c.lights), c.grid});
+    return fingerprint(download_lists(gpu, c.features, device));
 }
 
 std::vector<Tuning> tunings(const DeviceInfo& info) {
@@ -229,9 +230,10 @@ void expect_all_listed(uint count) {
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 3.0, 0, 1)));
     const std::vector<Light> lights(count, point_light({}, 100.0));
-    StageRun stages(gpu, default_tuning(gpu.info), features);
     const HostLists lists =
-        download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
+        download_lists(gpu, features,
+                       list_everywhere(gpu, default_tuning(gpu.info), features,
+                                       {gbuffer, upload_lights(gpu, lights), grid}));
     ASSERT_EQ(lists.clusters.size(), 1u);
     const auto list = lists.refined_of(lists.clusters.front());
     std::vector<uint> expected(count);

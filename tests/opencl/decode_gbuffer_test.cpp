@@ -6,7 +6,7 @@
 
 #include "host/base/gbuffer_layout.h"
 #include "host/base/half.h"
-#include "host/certify/synthetic/stage_run.h"
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/synthetic.h"
 #include "tests/support/test_gpu.h"
 
@@ -31,7 +31,7 @@ double expected_depth(const View& view, Synthetic& image, uint x, uint y) {
     return view.orthographic != 0 ? q : 1 / q;
 }
 
-Vec3d position_on_ray(const View& view, uint x, uint y, double z) {
+glm::dvec3 position_on_ray(const View& view, uint x, uint y, double z) {
     const double s = view.orthographic != 0 ? 1 : z;
     return {((x + 0.5) * view.ray.x + view.ray.y) * s, ((y + 0.5) * view.ray.z + view.ray.w) * s,
             -z};
@@ -71,7 +71,7 @@ TEST(DecodeGBuffer, DepthAndPositionLieOnThePixelsRay) {
             // Orthographic z is near zero where its terms cancel: then their size counts.
             const double size = view.orthographic != 0 ? 200.0 : z;
             EXPECT_NEAR(planes.at(SURFACE_DEPTH, x, y), z, kDepthTolerance * size);
-            const Vec3d p = position_on_ray(view, x, y, planes.at(SURFACE_DEPTH, x, y));
+            const glm::dvec3 p = position_on_ray(view, x, y, planes.at(SURFACE_DEPTH, x, y));
             const double tolerance =
                 kPositionTolerance * extent * (view.orthographic != 0 ? 1.0 : z);
             EXPECT_LE(length(planes.vector(SURFACE_POSITION, x, y) - p), tolerance);
@@ -93,17 +93,17 @@ double srgb_value(uint code) {
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-Vec3d srgb_color(uint rgba) {
+glm::dvec3 srgb_color(uint rgba) {
     return {srgb_value(rgba & 255), srgb_value(rgba >> 8 & 255), srgb_value(rgba >> 16 & 255)};
 }
 
-Vec3d octahedral_normal(uint packed) {
+glm::dvec3 octahedral_normal(uint packed) {
     const double u = (packed & 0xffff) / 65535.0 * 2 - 1;
     const double v = (packed >> 16) / 65535.0 * 2 - 1;
     const double z = 1 - std::abs(u) - std::abs(v);
-    if (z >= 0) return normalized({u, v, z});
-    return normalized(
-        {(1 - std::abs(v)) * (u >= 0 ? 1 : -1), (1 - std::abs(u)) * (v >= 0 ? 1 : -1), z});
+    if (z >= 0) return glm::normalize(glm::dvec3(u, v, z));
+    return glm::normalize(glm::dvec3((1 - std::abs(v)) * (u >= 0 ? 1 : -1),
+                                     (1 - std::abs(u)) * (v >= 0 ? 1 : -1), z));
 }
 
 // Attributes that `packed` and `normal-xy` have in common.
@@ -122,7 +122,7 @@ void expect_packed_attributes(Synthetic& image, const Planes& planes, uint x, ui
         const double root = (specular >> shift & 255u) / 255.0;
         return root * root;
     };
-    const Vec3d expected{reflectance(0), reflectance(8), reflectance(16)};
+    const glm::dvec3 expected{reflectance(0), reflectance(8), reflectance(16)};
     ASSERT_LE(length(planes.vector(SURFACE_SPECULAR, x, y) - expected), 3e-7);
     ASSERT_NEAR(planes.at(SURFACE_SPECULAR_F90, x, y), (specular >> 24) / 255.0, 1e-7);
 }
@@ -140,7 +140,7 @@ TEST(DecodeGBuffer, PackedAttributesAtEveryLaneWidth) {
         const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
         for_drawn(image, [&](uint x, uint y) {
             expect_packed_attributes(image, planes, x, y);
-            const Vec3d expected =
+            const glm::dvec3 expected =
                 octahedral_normal(image.plane<uint>(PLANE_NORMAL)[y * image.view.stride + x]);
             ASSERT_LE(length(planes.vector(SURFACE_NORMAL, x, y) - expected), 5e-7)
                 << x << ", " << y;
@@ -158,7 +158,7 @@ TEST(DecodeGBuffer, NormalXyRebuildsZ) {
         const uint packed = image.plane<uint>(PLANE_NORMAL)[y * image.view.stride + x];
         const double u = (packed & 0xffff) / 65535.0 * 2 - 1;
         const double v = (packed >> 16) / 65535.0 * 2 - 1;
-        const Vec3d found = planes.vector(SURFACE_NORMAL, x, y);
+        const glm::dvec3 found = planes.vector(SURFACE_NORMAL, x, y);
         EXPECT_NEAR(found.x, u, 2e-7);
         EXPECT_NEAR(found.y, v, 2e-7);
         // The square, since the root magnifies rounding at the rim.
@@ -195,13 +195,13 @@ TEST(DecodeGBuffer, HalfLayoutTurnsWorldIntoViewSpace) {
     for_drawn(image, [&](uint x, uint y) {
         const uint i = y * image.view.stride + x;
         const auto vector = [&](uint plane) {
-            return Vec3d{half_value(image.plane<std::uint16_t>(plane)[i]),
-                         half_value(image.plane<std::uint16_t>(plane + 1)[i]),
-                         half_value(image.plane<std::uint16_t>(plane + 2)[i])};
+            return glm::dvec3{half_value(image.plane<std::uint16_t>(plane)[i]),
+                              half_value(image.plane<std::uint16_t>(plane + 1)[i]),
+                              half_value(image.plane<std::uint16_t>(plane + 2)[i])};
         };
-        const Vec3d p = view_from_world(
-            image.view, vector(PLANE_POSITION_X) - Vec3d{camera.x, camera.y, camera.z});
-        const Vec3d n = normalized(view_from_world(image.view, vector(PLANE_NORMAL_X)));
+        const glm::dvec3 p = view_from_world(
+            image.view, vector(PLANE_POSITION_X) - glm::dvec3{camera.x, camera.y, camera.z});
+        const glm::dvec3 n = glm::normalize(view_from_world(image.view, vector(PLANE_NORMAL_X)));
         EXPECT_LE(length(planes.vector(SURFACE_POSITION, x, y) - p), 5e-7 * (length(p) + 1));
         EXPECT_LE(length(planes.vector(SURFACE_NORMAL, x, y) - n), 1e-6);
         const uint albedo = image.plane<uint>(PLANE_ALBEDO)[i];

@@ -10,7 +10,7 @@ namespace kilolux {
 /// Surfaces rounded to what the device is given, and the device's radiance of each.
 struct ProbeResult {
     std::vector<SurfaceD> surfaces;
-    std::vector<Vec3d> radiance;
+    std::vector<glm::dvec3> radiance;
 };
 
 /// Shades each surface by every light with kernels/shared/evaluate.h on the device, without a

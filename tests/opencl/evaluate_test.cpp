@@ -19,13 +19,13 @@ constexpr int kShadings[] = {SHADING_LAMBERT, SHADING_BLINN_PHONG, SHADING_PBR};
 
 float f(double x) { return static_cast<float>(x); }
 
-ShadeLight light_at(Vec3d p, double range, Vec3d intensity) {
+ShadeLight light_at(glm::dvec3 p, double range, glm::dvec3 intensity) {
     return {{f(p.x), f(p.y), f(p.z), f(1 / (range * range))},
             {f(intensity.x), f(intensity.y), f(intensity.z), 1.0f},
             {0.0f, 0.0f, 0.0f, -1.0f}};
 }
 
-ShadeLight spot_at(Vec3d p, double range, Vec3d axis, double outer) {
+ShadeLight spot_at(glm::dvec3 p, double range, glm::dvec3 axis, double outer) {
     ShadeLight light = light_at(p, range, {3, 2, 1});
     light.color_scale.w = f(1 / std::max(0.001, 0.3 * (1 - std::cos(outer))));
     light.axis_cos = {f(axis.x), f(axis.y), f(axis.z), f(std::cos(outer))};
@@ -61,7 +61,7 @@ SurfaceD random_surface(Random& random, double roughness_min) {
     // As KHR_materials_specular and KHR_materials_ior can make it: tinted, weighted, up to a
     // mirror.
     s.specular_f90 = random.below(4) * (1.0 / 3.0);
-    s.specular = Vec3d{random.unit(), random.unit(), random.unit()} * s.specular_f90;
+    s.specular = glm::dvec3{random.unit(), random.unit(), random.unit()} * s.specular_f90;
     return s;
 }
 
@@ -69,7 +69,8 @@ TEST(Evaluate, AgreesWithDoubleForPointSpotAndDirectionalLights) {
     Random random(21);
     std::vector<ShadeLight> lights;
     for (int i = 0; i < 40; ++i) {
-        const Vec3d p{random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-20, 2)};
+        const glm::dvec3 p{random.uniform(-10, 10), random.uniform(-10, 10),
+                           random.uniform(-20, 2)};
         const double range = random.log_uniform(1, 40);
         lights.push_back(i % 2 == 0
                              ? light_at(p, range, {random.unit(), 5, 2})
@@ -113,8 +114,8 @@ TEST(Evaluate, LightAtTheShadingPointIsFinite) {
     for (const int shading : kShadings) {
         for (const double d :
              {0.0, 1e-30, 1e-20, 1e-10, 1e-7, 1e-5, 1e-4, 1e-3, 0.0099, 0.01, 0.0101}) {
-            for (const Vec3d& direction :
-                 {Vec3d{0, 0, 1}, Vec3d{0.6, 0, 0.8}, Vec3d{1, 0, 0}, Vec3d{0, 0, -1}}) {
+            for (const glm::dvec3& direction : {glm::dvec3{0, 0, 1}, glm::dvec3{0.6, 0, 0.8},
+                                                glm::dvec3{1, 0, 0}, glm::dvec3{0, 0, -1}}) {
                 const std::vector<ShadeLight> lights = {
                     light_at(s.position + direction * d, 3, {1, 1, 1})};
                 const Lighting lighting{lights, {}, 0, false, shading};
@@ -136,7 +137,7 @@ TEST(Evaluate, HugeAndTinyIntensitiesStayAccurate) {
             for (int i = 0; i < 1000; ++i) {
                 lights.push_back(
                     light_at({random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-9, 1)},
-                             50, Vec3d{1, 0.5, 0.25} * intensity));
+                             50, glm::dvec3{1, 0.5, 0.25} * intensity));
             }
             for (SurfaceD& s : surfaces) s.emissive = {};
             EXPECT_LE(worst_error(surfaces, {lights, {}, 0, false, shading}), kTolerance)
@@ -166,7 +167,7 @@ TEST(Evaluate, GrazingLightIsAccurateAndNeverLeaksToTheBack) {
     surfaces[0].normal = {0, 0, 1};
     for (const double angle : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
         for (const double sign : {1.0, -1.0}) {
-            const Vec3d to_light{std::cos(angle), 0, sign * std::sin(angle)};
+            const glm::dvec3 to_light{std::cos(angle), 0, sign * std::sin(angle)};
             const std::vector<ShadeLight> lights = {
                 light_at(surfaces[0].position + to_light * 2.0, 9, {1, 1, 1})};
             const Lighting lighting{lights, {}, 0, false, SHADING_LAMBERT};

@@ -3,8 +3,8 @@
 // must do.
 #include <gtest/gtest.h>
 
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/light_sets.h"
-#include "host/certify/synthetic/stage_run.h"
 #include "host/stages/bloom.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/count_pairs.h"
@@ -53,7 +53,7 @@ KernelFeatures features_of(const Variant& v) {
 
 // Radiance by lists, after it was found to have the bits of that by all lights.
 Radiance shade_both_ways(const Gpu& gpu, Shade& shade, ShadeAll& shade_all, const GBuffer& gbuffer,
-                         const DeviceLists& lists) {
+                         const ListedLights& lists) {
     StageTimer timer;
     const ClusterGrid& grid = lists.boxes.grid;
     const std::size_t size = std::size_t{3} * gbuffer.view.stride * gbuffer.view.height;
@@ -88,8 +88,7 @@ void run_every_kernel(const Variant& v) {
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.6, 8)));
     const LightInput lights =
         upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
-    StageRun stages(gpu, tuning, features);
-    const DeviceLists lists = stages.run(lights, gbuffer, grid);
+    const ListedLights lists = list_everywhere(gpu, tuning, features, {gbuffer, lights, grid});
     StageTimer timer;
     CullLights oracle(gpu, tuning, features);
     oracle.brute_force(lists.lights, lists.boxes, timer);
@@ -102,7 +101,7 @@ void run_every_kernel(const Variant& v) {
     CountLights count(gpu, tuning, features);
     count.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
     decode(gpu, features, gbuffer);
-    const HostLists host = download_lists(gpu, features, grid, lists);
+    const HostLists host = download_lists(gpu, features, lists);
     EXPECT_GT(host.refined.size(), 100u);
     const DeviceArray<std::uint64_t> active(
         new_buffer(gpu, std::vector<std::uint64_t>{host.clusters.size(), 0}));

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/certify/synthetic/vec3d.h"
+#include "host/certify/synthetic/random.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/light_sets.h"
-#include "host/certify/synthetic/stage_run.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -36,12 +36,12 @@ Prepared prepare(int lanes, int group, const LightInput& input, const View& view
             download<DirectionalLight>(gpu, out.directional, out.directional_count)};
 }
 
-Vec3d vec(float4 v) { return {v.x, v.y, v.z}; }
+glm::dvec3 vec(float4 v) { return {v.x, v.y, v.z}; }
 
 void expect_rotated(const View& view, const std::vector<Light>& lights, const Prepared& found) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const ShadeLight& light = found.lights[i];
-        const Vec3d p = view_from_world(view, vec(lights[i].position_range));
+        const glm::dvec3 p = view_from_world(view, vec(lights[i].position_range));
         const double range = lights[i].position_range.w;
         ASSERT_LE(length(vec(light.position_inv_range2) - p), kRotationTolerance * length(p))
             << "light " << i;
@@ -69,7 +69,7 @@ void expect_extents_cover(const View& view, const ClusterGrid& grid,
         for (int sample = 0; sample < 50; ++sample) {
             const double radius =
                 lights[i].position_range.w * (sample % 2 == 0 ? 1.0 : random.unit());
-            const Vec3d p = vec(found.bounds[i]) + random.direction() * radius;
+            const glm::dvec3 p = vec(found.bounds[i]) + random.direction() * radius;
             const double z = -p.z;
             if (view.orthographic == 0 && z <= 0) continue;
             const double s = view.orthographic != 0 ? 1 : z;
@@ -138,7 +138,7 @@ TEST(PrepareLights, LightsOutsideTheImageTouchNothing) {
     const View view = make_view({});
     const ClusterGrid grid =
         make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
-    const auto at = [&](Vec3d p, double range) {
+    const auto at = [&](glm::dvec3 p, double range) {
         return point_light(world_from_view(view, p), range);
     };
     const std::vector<Light> lights = {at({0, 0, 5}, 4.9), at({30, 0, -10}, 1),

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/light_sets.h"
-#include "host/certify/synthetic/stage_run.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -20,8 +20,8 @@ double box_distance(const ActiveCluster& c, float4 p) {
     const auto axis = [](double v, double lo, double hi) {
         return std::max({lo - v, v - hi, 0.0});
     };
-    return length(Vec3d{axis(p.x, c.min_x, c.max_x), axis(p.y, c.min_y, c.max_y),
-                        axis(p.z, c.min_z, c.max_z)});
+    return length(glm::dvec3{axis(p.x, c.min_x, c.max_x), axis(p.y, c.min_y, c.max_y),
+                             axis(p.z, c.min_z, c.max_z)});
 }
 
 uint coarse_cluster(const View& view, const ClusterGrid& grid, uint tile, uint slice) {
@@ -58,9 +58,9 @@ void expect_refined(const Gpu& gpu, const Tuning& tuning, std::uint32_t light_co
     const std::vector<Light> lights = random_lights(view, mix);
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, {}, slanted_depth(0.4, 60.0, 97)));
-    StageRun stages(gpu, tuning, {});
-    const DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
-    const HostLists lists = download_lists(gpu, {}, grid, device);
+    const ListedLights device =
+        list_everywhere(gpu, tuning, {}, {gbuffer, upload_lights(gpu, lights), grid});
+    const HostLists lists = download_lists(gpu, {}, device);
     const auto bounds = download<float4>(gpu, device.lights.bounds, lights.size());
     for (uint tile = 0; tile + 1 < lists.cluster_offsets.size(); ++tile) {
         for (uint i = lists.cluster_offsets[tile]; i < lists.cluster_offsets[tile + 1]; ++i) {
@@ -98,21 +98,21 @@ TEST(RefineLights, LacksRoomOnceThenGrows) {
     features.light_index_bits = 32;
     const GBuffer gbuffer =
         upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(1, 2, 64)));
-    StageRun stages(gpu, tuning, features);
-    DeviceLists device = stages.run(upload_lights(gpu, lights), gbuffer, grid);
+    ListedLights device =
+        list_everywhere(gpu, tuning, features, {gbuffer, upload_lights(gpu, lights), grid});
     RefineLights refine(gpu, tuning, features);
     StageTimer timer;
     device.refined =
         refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
     ASSERT_LT(device.refined.capacity, 12u * lights.size()) << "the case does not overflow";
-    HostLists cut = download_lists(gpu, features, grid, device);
+    HostLists cut = download_lists(gpu, features, device);
     for (const ActiveCluster& c : cut.clusters)
         EXPECT_LE(c.list_begin + c.list_count, device.refined.capacity);
     EXPECT_FALSE(refine.fits());
     device.refined =
         refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
     EXPECT_TRUE(refine.fits());
-    const HostLists lists = download_lists(gpu, features, grid, device);
+    const HostLists lists = download_lists(gpu, features, device);
     ASSERT_EQ(lists.clusters.size(), 12u);
     for (const ActiveCluster& c : lists.clusters) {
         const auto list = lists.refined_of(c);
@@ -135,9 +135,10 @@ TEST(RefineLights, SpotsThatShineAwayAreLeftOut) {
     const std::vector<Light> lights = {spot_light(point, {0, 0, 1}, 0.2, 0.3),
                                        spot_light(point, {0, 0, -1}, 0.2, 1.5),
                                        spot_light(point, {0, 1, 0}, 0.2, 0.3), point};
-    StageRun stages(gpu, default_tuning(gpu.info), features);
     const HostLists lists =
-        download_lists(gpu, features, grid, stages.run(upload_lights(gpu, lights), gbuffer, grid));
+        download_lists(gpu, features,
+                       list_everywhere(gpu, default_tuning(gpu.info), features,
+                                       {gbuffer, upload_lights(gpu, lights), grid}));
     ASSERT_FALSE(lists.clusters.empty());
     for (const ActiveCluster& c : lists.clusters) {
         const auto list = lists.refined_of(c);

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/light_sets.h"
-#include "host/certify/synthetic/stage_run.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "tests/opencl/shading_reference.h"
 #include "tests/support/test_gpu.h"
@@ -49,12 +49,12 @@ Frame shade_frame(const Gpu& gpu, const FrameInput& in, const Tuning& tuning) {
     const View view = make_view(in.shape);
     const ClusterGrid grid = make_cluster_grid(in.request, view.width, view.height);
     const GBuffer gbuffer = upload_gbuffer(gpu, make_synthetic(view, in.features, in.depth));
-    StageRun stages(gpu, tuning, in.features);
     Shade shade(gpu, tuning, in.features);
     shade.set_ambient(kAmbient);
     ShadeAll shade_all(gpu, tuning, in.features);
     shade_all.set_ambient(kAmbient);
-    const DeviceLists lists = stages.run(upload_lights(gpu, in.lights, sun()), gbuffer, grid);
+    const ListedLights lists = list_everywhere(
+        gpu, tuning, in.features, {gbuffer, upload_lights(gpu, in.lights, sun()), grid});
     StageTimer timer;
     const std::size_t size = std::size_t{3} * view.stride * view.height;
     Frame frame;
@@ -63,7 +63,7 @@ Frame shade_frame(const Gpu& gpu, const FrameInput& in, const Tuning& tuning) {
         shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer).planes,
         size);
     frame.all = download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer).planes, size);
-    frame.lists = fingerprint(download_lists(gpu, in.features, grid, lists));
+    frame.lists = fingerprint(download_lists(gpu, in.features, lists));
     frame.lights = download<ShadeLight>(gpu, lists.lights.lights, in.lights.size());
     frame.directional = download<DirectionalLight>(gpu, lists.lights.directional, sun().size());
     return frame;
@@ -109,7 +109,7 @@ SurfaceD surface_at(const Planes& planes, uint x, uint y) {
 
 // Lobes narrower than roughness 0.3 and normals away from the eye are evaluate_test.cpp's subject.
 bool is_well_conditioned(const SurfaceD& s, bool orthographic) {
-    const Vec3d eye = orthographic ? Vec3d{0, 0, 1} : s.position * -1.0;
+    const glm::dvec3 eye = orthographic ? glm::dvec3{0, 0, 1} : s.position * -1.0;
     return s.roughness >= 0.3 && dot(s.normal, eye) > 0;
 }
 
@@ -126,7 +126,8 @@ void expect_as_double(const FrameInput& in) {
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.stride; ++x) {
             const std::size_t i = std::size_t{y} * view.stride + x;
-            const Vec3d found{frame.listed[i], frame.listed[size + i], frame.listed[2 * size + i]};
+            const glm::dvec3 found{frame.listed[i], frame.listed[size + i],
+                                   frame.listed[2 * size + i]};
             if (x >= view.width ||
                 planes.at(SURFACE_ROUGHNESS, x, y) + planes.at(SURFACE_OCCLUSION, x, y) == 0 ||
                 length(planes.vector(SURFACE_NORMAL, x, y)) == 0) {

@@ -15,7 +15,7 @@ constexpr double kNearest = 0.01;     // [m] light sources have a size
 constexpr double kSmoothest = 0.045;  // perceptual roughness
 constexpr double kSmallestNdotV = 1e-4;
 
-Vec3d vec(float4 v) { return {v.x, v.y, v.z}; }
+glm::dvec3 vec(float4 v) { return {v.x, v.y, v.z}; }
 
 double clamp01(double x) { return std::clamp(x, 0.0, 1.0); }
 
@@ -25,9 +25,9 @@ double alpha_of(double roughness) {
 }
 
 // glTF 2.0 appendix B, metallic-roughness, without the cosine to the light.
-Vec3d gltf_brdf(const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {
+glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     const double a2 = alpha_of(s.roughness) * alpha_of(s.roughness);
-    const Vec3d h = normalized(l + v);
+    const glm::dvec3 h = glm::normalize(l + v);
     const double nh = dot(n, h);
     const double nl = std::max(dot(n, l), 0.0);
     const double nv = std::max(dot(n, v), kSmallestNdotV);
@@ -52,9 +52,9 @@ Vec3d gltf_brdf(const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {
             channel(s.albedo.z, s.specular.z)};
 }
 
-Vec3d blinn_phong_brdf(const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {
+glm::dvec3 blinn_phong_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     const double exponent = 2 / std::pow(alpha_of(s.roughness), 2) - 2;
-    const double nh = std::max(dot(n, normalized(l + v)), 0.0);
+    const double nh = std::max(dot(n, glm::normalize(l + v)), 0.0);
     const double lobe = (exponent + 2) / (8 * kPi) * std::pow(nh, exponent);
     const auto channel = [&](double albedo, double specular) {
         const double f0 = specular + (albedo - specular) * s.metallic;
@@ -64,13 +64,13 @@ Vec3d blinn_phong_brdf(const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {
             channel(s.albedo.z, s.specular.z)};
 }
 
-Vec3d brdf(int shading, const SurfaceD& s, Vec3d n, Vec3d v, Vec3d l) {
+glm::dvec3 brdf(int shading, const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
     if (shading == SHADING_PBR) return gltf_brdf(s, n, v, l);
     if (shading == SHADING_BLINN_PHONG) return blinn_phong_brdf(s, n, v, l);
     return s.albedo * (1 / kPi);
 }
 
-double cone_of(const ShadeLight& light, Vec3d to_light) {
+double cone_of(const ShadeLight& light, glm::dvec3 to_light) {
     const double cosine = -dot(to_light, vec(light.axis_cos));
     const double t = clamp01((cosine - light.axis_cos.w) * light.color_scale.w);
     return t * t;
@@ -79,10 +79,11 @@ double cone_of(const ShadeLight& light, Vec3d to_light) {
 }  // namespace
 
 ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting) {
-    const Vec3d n = normalized(s.normal);
-    const Vec3d eye = lighting.orthographic ? Vec3d{0, 0, 1} : normalized(s.position * -1.0);
+    const glm::dvec3 n = glm::normalize(s.normal);
+    const glm::dvec3 eye =
+        lighting.orthographic ? glm::dvec3{0, 0, 1} : glm::normalize(s.position * -1.0);
     ReferenceRadiance sum;
-    const auto add = [&](Vec3d l, Vec3d strength) {
+    const auto add = [&](glm::dvec3 l, glm::dvec3 strength) {
         sum.scale += std::max({strength.x, strength.y, strength.z});
         const double nl = dot(n, l);
         if (nl <= 0 || strength.x + strength.y + strength.z == 0) return;
@@ -91,11 +92,11 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
     for (const DirectionalLight& light : lighting.directional)
         add(vec(light.to_light), vec(light.color));
     for (const ShadeLight& light : lighting.lights) {
-        const Vec3d offset = vec(light.position_inv_range2) - s.position;
+        const glm::dvec3 offset = vec(light.position_inv_range2) - s.position;
         const double d2 = dot(offset, offset);
         const double ratio4 = std::pow(d2 * light.position_inv_range2.w, 2);
         const double d = std::max(std::sqrt(d2), kNearest);
-        const Vec3d to_light = offset * (1 / d);  // shorter than 1 within the source itself
+        const glm::dvec3 to_light = offset * (1 / d);  // shorter than 1 within the source itself
         const double falloff = clamp01(1 - ratio4) / (d * d) * cone_of(light, to_light);
         add(to_light, vec(light.color_scale) * falloff);
     }
@@ -103,7 +104,7 @@ ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting
     return sum;
 }
 
-double relative_error(Vec3d found, const ReferenceRadiance& expected) {
+double relative_error(glm::dvec3 found, const ReferenceRadiance& expected) {
     const auto error = [&](double x, double r) {
         const double difference = std::abs(x - r);
         if (std::isnan(difference)) return std::numeric_limits<double>::infinity();

@@ -3,20 +3,20 @@
 
 #include <span>
 
-#include "host/certify/synthetic/vec3d.h"
+#include "host/certify/synthetic/random.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {
 
 /// A point on a surface in view space, as kernels/shared/evaluate.h's Surface.
 struct SurfaceD {
-    Vec3d position;
-    Vec3d normal;  // any length
-    Vec3d albedo{0.5, 0.5, 0.5};
-    Vec3d emissive;
+    glm::dvec3 position{0.0};
+    glm::dvec3 normal{0.0};  // any length
+    glm::dvec3 albedo{0.5, 0.5, 0.5};
+    glm::dvec3 emissive{0.0};
     double roughness = 1, metallic = 0, occlusion = 1;
-    Vec3d specular{0.04, 0.04, 0.04};  // reflectance of the dielectric part head on
-    double specular_f90 = 1;           // and at grazing angles
+    glm::dvec3 specular{0.04, 0.04, 0.04};  // reflectance of the dielectric part head on
+    double specular_f90 = 1;                // and at grazing angles
 };
 
 /// How the scene is lit and looked at.
@@ -29,7 +29,7 @@ struct Lighting {
 };
 
 struct ReferenceRadiance {
-    Vec3d value;
+    glm::dvec3 value{0.0};
     double scale = 0;  // sum over lights of intensity * falloff, of the strongest channel: what
                        // rounding is relative to
 };
@@ -40,6 +40,6 @@ ReferenceRadiance reference_radiance(const SurfaceD& surface, const Lighting& li
 
 /// |found - expected| relative to the larger of the expected value and the scale; NaN counts as
 /// infinite.
-double relative_error(Vec3d found, const ReferenceRadiance& expected);
+double relative_error(glm::dvec3 found, const ReferenceRadiance& expected);
 
 }  // namespace kilolux

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/certify/synthetic/stage_run.h"
+#include "host/certify/synthetic/host_lists.h"
 #include "host/gpu/buffer.h"
 #include "host/stages/build_clusters.h"
 #include "tests/support/test_gpu.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/certify/synthetic/vec3d.h"
+#include "host/certify/synthetic/random.h"
 #include "kernels/shared/tone_curve.h"
 #include "tests/support/test_gpu.h"
 
@@ -34,7 +34,7 @@ struct Colors {
         green.push_back(g);
         blue.push_back(b);
     }
-    Vec3d at(std::size_t i) const { return {red[i], green[i], blue[i]}; }
+    glm::dvec3 at(std::size_t i) const { return {red[i], green[i], blue[i]}; }
 };
 
 // An image of one row, as wide as need be.
@@ -101,21 +101,21 @@ TEST(Tonemap, RoundsToTheNearestCodeAtEveryBoundary) {
 }
 
 // Khronos PBR Neutral Tone Mapper specification.
-Vec3d neutral(Vec3d c) {
+glm::dvec3 neutral(glm::dvec3 c) {
     const double x = std::min({c.x, c.y, c.z});
     const double offset = x < 0.08 ? x - 6.25 * x * x : 0.04;
-    c = c - Vec3d{offset, offset, offset};
+    c = c - glm::dvec3{offset, offset, offset};
     const double peak = std::max({c.x, c.y, c.z});
     const double start = 0.8 - 0.04;
     if (peak < start) return c;
     const double d = 1 - start;
     const double new_peak = 1 - d * d / (peak + d - start);
     const double g = 1 - 1 / (0.15 * (peak - new_peak) + 1);
-    return c * (new_peak / peak) * (1 - g) + Vec3d{1, 1, 1} * (new_peak * g);
+    return c * (new_peak / peak) * (1 - g) + glm::dvec3{1, 1, 1} * (new_peak * g);
 }
 
 // S. Hill's fit of the ACES reference rendering and sRGB output transforms.
-Vec3d aces(Vec3d c) {
+glm::dvec3 aces(glm::dvec3 c) {
     const auto fit = [](double v) {
         return (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
     };
@@ -141,7 +141,7 @@ TEST(Tonemap, CurvesAgreeWithDouble) {
         const auto display = display_of(lanes, curve, colors);
         int different = 0;
         for (std::size_t i = 0; i < display.size(); ++i) {
-            const Vec3d expected =
+            const glm::dvec3 expected =
                 curve == TONE_CURVE_NEUTRAL ? neutral(colors.at(i)) : aces(colors.at(i));
             const double values[] = {expected.x, expected.y, expected.z};
             for (int c = 0; c < 3; ++c) {

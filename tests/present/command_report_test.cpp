@@ -72,22 +72,6 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
     EXPECT_EQ(header.size(), document.at("rows").front().size());
 }
 
-TEST_F(Report, RunsHardCases) {
-    const TemporaryFolder folder;
-    const ChildResult result =
-        run_kilolux({"report", "--cases", "25,M3", "--quiet", "-o", (folder / "out").string()});
-    EXPECT_EQ(result.code, 0) << result.err;
-    EXPECT_TRUE(contains(result.out, "octahedral wrap")) << result.out;
-    EXPECT_TRUE(contains(result.out, "intensities x 2^n")) << result.out;
-    EXPECT_FALSE(contains(result.out, "slice boundaries")) << result.out;
-    for (const char* name : {"hard_cases.csv", "hard_cases.json", "hard_cases.md"}) {
-        EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
-    }
-    const ChildResult unknown = run_kilolux({"report", "--cases", "M33"});
-    EXPECT_EQ(unknown.code, 2);
-    EXPECT_TRUE(contains(unknown.err, "--cases: 'M33' is none of 1, 2")) << unknown.err;
-}
-
 TEST_F(Report, RefusesWhatCannotBeObeyed) {
     const TemporaryFolder folder;
     write_text(folder / "file", "");

@@ -25,7 +25,8 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
     } cases[] = {
         {{}, "no command given"},
         {{"redner"},
-         "'redner' is no command; there are render, view, bench, report, info, export; did you "
+         "'redner' is no command; there are render, view, bench, report, certify, info, export; "
+         "did you "
          "mean 'render'?"},
         {{"--frobnicate"}, "unknown option --frobnicate"},
         {{"render"}, "--output: needs a file"},

@@ -9,18 +9,18 @@
 namespace kilolux {
 namespace {
 
-float4 row(Vec3d v, double w) {
+float4 row(const glm::dvec3& v, double w) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
             static_cast<float>(w)};
 }
 
 }  // namespace
 
-Light point_light(Vec3d position, double range, Vec3d intensity) {
+Light point_light(const glm::dvec3& position, double range, const glm::dvec3& intensity) {
     return {row(position, range), row(intensity, 1.0), {0.0f, 0.0f, 0.0f, -1.0f}};
 }
 
-Light spot_light(const Light& point, Vec3d axis, double inner, double outer) {
+Light spot_light(const Light& point, glm::dvec3 axis, double inner, double outer) {
     Light light = point;
     const double cos_out = std::cos(outer);
     light.color_scale.w = static_cast<float>(1.0 / std::max(0.001, std::cos(inner) - cos_out));
@@ -37,11 +37,11 @@ std::vector<Light> random_lights(const View& view, const LightMix& mix) {
                                       : random.log_uniform(mix.z_near, mix.z_far);
         const double px = view.width * (0.5 + random.uniform(-0.5, 0.5) * mix.spread);
         const double py = view.height * (0.5 + random.uniform(-0.5, 0.5) * mix.spread);
-        const double s = orthographic ? 1.0 : z;
-        const Vec3d p{(px * view.ray.x + view.ray.y) * s, (py * view.ray.z + view.ray.w) * s, -z};
-        const Vec3d intensity{random.uniform(0, 10), random.uniform(0, 10), random.uniform(0, 10)};
+        const glm::dvec3 intensity{random.uniform(0, 10), random.uniform(0, 10),
+                                   random.uniform(0, 10)};
         const double range = random.log_uniform(mix.range_min, mix.range_max);
-        const Light point = point_light(world_from_view(view, p), range, intensity);
+        const glm::dvec3 p = world_from_view(view, position_at(view, px, py, z));
+        const Light point = point_light(p, range, intensity);
         const double outer = random.uniform(0.05, 1.57);
         const bool spot = random.unit() < mix.spots;
         lights.push_back(spot ? spot_light(point, random.direction(), outer * random.unit(), outer)

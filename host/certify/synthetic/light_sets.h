@@ -3,17 +3,18 @@
 
 #include <vector>
 
+#include "host/certify/synthetic/random.h"
 #include "host/certify/synthetic/synthetic.h"
-#include "host/certify/synthetic/vec3d.h"
 #include "host/gpu/flow.h"
 
 namespace kilolux {
 
 /// A point light of `range` [m] at a camera-relative world position.
-Light point_light(Vec3d position, double range, Vec3d intensity = {1, 1, 1});
+Light point_light(const glm::dvec3& position, double range,
+                  const glm::dvec3& intensity = {1, 1, 1});
 
 /// A spot light towards unit `axis` with half angles [rad].
-Light spot_light(const Light& point, Vec3d axis, double inner, double outer);
+Light spot_light(const Light& point, glm::dvec3 axis, double inner, double outer);
 
 /// How random_lights() draws.
 struct LightMix {

@@ -7,21 +7,27 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/base/half.h"
 #include "host/certify/synthetic/probe.h"
+#include "host/certify/synthetic/random.h"
+#include "host/stages/decode_gbuffer.h"
 
 namespace kilolux {
 namespace {
 
 constexpr double kBackground = std::numeric_limits<double>::quiet_NaN();
 
-float4 row_of(Vec3d v) {
+glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
+
+float4 row_of(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0f};
 }
 
 void set_rotation(View& view, bool rotated) {
-    const Vec3d forward = rotated ? normalized({0.36, -0.48, -0.8}) : Vec3d{0, 0, -1};
-    const Vec3d right = normalized(cross(forward, rotated ? Vec3d{0.1, 1, 0} : Vec3d{0, 1, 0}));
+    const glm::dvec3 forward =
+        glm::normalize(rotated ? glm::dvec3(0.36, -0.48, -0.8) : glm::dvec3(0, 0, -1));
+    const glm::dvec3 right =
+        glm::normalize(glm::cross(forward, glm::dvec3(rotated ? 0.1 : 0.0, 1, 0)));
     view.view_from_world_x = row_of(right);
-    view.view_from_world_y = row_of(cross(right, forward));
+    view.view_from_world_y = row_of(glm::cross(right, forward));
     view.view_from_world_z = row_of(forward * -1.0);
 }
 
@@ -44,54 +50,62 @@ void fill_depth(Synthetic& image, const DepthOf& depth) {
     }
 }
 
-// World position in halves, as GBUFFER_HALF keeps them, or view position in floats.
-void fill_position(Synthetic& image, uint pixel, Vec3d p) {
-    if (image.layout.layout == GBUFFER_FULL) {
-        image.plane<float>(PLANE_POSITION_X)[pixel] = static_cast<float>(p.x);
-        image.plane<float>(PLANE_POSITION_Y)[pixel] = static_cast<float>(p.y);
-        image.plane<float>(PLANE_POSITION_Z)[pixel] = static_cast<float>(p.z);
-        return;
-    }
-    const float4 camera = image.view.camera_position;
-    const Vec3d world = world_from_view(image.view, p) + Vec3d{camera.x, camera.y, camera.z};
-    image.plane<std::uint16_t>(PLANE_POSITION_X)[pixel] = half_bits_clamped(world.x);
-    image.plane<std::uint16_t>(PLANE_POSITION_Y)[pixel] = half_bits_clamped(world.y);
-    image.plane<std::uint16_t>(PLANE_POSITION_Z)[pixel] = half_bits_clamped(world.z);
-}
-
-void fill_normal(Synthetic& image, uint pixel, Vec3d n) {
-    for (uint axis = 0; axis < 3; ++axis) {
-        const double value = axis == 0 ? n.x : axis == 1 ? n.y : n.z;
-        if (image.layout.layout == GBUFFER_FULL) {
-            image.plane<float>(PLANE_NORMAL_X + axis)[pixel] = static_cast<float>(value);
-        } else {
-            image.plane<std::uint16_t>(PLANE_NORMAL_X + axis)[pixel] = half_bits_clamped(value);
-        }
-    }
-}
-
-// Positions, normals and float attributes of the layouts that store them.
-void fill_floats(Synthetic& image, const DepthOf& depth, Random& random) {
+// Positions, normals and attributes of the layouts that store them: view positions in GBUFFER_FULL,
+// world positions in GBUFFER_HALF.
+void fill_values(Synthetic& image, const DepthOf& depth, Random& random) {
     const View& view = image.view;
+    const bool full = image.layout.layout == GBUFFER_FULL;
+    const glm::dvec3 camera = xyz(view.camera_position);
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.stride; ++x) {
-            const uint pixel = y * view.stride + x;
+            const std::size_t pixel = std::size_t{y} * view.stride + x;
             const double z = x < view.width ? depth(x, y) : 1.0;
-            const double s = view.orthographic != 0 ? 1.0 : z;
-            const Vec3d p{((x + 0.5) * view.ray.x + view.ray.y) * s,
-                          ((y + 0.5) * view.ray.z + view.ray.w) * s, -z};
-            fill_position(image, pixel, std::isnan(z) ? Vec3d{} : p);
-            fill_normal(image, pixel, random.direction());
-            if (image.layout.layout != GBUFFER_FULL) continue;
+            glm::dvec3 p(0.0);
+            if (!std::isnan(z)) p = position_at(view, x + 0.5, y + 0.5, z);
+            if (!full) p = world_from_view(view, p) + camera;
+            image.put(PLANE_POSITION_X, pixel, p);
+            image.put(PLANE_NORMAL_X, pixel, random.direction());
+            if (!full) continue;
             for (uint plane = PLANE_ALBEDO_R; plane < PLANE_COUNT; ++plane) {
-                if (image.layout.offset_bytes[plane] == PLANE_ABSENT) continue;
-                image.plane<float>(plane)[pixel] = static_cast<float>(random.unit());
+                const bool stored = image.layout.offset_bytes[plane] != PLANE_ABSENT;
+                if (stored) image.put(plane, pixel, random.unit());
             }
         }
     }
 }
 
 }  // namespace
+
+void Synthetic::put(uint plane_index, std::size_t pixel, double value) {
+    if (layout.layout == GBUFFER_HALF) {
+        plane<std::uint16_t>(plane_index)[pixel] = half_bits_clamped(value);
+    } else {
+        plane<float>(plane_index)[pixel] = static_cast<float>(value);
+    }
+}
+
+void Synthetic::put(uint first_plane, std::size_t pixel, const glm::dvec3& value) {
+    for (int c = 0; c < 3; ++c) put(first_plane + static_cast<uint>(c), pixel, value[c]);
+}
+
+bool Synthetic::is_drawn(uint x, uint y) const {
+    const std::byte* depth = bytes.data() + layout.offset_bytes[PLANE_DEPTH];
+    return reinterpret_cast<const float*>(depth)[std::size_t{y} * view.stride + x] > 0.0f;
+}
+
+std::vector<uint> Synthetic::drawn_pixels() const {
+    std::vector<uint> pixels;
+    for (uint i = 0; i < view.width * view.height; ++i) {
+        if (is_drawn(i % view.width, i / view.width)) pixels.push_back(i);
+    }
+    return pixels;
+}
+
+ViewShape square_pixels(uint width, uint height) {
+    ViewShape shape{width, height};
+    shape.half_y = shape.half_x * height / width;
+    return shape;
+}
 
 View make_view(const ViewShape& s) {
     View view{};
@@ -117,20 +131,19 @@ float depth01_of(const View& view, uint x, uint y, double z) {
     return static_cast<float>((q - rest) / view.depth.x);
 }
 
-Vec3d view_from_world(const View& view, Vec3d v) {
-    const float4 x = view.view_from_world_x;
-    const float4 y = view.view_from_world_y;
-    const float4 z = view.view_from_world_z;
-    return {x.x * v.x + x.y * v.y + x.z * v.z, y.x * v.x + y.y * v.y + y.z * v.z,
-            z.x * v.x + z.y * v.y + z.z * v.z};
+glm::dvec3 position_at(const View& view, double px, double py, double z) {
+    const double s = view.orthographic != 0 ? 1.0 : z;
+    return {(px * view.ray.x + view.ray.y) * s, (py * view.ray.z + view.ray.w) * s, -z};
 }
 
-Vec3d world_from_view(const View& view, Vec3d v) {
-    const float4 x = view.view_from_world_x;
-    const float4 y = view.view_from_world_y;
-    const float4 z = view.view_from_world_z;
-    return {x.x * v.x + y.x * v.y + z.x * v.z, x.y * v.x + y.y * v.y + z.y * v.z,
-            x.z * v.x + y.z * v.y + z.z * v.z};
+glm::dvec3 view_from_world(const View& view, const glm::dvec3& v) {
+    return {glm::dot(xyz(view.view_from_world_x), v), glm::dot(xyz(view.view_from_world_y), v),
+            glm::dot(xyz(view.view_from_world_z), v)};
+}
+
+glm::dvec3 world_from_view(const View& view, const glm::dvec3& v) {
+    return xyz(view.view_from_world_x) * v.x + xyz(view.view_from_world_y) * v.y +
+           xyz(view.view_from_world_z) * v.z;
 }
 
 DepthOf noise_depth(double z0, double z1, double background, std::uint32_t seed) {
@@ -165,14 +178,23 @@ Synthetic make_synthetic(const View& view, const KernelFeatures& features, const
     Random random(seed);
     for (std::byte& b : image.bytes) b = static_cast<std::byte>(random.bits() >> 24);
     fill_depth(image, depth);
-    const bool stores_positions =
-        features.gbuffer == GBUFFER_FULL || features.gbuffer == GBUFFER_HALF;
-    if (stores_positions) fill_floats(image, depth, random);
+    if (features.gbuffer == GBUFFER_FULL || features.gbuffer == GBUFFER_HALF) {
+        fill_values(image, depth, random);
+    }
     return image;
 }
 
 GBuffer upload_gbuffer(const Gpu& gpu, const Synthetic& image) {
     return {new_buffer(gpu, image.bytes), image.layout, image.view};
+}
+
+Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbuffer) {
+    StageTimer timer;
+    DecodeGBuffer stage(gpu, default_tuning(gpu.info), features);
+    const cl::Buffer planes = stage.enqueue(gbuffer, timer);
+    const View& view = gbuffer.view;
+    return {view, download<float>(gpu, planes,
+                                  std::size_t{stage.plane_count()} * view.stride * view.height)};
 }
 
 }  // namespace kilolux

@@ -5,13 +5,14 @@
 #include <functional>
 #include <vector>
 
-#include "host/certify/synthetic/vec3d.h"
+#include "host/certify/synthetic/random.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
+#include "kernels/shared/surface_planes.h"
 
 namespace kilolux {
 
-/// A camera in the terms of a lens: what make_view() turns into coefficients.
+/// A camera by its lens; make_view() computes the coefficients.
 struct ViewShape {
     uint width = 64;
     uint height = 48;
@@ -27,13 +28,20 @@ struct ViewShape {
     bool rotated = true;  // else view space and camera-relative world space are one
 };
 
+/// A shape whose pixels are square.
+ViewShape square_pixels(uint width, uint height);
+
 View make_view(const ViewShape& shape);
+
+/// The point of view space at depth z [m] and pixel position (px, py), pixel centres at 0.5.
+glm::dvec3 position_at(const View& view, double px, double py, double z);
 
 /// Depth buffer value of depth z [m] at the centre of pixel (x, y).
 float depth01_of(const View& view, uint x, uint y, double z);
 
-Vec3d view_from_world(const View& view, Vec3d v);
-Vec3d world_from_view(const View& view, Vec3d v);
+/// Directions, and camera-relative positions.
+glm::dvec3 view_from_world(const View& view, const glm::dvec3& v);
+glm::dvec3 world_from_view(const View& view, const glm::dvec3& v);
 
 /// Depth z [m] of a pixel; NaN: background.
 using DepthOf = std::function<double(uint x, uint y)>;
@@ -43,7 +51,7 @@ DepthOf checkerboard_depth(double near, double far);
 DepthOf slanted_depth(double near, double far, uint width);
 DepthOf no_depth();
 
-/// A G-buffer in host memory whose attributes are noise; the columns that pad a row look drawn.
+/// A G-buffer in host memory. Columns that pad a row look drawn.
 struct Synthetic {
     View view{};
     GBufferLayout layout{};
@@ -53,12 +61,36 @@ struct Synthetic {
     T* plane(uint index) {
         return reinterpret_cast<T*>(bytes.data() + layout.offset_bytes[index]);
     }
+    /// Stores a value in a plane of floats, or of halves in GBUFFER_HALF.
+    void put(uint plane_index, std::size_t pixel, double value);
+    void put(uint first_plane, std::size_t pixel, const glm::dvec3& value);
+    /// Whether the pixel shows a surface.
+    bool is_drawn(uint x, uint y) const;
+    /// y * width + x of the pixels that show a surface.
+    std::vector<uint> drawn_pixels() const;
 };
 
-/// `features` says which planes there are. Normals face the camera for half of the pixels.
+/// Attributes are noise; `features` says which planes there are. Half of the normals face the
+/// camera.
 Synthetic make_synthetic(const View& view, const KernelFeatures& features, const DepthOf& depth,
                          std::uint32_t seed = 1);
 
 GBuffer upload_gbuffer(const Gpu& gpu, const Synthetic& image);
+
+/// Decoded planes on the host.
+struct Planes {
+    View view{};
+    std::vector<float> values;
+
+    float at(uint plane, uint x, uint y) const {
+        const std::size_t size = std::size_t{view.stride} * view.height;
+        return values[plane * size + std::size_t{y} * view.stride + x];
+    }
+    glm::dvec3 vector(uint plane, uint x, uint y) const {
+        return {at(plane, x, y), at(plane + 1, x, y), at(plane + 2, x, y)};
+    }
+};
+
+Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbuffer);
 
 }  // namespace kilolux

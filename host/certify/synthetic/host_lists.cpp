@@ -1,35 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/certify/synthetic/stage_run.h"
+#include "host/certify/synthetic/host_lists.h"
 
+#include <algorithm>
 #include <string>
 
 namespace kilolux {
-
-StageRun::StageRun(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : prepare_(gpu, tuning),
-      build_(gpu),
-      cull_(gpu, tuning, features),
-      bin_(gpu, tuning, features),
-      refine_(gpu, tuning, features) {}
-
-DeviceLists StageRun::run(const LightInput& lights, const GBuffer& gbuffer,
-                          const ClusterGrid& grid) {
-    StageTimer timer;
-    DeviceLists out;
-    out.lights = prepare_.enqueue(lights, gbuffer.view, grid, timer);
-    out.boxes = build_.enqueue(gbuffer.view, grid, timer);
-    do {
-        out.coarse = cull_.enqueue(out.lights, out.boxes, timer);
-    } while (!cull_.fits());
-    do {
-        out.clusters = bin_.enqueue(gbuffer, grid, timer);
-    } while (!bin_.fits());
-    do {
-        out.refined =
-            refine_.enqueue(out.lights, out.coarse, out.clusters, gbuffer.view, grid, timer);
-    } while (!refine_.fits());
-    return out;
-}
 
 const ActiveCluster* HostLists::find(uint tile, uint slice) const {
     for (uint i = cluster_offsets[tile]; i < cluster_offsets[tile + 1]; ++i) {
@@ -38,12 +13,19 @@ const ActiveCluster* HostLists::find(uint tile, uint slice) const {
     return nullptr;
 }
 
-HostLists download_lists(const Gpu& gpu, const KernelFeatures& features, const ClusterGrid& grid,
-                         const DeviceLists& lists) {
+std::span<const uint> HostLists::list_at(const ClusterGrid& grid, const Planes& planes, uint x,
+                                         uint y) const {
+    const uint slice = fine_slice_of_depth(grid, planes.at(SURFACE_DEPTH, x, y));
+    const ActiveCluster* cluster = find(fine_tile_of(planes.view, x, y), slice);
+    return cluster == nullptr ? std::span<const uint>() : refined_of(*cluster);
+}
+
+HostLists download_lists(const Gpu& gpu, const KernelFeatures& features,
+                         const ListedLights& lists) {
     const int bits = features.light_index_bits;
     HostLists out;
     out.coarse_offsets =
-        download<uint>(gpu, lists.coarse.offsets, std::size_t{grid.cluster_count} + 1);
+        download<uint>(gpu, lists.coarse.offsets, std::size_t{lists.grid.cluster_count} + 1);
     out.coarse = download_indices(gpu, lists.coarse.lists, bits, out.coarse_offsets.back());
     out.cluster_offsets =
         download<uint>(gpu, lists.clusters.offsets, std::size_t{lists.clusters.tile_count} + 1);
@@ -55,6 +37,14 @@ HostLists download_lists(const Gpu& gpu, const KernelFeatures& features, const C
     }
     out.refined = download_indices(gpu, lists.refined.lists, bits, end);
     return out;
+}
+
+ListedLights list_everywhere(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                             const LightingInput& input) {
+    LightLists lists(gpu, tuning, features);
+    lists.list_everywhere();
+    StageTimer timer;
+    return lists.run(input.lights, input.gbuffer, input.grid, timer);
 }
 
 std::string fingerprint(const HostLists& lists) {
@@ -74,15 +64,6 @@ std::string fingerprint(const HostLists& lists) {
         add(list.data(), list.size());
     }
     return text;
-}
-
-Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbuffer) {
-    StageTimer timer;
-    DecodeGBuffer stage(gpu, default_tuning(gpu.info), features);
-    const cl::Buffer planes = stage.enqueue(gbuffer, timer);
-    const View& view = gbuffer.view;
-    return {view, download<float>(gpu, planes,
-                                  std::size_t{stage.plane_count()} * view.stride * view.height)};
 }
 
 ClusterGrid fine_grid(ClusterGrid grid) {

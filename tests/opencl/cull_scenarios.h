@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/light_sets.h"
-#include "host/certify/synthetic/stage_run.h"
 #include "host/certify/synthetic/synthetic.h"
 
 namespace kilolux {
 
-/// An image, a grid and lights that try to slip through it.
+/// A view, a grid and the kind of lights to cull.
 struct CullScenario {
     std::string name;
     ViewShape shape;
@@ -23,7 +23,7 @@ struct CullScenario {
 
 std::vector<CullScenario> cull_scenarios();
 
-/// What a scenario is made into: `lights` as the host hands them over.
+/// A scenario with its G-buffer and lights; `lights` are camera-relative.
 struct CullCase {
     KernelFeatures features;
     ClusterGrid grid{};
@@ -33,9 +33,8 @@ struct CullCase {
     std::vector<Light> lights;
 };
 
-/// A sixth of the lights each: anywhere; tangent to a pixel within 4 ulp; centred on the grid's
-/// planes; up to 1e6 times the scene; down to 1e-6 of it and around a pixel; behind and around the
-/// camera.
+/// Six kinds of lights in turn: anywhere; tangent to a pixel within 4 ulp; centred on the grid's
+/// planes; up to 1e6 times the scene; down to 1e-6 of it around a pixel; around the camera.
 CullCase make_cull_case(const Gpu& gpu, const CullScenario& scenario);
 
 }  // namespace kilolux

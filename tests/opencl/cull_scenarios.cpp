@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/certify/synthetic/cull_scenarios.h"
+#include "tests/opencl/cull_scenarios.h"
 
 #include <bit>
 #include <cmath>
@@ -11,14 +11,6 @@ namespace {
 
 constexpr uint kPixelSample = 900;
 
-ViewShape sized(uint width, uint height) {
-    ViewShape shape;
-    shape.width = width;
-    shape.height = height;
-    shape.half_y = shape.half_x * height / width;
-    return shape;
-}
-
 ViewShape orthographic(double near, double far) {
     ViewShape shape{97, 65, 30.0, 20.0};
     shape.near = near;
@@ -28,43 +20,41 @@ ViewShape orthographic(double near, double far) {
 }
 
 ViewShape sheared(double x, double y) {
-    ViewShape shape = sized(97, 65);
+    ViewShape shape = square_pixels(97, 65);
     shape.shift_x = x;
     shape.shift_y = y;
     return shape;
 }
 
 ViewShape oblique() {
-    ViewShape shape = sized(97, 65);
+    ViewShape shape = square_pixels(97, 65);
     shape.oblique_x = 0.3;
     shape.oblique_y = -0.05;
     return shape;
 }
 
 // A random drawn pixel's position in view space.
-Vec3d some_position(const CullCase& c, Random& random) {
+glm::dvec3 some_position(const CullCase& c, Random& random) {
     const uint pixel = c.pixels[random.below(static_cast<uint>(c.pixels.size()))];
     const View& view = c.planes.view;
     return c.planes.vector(SURFACE_POSITION, pixel % view.width, pixel / view.width);
 }
 
-Vec3d on_a_plane(const CullCase& c, Random& random) {
+glm::dvec3 on_a_plane(const CullCase& c, Random& random) {
     const View& view = c.planes.view;
     const double z = depth_of_slice(c.grid, random.below(c.grid.slices + 1));
-    const double s = view.orthographic != 0 ? 1.0 : z;
     const uint column = random.below(c.grid.tiles_x + 1) * c.grid.tile_width;
     const uint row = random.below(c.grid.tiles_y + 1) * c.grid.tile_height;
-    return {(column * double{view.ray.x} + view.ray.y) * s,
-            (row * double{view.ray.z} + view.ray.w) * s, -z};
+    return position_at(view, column, row, z);
 }
 
 struct Sphere {
-    Vec3d center;
+    glm::dvec3 center;
     double range;
 };
 
 Sphere adversarial_sphere(const CullCase& c, uint kind, Random& random) {
-    const Vec3d p = some_position(c, random);
+    const glm::dvec3 p = some_position(c, random);
     const double size = std::max(length(p), 1e-3);
     switch (kind) {
         case 0:
@@ -74,7 +64,7 @@ Sphere adversarial_sphere(const CullCase& c, uint kind, Random& random) {
             return {p + random.direction() * range, range};
         }
         case 2: {
-            const Vec3d center = on_a_plane(c, random);
+            const glm::dvec3 center = on_a_plane(c, random);
             return {center, random.log_uniform(1e-4, 1.0) * std::max(length(center), 1e-3)};
         }
         case 3: {
@@ -86,13 +76,13 @@ Sphere adversarial_sphere(const CullCase& c, uint kind, Random& random) {
             return {p + random.point(range), range};
         }
         default: {
-            const Vec3d center = random.direction() * random.log_uniform(1e-3, 2.0) * size;
+            const glm::dvec3 center = random.direction() * random.log_uniform(1e-3, 2.0) * size;
             return {{center.x, center.y, std::abs(center.z)}, random.log_uniform(0.5, 4.0) * size};
         }
     }
 }
 
-// Ranges of every light become its distance to a pixel, as the device sees both, 4 ulp at most off.
+// Sets ranges to the distance to a pixel in the device's numbers, at most 4 ulp off.
 void make_tangent(const Gpu& gpu, CullCase& c, Random& random) {
     PrepareLights prepare(gpu, default_tuning(gpu.info));
     StageTimer timer;
@@ -100,7 +90,7 @@ void make_tangent(const Gpu& gpu, CullCase& c, Random& random) {
         prepare.enqueue(upload_lights(gpu, c.lights), c.gbuffer.view, c.grid, timer);
     const auto bounds = download<float4>(gpu, prepared.bounds, c.lights.size());
     for (std::size_t i = 1; i < c.lights.size(); i += 6) {
-        const Vec3d center{bounds[i].x, bounds[i].y, bounds[i].z};
+        const glm::dvec3 center{bounds[i].x, bounds[i].y, bounds[i].z};
         const auto distance = static_cast<float>(length(some_position(c, random) - center));
         if (!(distance > 1e-18f)) continue;
         const uint bits = std::bit_cast<uint>(distance) - 4 + random.below(9);
@@ -108,15 +98,9 @@ void make_tangent(const Gpu& gpu, CullCase& c, Random& random) {
     }
 }
 
-std::vector<uint> drawn_pixels(const Synthetic& image, Random& random) {
-    std::vector<uint> pixels;
-    const View& view = image.view;
-    const auto* depth =
-        reinterpret_cast<const float*>(image.bytes.data() + image.layout.offset_bytes[PLANE_DEPTH]);
-    for (uint i = 0; i < view.width * view.height; ++i) {
-        if (depth[std::size_t{i / view.width} * view.stride + i % view.width] > 0.0f)
-            pixels.push_back(i);
-    }
+// All drawn pixels, or a sample of many.
+std::vector<uint> sampled_pixels(const Synthetic& image, Random& random) {
+    const std::vector<uint> pixels = image.drawn_pixels();
     if (pixels.size() <= std::size_t{2} * kPixelSample) return pixels;
     std::vector<uint> sample;
     for (uint i = 0; i < kPixelSample; ++i) {
@@ -131,16 +115,16 @@ std::vector<CullScenario> cull_scenarios() {
     const GridRequest usual{16, 9, 4, 0.5f, 50.0f, 0.0f};
     const GridRequest fine{64, 64, 16, 0.5f, 50.0f, 0.0f};
     const DepthOf noise = noise_depth(0.2, 90.0, 0.2, 4);
-    ViewShape straight = sized(97, 65);
+    ViewShape straight = square_pixels(97, 65);
     straight.rotated = false;
     GridRequest padded = usual;
     padded.position_pad = 1e-3f;
     return {
-        {"noise", sized(97, 65), usual, noise},
+        {"noise", square_pixels(97, 65), usual, noise},
         {"noise, fine grid", straight, fine, noise},
-        {"smooth", sized(97, 65), usual, slanted_depth(1.0, 20.0, 97)},
+        {"smooth", square_pixels(97, 65), usual, slanted_depth(1.0, 20.0, 97)},
         {"far/near 1e7",
-         sized(97, 65),
+         square_pixels(97, 65),
          {16, 9, 4, 1e-3f, 1e4f, 0.0f},
          noise_depth(1e-3, 1e4, 0, 9)},
         {"far 1e6", straight, {16, 9, 1, 0.1f, 1e6f, 0.0f}, noise_depth(0.1, 1e6, 0, 9)},
@@ -150,12 +134,12 @@ std::vector<CullScenario> cull_scenarios() {
         {"orthographic, near 0", orthographic(0.0, 90.0), usual, noise_depth(0.0, 89.0, 0.2, 4)},
         {"orthographic, near -50", orthographic(-50.0, 90.0), fine,
          noise_depth(-49.0, 89.0, 0.2, 4)},
-        {"one pixel", sized(1, 1), usual, noise},
-        {"17x31", sized(17, 31), usual, noise},
+        {"one pixel", square_pixels(1, 1), usual, noise},
+        {"17x31", square_pixels(17, 31), usual, noise},
         {"8192x1", {8192, 1, 1.0, 0.01}, usual, noise},
-        {"1919x1079", sized(1919, 1079), usual, slanted_depth(0.3, 70.0, 1919)},
-        {"stored positions", sized(97, 65), padded, noise, GBUFFER_FULL},
-        {"spots", sized(97, 65), usual, noise, GBUFFER_PACKED, true},
+        {"1919x1079", square_pixels(1919, 1079), usual, slanted_depth(0.3, 70.0, 1919)},
+        {"stored positions", square_pixels(97, 65), padded, noise, GBUFFER_FULL},
+        {"spots", square_pixels(97, 65), usual, noise, GBUFFER_PACKED, true},
         {"spots, fine grid", straight, fine, slanted_depth(1.0, 20.0, 97), GBUFFER_PACKED, true},
         {"spots, sheared", sheared(0.5, -0.5), usual, noise, GBUFFER_PACKED, true},
         {"spots, orthographic", orthographic(-5.0, 90.0), usual, noise_depth(-4.0, 89.0, 0.2, 4),
@@ -172,7 +156,7 @@ CullCase make_cull_case(const Gpu& gpu, const CullScenario& scenario) {
     c.gbuffer = upload_gbuffer(gpu, image);
     c.planes = decode(gpu, c.features, c.gbuffer);
     Random random(static_cast<std::uint32_t>(scenario.name.size()) * 77 + view.width);
-    c.pixels = drawn_pixels(image, random);
+    c.pixels = sampled_pixels(image, random);
     for (uint i = 0; i < scenario.light_count; ++i) {
         const Sphere sphere = adversarial_sphere(c, i % 6, random);
         const Light point = point_light(world_from_view(view, sphere.center), sphere.range);

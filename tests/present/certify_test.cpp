@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// `kilolux certify`: its exit codes, its table and its JSON.
+#include "present/commands/certify.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <limits>
+
+#include "host/base/error.h"
+#include "tests/support/cache_sandbox.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class Certify : public CacheSandbox {};
+
+TEST_F(Certify, RunsTheChosenCasesAndWritesTheirJson) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "device.json").string();
+    const ChildResult result =
+        run_kilolux({"certify", "--case", "M2,nothing", "--lanes", "1,8", "-o", file});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(contains(result.out, "| 27 ")) << result.out;
+    EXPECT_TRUE(contains(result.out, "| idle-lights ")) << result.out;
+    EXPECT_FALSE(contains(result.out, "| 26 ")) << result.out;
+    const Json json = Json::parse(text_of_file(file));
+    EXPECT_TRUE(json.at("passed"));
+    EXPECT_EQ(json.at("failed"), Json::array());
+    for (const char* key : {"version", "commit"}) {
+        EXPECT_FALSE(json.at("program").at(key).get<std::string>().empty()) << key;
+    }
+    for (const char* key : {"name", "version", "driver", "platform"}) {
+        EXPECT_FALSE(json.at("device").at(key).get<std::string>().empty()) << key;
+    }
+    ASSERT_EQ(json.at("cases").size(), 2u);
+    const Json& nothing = json.at("cases").at(0);
+    EXPECT_EQ(nothing.at("case"), "27");
+    EXPECT_EQ(nothing.at("name"), "nothing");
+    EXPECT_EQ(nothing.at("lanes"), Json({1, 8}));
+    for (const char* key : {"tried", "threshold", "passed"}) EXPECT_TRUE(nothing.contains(key));
+    for (const char* key : {"what", "worst", "limit", "checked", "where"}) {
+        EXPECT_TRUE(nothing.at("findings").at(0).contains(key)) << key;
+    }
+    EXPECT_EQ(folder.names(), std::set<std::string>{"device.json"});
+}
+
+TEST_F(Certify, PrintsJsonInsteadOfTheTableAndTheSameOneEachTime) {
+    const std::vector<std::string> words = {"certify", "--case", "30", "--lanes", "4", "-o", "-"};
+    const ChildResult first = run_kilolux(words);
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_EQ(Json::parse(first.out).at("cases").at(0).at("name"), "alternating-frames");
+    EXPECT_EQ(run_kilolux(words).out, first.out);
+}
+
+// Kernels whose lights reach half as far must not pass.
+TEST_F(Certify, AFailedCaseExitsWithThreeAndIsNamed) {
+    const TemporaryFolder folder;
+    fs::copy(fs::path(source_root()) / "kernels", folder / "kernels", fs::copy_options::recursive);
+    fs::copy(fs::path(source_root()) / "raster", folder / "raster", fs::copy_options::recursive);
+    const fs::path reach = folder / "kernels/device/light_reach.h";
+    std::string text = text_of_file(reach);
+    const std::size_t at = text.find("<= CULL_LIMIT");
+    ASSERT_NE(at, std::string::npos);
+    write_text(reach, text.replace(at, 13, "<= 0.25f * CULL_LIMIT"));
+    set("KILOLUX_SOURCE_DIR", folder.path().c_str());
+    const std::string file = (folder / "result.json").string();
+    const ChildResult result =
+        run_kilolux({"certify", "--case", "3,30", "--lanes", "8", "--quiet", "-o", file});
+    EXPECT_EQ(result.code, 3) << result.out << result.err;
+    EXPECT_TRUE(
+        result.err.ends_with("kilolux: certify: 1 of 2 hard cases failed: 3 beyond-the-grid\n"))
+        << result.err;
+    EXPECT_TRUE(contains(result.out, "missed lights: ")) << result.out;
+    EXPECT_TRUE(contains(result.out, "FAILED at light ")) << result.out;
+    const Json json = Json::parse(text_of_file(file));
+    EXPECT_FALSE(json.at("passed"));
+    EXPECT_EQ(json.at("failed"), Json({"3"}));
+}
+
+TEST_F(Certify, CommandLinesThatCannotBeObeyed) {
+    const struct {
+        std::vector<std::string> more;
+        int code;
+        const char* message;
+    } cases[] = {
+        {{"--case", "tiny-light"}, 2, "did you mean 'tiny-lights'?"},
+        {{"--case", "M33"}, 2, "--case: 'M33' is none of 1, 2"},
+        {{"--lanes", "3"}, 2, "--lanes: '3' is none of 1, 2, 4, 8, 16"},
+        {{"--device", "no such device"}, 1, "no such device"},
+        {{"-o", "/no/such/folder/a.json"}, 1, "there is no folder"},
+    };
+    for (const auto& c : cases) {
+        std::vector<std::string> words = {"certify"};
+        words.insert(words.end(), c.more.begin(), c.more.end());
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, c.code) << result.err;
+        EXPECT_TRUE(contains(result.err, c.message)) << result.err;
+        EXPECT_EQ(result.out, "");
+    }
+    EXPECT_EQ(run_kilolux({"report", "--hard-cases"}).code, 2);
+}
+
+TEST_F(Certify, AnInterruptedRunWritesNothing) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "result.json").string();
+    const ChildResult result = run_kilolux({"certify", "-o", file}, [](pid_t child) {
+        ::usleep(1500000);
+        ::kill(child, SIGINT);
+    });
+    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_EQ(result.err, "kilolux: interrupted\n");
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(folder.names(), std::set<std::string>{});
+}
+
+HardCaseRow row_of(std::string_view label, const Worst& worst, double limit) {
+    HardCaseRow row{{label, "name", "what is tried", "what must hold", nullptr}, {8}, {}, {}};
+    row.findings.at_most("missed lights", worst, limit);
+    return row;
+}
+
+TEST(CertifyText, FailuresSayWhereAndWhich) {
+    const std::vector<HardCaseRow> rows = {row_of("1", {3, 1000, "light 7, pixel 1, 2"}, 0),
+                                           row_of("2", {0, 1000, ""}, 0)};
+    const std::string text = to_markdown(hard_case_table(rows));
+    EXPECT_TRUE(contains(text, "missed lights: 3 of 1000 FAILED at light 7, pixel 1, 2")) << text;
+    EXPECT_TRUE(contains(text, "| NO ")) << text;
+    EXPECT_THROW(require_all_passed(rows), ComparisonFailed);
+    require_all_passed({rows.back()});
+}
+
+TEST(CertifyText, ACaseThatThrowsFailsWithItsText) {
+    HardCaseRow row = row_of("1", {0, 1, ""}, 0);
+    row.error = "8 lanes: no OpenGL";
+    EXPECT_FALSE(row.passed());
+    EXPECT_EQ(certificate_json({}, {row})["cases"][0]["error"], "8 lanes: no OpenGL");
+}
+
+TEST(CertifyText, InfiniteNumbersAreNullInJson) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto json = certificate_json({}, {row_of("1", {2.5, 1, ""}, kInfinity)});
+    EXPECT_EQ(json["cases"][0]["findings"][0]["limit"], nullptr);
+    EXPECT_EQ(json["cases"][0]["findings"][0]["worst"], 2.5);
+}
+
+}  // namespace
+}  // namespace kilolux
