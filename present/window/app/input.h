@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-// What a person does to a window. Codes are GLFW's; positions are in window coordinates, from the
+// Events of a window. Codes are GLFW's; positions are in window coordinates, from the
 // upper left.
 struct KeyEvent {
     int key = 0;
@@ -36,8 +36,9 @@ struct WheelEvent {
 struct FocusEvent {
     bool focused = false;
 };
+struct RedrawEvent {};  // the window was uncovered or has another size
 using InputEvent =
-    std::variant<KeyEvent, TextEvent, ButtonEvent, MoveEvent, WheelEvent, FocusEvent>;
+    std::variant<KeyEvent, TextEvent, ButtonEvent, MoveEvent, WheelEvent, FocusEvent, RedrawEvent>;
 
 /// Which keys and buttons are down, where the mouse is, and what happened since the last frame.
 class InputState {

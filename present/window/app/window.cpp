@@ -83,6 +83,9 @@ void Window::install_callbacks() {
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
         window_of(w).post(FocusEvent{focused == GLFW_TRUE});
     });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { window_of(w).post(RedrawEvent{}); });
+    glfwSetFramebufferSizeCallback(
+        window_, [](GLFWwindow* w, int, int) { window_of(w).post(RedrawEvent{}); });
 }
 
 void Window::make_current() const { glfwMakeContextCurrent(window_); }
@@ -99,6 +102,7 @@ bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLF
 void Window::close() const { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 void Window::swap() const { glfwSwapBuffers(window_); }
 void Window::show() const { glfwShowWindow(window_); }
+void Window::hide() const { glfwHideWindow(window_); }
 
 std::array<int, 2> Window::size() const {
     std::array<int, 2> out{};

@@ -37,19 +37,20 @@ class Window {
 
     void make_current() const;
 
-    /// Takes over what a person or a script does: every event, and nothing else, moves the program.
+    /// `take` gets every event, a person's and a script's.
     void on_event(std::function<void(const InputEvent&)> take) { take_ = std::move(take); }
     void post(const InputEvent& event) const {
         if (take_) take_(event);
     }
 
-    /// Handles what happened; waits for something to happen for at most `seconds`, 0: not at all.
+    /// Handles events; waits at most `seconds` for one.
     void wait_events(double seconds) const;
 
     bool should_close() const;
     void close() const;
     void swap() const;
     void show() const;
+    void hide() const;
 
     std::array<int, 2> size() const;         // window coordinates
     std::array<int, 2> framebuffer() const;  // [pixel]; 0,0 while minimised
@@ -58,12 +59,11 @@ class Window {
     bool has_focus() const;
     void resize(std::array<int, 2> size) const;
     void set_title(const std::string& title) const;
-    /// Costs nothing where it is so already. The window's context is current.
+    /// The window's context is current. Does nothing when it is so already.
     void set_vsync(bool on);
     void set_full_screen(bool on);
     bool is_full_screen() const;
-    /// What Window() makes this window of again: its size, or the one before full screen, on a
-    /// screen of usual density.
+    /// The size to give Window() next time: not that of full screen, for a screen of usual density.
     std::array<int, 2> size_to_keep() const;
     /// Hides the mouse and lets it move without end.
     void grab_mouse(bool on) const;

@@ -85,7 +85,7 @@ void Panel::clusters() const {
     ui.tip("Keeps the active clusters of this moment and draws them as boxes");
     if (!state.frozen) return;
     ui.slider("Least lights", state.box_lights, {0, 200, false, "%.0f"});
-    fact_line("Boxes", short_count(static_cast<double>(facts.boxes)));
+    fact_line("Boxes", short_count(facts.boxes));
 }
 
 void Panel::camera(const CameraRig& rig) const {
@@ -100,7 +100,7 @@ void Panel::camera(const CameraRig& rig) const {
             names.push_back(std::to_string(i) + (name.empty() ? "" : " " + name));
         }
         int chosen = 0;
-        if (ui.choice("Go to", chosen, names) && chosen > 0) wishes.scene_camera = chosen - 1;
+        if (ui.choice("Go to", chosen, names) && chosen > 0) actions.scene_camera = chosen - 1;
     }
     char text[96];
     const glm::dvec3& p = rig.camera().position;
@@ -108,12 +108,12 @@ void Panel::camera(const CameraRig& rig) const {
     fact_line("Position", text);
     std::snprintf(text, sizeof text, "%.3g m/s", rig.speed());
     fact_line("Fly speed", text);
-    wishes.reset_camera |= ui.button("Reset");
+    actions.reset_camera |= ui.button("Reset");
     ImGui::SameLine();
-    wishes.frame_scene |= ui.button("Frame");
+    actions.frame_scene |= ui.button("Frame");
     ImGui::SameLine();
-    wishes.copy_camera |= ui.button("Copy camera");
-    wishes.copy_command |= ui.button("Copy the command that renders this", true);
+    actions.copy_camera |= ui.button("Copy camera");
+    actions.copy_command |= ui.button("Copy the command that renders this", true);
 }
 
 void Panel::window() const {
@@ -129,14 +129,14 @@ void Panel::window() const {
     ui.tip("Also when nothing changes: for steady times");
     ui.checkbox("Vsync", state.vsync);
     ui.checkbox("Overlay", state.show_overlay);
-    wishes.save_png |= ui.button("Save PNG");
+    actions.save_png |= ui.button("Save PNG");
     ImGui::SameLine();
-    wishes.save_exr |= ui.button("Save EXR");
+    actions.save_exr |= ui.button("Save EXR");
     ImGui::SameLine();
-    wishes.full_screen |= ui.button("Full screen");
-    wishes.help |= ui.button("Help");
+    actions.full_screen |= ui.button("Full screen");
+    actions.help |= ui.button("Help");
     ImGui::SameLine();
-    wishes.reset_settings |= ui.button("All settings to their defaults");
+    actions.reset_settings |= ui.button("All settings to their defaults");
 }
 
 }  // namespace kilolux
