@@ -21,7 +21,7 @@ namespace {
 constexpr double kFrameSeconds = 1.0 / 60.0;
 constexpr double kIdleSeconds = 0.25;  // signals are looked for that often
 constexpr double kRestSeconds = 0.25;  // without a change until a picture is made in full
-constexpr double kKeepSeconds = 0.5;   // without a change until the state is written
+constexpr double kKeepSeconds = 0.5;   // a change has to last until it is written
 constexpr std::chrono::milliseconds kStopPatience(200);
 constexpr int kSmallestKept = 64;  // [pixel] of the window's edges, from run to run
 
@@ -173,17 +173,20 @@ void ViewSession::remember_size() {
     state_.window_size = {std::max(size[0], kSmallestKept), std::max(size[1], kSmallestKept)};
 }
 
-// Changes are written once they last: neither a lost display nor a crash loses them.
+// Changes that last are written: neither a lost display nor a crash loses them.
 void ViewSession::keep_state() {
-    if (std::chrono::duration<double>(Clock::now() - last_change_).count() < kKeepSeconds) return;
+    if (clock_ < next_keep_) return;
+    next_keep_ = clock_ + kKeepSeconds;
     remember_size();
-    if (state_ == kept_) return;
-    kept_ = state_;
-    try {
-        file_.save(state_);
-    } catch (const Error& error) {
-        warn(error.what());
+    if (state_ != kept_ && state_ == seen_) {
+        kept_ = state_;
+        try {
+            file_.save(state_);
+        } catch (const Error& error) {
+            warn(error.what());
+        }
     }
+    seen_ = state_;
 }
 
 // Whether the last picture is what the window wants, in full size, and no task is left.

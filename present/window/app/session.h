@@ -132,6 +132,7 @@ class ViewSession {
     Window& window_;
     ViewState state_;
     ViewState kept_;  // as last written to file_
+    ViewState seen_;  // when writing was considered last
     CameraRig rig_;
     double time_;  // of the lights [s]
     InputState input_;
@@ -151,6 +152,7 @@ class ViewSession {
     double frame_seconds_ = 0.0;
     double clock_ = 0.0;         // sum of frame_seconds_ [s]
     double notice_until_ = 0.0;  // by clock_
+    double next_keep_ = 0.0;     // by clock_
     int frames_to_draw_ = 4;
     std::unique_ptr<ScriptPlayer> script_;  // none: a person
     bool dragging_ = false;                 // the mouse, begun on the picture
