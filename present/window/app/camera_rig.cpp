@@ -34,7 +34,7 @@ CameraRig::CameraRig(const Camera& start, const Box& scene_box)
 void CameraRig::set(const Camera& camera) {
     camera_ = camera;
     const glm::dvec3 middle = box_.empty() ? glm::dvec3(0.0) : box_.center();
-    // Where it looks, as far away as the scene's middle; see choose_camera().
+    // In its direction, as far away as the scene's middle; see choose_camera().
     const double reach = std::max(glm::length(middle - camera.position), 1e-3 * radius_);
     focal_ = camera.position - camera.world_from_view[2] * reach;
     unmoved_ = true;

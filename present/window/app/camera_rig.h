@@ -16,7 +16,7 @@ struct CameraMotion {
     glm::dvec3 move{0.0};  // -1..1 along right, up, forward: keys held
     glm::dvec2 look{0.0};  // mouse [window heights], right and down: turn (fly) or orbit
     glm::dvec2 pan{0.0};   // mouse [window heights], right and down: orbit's pan
-    double wheel = 0.0;    // clicks: fly's speed, orbit's zoom
+    double wheel = 0.0;    // clicks: speed (fly) or zoom (orbit)
     bool faster = false;
     bool slower = false;
     bool any() const;
@@ -24,8 +24,8 @@ struct CameraMotion {
 
 /// The window's camera: flies, or orbits about a point.
 ///
-/// It starts as a camera of the scene, bit for bit; from the first movement on it is one that
-/// `--camera-position`, `--camera-focal-point` and `--camera-view-angle` describe, with +Y up.
+/// Until it is moved, it is exactly the camera given. Then it is one that `--camera-position`,
+/// `--camera-focal-point` and `--camera-view-angle` describe, with +Y up.
 class CameraRig {
  public:
     CameraRig(const Camera& start, const Box& scene_box);

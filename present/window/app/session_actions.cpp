@@ -104,15 +104,6 @@ void ViewSession::copy(const std::string& text) {
     notify("copied: " + text);
 }
 
-// As wanted(), in full size.
-PictureRequest ViewSession::wanted_whole() const {
-    PictureRequest request = wanted();
-    const Area area = picture_area();
-    request.settings.width = std::max(area.width, kSmallestEdge);
-    request.settings.height = std::max(area.height, kSmallestEdge);
-    return request;
-}
-
 std::string ViewSession::command() const {
     SharedOptions options = options_.shared;
     options.settings = wanted_whole().settings;

@@ -15,8 +15,7 @@ struct GLFWwindow;
 
 namespace kilolux {
 
-/// The window system, while it lives. Throws Error that says how to do without when there is no
-/// display.
+/// The window system. Throws Error when there is no display, and names the command that needs none.
 class WindowSystem {
  public:
     WindowSystem();
@@ -28,8 +27,8 @@ class WindowSystem {
 /// A window with an OpenGL 4.5 core context.
 class Window {
  public:
-    /// `visible`: on the screen; else only a context to draw with. Throws Error that names the
-    /// packages when the display has no OpenGL 4.5.
+    /// Not `visible`: only a context. Throws Error that names the packages when the display has no
+    /// OpenGL 4.5.
     Window(std::array<int, 2> size, const std::string& title, bool visible);
     ~Window();
     Window(const Window&) = delete;
@@ -56,9 +55,7 @@ class Window {
     std::array<int, 2> framebuffer() const;  // [pixel]; 0,0 while minimised
     float content_scale() const;             // of fonts: 2 on a screen of twice the usual density
     bool is_minimised() const;
-    bool has_focus() const;
     void resize(std::array<int, 2> size) const;
-    void set_title(const std::string& title) const;
     /// The window's context is current. Does nothing when it is so already.
     void set_vsync(bool on);
     void set_full_screen(bool on);

@@ -150,7 +150,7 @@ void Panel::speed() const {
     }
     count_lines(facts.stats);
     ui.checkbox("Count k*", state.settings.count_useful);
-    ui.tip("Lights whose range covers the pixel, of those evaluated: one more pass");
+    ui.tip("Counts the evaluated lights whose range covers the pixel: one more pass");
     fact_line("Memory", byte_text(facts.device_bytes) + " OpenCL, " +
                             byte_text(facts.process_bytes) + " process");
 }
@@ -167,7 +167,7 @@ void Panel::device() const {
                          std::to_string(facts.scene.materials.size()) + " materials");
     wrapped("Compiled in", list_of(facts.plan.features));
     wrapped("Left out", list_of(facts.plan.left_out));
-    wrapped("G-buffer", std::to_string(facts.plan.gbuffer_bytes_per_pixel) + " bytes a pixel");
+    wrapped("G-buffer", std::to_string(facts.plan.gbuffer_bytes_per_pixel) + " bytes per pixel");
 }
 
 }  // namespace kilolux
