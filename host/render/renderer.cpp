@@ -143,6 +143,7 @@ LightInput Renderer::Parts::begin(const Camera& camera, double time, Frame& fram
     scene->make_current();
     scene->take_up_changes();
     const Clock::time_point start = Clock::now();
+    timer = StageTimer();  // without the events of a frame that failed
     last_camera = camera;
     frame.width = settings.width;
     frame.height = settings.height;

@@ -71,6 +71,22 @@ TEST(Desktop, DrawsNothingWhileNothingHappens) {
     leave(viewer);
 }
 
+TEST(Desktop, FreezesClustersAfterItCouldNot) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    viewer.settled();
+    viewer.key("3");  // forward: no clusters
+    viewer.settled();
+    viewer.key("g");
+    viewer.wait_for_change();  // a message
+    viewer.key("1");
+    const Seen before = viewer.settled();
+    viewer.key("g");
+    wait_for("boxes", [&] { return viewer.settled() != before; });
+    leave(viewer);
+}
+
 TEST(Desktop, LeavesWhileAPictureIsMade) {
     const Desktop desktop({"--manager"});
     // One that takes minutes.

@@ -70,6 +70,20 @@ TEST_F(RenderWorkerTest, AProbeThatCannotBeIsAnswered) {
     EXPECT_EQ(worker.ask([](Renderer& r) { return r.settings().width; }).get(), 96);
 }
 
+TEST_F(RenderWorkerTest, TimesAreThoseOfThePictureAlone) {
+    RenderWorker worker = this->worker();
+    PictureRequest too_large = request();  // lists of 500 MiB
+    too_large.settings.lights.count = 200'000;
+    too_large.settings.lights.radius = 1e6;
+    too_large.settings.max_memory_bytes = std::uint64_t{256} << 20;
+    EXPECT_THROW(worker.render(too_large).get(), Error);
+    PictureRequest next = request();
+    next.settings.renderer = RendererKind::forward;
+    for (const StageTime& stage : worker.render(next).get().frame.stats.stages) {
+        EXPECT_NE(stage.name, "bin_pixels");
+    }
+}
+
 TEST_F(RenderWorkerTest, SaysWhyTheRendererIsNotThere) {
     settings_.device = "no such device";
     RenderWorker worker = this->worker();

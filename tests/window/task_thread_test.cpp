@@ -88,9 +88,10 @@ TEST(TaskThread, StoppingWaitsForWhatMustFinishOnly) {
     auto dropped = thread.ask([] { return 1; });
     auto latest = thread.ask_latest([] { return 2; });
     thread.ask([&] { written = true; }, AtStop::finish);
+    auto stopped = std::async([&] { return thread.stop(std::chrono::minutes(1)); });
+    while (!thread.is_stopping()) std::this_thread::yield();
     gate.open();
-    EXPECT_TRUE(thread.stop(std::chrono::minutes(1)));
-    EXPECT_TRUE(thread.is_stopping());
+    EXPECT_TRUE(stopped.get());
     EXPECT_TRUE(written);
     EXPECT_THROW(dropped.get(), std::future_error);
     EXPECT_THROW(latest.get(), std::future_error);

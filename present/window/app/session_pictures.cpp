@@ -55,7 +55,7 @@ Settled ViewSession::settled() const {
     const bool busy = probing_.valid() || freezing_.valid() || measuring_.valid() ||
                       !saving_.empty() || (!renders_always() && !pending_.empty());
     const bool shown = drawn_ && !is_moving() && same_request(*drawn_, wanted());
-    return shown && !busy && frames_to_draw_ == 0 ? Settled::yes : Settled::not_yet;
+    return shown && !busy ? Settled::yes : Settled::not_yet;
 }
 
 Area ViewSession::picture_area() const {

@@ -159,6 +159,7 @@ void ScriptPlayer::add_settle() {
         settling_ = settled == Settled::not_yet;
         return !settling_;
     });
+    add_wait(4);  // until the panel's layout of new results is final
 }
 
 void ScriptPlayer::add_key(const std::string& name, double seconds) {
