@@ -25,15 +25,15 @@ fs::path free_file(const std::string& extension) {
     }
 }
 
-// A heat map of relative errors, with its legend.
-Canvas error_picture(const FrameError& error) {
+// A heat map of relative errors at the picture's size, with its legend.
+Canvas error_picture(const FrameError& error, int width, int height) {
     const HeatScale scale{1e-8, 1.0, true, "RELATIVE ERROR"};
-    Canvas canvas = make_canvas(error.width, error.height);
-    for (int y = 0; y < error.height; ++y) {
-        for (int x = 0; x < error.width; ++x) {
-            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(error.width) +
-                               static_cast<std::size_t>(x);
-            canvas.set(x, y, heat_color(position_on(scale, error.relative.at(pixel))));
+    Canvas canvas = make_canvas(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const int from = y * error.height / height * error.width + x * error.width / width;
+            const double value = error.relative.at(static_cast<std::size_t>(from));
+            canvas.set(x, y, heat_color(position_on(scale, value)));
         }
     }
     draw_legend(canvas, scale);
@@ -59,7 +59,8 @@ void ViewSession::measure_error() {
 }
 
 void ViewSession::take_error(FrameError error) {
-    const Canvas canvas = error_picture(error);
+    const RenderSettings& measured = error_of_->settings;
+    const Canvas canvas = error_picture(error, measured.width, measured.height);
     error_map_ = make_texture(GL_TEXTURE_2D);
     glTextureStorage2D(error_map_.name(), 1, GL_RGBA8, canvas.width, canvas.height);
     glTextureParameteri(error_map_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -52,8 +52,9 @@ bool ViewSession::is_moving() const {
 // Whether the last picture is what the window wants, in full size, and no task is left.
 Settled ViewSession::settled() const {
     if (state_.lights_move) return Settled::never;
-    const bool busy = probing_.valid() || freezing_.valid() || measuring_.valid() ||
-                      !saving_.empty() || (!renders_always() && !pending_.empty());
+    const bool busy = limits_.valid() || probing_.valid() || freezing_.valid() ||
+                      measuring_.valid() || !saving_.empty() ||
+                      (!renders_always() && !pending_.empty());
     const bool shown = drawn_ && !is_moving() && same_request(*drawn_, wanted());
     return shown && !busy ? Settled::yes : Settled::not_yet;
 }
