@@ -2,11 +2,11 @@
 #include <GLFW/glfw3.h>
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
 #include "present/window/script/script.h"
 
@@ -223,12 +223,13 @@ void ScriptPlayer::add_slide(const std::string& widget, double value) {
 }
 
 void ScriptPlayer::add_value(const std::string& widget, const std::string& text) {
-    actions_.push_back([this, widget, value = parse_number(place_, text)] {
+    actions_.push_back([this, widget, text, value = parse_number(place_, text)] {
         const std::optional<SliderRange>& range = place_of(widget).slider;
         if (!range) throw Error(place_ + ": '" + widget + "' is not a slider");
         if (value >= range->low && value <= range->high) return true;
-        throw Error(place_ + ": " + number_text(value) + " is not within the slider '" + widget +
-                    "': " + number_text(range->low) + " to " + number_text(range->high));
+        char ends[64];
+        std::snprintf(ends, sizeof ends, "%.10g to %.10g", range->low, range->high);
+        throw Error(place_ + ": " + text + " is not on the slider '" + widget + "', " + ends);
     });
     add_click(widget, GLFW_MOD_CONTROL);
     add_wait(1);
