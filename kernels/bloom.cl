@@ -18,7 +18,7 @@ static inline FV every_second(global const float* p) {
 #if VW == 1
     return p[0];
 #else
-    FV a = load_lanes(p), b = load_lanes(p + VW);
+    FV a = lane_load(p), b = lane_load(p + VW);
 #if VW == 2
     return (FV)(a.s0, b.s0);
 #elif VW == 4
@@ -36,9 +36,9 @@ static inline FV every_second(global const float* p) {
 static inline FV tap(global const float* row, uint width, uint x, int offset) {
     int first = (int)(x * 2u) + offset;
     if (first >= 0 && first + 2 * VW <= (int)width) return bloomable(every_second(row + first));
-#define TAP(i) row[clamped((int)((x + i) * 2u) + offset, width)]
-    return bloomable(LANES(FV, TAP));
-#undef TAP
+    float taps[VW];
+    for (int i = 0; i < VW; ++i) taps[i] = row[clamped(first + 2 * i, width)];
+    return bloomable(lane_load(taps));
 }
 
 // The row filtered at twice the pixels x .. x + VW - 1.
@@ -62,7 +62,7 @@ kernel void bloom_down(global const float* restrict fine,  // [3][height][stride
                                fine_size.x, x);
     }
     FV sum = fma(rows[1] + rows[2], fv(0.375f), (rows[0] + rows[3]) * 0.125f);
-    store_lanes(sum, coarse + (plane * coarse_size.y + y) * coarse_size.z + x);
+    lane_store(sum, coarse + (plane * coarse_size.y + y) * coarse_size.z + x);
 }
 
 // Half as many lanes.
@@ -87,11 +87,13 @@ static inline FV doubled_row(global const float* row, uint width, uint x) {
         return fma(near, fv(0.75f), far * 0.25f);
     }
 #endif
-#define NEAR(i) row[clamped((int)((x + i) / 2u), width)]
-#define FAR(i) row[clamped((int)((x + i) / 2u) + ((x + i) % 2u != 0u ? 1 : -1), width)]
-    return fma(LANES(FV, NEAR), fv(0.75f), LANES(FV, FAR) * 0.25f);
-#undef NEAR
-#undef FAR
+    float near_taps[VW], far_taps[VW];
+    for (uint i = 0; i < VW; ++i) {
+        int half_x = (int)((x + i) / 2u);
+        near_taps[i] = row[clamped(half_x, width)];
+        far_taps[i] = row[clamped(half_x + ((x + i) % 2u != 0u ? 1 : -1), width)];
+    }
+    return fma(lane_load(near_taps), fv(0.75f), lane_load(far_taps) * 0.25f);
 }
 
 kernel void bloom_up(global const float* restrict coarse,  // [3][height][stride]
@@ -110,5 +112,5 @@ kernel void bloom_up(global const float* restrict coarse,  // [3][height][stride
     FV far = doubled_row(image + far_row * coarse_size.z, coarse_size.x, x);
     FV wide = fma(near, fv(0.75f), far * 0.25f);
     uint pixel = (plane * fine_size.y + y) * fine_size.z + x;
-    store_lanes(fma(wide, fv(share), load_lanes(fine + pixel) * (1.0f - share)), mixed + pixel);
+    lane_store(fma(wide, fv(share), lane_load(fine + pixel) * (1.0f - share)), mixed + pixel);
 }

@@ -13,8 +13,8 @@ static inline UV count_covering(FV3 p, global const float4* bounds, global const
     for (uint i = 0; i < count; ++i) {
         float4 light = bounds[list[i]];
         FV3 v = fv3(fv(light.x) - p.x, fv(light.y) - p.y, fv(light.z) - p.z);
-        MASK inside = full_mask(dot3(v, v) * light.w < fv(1.0f));
-        covering -= KX_CONCAT(as_, UV)(inside);
+        MASK inside = lane_mask(dot3(v, v) * light.w < fv(1.0f));
+        covering -= lane_bits(inside);
     }
     return covering;
 }
@@ -34,25 +34,25 @@ kernel void count_lights(
     GBuffer g = {gbuffer, layout, view, 0};
     Pixels pixels = row_pixels(view, x, y);
     FV depth01 = load_depth01(g, pixels);
-    MASK drawn = full_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
+    MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
     UV k = (UV)(~0u);
     UV k_star = (UV)(~0u);
-    if (any_lane(drawn)) {
-        FV z = view_depth(view, pixels.x, pixels.y, select_fv(drawn, depth01, fv(1.0f)));
+    if (lane_any(drawn)) {
+        FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
         FV3 p = load_position(g, pixels, z);
         UV slice = fine_slice_of_depth(grid, z);
-        uint tile = y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
+        uint tile = fine_tile_of(view, x, y);
         uint end = min(cluster_offsets[tile + 1], cluster_capacity);
         for (uint i = cluster_offsets[tile]; i < end; ++i) {
-            MASK mine = full_mask(slice == (UV)(clusters[i].slice)) & drawn;
-            if (!any_lane(mine)) continue;
+            MASK mine = lane_mask(slice == (UV)(clusters[i].slice)) & drawn;
+            if (!lane_any(mine)) continue;
             uint count = clusters[i].list_count;
-            k = select(k, (UV)(count), KX_CONCAT(as_, UV)(mine));
+            k = select(k, (UV)(count), lane_bits(mine));
             k_star =
                 select(k_star, count_covering(p, bounds, lists + clusters[i].list_begin, count),
-                       KX_CONCAT(as_, UV)(mine));
+                       lane_bits(mine));
         }
     }
-    store_lanes(k, evaluated + pixels.first);
-    store_lanes(k_star, covering + pixels.first);
+    lane_store(k, evaluated + pixels.first);
+    lane_store(k_star, covering + pixels.first);
 }

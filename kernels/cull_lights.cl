@@ -202,18 +202,18 @@ kernel void cull_lights_offset(
         UV pairs[CHUNKS_AT_ONCE];
 #pragma unroll
         for (uint i = 0; i < CHUNKS_AT_ONCE; ++i) {
-            if (i < here) pairs[i] = load_lanes(place + i * stride);
+            if (i < here) pairs[i] = lane_load(place + i * stride);
         }
 #pragma unroll
         for (uint i = 0; i < CHUNKS_AT_ONCE; ++i) {
             if (i < here) {
-                store_lanes(sum, place + i * stride);
+                lane_store(sum, place + i * stride);
                 sum += pairs[i];
             }
         }
         place += CHUNKS_AT_ONCE * stride;
     }
-    store_lanes(sum, counts + cluster);
+    lane_store(sum, counts + cluster);
 }
 
 kernel void cull_lights_fill(

@@ -25,21 +25,21 @@
 // FMA_CHAINS fused multiply-adds a lane and iteration.
 kernel void fma_rate(uint iterations, float a, float b,
                      global float* restrict out) {  // out [items][VW]
-    FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
+    FV start = lane_to_float(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
         EACH_10(FMA_X)
     }
     FV sum = fv(0.0f);
     EACH_10(ADD_X)
-    store_lanes(sum, out + get_global_id(0) * VW);
+    lane_store(sum, out + get_global_id(0) * VW);
 }
 
 // The same with ADD_CHAINS additions beside: evaluate() has about as many that need no multiplier,
 // and some CPUs add on other pipes than they multiply on.
 kernel void instruction_rate(uint iterations, float a, float b,
                              global float* restrict out) {  // out [items][VW]
-    FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
+    FV start = lane_to_float(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     EACH_4(DECLARE_Y)
     for (uint i = 0; i < iterations; ++i) {
@@ -49,44 +49,44 @@ kernel void instruction_rate(uint iterations, float a, float b,
     FV sum = fv(0.0f);
     EACH_10(ADD_X)
     EACH_4(ADD_Y)
-    store_lanes(sum, out + get_global_id(0) * VW);
+    lane_store(sum, out + get_global_id(0) * VW);
 }
 
 // Special functions as the shading kernels' compiler makes them, FMA_CHAINS a lane and iteration.
 kernel void rsqrt_rate(uint iterations, float a, float b,
                        global float* restrict out) {  // out [items][VW]
-    FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
+    FV start = lane_to_float(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
         EACH_10(RSQRT_X)
     }
     FV sum = fv(a);
     EACH_10(ADD_X)
-    store_lanes(sum, out + get_global_id(0) * VW);
+    lane_store(sum, out + get_global_id(0) * VW);
 }
 
 kernel void sqrt_rate(uint iterations, float a, float b,
                       global float* restrict out) {  // out [items][VW]
-    FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
+    FV start = lane_to_float(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
         EACH_10(SQRT_X)
     }
     FV sum = fv(a);
     EACH_10(ADD_X)
-    store_lanes(sum, out + get_global_id(0) * VW);
+    lane_store(sum, out + get_global_id(0) * VW);
 }
 
 kernel void division_rate(uint iterations, float a, float b,
                           global float* restrict out) {  // out [items][VW]
-    FV start = to_float_lanes(lane_numbers) * 0.001f + 0.5f;
+    FV start = lane_to_float(lane_numbers) * 0.001f + 0.5f;
     EACH_10(DECLARE_X)
     for (uint i = 0; i < iterations; ++i) {
         EACH_10(DIVIDE_X)
     }
     FV sum = fv(b);
     EACH_10(ADD_X)
-    store_lanes(sum, out + get_global_id(0) * VW);
+    lane_store(sum, out + get_global_id(0) * VW);
 }
 
 // Does nothing: what a launch costs.
@@ -98,7 +98,7 @@ kernel void write_memory(uint repeats, uint count, uint item_step, uint step,
     size_t first = (size_t)get_global_id(0) * item_step;
     for (uint r = 0; r < repeats; ++r) {
         FV value = fv((float)(r + 1));
-        for (uint i = 0; i < count; ++i) store_lanes(value, to + (first + (size_t)i * step) * VW);
+        for (uint i = 0; i < count; ++i) lane_store(value, to + (first + (size_t)i * step) * VW);
     }
 }
 
@@ -110,7 +110,7 @@ kernel void copy_memory(uint repeats, uint count, uint item_step, uint step,
     for (uint r = 0; r < repeats; ++r) {
         for (uint i = 0; i < count; ++i) {
             size_t place = (first + (size_t)i * step) * VW;
-            store_lanes(load_lanes(from + place), to + place);
+            lane_store(lane_load(from + place), to + place);
         }
     }
 }
@@ -126,11 +126,11 @@ kernel void read_memory(uint repeats, uint count, uint item_step, uint step,
         for (uint i = 0; i < count; i += 4) {
             global const float* place = from + (first + (size_t)i * step) * VW;
             size_t next = (size_t)step * VW;
-            sum0 += load_lanes(place);
-            sum1 += load_lanes(place + next);
-            sum2 += load_lanes(place + 2 * next);
-            sum3 += load_lanes(place + 3 * next);
+            sum0 += lane_load(place);
+            sum1 += lane_load(place + next);
+            sum2 += lane_load(place + 2 * next);
+            sum3 += lane_load(place + 3 * next);
         }
     }
-    store_lanes((sum0 + sum1) + (sum2 + sum3), out + get_global_id(0) * VW);
+    lane_store((sum0 + sum1) + (sum2 + sum3), out + get_global_id(0) * VW);
 }

@@ -5,27 +5,8 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/light_transform.h"
 #include "kernels/shared/view.h"
-
-static inline float rotate_row(float4 row, float4 v) {
-    return fma(row.z, v.z, fma(row.y, v.y, row.x * v.x));
-}
-
-static inline float4 rotated(View view, float4 v, float w) {
-    return (float4)(rotate_row(view.view_from_world_x, v), rotate_row(view.view_from_world_y, v),
-                    rotate_row(view.view_from_world_z, v), w);
-}
-
-static inline ShadeLight shade_light(View view, Light light) {
-    float range = light.position_range.w;
-    // 1e38: a range below 1e-19 m must not become infinity times 0.
-    float inv_range2 = min(1.0f / (range * range), 1e38f);
-    ShadeLight out;
-    out.position_inv_range2 = rotated(view, light.position_range, inv_range2);
-    out.color_scale = light.color_scale;
-    out.axis_cos = rotated(view, light.axis_cos, light.axis_cos.w);
-    return out;
-}
 
 // Tiles [first, last] that the interval [lo, hi] in pixels touches, with a hundredth of a tile to
 // spare for rounding; an interval beside the screen gives first > last.
@@ -34,12 +15,12 @@ static inline UV tile_interval(FV lo, FV hi, uint tile_size, uint tiles) {
     float end = (float)tiles;
     FV first = floor(clamp(fma(lo, fv(inv), fv(-0.01f)), fv(-1.0f), fv(end)));
     FV last = floor(clamp(fma(hi, fv(inv), fv(0.01f)), fv(-1.0f), fv(end)));
-    UV first_tile = to_uint_lanes(max(first, fv(0.0f)));
+    UV first_tile = lane_to_uint(max(first, fv(0.0f)));
     // A screen is at least a tile wide: last = -1 becomes an empty interval, first 1 and last 0.
     MASK outside = (last < fv(0.0f)) | (first >= fv(end));
-    UV last_tile = to_uint_lanes(clamp(last, fv(0.0f), fv(end - 1.0f)));
+    UV last_tile = lane_to_uint(clamp(last, fv(0.0f), fv(end - 1.0f)));
     UV interval = first_tile | (last_tile << 16);
-    return select(interval, (UV)(1u), full_mask(outside));
+    return select(interval, (UV)(1u), lane_mask(outside));
 }
 
 // Pixels that x_view / scale can take for x in [lo, hi] and scale in [near, far] > 0, along one
@@ -49,8 +30,8 @@ typedef struct Interval {
 } Interval;
 
 static inline Interval pixel_interval(FV lo, FV hi, FV near, FV far, float step, float offset) {
-    FV ratio_lo = lo / select_fv(lo >= fv(0.0f), far, near);
-    FV ratio_hi = hi / select_fv(hi >= fv(0.0f), near, far);
+    FV ratio_lo = lo / lane_select(lo >= fv(0.0f), far, near);
+    FV ratio_hi = hi / lane_select(hi >= fv(0.0f), near, far);
     FV a = (ratio_lo - offset) / step;
     FV b = (ratio_hi - offset) / step;
     Interval pixels;
@@ -67,9 +48,9 @@ typedef struct Sphere {
 static inline void store_extents(global LightExtent* extents, uint first, uint count, UV slices,
                                  UV columns, UV rows) {
     uint s[VW], c[VW], r[VW];
-    store_lanes(slices, s);
-    store_lanes(columns, c);
-    store_lanes(rows, r);
+    lane_store(slices, s);
+    lane_store(columns, c);
+    lane_store(rows, r);
     for (uint i = 0; i < VW && first + i < count; ++i) {
         LightExtent extent;
         extent.slices = s[i];
@@ -96,7 +77,7 @@ static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint
     UV columns = tile_interval(px.lo, px.hi, grid.tile_width, grid.tiles_x);
     UV rows = tile_interval(py.lo, py.hi, grid.tile_height, grid.tiles_y);
     UV slices = slice_of_depth(grid, z_lo) | (slice_of_depth(grid, z_hi) << 16);
-    MASK behind = perspective ? full_mask(z_hi <= zero) : full_mask(zero > zero);
+    MASK behind = perspective ? lane_mask(z_hi <= zero) : lane_mask(zero > zero);
     store_extents(extents, first, count, select(slices, (UV)(1u), behind), columns, rows);
 }
 
@@ -125,10 +106,10 @@ kernel void prepare_lights(
                    1e-6f * (fabs(p.x) + fabs(p.y) + fabs(p.z)) + grid.position_pad + 1e-18f);
     }
     Sphere sphere;
-    sphere.x = load_lanes(x);
-    sphere.y = load_lanes(y);
-    sphere.z = load_lanes(z);
-    sphere.radius = load_lanes(r);
+    sphere.x = lane_load(x);
+    sphere.y = lane_load(y);
+    sphere.z = lane_load(z);
+    sphere.radius = lane_load(r);
     find_extents(view, grid, sphere, first, count, extents);
 }
 

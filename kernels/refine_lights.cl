@@ -32,14 +32,15 @@ kernel void refine_lights_reserve(
     global uint* restrict reserves) {            // out [tile_count]
     uint tile = get_global_id(0);
     if (tile >= tile_count) return;
-    uint sum = 0;
+    // Saturates: the prefix sum's total then says that 32-bit offsets do not suffice.
+    ulong sum = 0;
     // More clusters than there is room for: the host grows the buffer and runs the stage again.
     uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
         uint coarse = coarse_cluster(view, grid, tile, clusters[i].slice);
         sum += coarse_offsets[coarse + 1] - coarse_offsets[coarse];
     }
-    reserves[tile] = sum;
+    reserves[tile] = (uint)min(sum, (ulong)0xffffffffu);
 }
 
 // VW neighbours of a coarse list, or as many as are left of it; the lanes without one repeat the
@@ -53,11 +54,15 @@ typedef struct Batch {
 static inline void load_batch(global const LIGHT_INDEX* list, uint first, uint end, Batch* out) {
     out->count = first < end ? min(end - first, (uint)VW) : 0u;
     if (out->count == VW) {
-        store_lanes(KX_CONCAT(convert_, UV)(load_lanes(list + first)), out->light);
+        lane_store(KX_CONCAT(convert_, UV)(lane_load(list + first)), out->light);
     } else if (out->count > 0u) {
         for (uint i = 0; i < VW; ++i) out->light[i] = list[first + min(i, out->count - 1u)];
     }
 }
+
+// One component of VW bounds.
+#define COMPONENT_OF(i, component, bound) (bound)[i].component
+#define BOUNDS(component, bound) LANES(FV, COMPONENT_OF, component, bound)
 
 // Which of a batch's lights reach the cluster's box; 1 or 0.
 static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights,
@@ -67,28 +72,24 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
     float4 bound[VW];
 #pragma unroll
     for (uint i = 0; i < VW; ++i) bound[i] = bounds[batch->light[i]];
-#define BOUND_X(i) bound[i].x
-#define BOUND_Y(i) bound[i].y
-#define BOUND_Z(i) bound[i].z
-#define BOUND_W(i) bound[i].w
-    FV x = LANES(FV, BOUND_X), y = LANES(FV, BOUND_Y), z = LANES(FV, BOUND_Z);
+    FV x = BOUNDS(x, bound), y = BOUNDS(y, bound), z = BOUNDS(z, bound);
     FV dx = max(max(c.min_x - x, x - c.max_x), fv(0.0f));
     FV dy = max(max(c.min_y - y, y - c.max_y), fv(0.0f));
     FV dz = max(max(c.min_z - z, z - c.max_z), fv(0.0f));
-    FV in_ranges2 = fma(dz, dz, fma(dy, dy, dx * dx)) * LANES(FV, BOUND_W);
-    MASK reach = full_mask(in_ranges2 <= fv(CULL_LIMIT));
-    if (batch->count < VW) reach = reach & full_mask(lane_numbers < (UV)(batch->count));
-    UV flags = KX_CONCAT(as_, UV)(reach) & 1u;
+    FV in_ranges2 = fma(dz, dz, fma(dy, dy, dx * dx)) * BOUNDS(w, bound);
+    MASK reach = lane_mask(in_ranges2 <= fv(CULL_LIMIT));
+    if (batch->count < VW) reach = reach & lane_mask(lane_numbers < (UV)(batch->count));
+    UV flags = lane_bits(reach) & 1u;
 #if HAS_SPOT_LIGHTS
     uint flag[VW];
-    store_lanes(flags, flag);
+    lane_store(flags, flag);
     for (uint i = 0; i < VW; ++i) {
         if (flag[i] && !cone_reaches(lights[batch->light[i]], (float3)(c.min_x, c.min_y, c.min_z),
                                      (float3)(c.max_x, c.max_y, c.max_z))) {
             flag[i] = 0;
         }
     }
-    flags = load_lanes(flag);
+    flags = lane_load(flag);
 #endif
     return flags;
 }
@@ -97,7 +98,7 @@ static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights
 static inline uint append(UV flags, const Batch* batch, global LIGHT_INDEX* out, uint room,
                           local uint* ballots) {
     uint flag[VW];
-    store_lanes(flags, flag);
+    lane_store(flags, flag);
 #if GROUP == 1
     uint count = 0;
     if (batch->count == VW && VW <= room) {

@@ -18,12 +18,10 @@ static inline UV srgb_code_by_table(global const float* bucket_boundary,
     return bucket_code[bucket] + (c >= bucket_boundary[bucket] ? 1u : 0u);
 #else
     uint index[VW];
-    store_lanes(bucket, index);
-#define CODE_AT(i) bucket_code[index[i]]
-#define BOUNDARY_AT(i) bucket_boundary[index[i]]
-    UV code = LANES(UV, CODE_AT);
-    MASK above = c >= LANES(FV, BOUNDARY_AT);
-    return code + (KX_CONCAT(as_, UV)(above) & 1u);
+    lane_store(bucket, index);
+    UV code = lane_gather(UV, bucket_code, index);
+    MASK above = c >= lane_gather(FV, bucket_boundary, index);
+    return code + (lane_bits(above) & 1u);
 #endif
 }
 
@@ -33,7 +31,7 @@ static inline UV srgb_code_by_table(global const float* bucket_boundary,
 static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code,
                            FV v) {
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));
-    FV u = sqrt(sqrt(c));
+    FV u = lane_sqrt(lane_sqrt(c));
     FV curve = fma(u, fv(17.4495867f), fv(-81.4141021f));
     curve = fma(u, curve, fv(167.921942f));
     curve = fma(u, curve, fv(-217.775036f));
@@ -41,18 +39,18 @@ static inline UV srgb_code(global const float* bucket_boundary, global const uin
     curve = fma(u, curve, fv(35.5733148f));
     curve = fma(u, curve, fv(0.5f - 0.055f * 255.0f - 1.1571349f));
     FV line = fma(c, fv(12.92f * 255.0f), fv(0.5f));
-    FV code_and_rest = select_fv(c <= fv(0.0031308f), line, curve);
-    IV code = to_int_lanes(code_and_rest);
-    FV from_middle = (code_and_rest - to_float_lanes(code)) - fv(0.5f);
-    if (any_lane(max(from_middle, -from_middle) > fv(0.5f - 1.0f / 1024.0f))) {
+    FV code_and_rest = lane_select(c <= fv(0.0031308f), line, curve);
+    IV code = lane_to_int(code_and_rest);
+    FV from_middle = (code_and_rest - lane_to_float(code)) - fv(0.5f);
+    if (lane_any(max(from_middle, -from_middle) > fv(0.5f - 1.0f / 1024.0f))) {
         return srgb_code_by_table(bucket_boundary, bucket_code, v);
     }
-    return KX_CONCAT(as_, UV)(code);
+    return lane_bits(code);
 }
 
 // NaN and negative light are black, infinite light is white, not what a tone curve would make of
 // them.
-static inline FV displayable(FV v) { return min(select_fv(v > fv(0.0f), v, fv(0.0f)), fv(1e9f)); }
+static inline FV displayable(FV v) { return min(lane_select(v > fv(0.0f), v, fv(0.0f)), fv(1e9f)); }
 
 kernel void tonemap(
     global const float* restrict radiance,         // [3][height][stride]
@@ -64,8 +62,8 @@ kernel void tonemap(
     uint pixel = (uint)get_global_id(0) * VW;
     if (pixel >= pixel_count) return;
     FV3 c =
-        fv3(load_lanes(radiance + pixel) * gain, load_lanes(radiance + pixel_count + pixel) * gain,
-            load_lanes(radiance + 2 * pixel_count + pixel) * gain);
+        fv3(lane_load(radiance + pixel) * gain, lane_load(radiance + pixel_count + pixel) * gain,
+            lane_load(radiance + 2 * pixel_count + pixel) * gain);
     c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
 #if TONE_CURVE == TONE_CURVE_NEUTRAL
     c = neutral_tone_curve(c);
@@ -75,5 +73,5 @@ kernel void tonemap(
     UV r = srgb_code(bucket_boundary, bucket_code, c.x);
     UV g = srgb_code(bucket_boundary, bucket_code, c.y);
     UV b = srgb_code(bucket_boundary, bucket_code, c.z);
-    store_lanes(r | (g << 8) | (b << 16) | 0xff000000u, display + pixel);
+    lane_store(r | (g << 8) | (b << 16) | 0xff000000u, display + pixel);
 }

@@ -13,15 +13,6 @@
 namespace kilolux {
 namespace {
 
-float rotate_row(const float4& row, const float4& v) {
-    return fma(row.z, v.z, fma(row.y, v.y, row.x * v.x));
-}
-
-float4 rotated(const View& view, const float4& v, float w) {
-    return {rotate_row(view.view_from_world_x, v), rotate_row(view.view_from_world_y, v),
-            rotate_row(view.view_from_world_z, v), w};
-}
-
 // New contents; never empty, since an empty buffer cannot be bound.
 void refill_buffer(const GlBuffer& buffer, std::span<const std::byte> bytes) {
     constexpr std::array<std::byte, 64> kNothing{};
@@ -37,16 +28,6 @@ std::size_t most_texels() {
 }
 
 }  // namespace
-
-ShadeLight shade_light(const View& view, const Light& light) {
-    const float range = light.position_range.w;
-    ShadeLight out{};
-    out.position_inv_range2 =
-        rotated(view, light.position_range, std::min(1.0f / (range * range), 1e38f));
-    out.color_scale = light.color_scale;
-    out.axis_cos = rotated(view, light.axis_cos, light.axis_cos.w);
-    return out;
-}
 
 LightAccess faster_light_access() {
     return is_software_renderer() ? LightAccess::texture : LightAccess::storage;

@@ -6,6 +6,7 @@
 
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/light_transform.h"
 #include "kernels/shared/view.h"
 #include "raster/gl_object.h"
 
@@ -22,9 +23,6 @@ struct ForwardLights {
     std::span<const uint> cluster_offsets;
     std::span<const uint> light_lists;
 };
-
-/// A light in view space, as kernels/prepare_lights.cl makes it.
-ShadeLight shade_light(const View& view, const Light& light);
 
 /// How shaders read lights and lists, to the same bits. llvmpipe reads a storage buffer lane by
 /// lane, which took six times as long as a light's arithmetic, and a texel at once; an NVIDIA H200

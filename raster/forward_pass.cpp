@@ -20,14 +20,10 @@ LightAccess light_access(const ForwardFeatures& features) {
 
 Defines defines_of(const ForwardFeatures& features) {
     const bool textures = light_access(features) == LightAccess::texture;
-    Defines defines = {{"SHADING", std::to_string(features.shading)},
-                       {"HAS_SPOT_LIGHTS", features.spot_lights ? "1" : "0"},
-                       {"HAS_METALLIC", features.metallic ? "1" : "0"},
-                       {"HAS_SPECULAR", features.specular ? "1" : "0"},
-                       {"HAS_UNLIT", features.unlit ? "1" : "0"},
-                       {"LIGHT_TEXTURES", textures ? "1" : "0"}};
-    if (features.directional_lights) defines.emplace_back("HAS_DIRECTIONAL_LIGHTS", "1");
-    if (features.clustered) defines.emplace_back("CLUSTERED", "1");
+    Defines defines = feature_macros(features);
+    defines.emplace_back("SHADING", std::to_string(features.shading));
+    defines.emplace_back("LIGHT_TEXTURES", textures ? "1" : "0");
+    defines.emplace_back("CLUSTERED", features.clustered ? "1" : "0");
     return defines;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "host/base/scene_features.h"
 #include "host/scene/camera.h"
 #include "raster/forward_lights.h"
 #include "raster/gbuffer_targets.h"
@@ -14,13 +15,8 @@
 namespace kilolux {
 
 /// What forward shading compiles in; the rest is not there.
-struct ForwardFeatures {
-    int shading = 0;  // SHADING_*, kernels/shared/evaluate_modes.h
-    bool spot_lights = false;
-    bool directional_lights = false;
-    bool metallic = false;
-    bool specular = false;   // dielectrics that reflect otherwise than 4 %
-    bool unlit = false;      // unlit materials among glossy ones
+struct ForwardFeatures : SceneFeatures {
+    int shading = 0;         // SHADING_*, kernels/shared/evaluate_modes.h
     bool clustered = false;  // forward-plus: lights of the coarse cluster; else all of them
     bool opaque = true;      // false: only what blends, over a picture that another renderer made
     std::optional<LightAccess> light_access;  // none: the faster one here

@@ -7,8 +7,9 @@ namespace kilolux {
 
 /// The pipeline state of every pass of ours while it lives: image row 0 is row 0 of the
 /// framebuffer, depth runs from 1 (near) to 0 (far), the greater wins, back faces are culled,
-/// sRGB attachments encode. Afterwards the state is OpenGL's initial one, for whoever shares the
-/// context.
+/// sRGB attachments encode. Afterwards that state is OpenGL's initial one. The viewport and the
+/// bindings of textures, uniform and storage blocks stay as the pass left them: whoever shares the
+/// context sets its own.
 class RasterState {
  public:
     RasterState(GLuint framebuffer, int width, int height) {

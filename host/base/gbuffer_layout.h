@@ -5,18 +5,15 @@
 #include <string>
 #include <string_view>
 
+#include "host/base/scene_features.h"
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
 
 /// What a scene needs of a G-buffer: the plan that raster, bridge and kernels share.
-struct GBufferNeeds {
+struct GBufferNeeds : SceneFeatures {
     uint layout = GBUFFER_PACKED;  // GBUFFER_*
-    bool material = false;         // metallic or emissive anywhere in the scene
-    bool occlusion = false;        // an occlusion texture anywhere in the scene
     float emissive_scale = 1.0f;   // largest emissive value, > 0
-    bool specular = false;  // dielectrics that reflect otherwise than 4 % anywhere in the scene
-    bool unlit = false;     // unlit materials among glossy ones: a roughness of 0 marks them
     bool operator==(const GBufferNeeds&) const = default;
 };
 

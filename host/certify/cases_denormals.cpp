@@ -33,7 +33,7 @@ kernel void probe(global const float* x, global const ShadeLight* lights, uint l
                   ClusterGrid grid, global float* out, global uint* slices) {
     uint i = get_global_id(0) * VW;
     Surface s;
-    s.position = fv3(load_lanes(x + i), fv(0.0f), fv(-2.0f));
+    s.position = fv3(lane_load(x + i), fv(0.0f), fv(-2.0f));
     s.normal = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
     s.albedo = fv3(fv(0.5f), fv(0.5f), fv(0.5f));
     s.emissive = zero3();
@@ -43,8 +43,8 @@ kernel void probe(global const float* x, global const ShadeLight* lights, uint l
     ShadingPoint p = make_shading_point(s, false);
     LightSum sum = zero_sum();
     for (uint k = 0; k < light_count; ++k) sum = evaluate(sum, p, lights[k]);
-    store_lanes(finish_shading(s, sum, 0.0f).x, out + i);
-    store_lanes(slice_of_depth(grid, load_lanes(x + i) * 1e-30f), slices + i);
+    lane_store(finish_shading(s, sum, 0.0f).x, out + i);
+    lane_store(slice_of_depth(grid, lane_load(x + i) * 1e-30f), slices + i);
 }
 )";
 

@@ -22,7 +22,7 @@ constexpr std::string_view kSliceHeaders[] = {"kernels/device/lanes.h",
 constexpr std::string_view kSliceProbe = R"(
 kernel void probe(ClusterGrid grid, global const float* z, global uint* out) {
     size_t first = get_global_id(0) * VW;
-    store_lanes(slice_of_depth(grid, load_lanes(z + first)), out + first);
+    lane_store(slice_of_depth(grid, lane_load(z + first)), out + first);
 }
 )";
 constexpr const char* kSliceGlsl = R"(

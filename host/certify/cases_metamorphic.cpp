@@ -264,7 +264,7 @@ void try_permuted_lights(const Gpu& gpu, Findings& findings) {
 }
 
 void try_lane_widths(const Gpu& gpu, Findings& findings) {
-    const Gpu one(gpu.context, gpu.queue, 1);
+    const Gpu one = gpu.with_lanes(1);
     for (const int shading : {SHADING_LAMBERT, SHADING_BLINN_PHONG, SHADING_PBR}) {
         const Shot shot = usual_shot(shading, 500);
         const Exposure expected = expose(one, shot);

@@ -17,13 +17,13 @@ constexpr std::string_view kOctHeaders[] = {"kernels/device/lanes.h", "kernels/s
 constexpr std::string_view kOctProbe = R"(
 kernel void probe(global const uint* codes, uint count, global float* out) {
     uint i = get_global_id(0) * VW;
-    UV packed = load_lanes(codes + i);
-    FV x = fma(to_float_lanes(packed & 0xffffu), fv(2.0f / 65535.0f), fv(-1.0f));
-    FV y = fma(to_float_lanes(packed >> 16), fv(2.0f / 65535.0f), fv(-1.0f));
+    UV packed = lane_load(codes + i);
+    FV x = fma(lane_to_float(packed & 0xffffu), fv(2.0f / 65535.0f), fv(-1.0f));
+    FV y = fma(lane_to_float(packed >> 16), fv(2.0f / 65535.0f), fv(-1.0f));
     FV3 n = octahedral_decode(x, y);
-    store_lanes(n.x, out + i);
-    store_lanes(n.y, out + count + i);
-    store_lanes(n.z, out + 2 * count + i);
+    lane_store(n.x, out + i);
+    lane_store(n.y, out + count + i);
+    lane_store(n.z, out + 2 * count + i);
 }
 )";
 constexpr const char* kOctEncodeGlsl = R"(

@@ -261,7 +261,7 @@ void try_degenerate_surfaces(const Gpu& gpu, Findings& findings) {
     const Scene broken = broken_scene(false);
     const Scene mended = broken_scene(true);
     RenderSettings settings = small_settings(gpu, 64, 32);
-    settings.aovs = {"normal", "depth"};
+    settings.want.aovs = {"normal", "depth"};
     const Frame found = Renderer(broken, settings).render(broken_camera(), 0.0);
     const Frame expected = Renderer(mended, settings).render(broken_camera(), 0.0);
     std::uint64_t not_finite = 0;

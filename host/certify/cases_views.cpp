@@ -107,7 +107,7 @@ void render_background(const Gpu& gpu, Findings& findings) {
     settings.lights.count = 20;
     settings.kernels.lanes = gpu.info.lane_width;
     settings.device = gpu.info.name;
-    settings.aovs = {"depth", "position", "normal"};
+    settings.want.aovs = {"depth", "position", "normal"};
     settings.tone_curve = ToneCurve::none;
     const Frame frame = Renderer(scene, settings).render(camera, 0.0);
     std::uint64_t background = 0;
@@ -177,7 +177,11 @@ void check_reads(Findings& findings, const Gpu& gpu, const Shot& shot, const Exp
     const std::size_t room = std::size_t{3} * tall.stride * tall.height;
     const DeviceLists none = stages.run(upload_lights(gpu, {}), upload_gbuffer(gpu, large),
                                         make_cluster_grid(shot.request, tall.width, tall.height));
-    fill_guard(gpu, shade.enqueue_all_lights(upload_gbuffer(gpu, large), none.lights, timer).planes,
+    fill_guard(gpu,
+               shade
+                   .enqueue(upload_gbuffer(gpu, large), none.lights, none.boxes.grid, none.clusters,
+                            none.refined, timer)
+                   .planes,
                room);
     const DeviceLists lists = stages.run(upload_lights(gpu, shot.lights), gbuffer, exposure.grid);
     const Radiance radiance =

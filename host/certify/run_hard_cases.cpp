@@ -31,7 +31,7 @@ void run_row(HardCaseRow& row, const Gpu& gpu, int lanes) {
     }
     Findings found;
     try {
-        row.hard_case.run(Gpu(gpu.context, gpu.queue, lanes), found);
+        row.hard_case.run(gpu.with_lanes(lanes), found);
     } catch (const std::exception& error) {
         row.error = std::to_string(lanes) + " lanes: " + error.what();
     }

@@ -107,6 +107,8 @@ Exposure expose(const Gpu& gpu, const Shot& shot, const Tuning& tuning) {
     StageRun stages(gpu, tuning, shot.features);
     Shade shade(gpu, tuning, shot.features);
     shade.set_ambient(shot.ambient);
+    ShadeAll shade_all(gpu, tuning, shot.features);
+    shade_all.set_ambient(shot.ambient);
     const DeviceLists lists =
         stages.run(upload_lights(gpu, shot.lights, shot.suns), gbuffer, out.grid);
     StageTimer timer;
@@ -114,8 +116,7 @@ Exposure expose(const Gpu& gpu, const Shot& shot, const Tuning& tuning) {
     const Radiance listed =
         shade.enqueue(gbuffer, lists.lights, out.grid, lists.clusters, lists.refined, timer);
     out.listed = download<float>(gpu, listed.planes, size);
-    out.all =
-        download<float>(gpu, shade.enqueue_all_lights(gbuffer, lists.lights, timer).planes, size);
+    out.all = download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer).planes, size);
     out.lists = download_lists(gpu, shot.features, out.grid, lists);
     out.lights = download<ShadeLight>(gpu, lists.lights.lights, shot.lights.size());
     out.extents = download<LightExtent>(gpu, lists.lights.extents, shot.lights.size());

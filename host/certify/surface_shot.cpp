@@ -59,7 +59,9 @@ Shot surface_shot(std::span<const SurfaceSample> surfaces, int shading, uint wid
     shot.features.material = shot.features.metallic = shot.features.occlusion = true;
     shot.features.spot_lights = true;
     shot.features.light_index_bits = 32;
-    const GBufferNeeds needs{GBUFFER_FULL, true, true, 1.0f};
+    GBufferNeeds needs;
+    needs.layout = GBUFFER_FULL;
+    needs.material = needs.occlusion = true;
     shot.image = {view, make_gbuffer_layout(needs, view.stride, view.height), {}};
     shot.image.bytes.resize(gbuffer_bytes(shot.image.layout, view.stride, view.height));
     double pad = 0.0;

@@ -75,27 +75,11 @@ int main(int argc, char** argv) try {
     const KernelFeatures features{.shading = SHADING_PBR};
     const Tuning tuning = default_tuning(gpu.info);
     const ClusterGrid grid = make_cluster_grid({.z_first = 1.0f, .z_last = 50.0f}, kWidth, kHeight);
-    PrepareLights prepare(gpu, tuning);
-    BuildClusters build(gpu);
-    CullLights cull(gpu, tuning, features);
-    BinPixels bin(gpu, tuning, features);
-    RefineLights refine(gpu, tuning, features);
-    Shade shade(gpu, tuning, features);
-    Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
     StageTimer timer;
-    Radiance radiance;
-    do {
-        timer.take();
-        const ActiveClusters active = bin.enqueue(gbuffer, grid, timer);
-        const PreparedLights lights = prepare.enqueue(input, view, grid, timer);
-        const CoarseLists coarse =
-            cull.enqueue(lights, build.enqueue(view, grid, timer), timer, active.occupied);
-        const RefinedLists refined = refine.enqueue(lights, coarse, active, view, grid, timer);
-        radiance = shade.enqueue(gbuffer, lights, grid, active, refined, timer);
-    } while (!cull.fits() || !bin.fits() ||
-             !refine.fits());  // a second time where the lists had grown
-    const auto pixels =
-        download<uint>(gpu, tonemap.enqueue(radiance, 0.0f, timer), kStride * kHeight);
+    DeferredLighting lighting(gpu, tuning, features);
+    const Radiance radiance = lighting.light({gbuffer, input, grid}, timer);
+    Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
+    const std::vector<uint> pixels = download(gpu, tonemap.enqueue(radiance, 0.0f, timer));
     std::ofstream file(argv[1], std::ios::binary);
     file << "P6 " << kWidth << " " << kHeight << " 255\n";
     for (const uint pixel : pixels) file.write(reinterpret_cast<const char*>(&pixel), 3);

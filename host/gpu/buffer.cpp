@@ -8,36 +8,55 @@
 
 namespace kilolux {
 
-void GrowingBuffer::check(std::size_t bytes) const {
+// Why the device or the budget cannot give `bytes` in place of the buffer; empty if they can.
+std::string GrowingBuffer::refusal(std::size_t bytes) const {
     const std::string need = owner_ + ": needs a buffer of " + mebibytes(bytes) + "; ";
     if (bytes > gpu_.info.max_allocation_bytes) {
-        throw Error(need + gpu_.info.name + " allocates at most " +
-                    mebibytes(gpu_.info.max_allocation_bytes) + " at once");
+        return need + gpu_.info.name + " allocates at most " +
+               mebibytes(gpu_.info.max_allocation_bytes) + " at once";
     }
-    if (!gpu_.budget) return;
-    const std::uint64_t others = gpu_.budget->used - charge_.bytes();
-    if (bytes > gpu_.budget->limit || others > gpu_.budget->limit - bytes) {
-        throw Error(need + mebibytes(others) + " of the " + mebibytes(gpu_.budget->limit) +
-                    " for device buffers are taken (--max-memory)");
-    }
+    if (!gpu_.budget) return {};
+    const std::uint64_t released = charge_.use_count() == 1 ? charge_->bytes() : 0;
+    const std::uint64_t others = gpu_.budget->used - released;
+    if (bytes <= gpu_.budget->limit && others <= gpu_.budget->limit - bytes) return {};
+    return need + mebibytes(others) + " of the " + mebibytes(gpu_.budget->limit) +
+           " for device buffers are taken (--max-memory)";
 }
 
-const cl::Buffer& GrowingBuffer::reserve(std::size_t bytes) {
-    bytes = std::max<std::size_t>(bytes, 16);
-    if (bytes <= bytes_) return buffer_;
-    check(bytes);
+void GrowingBuffer::allocate(std::size_t bytes) {
+    buffer_ = cl::Buffer();  // before the new one is made: both might not fit
+    bytes_ = 0;
+    charge_.reset();
     try {
-        buffer_ = cl::Buffer();  // before the new one is there: both might not fit
-        bytes_ = 0;
-        charge_ = BufferCharge(gpu_.budget, 0);
         buffer_ = cl::Buffer(gpu_.context, CL_MEM_READ_WRITE, bytes);
-        bytes_ = bytes;
-        charge_ = BufferCharge(gpu_.budget, bytes);
     } catch (const cl::Error& error) {
         throw Error(owner_ + ": needs a buffer of " + mebibytes(bytes) +
                     "; allocation failed with " + cl_error_name(error.err()));
     }
+    bytes_ = bytes;
+    if (gpu_.budget) charge_ = std::make_shared<BufferCharge>(gpu_.budget, bytes);
+}
+
+const cl::Buffer& GrowingBuffer::reserve(std::size_t bytes, std::size_t slack) {
+    bytes = std::max<std::size_t>(bytes, 16);
+    if (bytes <= bytes_) return buffer_;
+    if (slack > 0 && refusal(bytes + slack).empty()) {
+        try {
+            allocate(bytes + slack);
+            return buffer_;
+        } catch (const Error&) {  // without slack, then
+        }
+    }
+    if (const std::string why = refusal(bytes); !why.empty()) throw Error(why);
+    allocate(bytes);
     return buffer_;
+}
+
+std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& list, int bits,
+                                   std::size_t count, std::size_t first) {
+    if (bits == 32) return download<uint>(gpu, list, count, first);
+    const auto narrow = download<std::uint16_t>(gpu, list, count, first);
+    return {narrow.begin(), narrow.end()};
 }
 
 }  // namespace kilolux

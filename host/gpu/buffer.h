@@ -5,39 +5,57 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "host/gpu/device.h"
+#include "kernels/shared/types.h"
 
 namespace kilolux {
 
 /// A buffer's share of a budget, given back with it.
 class BufferCharge {
  public:
-    BufferCharge() = default;
     BufferCharge(std::shared_ptr<MemoryBudget> budget, std::uint64_t bytes)
-        : budget_(std::move(budget)), bytes_(budget_ ? bytes : 0) {
-        if (budget_) budget_->used += bytes_;
-    }
-    BufferCharge(BufferCharge&& other) noexcept
-        : budget_(std::move(other.budget_)), bytes_(std::exchange(other.bytes_, 0)) {}
-    BufferCharge& operator=(BufferCharge&& other) noexcept {
-        std::swap(budget_, other.budget_);
-        std::swap(bytes_, other.bytes_);
-        return *this;
+        : budget_(std::move(budget)), bytes_(bytes) {
+        budget_->used += bytes_;
     }
     BufferCharge(const BufferCharge&) = delete;
     BufferCharge& operator=(const BufferCharge&) = delete;
-    ~BufferCharge() {
-        if (budget_) budget_->used -= bytes_;
-    }
+    ~BufferCharge() { budget_->used -= bytes_; }
     std::uint64_t bytes() const { return bytes_; }
 
  private:
     std::shared_ptr<MemoryBudget> budget_;
-    std::uint64_t bytes_ = 0;
+    std::uint64_t bytes_;
+};
+
+/// Elements on the device: a buffer and how many there are. Copies share the memory, and the
+/// budget counts it until the last copy is gone.
+template <typename T>
+class DeviceArray {
+ public:
+    using value_type = T;
+
+    DeviceArray() = default;
+    DeviceArray(cl::Buffer buffer, std::size_t count,
+                std::shared_ptr<const BufferCharge> charge = {})
+        : buffer_(std::move(buffer)), count_(count), charge_(std::move(charge)) {}
+    /// A caller's own buffer, as large as it is.
+    DeviceArray(cl::Buffer buffer) : buffer_(std::move(buffer)) {
+        if (buffer_()) count_ = buffer_.getInfo<CL_MEM_SIZE>() / sizeof(T);
+    }
+
+    const cl::Buffer& buffer() const { return buffer_; }
+    operator const cl::Buffer&() const { return buffer_; }
+    std::size_t count() const { return count_; }
+
+ private:
+    cl::Buffer buffer_;
+    std::size_t count_ = 0;
+    std::shared_ptr<const BufferCharge> charge_;
 };
 
 /// A device buffer that grows on demand and never shrinks; its contents are lost when it grows.
@@ -46,21 +64,50 @@ class GrowingBuffer {
     /// `owner` names the stage in error messages.
     GrowingBuffer(const Gpu& gpu, std::string_view owner) : gpu_(gpu), owner_(owner) {}
 
-    /// The buffer with room for at least `bytes` (at least 16 are allocated).
-    /// Throws Error with owner, need and limit when the device cannot provide it or the budget
-    /// does not allow it.
-    const cl::Buffer& reserve(std::size_t bytes);
+    /// The buffer with room for at least `bytes` (at least 16 are allocated). When it must grow, it
+    /// grows by `slack` more if device and budget allow. The old buffer is released first; where a
+    /// caller still holds it, the budget counts both.
+    /// Throws Error with owner, need and limit when the device cannot provide `bytes` or the budget
+    /// does not allow them.
+    const cl::Buffer& reserve(std::size_t bytes, std::size_t slack = 0);
     const cl::Buffer& get() const { return buffer_; }
     std::size_t bytes() const { return bytes_; }
 
+    /// The first `count` elements.
+    template <typename T>
+    DeviceArray<T> array(std::size_t count) const {
+        return {buffer_, count, charge_};
+    }
+
  private:
-    void check(std::size_t bytes) const;
+    std::string refusal(std::size_t bytes) const;
+    void allocate(std::size_t bytes);
 
     Gpu gpu_;
     std::string owner_;
     cl::Buffer buffer_;
     std::size_t bytes_ = 0;
-    BufferCharge charge_;
+    std::shared_ptr<const BufferCharge> charge_;
+};
+
+/// A GrowingBuffer of elements of one type.
+template <typename T>
+class GrowingArray {
+ public:
+    GrowingArray(const Gpu& gpu, std::string_view owner) : buffer_(gpu, owner) {}
+
+    /// `count` elements; what is there is lost where the buffer had to grow.
+    DeviceArray<T> reserve(std::size_t count) {
+        buffer_.reserve(count * sizeof(T));
+        count_ = count;
+        return get();
+    }
+    /// The elements of the last reserve().
+    DeviceArray<T> get() const { return buffer_.array<T>(count_); }
+
+ private:
+    GrowingBuffer buffer_;
+    std::size_t count_ = 0;
 };
 
 /// Copies `values` to `buffer`; blocks until the host memory may be reused.
@@ -70,7 +117,7 @@ void upload(const Gpu& gpu, const cl::Buffer& buffer, std::span<const T> values)
         gpu.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
 }
 
-/// Reads `count` values; blocks until everything enqueued before is done.
+/// Reads `count` values from number `first` on; blocks until everything enqueued before is done.
 template <typename T>
 std::vector<T> download(const Gpu& gpu, const cl::Buffer& buffer, std::size_t count,
                         std::size_t first = 0) {
@@ -80,5 +127,20 @@ std::vector<T> download(const Gpu& gpu, const cl::Buffer& buffer, std::size_t co
                                     values.data());
     return values;
 }
+
+template <typename T>
+std::vector<T> download(const Gpu& gpu, const DeviceArray<T>& array, std::size_t count,
+                        std::size_t first = 0) {
+    return download<T>(gpu, array.buffer(), count, first);
+}
+
+template <typename T>
+std::vector<T> download(const Gpu& gpu, const DeviceArray<T>& array) {
+    return download<T>(gpu, array.buffer(), array.count());
+}
+
+/// Light indices of a list of `bits`, 16 or 32, widened. Blocks.
+std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& list, int bits,
+                                   std::size_t count, std::size_t first = 0);
 
 }  // namespace kilolux

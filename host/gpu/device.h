@@ -19,7 +19,8 @@ struct DeviceInfo {
     std::string driver;
     std::string platform;
     bool is_cpu = false;
-    int lane_width = 1;  // floats that a kernel's FV holds here
+    int vector_width = 1;  // floats of a CPU's vector register; of a GPU's FV as it is built in
+    int lane_width = 1;    // floats that a kernel's FV holds: the built-in choice, or the caller's
     int compute_units = 1;
     int max_work_group = 1;         // work-items of a work-group
     std::uint64_t cache_bytes = 0;  // of the largest cache that global memory has; 0: unknown
@@ -36,18 +37,24 @@ std::vector<cl::Device> all_devices();
 /// empty: the first GPU, else the first device. Throws Error that lists what there is.
 cl::Device choose_device(std::string_view choice);
 
+class ProgramCache;
+
 /// A device with its context and an in-order, profiling queue: what every stage is given.
-///
-/// Copies share the same OpenCL objects. A caller that owns a context and queue passes them in; the
-/// queue must have profiling enabled for stage times.
+/// Copies share the OpenCL objects and the programs built with them. `lane_width` 0: the device's.
 struct Gpu {
     explicit Gpu(const cl::Device& device, int lane_width = 0);
+    /// A caller's own context and queue. Throws Error unless the queue is in order and has
+    /// profiling enabled.
     Gpu(cl::Context context, cl::CommandQueue queue, int lane_width = 0);
+
+    /// A copy with kernels of `lane_width` lanes.
+    Gpu with_lanes(int lane_width) const;
 
     cl::Device device;
     cl::Context context;
     cl::CommandQueue queue;
     DeviceInfo info;
+    std::shared_ptr<ProgramCache> programs;
     std::shared_ptr<MemoryBudget> budget;  // of GrowingBuffers; none: what the device has
 };
 

@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/base/log.h"
 
 namespace kilolux {
@@ -30,15 +31,6 @@ fs::path absolute_folder(const char* variable) {
     const char* value = std::getenv(variable);
     const fs::path folder = value ? value : "";
     return folder.is_absolute() ? folder : fs::path();
-}
-
-// FNV-1a, 64 bits (Fowler, Noll, Vo), as 16 hexadecimal digits.
-std::string hash_text(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-    return digits;
 }
 
 std::string one_line(std::string text) {
@@ -97,7 +89,7 @@ std::optional<std::string_view> checked_text(std::string_view entry) {
     const std::size_t line = entry.rfind(kChecksum);
     if (line == std::string_view::npos) return std::nullopt;
     const std::string_view text = entry.substr(0, line);
-    const std::string expected = std::string(kChecksum) + hash_text(text) + "\n";
+    const std::string expected = std::string(kChecksum) + Fnv1a().add(text).hex() + "\n";
     if (entry.substr(line) != expected) return std::nullopt;
     return text;
 }
@@ -133,7 +125,7 @@ std::string shortest(double value) {
 std::string entry_text(const std::string& head, const CacheValues& values) {
     std::string text = head;
     for (const auto& [key, value] : values) text += key + " " + shortest(value) + "\n";
-    return text + std::string(kChecksum) + hash_text(text) + "\n";
+    return text + std::string(kChecksum) + Fnv1a().add(text).hex() + "\n";
 }
 
 [[noreturn]] void fail(const fs::path& path, const char* what, int code) {
@@ -172,7 +164,8 @@ fs::path cache_folder() {
 fs::path device_cache_file(const DeviceInfo& device, CacheKind kind) {
     const fs::path folder = cache_folder();
     if (folder.empty()) return {};
-    return folder / (std::string(kind.name) + "-" + hash_text(device_lines(device)) + ".txt");
+    return folder /
+           (std::string(kind.name) + "-" + Fnv1a().add(device_lines(device)).hex() + ".txt");
 }
 
 std::optional<CacheValues> read_device_cache(const DeviceInfo& device, CacheKind kind) {

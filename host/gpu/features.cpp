@@ -3,18 +3,20 @@
 
 namespace kilolux {
 
+std::string_view light_index_type(const KernelFeatures& features) {
+    return features.light_index_bits == 16 ? "ushort" : "uint";
+}
+
+std::size_t light_index_bytes(const KernelFeatures& features) {
+    return static_cast<std::size_t>(features.light_index_bits / 8);
+}
+
 BuildOptions feature_options(const KernelFeatures& features) {
     BuildOptions options;
     options.define("SHADING", features.shading)
         .define("GBUFFER", static_cast<int>(features.gbuffer))
-        .define("HAS_MATERIAL", features.material)
-        .define("HAS_METALLIC", features.metallic)
-        .define("HAS_OCCLUSION", features.occlusion)
-        .define("HAS_SPECULAR", features.specular)
-        .define("HAS_UNLIT", features.unlit)
-        .define("HAS_SPOT_LIGHTS", features.spot_lights)
-        .define("HAS_DIRECTIONAL_LIGHTS", features.directional_lights)
-        .define("LIGHT_INDEX", features.light_index_bits == 16 ? "ushort" : "uint");
+        .define("LIGHT_INDEX", light_index_type(features));
+    for (const auto& [macro, value] : feature_macros(features)) options.define(macro, value);
     return options;
 }
 

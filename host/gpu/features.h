@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/base/scene_features.h"
 #include "host/gpu/program.h"
 #include "kernels/shared/gbuffer.h"
 
@@ -8,16 +9,9 @@ namespace kilolux {
 
 /// What is compiled into the kernels: the scene plan's device half. What a scene lacks is not
 /// there.
-struct KernelFeatures {
+struct KernelFeatures : SceneFeatures {
     int shading = 0;  // SHADING_*
     uint gbuffer = GBUFFER_PACKED;
-    bool material = false;  // the G-buffer has metallic and emissive
-    bool metallic = false;  // any metal: tinted specular reflection
-    bool occlusion = false;
-    bool specular = false;  // dielectrics that reflect otherwise than 4 %
-    bool unlit = false;     // unlit surfaces among glossy ones
-    bool spot_lights = false;
-    bool directional_lights = false;
     int light_index_bits = 16;  // 16 while every light's index fits
     // Approximations, off unless asked for: how shading computes, and stores lights' colours.
     bool fast_relaxed_math = false;  // -cl-fast-relaxed-math
@@ -25,6 +19,10 @@ struct KernelFeatures {
     bool half_light_colors = false;
     bool operator==(const KernelFeatures&) const = default;
 };
+
+/// LIGHT_INDEX of the kernels, and its size [byte].
+std::string_view light_index_type(const KernelFeatures& features);
+std::size_t light_index_bytes(const KernelFeatures& features);
 
 BuildOptions feature_options(const KernelFeatures& features);
 

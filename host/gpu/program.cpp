@@ -2,7 +2,6 @@
 #include "host/gpu/program.h"
 
 #include <map>
-#include <mutex>
 
 #include "host/base/log.h"
 #include "host/base/source.h"
@@ -54,22 +53,15 @@ BuildOptions& BuildOptions::flag(std::string_view text) {
 }
 
 cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options) {
-    using Key = std::pair<cl_context, std::string>;
-    static std::mutex mutex;
-    static std::map<Key, cl::Program> programs;  // holds its context: the key stays unique
     const std::string file = "kernels/" + std::string(stem) + ".cl";
     const std::string all_options =
         "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) +
         (options.text().empty() ? "" : " ") + options.text();
     const std::string text = std::string(kKernelPrologue) + splice_source(file, false).text;
-    const std::scoped_lock lock(mutex);
-    const Key key(gpu.context(), all_options + "\n" + text);
-    auto found = programs.find(key);
-    if (found == programs.end()) {
+    return gpu.programs->find(all_options + "\n" + text, [&] {
         detail("building " + file + " " + all_options);
-        found = programs.emplace(key, build(gpu, file, text, all_options)).first;
-    }
-    return found->second;
+        return build(gpu, file, text, all_options);
+    });
 }
 
 std::string cl_error_name(int code) {

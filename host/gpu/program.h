@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,8 +35,25 @@ inline constexpr std::string_view kKernelPrologue =
     "#endif\n"
     "#endif\n";
 
+/// The programs of one context by options and text. They live as long as a Gpu that shares them.
+class ProgramCache {
+ public:
+    /// The program of `key`; made by `build` if it is new.
+    template <typename Build>
+    cl::Program find(const std::string& key, const Build& build) {
+        const std::scoped_lock lock(mutex_);
+        auto found = programs_.find(key);
+        if (found == programs_.end()) found = programs_.emplace(key, build()).first;
+        return found->second;
+    }
+
+ private:
+    std::mutex mutex_;
+    std::map<std::string, cl::Program> programs_;
+};
+
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
-/// The same text, options and device in one process are built once.
+/// Copies of a Gpu share programs: the same text and options are built once.
 /// Throws Error with file, device, options and the compiler's log.
 cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options = {});
 

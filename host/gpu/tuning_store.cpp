@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/tuning_store.h"
 
-#include <algorithm>
-
 #include <bit>
 
 #include "host/gpu/device_cache.h"
@@ -63,13 +61,7 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
 }
 
 StoredTuning built_in_tuning(const DeviceInfo& device) {
-    // On CPUs two vectors a work-item: their chains of operations hide each other's latency (AVX2,
-    // shade, against one vector: lambert 1.1, pbr 1.2, blinn-phong 1.4 times as fast).
-    // On GPUs two pixels a work-item: more share the loads of a light, but lists then make
-    // work-items wait for each other (NVIDIA H200, Sponza, 5000 lights, against four: lambert 1.25,
-    // pbr 1.4 times as fast).
-    const int lanes = device.is_cpu ? std::min(2 * device.lane_width, 16) : 2;
-    return {lanes, default_tuning(device)};
+    return {device.lane_width, default_tuning(device)};
 }
 
 std::optional<StoredTuning> stored_tuning(const DeviceInfo& device) {

@@ -19,7 +19,7 @@ struct StoredTuning {
 /// be, groups that the device launches.
 bool is_valid(const StoredTuning& tuning, const DeviceInfo& device);
 
-/// The built-in table's row for the device: its own lane width, on CPUs twice that, at most 16.
+/// The built-in table's row for the device, as describe() gives it.
 StoredTuning built_in_tuning(const DeviceInfo& device);
 
 /// What `kilolux bench --tune` found for this device and driver; none if it never ran, or if the

@@ -2,28 +2,29 @@
 // The OpenCL half of Kilolux: everything that lights a G-buffer with many lights.
 //
 // A program brings a cl::Context with a queue (or lets Gpu make them), a G-buffer in one cl::Buffer
-// and lights in another, and runs the stages in this order; host/example/light_gbuffer.cpp is the
-// whole of it:
+// and lights in another; host/example/light_gbuffer.cpp is the whole of it:
 //
-//   BinPixels -> PrepareLights -> BuildClusters -> CullLights -> RefineLights -> Shade (-> Bloom,
-//   Tonemap)
+//     DeferredLighting lighting(gpu, tuning, features);
+//     const Radiance radiance = lighting.light({gbuffer, lights, grid}, timer);
 //
-// (BinPixels first, so that CullLights can leave out what has no pixels.)
-// Every stage compiles in its constructor, its enqueue() does not block, and its results stay valid
-// until its next enqueue(). CullLights, BinPixels and RefineLights work with the room that the last
-// frame needed: where their fits() says false, the frame is enqueued again. What must match between
-// stages is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid a
-// frame.
+// Behind it stand LightLists (BinPixels, PrepareLights, BuildClusters, CullLights, RefineLights)
+// and Shade; a program may run these stages itself. A stage compiles in its constructor, its
+// enqueue() does not block, and its results stay valid until its next enqueue(). What must match
+// between stages is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid
+// a frame.
 //
-// The stable part is what this header brings in: names, the layouts of kernels/shared (rows of 16
-// bytes, checked on the device) and the order of the stages. Include it as <kilolux/kilolux.h>.
+// The stable part is what this header brings in: names, and the layouts of kernels/shared (rows of
+// 16 bytes, checked on the device). Include it as <kilolux/kilolux.h>.
 #pragma once
 
 // IWYU pragma: begin_exports
+#include "host/lighting/deferred_lighting.h"  // DeferredLighting: radiance from G-buffer and lights
+#include "host/lighting/light_lists.h"        // LightLists: which lights each pixel needs
+//
 #include "host/base/error.h"           // Error: what every function throws
 #include "host/base/gbuffer_layout.h"  // where a G-buffer's planes lie
 #include "host/base/log.h"             // who hears notes and warnings
-#include "host/gpu/buffer.h"           // GrowingBuffer, upload, download
+#include "host/gpu/buffer.h"           // DeviceArray, GrowingBuffer, upload, download
 #include "host/gpu/device.h"           // choose_device, Gpu
 #include "host/gpu/features.h"         // KernelFeatures, Tuning
 #include "host/gpu/flow.h"             // what passes between stages
@@ -34,6 +35,7 @@
 #include "host/stages/bloom.h"
 #include "host/stages/build_clusters.h"
 #include "host/stages/count_lights.h"
+#include "host/stages/count_pairs.h"
 #include "host/stages/cull_lights.h"
 #include "host/stages/decode_gbuffer.h"
 #include "host/stages/prepare_lights.h"

@@ -14,7 +14,13 @@ constexpr std::string_view kStage = "gbuffer_bridge";
 
 void wait_for(GLsync fence) {
     constexpr GLuint64 kSecond = 1'000'000'000;
-    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond) == GL_TIMEOUT_EXPIRED) {
+    GLenum status = GL_TIMEOUT_EXPIRED;
+    while (status == GL_TIMEOUT_EXPIRED) {
+        status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond);
+    }
+    if (status == GL_WAIT_FAILED) {
+        check_gl_errors(kStage);
+        throw Error("gbuffer_bridge: OpenGL's wait for a copy failed");
     }
 }
 

@@ -3,77 +3,70 @@
 
 namespace kilolux {
 
-ListStages::ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       index_bits_(features.light_index_bits),
       coarse_(gpu, tuning, features),
       bin_(gpu, tuning, features),
-      refine_(gpu, tuning, features) {}
+      refine_(gpu, tuning, features),
+      count_(gpu, tuning) {}
 
-LightLists ListStages::enqueue(const LightInput& input, const GBuffer& gbuffer,
-                               const ClusterGrid& grid, StageTimer& timer) {
+ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
+                             const ClusterGrid& grid, StageTimer& timer,
+                             const std::function<void(const ListedLights&)>& then) {
+    for (;;) {
+        const ListedLights lists = enqueue(input, gbuffer, grid, timer);
+        if (then) then(lists);
+        count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, lists.clusters, true,
+                       timer);
+        counts_ = count_.read();  // the frame's one wait
+        const bool coarse = coarse_.fits(counts_.coarse_pairs);
+        const bool active = bin_.fits(counts_.active_clusters);
+        // Its need is known only once the others are complete.
+        if (coarse && active && refine_.fits(counts_.refine_tests)) return lists;
+        timer.take();  // of lists that had no room
+    }
+}
+
+ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
+                                 const ClusterGrid& grid, StageTimer& timer) {
     const ActiveClusters active = bin_.enqueue(gbuffer, grid, timer);
-    const CoarseResult coarse = coarse_.enqueue(input, gbuffer.view, grid, timer,
-                                                everywhere_ ? cl::Buffer() : active.occupied);
-    LightLists lists{coarse.lights, coarse.boxes, coarse.lists, active, {}};
-    lists.refined =
-        refine_.enqueue(lists.lights, lists.coarse, lists.clusters, gbuffer.view, grid, timer);
-    return lists;
+    const CoarseLighting coarse =
+        coarse_.enqueue(input, gbuffer.view, grid, timer,
+                        everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
+    return {grid,
+            coarse.lights,
+            coarse.boxes,
+            coarse.lists,
+            active,
+            refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, grid, timer)};
 }
 
-bool ListStages::fit() {
-    // The later stages' needs are known only once the earlier ones are complete.
-    const bool coarse = coarse_.fit();
-    const bool active = bin_.fits();
-    return coarse && active && refine_.fits();
-}
-
-void ListStages::count(const LightLists& lists, FrameStats& stats) const {
-    const ClusterGrid& grid = lists.boxes.grid;
-    stats.grid[0] = grid.tiles_x;
-    stats.grid[1] = grid.tiles_y;
-    stats.grid[2] = grid.slices;
-    stats.coarse_pairs = coarse_.pairs();
-    stats.active_clusters = bin_.active();
-    stats.refine_tests = refine_.tests();
-    stats.refined_pairs = 0;
-    stats.drawn_pixels = 0;
-    double evaluations = 0.0;
+PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uint x, uint y,
+                                float z) const {
+    const ClusterGrid& grid = lists.grid;
+    PixelLists out;
+    const uint coarse =
+        cluster_index(grid, x / grid.tile_width, y / grid.tile_height, slice_of_depth(grid, z));
+    const auto ends = download(gpu_, lists.coarse.offsets, 2, coarse);
+    out.coarse_count = ends[1] - ends[0];
+    const uint tile = y / FINE_TILE * fine_tiles_x(view) + x / FINE_TILE;
+    const auto range = download(gpu_, lists.clusters.offsets, 2, tile);
     for (const ActiveCluster& cluster :
-         download<ActiveCluster>(gpu_, lists.clusters.clusters, stats.active_clusters)) {
-        stats.refined_pairs += cluster.list_count;
-        stats.drawn_pixels += cluster.pixel_count;
-        evaluations += static_cast<double>(cluster.list_count) * cluster.pixel_count;
+         download(gpu_, lists.clusters.clusters, range[1] - range[0], range[0])) {
+        if (cluster.slice != fine_slice_of_depth(grid, z)) continue;
+        out.active = cluster;
+        out.lights = download_indices(gpu_, lists.refined.lists, index_bits_, cluster.list_count,
+                                      cluster.list_begin);
     }
-    stats.evaluations_per_pixel =
-        stats.drawn_pixels > 0 ? evaluations / static_cast<double>(stats.drawn_pixels) : 0.0;
+    return out;
 }
 
-std::vector<ActiveCluster> ListStages::clusters(const LightLists& lists) const {
-    return download<ActiveCluster>(gpu_, lists.clusters.clusters, bin_.active());
+std::vector<ActiveCluster> LightLists::active_clusters(const ListedLights& lists) const {
+    return download(gpu_, lists.clusters.clusters, counts_.active_clusters);
 }
 
-void ListStages::probe(const LightLists& lists, const View& view, int x, int y,
-                       PixelProbe& probe) const {
-    const uint coarse = cluster_index(probe.grid, probe.tile_x, probe.tile_y, probe.slice);
-    const auto ends = download<uint>(gpu_, lists.coarse.offsets, 2, coarse);
-    probe.coarse_count = ends[1] - ends[0];
-    const uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
-    const uint tile = static_cast<uint>(y) / FINE_TILE * tiles_x + static_cast<uint>(x) / FINE_TILE;
-    const auto range = download<uint>(gpu_, lists.clusters.offsets, 2, tile);
-    for (const ActiveCluster& cluster :
-         download<ActiveCluster>(gpu_, lists.clusters.clusters, range[1] - range[0], range[0])) {
-        if (cluster.slice != probe.fine_slice) continue;
-        probe.active = cluster;
-        probe.has_list = true;
-        for (const uint light : download_indices(gpu_, lists.refined.lists, index_bits_,
-                                                 cluster.list_count, cluster.list_begin)) {
-            probe.lights.push_back({light, {}, {}});
-        }
-    }
-}
-
-HostCoarseLists ListStages::download_coarse(const LightLists& lists) const {
+HostCoarseLists LightLists::download_coarse(const ListedLights& lists) const {
     return coarse_.download({lists.lights, lists.boxes, lists.coarse});
 }
 

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/lighting/coarse_stages.h"
-#include "host/picture/frame.h"
-#include "host/picture/pixel_probe.h"
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host/lighting/coarse_light_lists.h"
 #include "host/stages/bin_pixels.h"
+#include "host/stages/count_pairs.h"
 #include "host/stages/refine_lights.h"
 
 namespace kilolux {
 
-/// What the list stages hand to shading.
-struct LightLists {
+/// The lists of one frame, on the device. Valid until the next LightLists::run().
+struct ListedLights {
+    ClusterGrid grid{};
     PreparedLights lights;
     ClusterBoxes boxes;
     CoarseLists coarse;
@@ -18,44 +22,55 @@ struct LightLists {
     RefinedLists refined;
 };
 
-/// The stages that find out which lights each pixel needs, in their order.
-class ListStages {
- public:
-    ListStages(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+/// The lists that light one pixel, on the host.
+struct PixelLists {
+    uint coarse_count = 0;                // lights in its coarse cluster's list
+    std::optional<ActiveCluster> active;  // none: background
+    std::vector<uint> lights;             // its active cluster's list
+};
 
-    /// Makes the coarse lists of clusters without pixels, too: for what blends, which is in no
-    /// G-buffer.
+/// Finds out which lights each pixel needs. The stages in their order are BinPixels, PrepareLights,
+/// BuildClusters, CullLights, RefineLights. Lists have as many entries as there are pairs: where
+/// the room of earlier frames is too little, it grows and the stages run again.
+class LightLists {
+ public:
+    LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Also lists the lights of coarse clusters without pixels: for blended surfaces, which are in
+    /// no G-buffer.
     void list_everywhere() { everywhere_ = true; }
 
-    /// Enqueues all of them with the room that earlier frames needed.
-    LightLists enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
-                       StageTimer& timer);
+    /// Makes the lists. `then` enqueues what reads them; it runs before the lists are known to be
+    /// complete, and once more for each time that they had to grow, so the frame waits for the
+    /// device once. Blocks. Throws Error when the device cannot hold the lists.
+    ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                     StageTimer& timer, const std::function<void(const ListedLights&)>& then = {});
 
-    /// True if the lists of the last enqueue are complete; else room has grown: enqueue again.
+    /// Counts of the last run().
+    const PairCounts& counts() const { return counts_; }
+
+    /// What the last run() listed for the pixel (x, y) of the G-buffer, which has depth z > 0.
     /// Blocks.
-    bool fit();
+    PixelLists at_pixel(const ListedLights& lists, const View& view, uint x, uint y, float z) const;
 
-    /// Sets the counts of the last enqueue, whose result is `lists`: pairs, active clusters, lights
-    /// evaluated a pixel. Blocks.
-    void count(const LightLists& lists, FrameStats& stats) const;
+    /// The active clusters of the last run(). Blocks.
+    std::vector<ActiveCluster> active_clusters(const ListedLights& lists) const;
 
-    /// Adds to a probe of a drawn pixel (x, y) its lists of the last enqueue, whose result is
-    /// `lists`. Blocks.
-    void probe(const LightLists& lists, const View& view, int x, int y, PixelProbe& probe) const;
-
-    /// The active clusters of the last enqueue. Blocks.
-    std::vector<ActiveCluster> clusters(const LightLists& lists) const;
-
-    /// The coarse lists of the last enqueue on the host. Blocks.
-    HostCoarseLists download_coarse(const LightLists& lists) const;
+    /// The coarse lists of the last run() on the host. Blocks.
+    HostCoarseLists download_coarse(const ListedLights& lists) const;
 
  private:
+    ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                         StageTimer& timer);
+
     Gpu gpu_;
     int index_bits_;
     bool everywhere_ = false;
-    CoarseStages coarse_;
+    CoarseLightLists coarse_;
     BinPixels bin_;
     RefineLights refine_;
+    CountPairs count_;
+    PairCounts counts_{};
 };
 
 }  // namespace kilolux

@@ -83,30 +83,6 @@ std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixe
     return cluster_index(s.grid, x, row / s.grid.tile_height, slice_of_depth(s.grid, z));
 }
 
-std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view) {
-    std::vector<float> out(std::size_t{3} * view.width * view.height);
-    const std::size_t plane = std::size_t{view.stride} * view.height;
-    for (std::size_t y = 0; y < view.height; ++y) {
-        for (std::size_t x = 0; x < view.width; ++x) {
-            float* pixel = &out[3 * (y * view.width + x)];
-            for (std::size_t c = 0; c < 3; ++c) pixel[c] = planes[c * plane + y * view.stride + x];
-        }
-    }
-    return out;
-}
-
-std::vector<std::uint8_t> tight_display(const std::vector<uint>& pixels, const View& view) {
-    std::vector<std::uint8_t> out(std::size_t{4} * view.width * view.height);
-    for (std::size_t y = 0; y < view.height; ++y) {
-        for (std::size_t x = 0; x < view.width; ++x) {
-            const uint pixel = pixels[y * view.stride + x];
-            for (uint c = 0; c < 4; ++c)
-                out[4 * (y * view.width + x) + c] = static_cast<std::uint8_t>(pixel >> (8 * c));
-        }
-    }
-    return out;
-}
-
 double mean_of_drawn(const std::vector<uint>& counts) {
     double sum = 0.0;
     std::size_t drawn = 0;

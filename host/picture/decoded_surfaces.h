@@ -15,12 +15,6 @@
 
 namespace kilolux {
 
-/// Three planes of stride * height to interleaved RGB of width * height.
-std::vector<float> tight_radiance(const std::vector<float>& planes, const View& view);
-
-/// Packed pixels of stride * height to RGBA bytes of width * height.
-std::vector<std::uint8_t> tight_display(const std::vector<uint>& pixels, const View& view);
-
 /// Mean of the counts that are not background's ~0; 0 if there are none.
 double mean_of_drawn(const std::vector<uint>& counts);
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kernels/shared/clusters.h"
+
 namespace kilolux {
 
 /// Named float channels of an image, interleaved, row 0 on top.
@@ -27,8 +29,10 @@ struct StageTime {
 /// Adds to the stage's time, or appends the stage.
 void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms);
 
-/// Counts of one frame. Nothing is ever dropped: lights_dropped is counted, and stays 0.
-struct FrameStats {
+/// Counts of one frame, with those of its lists, all bands together.
+struct FrameStats : PairCounts {
+    FrameStats() : PairCounts{} {}
+
     std::uint64_t lights_given = 0;
     std::uint64_t lights_used = 0;
     std::uint64_t lights_rejected = 0;  // unusable: not finite, no range, no intensity
@@ -37,11 +41,6 @@ struct FrameStats {
     std::uint64_t zero_normals =
         0;  // vertices of the scene whose normal has no direction: drawn as +Z of the view
     std::uint32_t grid[3] = {0, 0, 0};  // tiles x, tiles y, slices
-    std::uint64_t coarse_pairs = 0;     // (light, coarse cluster) that were listed; of all bands
-    std::uint64_t active_clusters = 0;
-    std::uint64_t refine_tests = 0;  // lights of the active clusters' coarse lists
-    std::uint64_t refined_pairs = 0;
-    std::uint64_t drawn_pixels = 0;  // that are not background; 0: not counted
     // k, over pixels that are not background; < 0: not counted. Forward shading counts fragments
     // that later ones hide, too.
     double evaluations_per_pixel = 0.0;
@@ -55,9 +54,8 @@ struct FrameStats {
 struct Frame {
     int width = 0;
     int height = 0;
-    std::vector<float> radiance;  // linear HDR Rec. 709, 3 * width * height
-    std::vector<float>
-        bloomed;  // radiance with bloom, where settings.keep_bloomed asks and there is some
+    std::vector<float> radiance;        // linear HDR Rec. 709, 3 * width * height
+    std::vector<float> bloomed;         // radiance with bloom, where there is some
     std::vector<std::uint8_t> display;  // sRGB, 4 * width * height
     std::vector<Layer> aovs;
     FrameStats stats;

@@ -71,19 +71,8 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.refine_tests += band.refine_tests;
     whole.refined_pairs += band.refined_pairs;
     whole.drawn_pixels += band.drawn_pixels;
+    whole.evaluations += band.evaluations;
     for (const StageTime& stage : band.stages) add_stage_time(whole.stages, stage.name, stage.ms);
-}
-
-std::vector<float> radiance_planes(const std::vector<float>& tight, const View& view) {
-    const std::size_t plane = std::size_t{view.stride} * view.height;
-    std::vector<float> out(3 * plane);
-    for (std::size_t y = 0; y < view.height; ++y) {
-        for (std::size_t x = 0; x < view.width; ++x) {
-            const float* pixel = &tight[3 * (y * view.width + x)];
-            for (std::size_t c = 0; c < 3; ++c) out[c * plane + y * view.stride + x] = pixel[c];
-        }
-    }
-    return out;
 }
 
 }  // namespace kilolux

@@ -29,7 +29,4 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height);
 /// is set, and means are weighted by the pixels drawn.
 void add_band(FrameStats& whole, const FrameStats& band);
 
-/// The inverse of tight_radiance() for a whole picture: planes of view.stride * view.height.
-std::vector<float> radiance_planes(const std::vector<float>& tight, const View& view);
-
 }  // namespace kilolux

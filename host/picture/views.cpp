@@ -2,6 +2,7 @@
 #include "host/picture/views.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 
@@ -203,32 +204,51 @@ Canvas difference(const ViewInput& input) {
 }
 
 struct NamedView {
+    ViewKind kind;
     std::string_view name;
     Canvas (*draw)(const ViewInput& input);
 };
 
-constexpr NamedView kViews[] = {
-    {"albedo", albedo},     {"normal", normal},         {"depth", depth},
-    {"position", position}, {"roughness", roughness},   {"lights", lights},
-    {"clusters", clusters}, {"slices", slices},         {"active", active},
-    {"overdraw", overdraw}, {"difference", difference}, {"false-positives", false_positives}};
+// In the enumeration's order.
+constexpr NamedView kViews[] = {{ViewKind::lit, "lit", nullptr},
+                                {ViewKind::albedo, "albedo", albedo},
+                                {ViewKind::normal, "normal", normal},
+                                {ViewKind::depth, "depth", depth},
+                                {ViewKind::position, "position", position},
+                                {ViewKind::roughness, "roughness", roughness},
+                                {ViewKind::lights, "lights", lights},
+                                {ViewKind::clusters, "clusters", clusters},
+                                {ViewKind::slices, "slices", slices},
+                                {ViewKind::active, "active", active},
+                                {ViewKind::overdraw, "overdraw", overdraw},
+                                {ViewKind::difference, "difference", difference},
+                                {ViewKind::false_positives, "false-positives", false_positives}};
 
 }  // namespace
 
 const std::vector<std::string>& view_names() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> out = {"lit"};
+        std::vector<std::string> out;
         for (const NamedView& view : kViews) out.emplace_back(view.name);
         return out;
     }();
     return names;
 }
 
-std::vector<std::uint8_t> make_view(std::string_view name, const ViewInput& input) {
+const std::string& name_of(ViewKind view) {
+    return view_names().at(static_cast<std::size_t>(view));
+}
+
+ViewKind parse_view(std::string_view name) {
     for (const NamedView& view : kViews) {
-        if (view.name == name) return view.draw(input).rgba;
+        if (view.name == name) return view.kind;
     }
     throw UsageError("--show: '" + std::string(name) + "' is not a view");
+}
+
+std::vector<std::uint8_t> make_view(ViewKind view, const ViewInput& input) {
+    assert(view != ViewKind::lit);
+    return kViews[static_cast<std::size_t>(view)].draw(input).rgba;
 }
 
 }  // namespace kilolux

@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "host/picture/decoded_surfaces.h"
+#include "host/picture/frame_request.h"
 
 namespace kilolux {
-
-/// What `--show` takes: "lit", then the views.
-const std::vector<std::string>& view_names();
 
 /// What views are made of; each reads what it needs.
 struct ViewInput {
@@ -23,8 +21,8 @@ struct ViewInput {
 };
 
 /// The view's picture: sRGB, 4 * width * height, opaque; heat maps have their legend in the lower
-/// left corner where the picture has room. Throws UsageError for an unknown name, and for a view of
-/// lists that the renderer does not make.
-std::vector<std::uint8_t> make_view(std::string_view name, const ViewInput& input);
+/// left corner where the picture has room. Throws UsageError for a view of lists that the
+/// renderer does not make.
+std::vector<std::uint8_t> make_view(ViewKind view, const ViewInput& input);
 
 }  // namespace kilolux

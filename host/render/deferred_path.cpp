@@ -1,113 +1,128 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/deferred_path.h"
 
-#include "host/render/forward_inputs.h"
-
 namespace kilolux {
+namespace {
 
-DeferredPath::DeferredPath(const RenderContext& context)
+LitSurfaces lit(const Gpu& gpu, DecodedSurfaces surfaces, const PreparedLights& lights) {
+    return {std::move(surfaces), download(gpu, lights.lights, lights.count),
+            download(gpu, lights.directional, lights.directional_count)};
+}
+
+}  // namespace
+
+DeferredPath::DeferredPath(const PathContext& context)
     : context_(context),
-      all_lights_(context.settings.renderer == RendererKind::deferred_all),
       surfaces_(context),
-      prepare_(context.gpu, context.tuning),
-      list_stages_(context.gpu, context.tuning, context.plan.kernels),
-      shade_(context.gpu, context.tuning, context.plan.kernels),
-      count_lights_(context.gpu, context.tuning, context.plan.kernels) {
-    if (has_blended_surfaces(context.gpu_scene.scene())) {
-        list_stages_.list_everywhere();
-        blended_.emplace(context.gpu_scene, forward_features(context.plan, !all_lights_, false));
-    }
+      lighting_(context.gpu, context.tuning, context.plan.kernels) {
+    if (!has_blended_surfaces(context.gpu_scene.scene())) return;
+    lighting_.light_lists().list_everywhere();
+    blended_.emplace(context, true);
 }
 
-Radiance DeferredPath::light(const SampleInput& sample, StageTimer& timer, FrameStats& stats) {
-    shade_.set_ambient(context_.settings.ambient);
-    gbuffer_ = surfaces_.draw(sample.camera, sample.band, sample.redraw, stats.stages);
-    grid_ = coarse_grid(context_, sample.camera, stats);
-    local_lights_ = sample.lights.count;
-    Radiance radiance =
-        all_lights_ ? light_from_all(sample, timer, stats) : light_from_lists(sample, timer, stats);
-    if (blended_) blend(sample, radiance, stats);
-    return radiance;
-}
-
-Radiance DeferredPath::light_from_all(const SampleInput& sample, StageTimer& timer,
-                                      FrameStats& stats) {
-    lists_ = {};
-    lists_.lights = prepare_.enqueue(sample.lights, gbuffer_.view, grid_, timer);
-    stats.evaluations_per_pixel = sample.lights.count;
-    stats.useful_evaluations_per_pixel = -1.0;
-    return shade_.enqueue_all_lights(gbuffer_, lists_.lights, timer);
-}
-
-Radiance DeferredPath::light_from_lists(const SampleInput& sample, StageTimer& timer,
-                                        FrameStats& stats) {
-    const auto enqueue = [&] {
-        lists_ = list_stages_.enqueue(sample.lights, gbuffer_, grid_, timer);
-        return shade_.enqueue(gbuffer_, lists_.lights, grid_, lists_.clusters, lists_.refined,
-                              timer);
-    };
-    Radiance radiance = enqueue();
-    // Room for the lists is last frame's: where that was too little, grow it and do this one again.
-    while (!list_stages_.fit()) {
-        timer.take();
-        radiance = enqueue();
-    }
-    list_stages_.count(lists_, stats);
-    stats.useful_evaluations_per_pixel = -1.0;
-    if (context_.settings.count_useful) {
-        const std::size_t size = std::size_t{gbuffer_.view.stride} * gbuffer_.view.height;
-        const cl::Buffer covering = count_lights().covering;
-        stats.useful_evaluations_per_pixel =
-            mean_of_drawn(download<uint>(context_.gpu, covering, size));
+Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShading& then) {
+    lighting_.set_ambient(context_.settings.ambient);
+    gbuffer_ = surfaces_.draw(sample, out.stats.stages);
+    const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
+    const LightingInput input{gbuffer_, sample.lights, grid};
+    const Radiance radiance = lighting_.light(input, out.timer, blended_ ? AfterShading() : then);
+    set_counts(out.stats);
+    if (blended_) {
+        const HostCoarseLists lists = lighting_.light_lists().download_coarse(lighting_.lists());
+        blended_->draw(sample, radiance, surfaces_.targets(), &lists, out.stats.stages);
+        then(radiance);
     }
     return radiance;
 }
 
-LitSurfaces DeferredPath::lit_surfaces() {
-    const PreparedLights& lights = lists_.lights;
-    return {pixels(), download<ShadeLight>(context_.gpu, lights.lights, lights.count),
-            download<DirectionalLight>(context_.gpu, lights.directional, lights.directional_count)};
-}
-
-PixelProbe DeferredPath::probe(int x, int y) {
-    PixelProbe out = surfaces_.probe(gbuffer_, grid_, x, y);
-    if (out.drawn() && !all_lights_) list_stages_.probe(lists_, gbuffer_.view, x, y, out);
-    return out;
+void DeferredPath::set_counts(FrameStats& stats) {
+    static_cast<PairCounts&>(stats) = lighting_.light_lists().counts();
+    const auto drawn = static_cast<double>(stats.drawn_pixels);
+    stats.evaluations_per_pixel =
+        drawn > 0.0 ? static_cast<double>(stats.evaluations) / drawn : 0.0;
+    stats.useful_evaluations_per_pixel = -1.0;
+    if (!context_.settings.want.counts) return;
+    const std::size_t size = std::size_t{gbuffer_.view.stride} * gbuffer_.view.height;
+    stats.useful_evaluations_per_pixel =
+        mean_of_drawn(download<uint>(context_.gpu, count_lights().covering, size));
 }
 
 LightCounts DeferredPath::count_lights() {
-    StageTimer untimed;
-    return count_lights_.enqueue(gbuffer_, lists_.lights, grid_, lists_.clusters, lists_.refined,
-                                 untimed);
-}
-
-void DeferredPath::blend(const SampleInput& sample, const Radiance& radiance, FrameStats& stats) {
-    const View& view = radiance.view;
-    const auto planes =
-        download<float>(context_.gpu, radiance.planes, std::size_t{3} * view.stride * view.height);
-    HostCoarseLists lists;
-    if (!all_lights_) lists = list_stages_.download_coarse(lists_);
-    blended_->draw_blended(
-        crop(sample.camera, context_.settings.height, sample.band), view, surfaces_.targets(),
-        planes,
-        forward_lights(sample.rows, context_.settings.ambient, all_lights_ ? nullptr : &lists));
-    upload<float>(context_.gpu, radiance.planes, blended_->read_radiance(view.stride));
-    add_stage_time(stats.stages, "blended", blended_->last_ms());
-}
-
-DecodedSurfaces DeferredPath::pixels() {
-    DecodedSurfaces out = surfaces_.decode(gbuffer_, grid_);
-    const std::size_t size = std::size_t{out.view.stride} * out.view.height;
-    if (all_lights_) {
-        out.evaluated.resize(size);
-        for (std::size_t i = 0; i < size; ++i) {
-            out.evaluated[i] = out.planes[i] == 0.0f ? kBackground : local_lights_;
-        }
-        return out;
+    if (!count_lights_) {
+        count_lights_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
     }
+    StageTimer untimed;
+    const ListedLights& lists = lighting_.lists();
+    return count_lights_->enqueue(gbuffer_, lists.lights, lists.grid, lists.clusters, lists.refined,
+                                  untimed);
+}
+
+LitSurfaces DeferredPath::lit_surfaces() {
+    return lit(context_.gpu, surfaces_.decode(gbuffer_, lighting_.lists().grid),
+               lighting_.lists().lights);
+}
+
+PixelProbe DeferredPath::probe(const Camera&, int x, int y) {
+    const ListedLights& lists = lighting_.lists();
+    PixelProbe out = surfaces_.probe(gbuffer_, lists.grid, x, y);
+    if (!out.drawn()) return out;
+    PixelLists found =
+        lighting_.light_lists().at_pixel(lists, gbuffer_.view, static_cast<uint>(x),
+                                         static_cast<uint>(y), out.surface[SURFACE_DEPTH]);
+    out.coarse_count = found.coarse_count;
+    out.active = found.active;
+    out.has_list = found.active.has_value();
+    for (const uint light : found.lights) out.lights.push_back({light, {}, {}});
+    return out;
+}
+
+std::vector<ActiveCluster> DeferredPath::active_clusters() const {
+    return lighting_.light_lists().active_clusters(lighting_.lists());
+}
+
+DecodedSurfaces DeferredPath::pixels(const Camera&) {
+    DecodedSurfaces out = surfaces_.decode(gbuffer_, lighting_.lists().grid);
+    const std::size_t size = std::size_t{out.view.stride} * out.view.height;
     const LightCounts counts = count_lights();
     out.evaluated = download<uint>(context_.gpu, counts.evaluated, size);
     out.covering = download<uint>(context_.gpu, counts.covering, size);
+    return out;
+}
+
+DeferredAllPath::DeferredAllPath(const PathContext& context)
+    : context_(context),
+      surfaces_(context),
+      lighting_(context.gpu, context.tuning, context.plan.kernels) {
+    if (has_blended_surfaces(context.gpu_scene.scene())) blended_.emplace(context, false);
+}
+
+Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterShading& then) {
+    lighting_.set_ambient(context_.settings.ambient);
+    gbuffer_ = surfaces_.draw(sample, out.stats.stages);
+    grid_ = coarse_grid(context_, sample.camera, out.stats);
+    const Radiance radiance = lighting_.light({gbuffer_, sample.lights, grid_}, out.timer);
+    out.stats.evaluations_per_pixel = sample.lights.count;
+    out.stats.useful_evaluations_per_pixel = -1.0;
+    if (blended_) {
+        blended_->draw(sample, radiance, surfaces_.targets(), nullptr, out.stats.stages);
+    }
+    then(radiance);
+    return radiance;
+}
+
+LitSurfaces DeferredAllPath::lit_surfaces() {
+    return lit(context_.gpu, surfaces_.decode(gbuffer_, grid_), lighting_.lights());
+}
+
+PixelProbe DeferredAllPath::probe(const Camera&, int x, int y) {
+    return surfaces_.probe(gbuffer_, grid_, x, y);
+}
+
+DecodedSurfaces DeferredAllPath::pixels(const Camera&) {
+    DecodedSurfaces out = surfaces_.decode(gbuffer_, grid_);
+    for (std::size_t i = 0; i < std::size_t{out.view.stride} * out.view.height; ++i) {
+        out.evaluated.push_back(out.planes[i] == 0.0f ? kBackground : lighting_.lights().count);
+    }
     return out;
 }
 

@@ -3,11 +3,9 @@
 
 #include <cmath>
 
-#include "host/render/forward_inputs.h"
-
 namespace kilolux {
 
-ForwardPath::ForwardPath(const RenderContext& context)
+ForwardPath::ForwardPath(const PathContext& context)
     : context_(context),
       clustered_(context.settings.renderer == RendererKind::forward_plus),
       forward_(context.gpu_scene, forward_features(context.plan, clustered_, true)),
@@ -15,35 +13,39 @@ ForwardPath::ForwardPath(const RenderContext& context)
     if (clustered_) coarse_.emplace(context.gpu, context.tuning, context.plan.kernels);
 }
 
-HostCoarseLists ForwardPath::make_lists(const SampleInput& sample, const View& view,
-                                        StageTimer& timer, FrameStats& stats) {
-    CoarseResult result = coarse_->enqueue(sample.lights, view, grid_, timer);
-    while (!coarse_->fit()) {
-        timer.take();
-        result = coarse_->enqueue(sample.lights, view, grid_, timer);
-    }
-    stats.coarse_pairs = coarse_->pairs();
-    return coarse_->download(result);
+HostCoarseLists ForwardPath::make_lists(const Sample& sample, const View& view, Measured out) {
+    const CoarseLighting coarse = coarse_->run(sample.lights, view, grid_, out.timer);
+    out.stats.coarse_pairs = coarse_->pairs();
+    return coarse_->download(coarse);
 }
 
-Radiance ForwardPath::light(const SampleInput& sample, StageTimer& timer, FrameStats& stats) {
+Radiance ForwardPath::light(const Sample& sample, Measured out, const AfterShading& then) {
     const RenderSettings& settings = context_.settings;
     const View view = view_of(sample.camera, settings.width, settings.height);
-    grid_ = coarse_grid(context_, sample.camera, stats);
+    grid_ = coarse_grid(context_, sample.camera, out.stats);
     local_lights_ = sample.lights.count;
-    if (clustered_) lists_ = make_lists(sample, view, timer, stats);
+    if (clustered_) lists_ = make_lists(sample, view, out);
     forward_.draw(sample.camera, settings.width, settings.height,
                   forward_lights(sample.rows, settings.ambient, clustered_ ? &lists_ : nullptr));
     const std::vector<float> planes = forward_.read_radiance(view.stride);
-    Radiance radiance{radiance_.reserve(planes.size() * sizeof(float)), view};
+    const Radiance radiance{radiance_.reserve(planes.size()), view};
     upload<float>(context_.gpu, radiance.planes, planes);
-    add_stage_time(stats.stages, clustered_ ? "forward_plus" : "forward", forward_.last_ms());
-    stats.evaluations_per_pixel = -1.0;
-    stats.useful_evaluations_per_pixel = -1.0;
-    if (settings.count_useful) {
-        stats.evaluations_per_pixel = mean_of_drawn(pixels(sample.camera).evaluated);
+    then(radiance);
+    add_stage_time(out.stats.stages, clustered_ ? "forward_plus" : "forward", forward_.last_ms());
+    out.stats.evaluations_per_pixel = -1.0;
+    out.stats.useful_evaluations_per_pixel = -1.0;
+    if (settings.want.counts) {
+        out.stats.evaluations_per_pixel = mean_of_drawn(pixels(sample.camera).evaluated);
     }
     return radiance;
+}
+
+SurfacePass& ForwardPath::drawn_surfaces(const Camera& camera) {
+    if (!surfaces_) surfaces_.emplace(context_);
+    std::vector<StageTime> untimed;
+    const LightRows no_rows;
+    gbuffer_ = surfaces_->draw({camera, no_rows, {}, {0, context_.settings.height}, true}, untimed);
+    return *surfaces_;
 }
 
 std::vector<uint> ForwardPath::evaluated(const Camera& camera, const DecodedSurfaces& surfaces) {
@@ -70,10 +72,8 @@ std::vector<uint> ForwardPath::evaluated(const Camera& camera, const DecodedSurf
 }
 
 PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
-    if (!surfaces_) surfaces_.emplace(context_);
-    std::vector<StageTime> untimed;
-    PixelProbe out = surfaces_->probe(
-        surfaces_->draw(camera, {0, context_.settings.height}, true, untimed), grid_, x, y);
+    SurfacePass& surfaces = drawn_surfaces(camera);
+    PixelProbe out = surfaces.probe(gbuffer_, grid_, x, y);
     if (!out.drawn() || !clustered_) return out;
     const uint cluster = cluster_index(grid_, out.tile_x, out.tile_y, out.slice);
     out.has_list = true;
@@ -85,10 +85,8 @@ PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
 }
 
 DecodedSurfaces ForwardPath::pixels(const Camera& camera) {
-    if (!surfaces_) surfaces_.emplace(context_);
-    std::vector<StageTime> untimed;
-    DecodedSurfaces out = surfaces_->decode(
-        surfaces_->draw(camera, {0, context_.settings.height}, true, untimed), grid_);
+    SurfacePass& surfaces = drawn_surfaces(camera);
+    DecodedSurfaces out = surfaces.decode(gbuffer_, grid_);
     out.evaluated = evaluated(camera, out);
     return out;
 }

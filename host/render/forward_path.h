@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "host/lighting/coarse_stages.h"
+#include "host/picture/pixel_probe.h"
+#include "host/render/blended_pass.h"
 #include "host/render/surface_pass.h"
-#include "raster/forward_pass.h"
 #include "raster/overdraw_pass.h"
 
 namespace kilolux {
@@ -15,11 +15,11 @@ namespace kilolux {
 /// OpenCL makes. A G-buffer is drawn only for AOVs, views and counts.
 class ForwardPath {
  public:
-    explicit ForwardPath(const RenderContext& context);
+    explicit ForwardPath(const PathContext& context);
 
-    /// As DeferredPath::light. evaluations_per_pixel is -1 unless settings.count_useful asks for
-    /// it: for forward, lights times fragments shaded at a pixel; useful ones are not counted.
-    Radiance light(const SampleInput& sample, StageTimer& timer, FrameStats& stats);
+    /// As DeferredPath::light. evaluations_per_pixel is -1 unless FrameRequest::counts asks for it:
+    /// for forward, lights times fragments shaded at a pixel; useful ones are not counted.
+    Radiance light(const Sample& sample, Measured out, const AfterShading& then);
 
     /// Surfaces and counts of the last light(), for AOVs and views. Blocks.
     DecodedSurfaces pixels(const Camera& camera);
@@ -28,17 +28,18 @@ class ForwardPath {
     PixelProbe probe(const Camera& camera, int x, int y);
 
  private:
-    HostCoarseLists make_lists(const SampleInput& sample, const View& view, StageTimer& timer,
-                               FrameStats& stats);
+    HostCoarseLists make_lists(const Sample& sample, const View& view, Measured out);
+    SurfacePass& drawn_surfaces(const Camera& camera);  // into gbuffer_
     std::vector<uint> evaluated(const Camera& camera, const DecodedSurfaces& surfaces);
 
-    RenderContext context_;
+    PathContext context_;
     bool clustered_;
     ForwardPass forward_;
-    std::optional<CoarseStages> coarse_;  // forward-plus only
-    GrowingBuffer radiance_;
+    std::optional<CoarseLightLists> coarse_;  // forward-plus only
+    GrowingArray<float> radiance_;
     std::optional<SurfacePass> surfaces_;  // made when first asked for
     std::optional<OverdrawPass> overdraw_;
+    GBuffer gbuffer_;  // of surfaces_
     // Of the last light().
     ClusterGrid grid_{};
     HostCoarseLists lists_;

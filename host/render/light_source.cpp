@@ -78,8 +78,8 @@ LightInput LightSource::upload(const LightRows& rows) {
     LightInput input;
     input.count = static_cast<uint>(rows.local.size());
     input.directional_count = static_cast<uint>(rows.directional.size());
-    input.lights = local_.reserve(rows.local.size() * sizeof(Light));
-    input.directional = directional_.reserve(rows.directional.size() * sizeof(DirectionalLight));
+    input.lights = local_.reserve(rows.local.size());
+    input.directional = directional_.reserve(rows.directional.size());
     kilolux::upload<Light>(gpu_, input.lights, rows.local);
     kilolux::upload<DirectionalLight>(gpu_, input.directional, rows.directional);
     return input;

@@ -45,7 +45,8 @@ class LightSource {
     std::vector<SceneLight> own_;     // with ranges
     std::vector<SceneLight> lights_;  // all of them at time_
     std::optional<double> time_;      // none: not made yet
-    GrowingBuffer local_, directional_;
+    GrowingArray<Light> local_;
+    GrowingArray<DirectionalLight> directional_;
 };
 
 }  // namespace kilolux

@@ -65,22 +65,30 @@ Bytes target_pixel_bytes(const ScenePlan& plan) {
 
 struct Need {
     Bytes fixed = 0;            // whatever the bands
+    Bytes device_fixed = 0;     // the part of `fixed` that is device buffers
     Bytes band_pixel = 0;       // for each pixel of a band
     Bytes largest_element = 0;  // of a band's pixel in one buffer
 };
 
 Bytes layer_bytes(const RenderSettings& settings) {
     constexpr Bytes kMostChannels = 3;
-    return settings.aovs.size() * kMostChannels * sizeof(float);
+    return settings.want.aovs.size() * kMostChannels * sizeof(float);
 }
 
 // What the whole picture takes on the host, and where stages need all of it, there too.
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
-    if (settings.bloom > 0.0f) bytes += 4 * 3 * sizeof(float);
-    if (settings.show != "lit") bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
-    if (settings.show == "difference") bytes *= 2;
+    if (settings.want.view != ViewKind::lit)
+        bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
+    if (settings.want.view == ViewKind::difference) bytes *= 2;
     return bytes;
+}
+
+// Of bloom, which mixes the whole picture: light, its copy, the smaller levels, the display
+// picture.
+Bytes bloom_pixel_bytes(const RenderSettings& settings) {
+    constexpr Bytes kLightPixel = 3 * sizeof(float);
+    return settings.bloom > 0.0f ? 2 * kLightPixel + kLightPixel / 3 + 4 : 0;
 }
 
 Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan) {
@@ -89,17 +97,18 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const Bytes tile_rows =
         is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
     const bool blends = has_blended_surfaces(scene);
-    const bool decodes = !settings.aovs.empty() || settings.show != "lit";
+    const bool decodes = settings.want.pixels();
     Need need;
-    need.fixed = kProgram + scene_bytes(scene) +
-                 (settings.lights.count + scene.lights.size()) * kLight +
+    need.device_fixed = (settings.lights.count + scene.lights.size()) * kLight +
+                        width * height * bloom_pixel_bytes(settings);
+    need.fixed = kProgram + scene_bytes(scene) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
     constexpr Bytes kForwardTarget = 20;
     if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
     if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
     need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
     if (settings.samples > 1) need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
-    if (decodes || settings.count_useful) need.band_pixel += 4 * sizeof(std::uint32_t);
+    if (decodes || settings.want.counts) need.band_pixel += 4 * sizeof(std::uint32_t);
     if (decodes) {
         need.band_pixel += 2 * SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + layer_bytes(settings);
     }
@@ -152,8 +161,7 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
     // A CPU's buffers are memory like the rest: lights and bands as planned, and for lists what is
     // left.
-    out.device_bytes =
-        device.is_cpu ? limit - need.fixed + settings.lights.count * kLight : device.memory_bytes;
+    out.device_bytes = device.is_cpu ? limit - need.fixed + need.device_fixed : device.memory_bytes;
     return out;
 }
 

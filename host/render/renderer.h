@@ -18,6 +18,8 @@
 
 namespace kilolux {
 
+class Pipeline;
+
 /// What list_devices() says of every OpenCL device, in the order that `--device INDEX` counts.
 std::vector<DeviceInfo> list_devices();
 
@@ -49,16 +51,16 @@ class Renderer {
 
     const RenderSettings& settings() const;
 
-    /// The picture at `time` [s]: the mean of settings.samples jittered samples (sample_pattern.h).
-    /// AOVs, views and counts are those of the sample through the pixels' centres; stage times are
-    /// sums over the samples and bands. Blocks until it is on the host. The same arguments give the
-    /// same bits on every call and with any memory. `between` is called before every band, and what
-    /// it throws comes out.
+    /// What settings().want asks for of the picture at `time` [s]: the mean of settings.samples
+    /// jittered samples (sample_pattern.h). AOVs, views and counts are those of the sample through
+    /// the pixels' centres; stage times are sums over the samples and bands. Blocks until it is on
+    /// the host. The same arguments give the same bits on every call and with any memory. `between`
+    /// is called before every band, and what it throws comes out.
     Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
 
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
-    /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display
-    /// and Frame::radiance are empty. A device that shares the host's memory writes there itself.
+    /// display_stride() apart, height rows); Frame::display is empty. A device that shares the
+    /// host's memory writes there itself.
     Frame render_to(std::span<uint> pixels, const Camera& camera, double time);
 
     /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a
@@ -83,8 +85,7 @@ class Renderer {
     const MemoryPlan& memory() const;
 
  private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    std::unique_ptr<Pipeline> pipeline_;
 };
 
 }  // namespace kilolux

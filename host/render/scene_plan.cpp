@@ -59,11 +59,6 @@ const char* shading_name(int shading) {
     return kNames[shading];
 }
 
-struct Feature {
-    const char* name;
-    bool needed;
-};
-
 void check_forced(const std::vector<std::string>& names) {
     const std::vector<std::string>& known = forceable_features();
     for (const std::string& name : names) {
@@ -74,82 +69,93 @@ void check_forced(const std::vector<std::string>& names) {
     }
 }
 
+bool is_forced(const RenderSettings& settings, std::string_view name) {
+    const std::vector<std::string>& forced = settings.force_features;
+    return std::find(forced.begin(), forced.end(), name) != forced.end();
+}
+
+SceneFeatures features_of(const Scene& scene, const std::vector<Material>& materials) {
+    SceneFeatures out;
+    for (const SceneLight& light : scene.lights) {
+        out.spot_lights |= light.type == LightType::spot;
+        out.directional_lights |= light.type == LightType::directional;
+    }
+    for (const Material& m : materials) {
+        out.metallic |= is_metallic(m);
+        out.emissive |= largest_emission(m) > 0.0f;
+        out.occlusion |= m.occlusion_texture.present();
+        out.specular |= reflects_otherwise(m);
+        out.unlit_materials |= m.unlit;
+        out.normal_maps |= m.normal_texture.present();
+        out.alpha_mask |= m.alpha_mode == AlphaMode::mask;
+        out.alpha_blend |= m.alpha_mode == AlphaMode::blend;
+    }
+    return out;
+}
+
+int shading_of(const RenderSettings& settings, const std::vector<Material>& materials) {
+    if (is_forced(settings, "pbr")) return SHADING_PBR;
+    if (is_forced(settings, "blinn-phong")) return SHADING_BLINN_PHONG;
+    return shading_of(settings.shading, materials);
+}
+
+// What the pictures need of what the scene has, and what is forced.
+SceneFeatures needed(SceneFeatures out, bool glossy, const RenderSettings& settings) {
+    out.metallic &= glossy;
+    out.specular &= glossy;
+    out.unlit = glossy && out.unlit_materials;
+    out.occlusion &= settings.ambient > 0.0f;
+    for (const SceneFeature& feature : scene_feature_table()) {
+        if (is_forced(settings, feature.name)) out.*feature.member = true;
+    }
+    out.unlit |= is_forced(settings, "unlit");
+    out.material = out.metallic || out.emissive;
+    return out;
+}
+
 }  // namespace
 
 const std::vector<std::string>& forceable_features() {
-    static const std::vector<std::string> names = {
-        "spot-lights", "directional-lights", "metallic",    "emissive", "occlusion", "specular",
-        "unlit",       "wide-light-index",   "blinn-phong", "pbr"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> out;
+        for (const SceneFeature& feature : scene_feature_table()) {
+            if (feature.forceable) out.emplace_back(feature.name);
+        }
+        out.insert(out.end(), {"blinn-phong", "pbr"});
+        return out;
+    }();
     return names;
 }
 
 ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
                           std::uint64_t light_count) {
-    const std::vector<Material> materials = materials_in_use(scene);
-    const auto any_material = [&](auto&& test) {
-        return std::any_of(materials.begin(), materials.end(), test);
-    };
-    const auto any_light = [&](LightType type) {
-        return std::any_of(scene.lights.begin(), scene.lights.end(),
-                           [&](const SceneLight& l) { return l.type == type; });
-    };
     check_forced(settings.force_features);
-    const auto forced = [&](std::string_view name) {
-        return std::find(settings.force_features.begin(), settings.force_features.end(), name) !=
-               settings.force_features.end();
-    };
+    const std::vector<Material> materials = materials_in_use(scene);
+    const int shading = shading_of(settings, materials);
+    SceneFeatures features = features_of(scene, materials);
+    features.point_lights = light_count > 0;
+    features.wide_light_index = light_count > 65536;
+    features = needed(features, shading != SHADING_LAMBERT, settings);
     ScenePlan plan;
-    plan.kernels.shading = shading_of(settings.shading, materials);
-    if (forced("blinn-phong")) plan.kernels.shading = SHADING_BLINN_PHONG;
-    if (forced("pbr")) plan.kernels.shading = SHADING_PBR;
-    const bool glossy = plan.kernels.shading != SHADING_LAMBERT;
-    float emission = 0.0f;
-    for (const Material& m : materials) emission = std::max(emission, largest_emission(m));
-    plan.gbuffer.layout = settings.gbuffer;
-    plan.kernels.metallic = (glossy && any_material(is_metallic)) || forced("metallic");
-    const bool emissive = emission > 0.0f || forced("emissive");
-    plan.gbuffer.material = plan.kernels.metallic || emissive;
-    plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
-    plan.gbuffer.occlusion = (settings.ambient > 0.0f && any_material([](const Material& m) {
-                                  return m.occlusion_texture.present();
-                              })) ||
-                             forced("occlusion");
-    plan.kernels.specular = (glossy && any_material(reflects_otherwise)) || forced("specular");
-    plan.kernels.unlit =
-        (glossy && any_material([](const Material& m) { return m.unlit; })) || forced("unlit");
-    plan.gbuffer.specular = plan.kernels.specular;
-    plan.gbuffer.unlit = plan.kernels.unlit;
+    static_cast<SceneFeatures&>(plan.kernels) = features;
+    plan.kernels.shading = shading;
     plan.kernels.gbuffer = settings.gbuffer;
-    plan.kernels.material = plan.gbuffer.material;
-    plan.kernels.occlusion = plan.gbuffer.occlusion;
-    plan.kernels.spot_lights = any_light(LightType::spot) || forced("spot-lights");
-    plan.kernels.directional_lights =
-        any_light(LightType::directional) || forced("directional-lights");
-    plan.kernels.light_index_bits = light_count <= 65536 && !forced("wide-light-index") ? 16 : 32;
+    plan.kernels.light_index_bits = features.wide_light_index ? 32 : 16;
     plan.kernels.fast_relaxed_math = settings.kernels.math == MathMode::fast_relaxed;
     plan.kernels.native_math = settings.kernels.math == MathMode::native;
     plan.kernels.half_light_colors = settings.kernels.light_colors == LightColors::half;
+    float emission = 0.0f;
+    for (const Material& m : materials) emission = std::max(emission, largest_emission(m));
+    static_cast<SceneFeatures&>(plan.gbuffer) = features;
+    plan.gbuffer.layout = settings.gbuffer;
+    plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
     plan.gbuffer_bytes_per_pixel =
         static_cast<int>(make_gbuffer_layout(plan.gbuffer, 16, 1).bytes_per_pixel);
-    plan.features.push_back(shading_name(plan.kernels.shading));
-    const Feature features[] = {
-        {"point-lights", light_count > 0},
-        {"spot-lights", plan.kernels.spot_lights},
-        {"directional-lights", plan.kernels.directional_lights},
-        {"metallic", plan.kernels.metallic},
-        {"emissive", emissive},
-        {"occlusion", plan.gbuffer.occlusion},
-        {"specular", plan.kernels.specular},
-        {"unlit", any_material([](const Material& m) { return m.unlit; }) || plan.kernels.unlit},
-        {"normal-maps", any_material([](const Material& m) { return m.normal_texture.present(); })},
-        {"alpha-mask",
-         any_material([](const Material& m) { return m.alpha_mode == AlphaMode::mask; })},
-        {"alpha-blend",
-         any_material([](const Material& m) { return m.alpha_mode == AlphaMode::blend; })},
-        {"wide-light-index", plan.kernels.light_index_bits == 32},
-    };
-    for (const Feature& feature : features)
-        (feature.needed ? plan.features : plan.left_out).emplace_back(feature.name);
+    plan.features.emplace_back(shading_name(shading));
+    for (const SceneFeature& feature : scene_feature_table()) {
+        if (feature.name.empty()) continue;
+        (features.*feature.member ? plan.features : plan.left_out).emplace_back(feature.name);
+    }
     return plan;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/picture/frame_request.h"
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_ranges.h"
 #include "kernels/shared/gbuffer.h"
@@ -64,14 +65,10 @@ struct RenderSettings {
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]
     ToneCurve tone_curve = ToneCurve::neutral;
-    int samples = 1;  // jittered samples a pixel
-    std::string show = "lit";
-    std::vector<std::string> aovs;
+    int samples = 1;    // jittered samples a pixel
+    FrameRequest want;  // what render() brings to the host
     GridSettings grid;
     KernelSettings kernels;
-    bool keep_bloomed =
-        false;  // also Frame::bloomed, for whoever makes a display picture of their own
-    bool count_useful = false;  // also count k*, at the price of one more pass
     std::vector<std::string>
         force_features;  // compiled in although the scene lacks them; see forceable_features()
     std::uint64_t max_memory_bytes =

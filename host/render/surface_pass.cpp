@@ -5,21 +5,23 @@
 
 namespace kilolux {
 
-SurfacePass::SurfacePass(const RenderContext& context)
+SurfacePass::SurfacePass(const PathContext& context)
     : context_(context),
       geometry_(context.gpu_scene, context.plan.gbuffer),
       bridge_(context.gpu),
       decode_(context.gpu, context.tuning, context.plan.kernels) {}
 
-GBuffer SurfacePass::draw(const Camera& camera, Band band, bool redraw,
-                          std::vector<StageTime>& stages) {
+GBuffer SurfacePass::draw(const Sample& sample, std::vector<StageTime>& stages) {
     const RenderSettings& settings = context_.settings;
+    const Camera& camera = sample.camera;
+    const Band band = sample.band;
     const Band tile = raster_tile(settings.height, band.first_row);
-    if (redraw) geometry_.draw(crop(camera, settings.height, tile), settings.width, tile.rows);
+    if (sample.redraw)
+        geometry_.draw(crop(camera, settings.height, tile), settings.width, tile.rows);
     GBuffer gbuffer = bridge_.transfer(geometry_.targets(), context_.plan.gbuffer,
                                        view_of(camera, settings.width, settings.height, band),
                                        band.first_row - tile.first_row);
-    if (redraw) add_stage_time(stages, "geometry", geometry_.last_ms());
+    if (sample.redraw) add_stage_time(stages, "geometry", geometry_.last_ms());
     add_stage_time(stages, "gbuffer_bridge", bridge_.last_ms());
     return gbuffer;
 }
@@ -59,7 +61,7 @@ PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, i
     return out;
 }
 
-ClusterGrid coarse_grid(const RenderContext& context, const Camera& camera, FrameStats& stats) {
+ClusterGrid coarse_grid(const PathContext& context, const Camera& camera, FrameStats& stats) {
     const RenderSettings& settings = context.settings;
     const uint layout = is_forward(settings.renderer) ? GBUFFER_PACKED : settings.gbuffer;
     const GridRequest request =
@@ -70,10 +72,6 @@ ClusterGrid coarse_grid(const RenderContext& context, const Camera& camera, Fram
     stats.grid[1] = grid.tiles_y;
     stats.grid[2] = grid.slices;
     return grid;
-}
-
-bool wants_pixels(const RenderSettings& settings) {
-    return !settings.aovs.empty() || settings.show != "lit";
 }
 
 }  // namespace kilolux

@@ -4,7 +4,7 @@
 #include "host/interop/gbuffer_bridge.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/pixel_probe.h"
-#include "host/render/render_context.h"
+#include "host/render/path.h"
 #include "host/stages/decode_gbuffer.h"
 #include "raster/geometry_pass.h"
 
@@ -13,12 +13,12 @@ namespace kilolux {
 /// The scene's surfaces: drawn by OpenGL, on the OpenCL device, and decoded.
 class SurfacePass {
  public:
-    explicit SurfacePass(const RenderContext& context);
+    explicit SurfacePass(const PathContext& context);
 
     /// Draws the G-buffer of the band's raster tile, unless it is there from the last call, and
-    /// brings the band to the device, where it stays until the next call. Waits for OpenGL. Adds
-    /// the stages geometry and gbuffer_bridge to `stages`.
-    GBuffer draw(const Camera& camera, Band band, bool redraw, std::vector<StageTime>& stages);
+    /// brings the band to the device, where it stays until the next call; lights are not read.
+    /// Waits for OpenGL. Adds the stages geometry and gbuffer_bridge to `stages`.
+    GBuffer draw(const Sample& sample, std::vector<StageTime>& stages);
 
     /// The surfaces of the last draw() on the host. Blocks.
     DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);
@@ -29,16 +29,13 @@ class SurfacePass {
     const GBufferTargets& targets() const { return geometry_.targets(); }
 
  private:
-    RenderContext context_;
+    PathContext context_;
     GeometryPass geometry_;
     GBufferBridge bridge_;
     DecodeGBuffer decode_;
 };
 
 /// The coarse grid of a frame.
-ClusterGrid coarse_grid(const RenderContext& context, const Camera& camera, FrameStats& stats);
-
-/// Whether someone reads the surfaces or the counts of single pixels.
-bool wants_pixels(const RenderSettings& settings);
+ClusterGrid coarse_grid(const PathContext& context, const Camera& camera, FrameStats& stats);
 
 }  // namespace kilolux

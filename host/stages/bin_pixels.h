@@ -3,10 +3,7 @@
 
 #include <cstdint>
 
-#include "host/gpu/buffer.h"
-#include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
 #include "host/stages/prefix_sum.h"
 
 namespace kilolux {
@@ -20,20 +17,21 @@ class BinPixels {
     /// Enqueues only.
     ActiveClusters enqueue(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
 
-    /// Active clusters of the last enqueue; blocks.
-    std::uint64_t active() const { return prefix_sum_.total(); }
+    /// Active clusters of the last enqueue: on the device; on the host, which blocks.
+    DeviceArray<std::uint64_t> total() const { return clusters_.total(); }
+    std::uint64_t active() const { return clusters_.read_total(); }
 
-    /// True if the last enqueue's clusters are complete; else makes room for the next. Blocks.
-    bool fits();
+    /// True if there is room for the last enqueue's `active` clusters; else makes room for the
+    /// next. Without a number it blocks to read it.
+    bool fits(std::uint64_t active) { return clusters_.fits(active); }
+    bool fits() { return fits(active()); }
 
  private:
-    cl::Buffer cleared_occupied(const ClusterGrid& grid, StageTimer& timer);
-
-    Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;
-    PrefixSum prefix_sum_;
-    GrowingBuffer counts_, offsets_, clusters_, order_, occupied_;
+    Kernel clear_, count_, fill_;
+    CountedList clusters_;
+    GrowingArray<std::uint8_t> order_, occupied_;
 };
 
 }  // namespace kilolux

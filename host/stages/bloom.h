@@ -3,10 +3,9 @@
 
 #include <vector>
 
-#include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
@@ -24,7 +23,8 @@ class Bloom {
  private:
     Gpu gpu_;
     cl::Program program_;
-    std::vector<GrowingBuffer> levels_;  // [0]: the result; [i]: the image 2^i times smaller
+    Kernel down_, up_;
+    std::vector<GrowingArray<float>> levels_;  // [0]: the result; [i]: the image 2^i times smaller
 };
 
 }  // namespace kilolux

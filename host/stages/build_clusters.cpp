@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "host/base/error.h"
+
 namespace kilolux {
 namespace {
 
@@ -13,6 +15,20 @@ constexpr std::string_view kStage = "build_clusters";
 uint tile_edge(uint size, uint tiles) {
     const uint wanted = (size + std::max(tiles, 1u) - 1) / std::max(tiles, 1u);
     return std::max((wanted + FINE_TILE - 1) / FINE_TILE * FINE_TILE, uint{FINE_TILE});
+}
+
+// LightExtent has 16 bits for a tile's column, row and slice; kernels number clusters in 32.
+uint checked_cluster_count(const ClusterGrid& grid) {
+    constexpr uint kMostTiles = 0xffffu;
+    constexpr std::uint64_t kMostClusters = 0xfffffff0u;
+    const std::uint64_t count = std::uint64_t{grid.tiles_x} * grid.tiles_y;
+    const uint most = std::max({grid.tiles_x, grid.tiles_y, grid.slices});
+    if (most <= kMostTiles && count <= kMostClusters / grid.slices)
+        return static_cast<uint>(count * grid.slices);
+    throw Error(std::string(kStage) + ": a grid of " + std::to_string(grid.tiles_x) + " x " +
+                std::to_string(grid.tiles_y) + " tiles and " + std::to_string(grid.slices) +
+                " slices; there can be " + std::to_string(kMostTiles) + " a side and " +
+                std::to_string(kMostClusters) + " clusters");
 }
 
 }  // namespace
@@ -32,33 +48,25 @@ ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint heigh
     grid.z_first_bits = std::bit_cast<uint>(first);
     grid.slices = ~0u;  // while the last one's number is asked for
     grid.slices = slice_of_depth(grid, last) + 1u;
-    grid.cluster_count = grid.tiles_x * grid.tiles_y * grid.slices;
+    grid.cluster_count = checked_cluster_count(grid);
     grid.position_pad = request.position_pad;
     return grid;
 }
 
 BuildClusters::BuildClusters(const Gpu& gpu)
-    : gpu_(gpu),
-      program_(build_program(gpu, kStage)),
+    : kernel_(gpu, build_program(gpu, kStage), kStage, "build_clusters"),
       columns_(gpu, kStage),
       rows_(gpu, kStage),
       depths_(gpu, kStage) {}
 
 ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, StageTimer& timer) {
-    return in_stage(kStage, [&] {
-        constexpr std::size_t kInterval = 2 * sizeof(float);
-        ClusterBoxes out;
-        out.grid = grid;
-        out.columns = columns_.reserve(kInterval * grid.slices * grid.tiles_x);
-        out.rows = rows_.reserve(kInterval * grid.slices * grid.tiles_y);
-        out.depths = depths_.reserve(kInterval * grid.slices);
-        cl::KernelFunctor<View, ClusterGrid, cl::Buffer, cl::Buffer, cl::Buffer> kernel(
-            program_, "build_clusters");
-        const cl::NDRange items(std::max(grid.tiles_x, grid.tiles_y), grid.slices);
-        timer.record(kStage, kernel(cl::EnqueueArgs(gpu_.queue, items, cl::NDRange(1, 1)), view,
-                                    grid, out.columns, out.rows, out.depths));
-        return out;
-    });
+    const std::size_t slices = grid.slices;
+    const ClusterBoxes out{grid, columns_.reserve(slices * grid.tiles_x),
+                           rows_.reserve(slices * grid.tiles_y), depths_.reserve(slices)};
+    const WorkSize size{cl::NDRange(std::max(grid.tiles_x, grid.tiles_y), slices),
+                        cl::NDRange(1, 1)};
+    kernel_.enqueue(size, timer, view, grid, out.columns, out.rows, out.depths);
+    return out;
 }
 
 }  // namespace kilolux

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
@@ -20,7 +19,8 @@ struct GridRequest {
     uint fine_per_octave = 16;
 };
 
-/// The grid for an image. Never fails: values out of range are clamped to the nearest that works.
+/// The grid for an image. Values out of range are clamped to the nearest that works. Throws Error
+/// for more tiles or clusters than kernels can number.
 ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint height);
 
 /// Boxes of the coarse clusters in view space.
@@ -32,9 +32,8 @@ class BuildClusters {
     ClusterBoxes enqueue(const View& view, const ClusterGrid& grid, StageTimer& timer);
 
  private:
-    Gpu gpu_;
-    cl::Program program_;
-    GrowingBuffer columns_, rows_, depths_;
+    Kernel kernel_;
+    GrowingArray<BoxInterval> columns_, rows_, depths_;
 };
 
 }  // namespace kilolux

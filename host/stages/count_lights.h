@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
 /// Lights per pixel: planes uint[height][stride], ~0 for background.
 struct LightCounts {
-    cl::Buffer evaluated;  // k: length of the pixel's list
-    cl::Buffer covering;   // k*: lights of it whose range covers the pixel
+    DeviceArray<uint> evaluated;  // k: length of the pixel's list
+    DeviceArray<uint> covering;   // k*: lights of it whose range covers the pixel
 };
 
 /// Counts what shading evaluates and what it needs. For statistics and views.
@@ -27,8 +26,8 @@ class CountLights {
  private:
     Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
-    GrowingBuffer evaluated_, covering_;
+    Kernel kernel_;
+    GrowingArray<uint> evaluated_, covering_;
 };
 
 }  // namespace kilolux

@@ -3,10 +3,7 @@
 
 #include <cstdint>
 
-#include "host/gpu/buffer.h"
-#include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
 #include "host/stages/prefix_sum.h"
 
 namespace kilolux {
@@ -24,31 +21,34 @@ class CullLights {
     /// Enqueues only. Lists ascend by light index within a cluster, whatever the tuning.
     /// `occupied`: ActiveClusters'; clusters that are not have empty lists. None: all have lists.
     CoarseLists enqueue(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer,
-                        const cl::Buffer& occupied = {});
+                        const DeviceArray<std::uint8_t>& occupied = {});
 
     /// The brute-force kernel: every light against every cluster's box; blocks. The oracle. Lists
     /// are enqueue()'s plus lights that touch only the part of a box outside the cluster's part of
-    /// the frustum.
+    /// the frustum. Its times count to "cull_lights_brute_force", but for the prefix sum's.
     CoarseLists brute_force(const PreparedLights& lights, const ClusterBoxes& boxes,
                             StageTimer& timer);
 
-    /// Pairs of the last enqueue; blocks until it is done.
-    std::uint64_t pairs() const { return prefix_sum_.total(); }
+    /// Pairs of the last enqueue: on the device; on the host, which blocks.
+    DeviceArray<std::uint64_t> total() const { return lists_.total(); }
+    std::uint64_t pairs() const { return lists_.read_total(); }
 
-    /// True if the last enqueue's lists are complete; else makes room for the next. Blocks.
-    /// Throws Error when the pairs exceed what 32-bit offsets or the device can hold.
-    bool fits();
+    /// True if there is room for the last enqueue's `pairs`; else makes room for the next. Without
+    /// a number it blocks to read it. Throws Error when the pairs exceed what 32-bit offsets or the
+    /// device can hold.
+    bool fits(std::uint64_t pairs) { return lists_.fits(pairs); }
+    bool fits() { return fits(pairs()); }
 
  private:
     std::size_t cursor_stride(const ClusterGrid& grid) const;
-    CoarseLists make_lists(const ClusterGrid& grid);
+    CoarseLists lists_so_far(const DeviceArray<uint>& offsets) const;
 
     Gpu gpu_;
     Tuning tuning_;
-    std::size_t index_bytes_;
     cl::Program program_;
-    PrefixSum prefix_sum_;
-    GrowingBuffer cursors_, counts_, offsets_, lists_;
+    Kernel count_, offset_, fill_, brute_force_;
+    GrowingArray<uint> cursors_;
+    CountedList lists_;
 };
 
 }  // namespace kilolux

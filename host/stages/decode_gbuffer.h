@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
@@ -15,7 +14,7 @@ class DecodeGBuffer {
 
     /// Returns float[plane_count()][height][stride], see kernels/shared/surface_planes.h. Enqueues
     /// only.
-    cl::Buffer enqueue(const GBuffer& gbuffer, StageTimer& timer);
+    DeviceArray<float> enqueue(const GBuffer& gbuffer, StageTimer& timer);
 
     /// SURFACE_PLANES, or SURFACE_PLANES_WITH_SPECULAR where the features have it.
     uint plane_count() const { return plane_count_; }
@@ -24,8 +23,8 @@ class DecodeGBuffer {
     Gpu gpu_;
     Tuning tuning_;
     uint plane_count_;
-    cl::Program program_;
-    GrowingBuffer srgb_, planes_;
+    Kernel kernel_;
+    GrowingArray<float> srgb_, planes_;
 };
 
 }  // namespace kilolux

@@ -3,28 +3,72 @@
 
 #include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
 /// Exclusive prefix sum of uint counts on the device.
 class PrefixSum {
  public:
-    PrefixSum(const Gpu& gpu, const Tuning& tuning);
+    /// Times and errors count to `stage`.
+    PrefixSum(const Gpu& gpu, const Tuning& tuning, std::string_view stage);
 
     /// offsets[i] = counts[0] + ... + counts[i - 1] for i in 0..n: `offsets` holds n + 1. `counts`
-    /// and `offsets` must not be the same buffer. Enqueues only; its time counts to `stage`.
-    void enqueue(const cl::Buffer& counts, uint n, const cl::Buffer& offsets, StageTimer& timer,
-                 std::string_view stage);
+    /// and `offsets` must not be the same buffer. Enqueues only.
+    void enqueue(const DeviceArray<uint>& counts, uint n, const DeviceArray<uint>& offsets,
+                 StageTimer& timer);
 
-    /// The exact total of the last enqueue, in 64 bits; blocks until it is there.
-    std::uint64_t total() const;
+    /// The exact total of the last enqueue, in 64 bits: one element on the device.
+    DeviceArray<std::uint64_t> total() const { return total_.get(); }
+
+ private:
+    Tuning tuning_;
+    cl::Program program_;
+    Kernel one_block_, sum_blocks_, scan_totals_, apply_;
+    GrowingArray<std::uint64_t> block_sums_, total_;
+};
+
+/// A list that a stage makes in three passes: count, prefix sum, fill. It keeps the room of the
+/// last frame; the exact total says afterwards whether that was enough.
+class CountedList {
+ public:
+    /// Entries of `entry_bytes` each.
+    CountedList(const Gpu& gpu, const Tuning& tuning, std::string_view stage,
+                std::size_t entry_bytes);
+
+    /// Makes room for at least `entries`.
+    void reserve(std::size_t entries) { entries_.reserve(entries * entry_bytes_); }
+
+    /// Room for `n` counts, which the caller's kernel writes.
+    DeviceArray<uint> counts(std::size_t n) { return counts_.reserve(n); }
+
+    /// Enqueues the prefix sum of the first `n` counts. Returns the offsets, [n + 1].
+    DeviceArray<uint> enqueue_offsets(uint n, StageTimer& timer);
+
+    template <typename T>
+    DeviceArray<T> entries() const {
+        return entries_.array<T>(entries_.bytes() / sizeof(T));
+    }
+    /// Entries that there is room for: what a fill must not exceed.
+    uint capacity() const;
+
+    /// Entries that the last prefix sum counted: one element on the device. Blocks nothing.
+    DeviceArray<std::uint64_t> total() const { return prefix_sum_.total(); }
+    /// The same on the host. Blocks.
+    std::uint64_t read_total() const { return download(gpu_, total()).front(); }
+
+    /// True if there is room for `entries`, the total of the last enqueue; else makes room, with an
+    /// eighth more where it fits, so that moving lights do not grow it frame by frame. Throws Error
+    /// when 32-bit offsets, the device or the budget cannot hold them.
+    bool fits(std::uint64_t entries);
 
  private:
     Gpu gpu_;
-    Tuning tuning_;
-    cl::Program program_;
-    GrowingBuffer block_sums_, total_;
+    std::string stage_;
+    std::size_t entry_bytes_;
+    PrefixSum prefix_sum_;
+    GrowingArray<uint> counts_, offsets_;
+    GrowingBuffer entries_;
 };
 
 /// Throws Error if a list needs more entries than 32-bit offsets address; else the count as 32

@@ -12,6 +12,8 @@ PrepareLights::PrepareLights(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
       program_(build_program(gpu, kStage)),
+      prepare_(gpu, program_, kStage, "prepare_lights"),
+      prepare_directional_(gpu, program_, kStage, "prepare_directional_lights"),
       lights_(gpu, kStage),
       bounds_(gpu, kStage),
       extents_(gpu, kStage),
@@ -19,37 +21,24 @@ PrepareLights::PrepareLights(const Gpu& gpu, const Tuning& tuning)
 
 PreparedLights PrepareLights::enqueue(const LightInput& input, const View& view,
                                       const ClusterGrid& grid, StageTimer& timer) {
-    return in_stage(kStage, [&] {
-        PreparedLights out;
-        out.count = input.count;
-        out.directional_count = input.directional_count;
-        out.lights = lights_.reserve(input.count * sizeof(ShadeLight));
-        out.bounds = bounds_.reserve(input.count * sizeof(float4));
-        out.extents = extents_.reserve(input.count * sizeof(LightExtent));
-        out.directional = directional_.reserve(input.directional_count * sizeof(DirectionalLight));
-        if (input.count > 0) {
-            const auto group = static_cast<std::size_t>(tuning_.light_group);
-            const std::size_t items = (input.count + static_cast<uint>(gpu_.info.lane_width) - 1) /
-                                      static_cast<uint>(gpu_.info.lane_width);
-            cl::KernelFunctor<cl::Buffer, uint, View, ClusterGrid, cl::Buffer, cl::Buffer,
-                              cl::Buffer>
-                kernel(program_, "prepare_lights");
-            timer.record(
-                kStage,
-                kernel(cl::EnqueueArgs(gpu_.queue, cl::NDRange(round_up(items, group)),
-                                       cl::NDRange(group)),
-                       input.lights, input.count, view, grid, out.lights, out.bounds, out.extents));
-        }
-        if (input.directional_count > 0) {
-            cl::KernelFunctor<cl::Buffer, View, cl::Buffer> kernel(program_,
-                                                                   "prepare_directional_lights");
-            timer.record(kStage,
-                         kernel(cl::EnqueueArgs(gpu_.queue, cl::NDRange(input.directional_count),
-                                                cl::NDRange(1)),
-                                input.directional, view, out.directional));
-        }
-        return out;
-    });
+    PreparedLights out;
+    out.count = input.count;
+    out.directional_count = input.directional_count;
+    out.lights = lights_.reserve(input.count);
+    out.bounds = bounds_.reserve(input.count);
+    out.extents = extents_.reserve(input.count);
+    out.directional = directional_.reserve(input.directional_count);
+    if (input.count > 0) {
+        const auto lanes = static_cast<std::size_t>(gpu_.info.lane_width);
+        prepare_.enqueue(items((input.count + lanes - 1) / lanes, tuning_.light_group), timer,
+                         input.lights, input.count, view, grid, out.lights, out.bounds,
+                         out.extents);
+    }
+    if (input.directional_count > 0) {
+        prepare_directional_.enqueue(items(input.directional_count, 1), timer, input.directional,
+                                     view, out.directional);
+    }
+    return out;
 }
 
 }  // namespace kilolux

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
@@ -13,7 +12,7 @@ class PrepareLights {
  public:
     PrepareLights(const Gpu& gpu, const Tuning& tuning);
 
-    /// Enqueues only. `grid` must have fewer than 65536 tiles a side and slices.
+    /// Enqueues only.
     PreparedLights enqueue(const LightInput& input, const View& view, const ClusterGrid& grid,
                            StageTimer& timer);
 
@@ -21,7 +20,11 @@ class PrepareLights {
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;
-    GrowingBuffer lights_, bounds_, extents_, directional_;
+    Kernel prepare_, prepare_directional_;
+    GrowingArray<ShadeLight> lights_;
+    GrowingArray<float4> bounds_;
+    GrowingArray<LightExtent> extents_;
+    GrowingArray<DirectionalLight> directional_;
 };
 
 }  // namespace kilolux

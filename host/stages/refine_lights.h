@@ -3,10 +3,7 @@
 
 #include <cstdint>
 
-#include "host/gpu/buffer.h"
-#include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
 #include "host/stages/prefix_sum.h"
 
 namespace kilolux {
@@ -21,19 +18,21 @@ class RefineLights {
                          const ActiveClusters& clusters, const View& view, const ClusterGrid& grid,
                          StageTimer& timer);
 
-    /// Lights that the last enqueue tested, once for each active cluster; blocks.
-    std::uint64_t tests() const { return prefix_sum_.total(); }
+    /// Lights that the last enqueue tested, once for each active cluster: on the device; on the
+    /// host, which blocks.
+    DeviceArray<std::uint64_t> total() const { return lists_.total(); }
+    std::uint64_t tests() const { return lists_.read_total(); }
 
-    /// True if the last enqueue's lists are complete; else makes room for the next. Blocks.
-    bool fits();
+    /// True if there is room for the last enqueue's `tests`; else makes room for the next. Right
+    /// only once coarse lists and active clusters fit. Without a number it blocks to read it.
+    bool fits(std::uint64_t tests) { return lists_.fits(tests); }
+    bool fits() { return fits(tests()); }
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
-    std::size_t index_bytes_;
     cl::Program program_;
-    PrefixSum prefix_sum_;
-    GrowingBuffer reserves_, offsets_, lists_;
+    Kernel reserve_, refine_;
+    CountedList lists_;
 };
 
 }  // namespace kilolux

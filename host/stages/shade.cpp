@@ -8,17 +8,6 @@ namespace {
 
 constexpr std::string_view kStage = "shade";
 
-BuildOptions options_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
-    BuildOptions options = feature_options(features)
-                               .define("STAGE", tuning.shade_stage)
-                               .define("PREFETCH", tuning.shade_prefetch)
-                               .define("FAST_RSQRT", !gpu.info.is_cpu);
-    if (features.fast_relaxed_math) options.flag("-cl-fast-relaxed-math");
-    if (features.native_math) options.define("NATIVE_MATH", 1);
-    if (features.half_light_colors) options.define("HALF_LIGHT_COLORS", 1);
-    return options;
-}
-
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
 // make, and reads through a wild pointer (hard case 17). A CPU has no local memory to gain by
 // staging anyway.
@@ -27,79 +16,87 @@ Tuning usable(Tuning tuning, const DeviceInfo& device) {
     return tuning;
 }
 
-// Of kernels/shade.cl's StoredLight.
-constexpr std::size_t kStoredLightRows = 2;
+// Of kernels/device/stored_light.h: float4 rows of a StoredLight.
+std::size_t stored_light_rows(const KernelFeatures& features) {
+    return features.spot_lights ? 3 : 2;
+}
 
 }  // namespace
 
-Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
+                                   const KernelFeatures& features)
     : gpu_(gpu),
       tuning_(usable(tuning, gpu.info)),
       features_(features),
-      program_(build_program(gpu, kStage, options_of(gpu, tuning_, features))),
       srgb_(gpu, kStage),
       radiance_(gpu, kStage),
-      empty_(gpu, kStage),
       stored_(gpu, kStage) {
     const auto table = srgb_to_linear_table();
-    upload<float>(gpu_, srgb_.reserve(table.size() * sizeof(float)), table);
-    empty_.reserve(sizeof(ActiveCluster));
+    upload<float>(gpu_, srgb_.reserve(table.size()), table);
+    if (features.half_light_colors) {
+        store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), kStage,
+                              "store_lights");
+    }
 }
+
+BuildOptions ShadingResources::options() const {
+    BuildOptions options = feature_options(features_)
+                               .define("STAGE", tuning_.shade_stage)
+                               .define("PREFETCH", tuning_.shade_prefetch)
+                               .define("FAST_RSQRT", !gpu_.info.is_cpu)
+                               .define("NATIVE_MATH", features_.native_math)
+                               .define("HALF_LIGHT_COLORS", features_.half_light_colors);
+    if (features_.fast_relaxed_math) options.flag("-cl-fast-relaxed-math");
+    return options;
+}
+
+WorkSize ShadingResources::work_size(const View& view) const {
+    // Staging is a whole tile's common work.
+    return pixel_items(view, gpu_.info.lane_width,
+                       tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
+}
+
+cl::Buffer ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {
+    if (!store_lights_ || lights.count == 0) return lights.lights;
+    const DeviceArray<float4> stored = stored_.reserve(lights.count * stored_light_rows(features_));
+    store_lights_->enqueue({cl::NDRange(lights.count), cl::NullRange}, timer, lights.lights,
+                           stored);
+    return stored;
+}
+
+Radiance ShadingResources::radiance(const View& view) {
+    return {radiance_.reserve(std::size_t{3} * view.stride * view.height), view};
+}
+
+Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : resources_(gpu, tuning, features),
+      kernel_(gpu, build_program(gpu, kStage, resources_.options()), kStage, "shade") {}
 
 Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                         const ClusterGrid& grid, const ActiveClusters& clusters,
                         const RefinedLists& lists, StageTimer& timer) {
-    return launch(program_, gbuffer, lights, grid, clusters, lists, timer);
+    const View& view = gbuffer.view;
+    const Radiance out = resources_.radiance(view);
+    kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
+                    resources_.srgb(), lights.directional, lights.directional_count,
+                    resources_.stored_lights(lights, timer), grid, clusters.offsets,
+                    clusters.clusters, clusters.capacity, clusters.order, lists.lists, ambient_,
+                    out.planes);
+    return out;
 }
 
-Radiance Shade::enqueue_all_lights(const GBuffer& gbuffer, const PreparedLights& lights,
-                                   StageTimer& timer) {
-    const cl::Program program =
-        build_program(gpu_, kStage, options_of(gpu_, tuning_, features_).define("ALL_LIGHTS", 1));
-    const ActiveClusters no_clusters{empty_.get(), empty_.get(), 0, 0, empty_.get(), empty_.get()};
-    return launch(program, gbuffer, lights, ClusterGrid{}, no_clusters,
-                  RefinedLists{empty_.get(), 0}, timer);
-}
+ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : resources_(gpu, tuning, features),
+      kernel_(gpu, build_program(gpu, "shade_all", resources_.options()), kStage, "shade_all") {}
 
-// The lights as the kernel reads them: as they are, or stored anew with colours in half precision.
-cl::Buffer Shade::stored_lights(const cl::Program& program, const PreparedLights& lights,
-                                StageTimer& timer) {
-    if (!features_.half_light_colors || lights.count == 0) return lights.lights;
-    const std::size_t rows = kStoredLightRows + (features_.spot_lights ? 1 : 0);
-    cl::Buffer stored = stored_.reserve(lights.count * rows * sizeof(float4));
-    cl::KernelFunctor<cl::Buffer, cl::Buffer> kernel(program, "store_lights");
-    timer.record(kStage, kernel(cl::EnqueueArgs(gpu_.queue, cl::NDRange(lights.count)),
-                                lights.lights, stored));
-    return stored;
-}
-
-Radiance Shade::launch(const cl::Program& program, const GBuffer& gbuffer,
-                       const PreparedLights& lights, const ClusterGrid& grid,
-                       const ActiveClusters& clusters, const RefinedLists& lists,
-                       StageTimer& timer) {
-    return in_stage(kStage, [&] {
-        const View& view = gbuffer.view;
-        Radiance out{radiance_.reserve(std::size_t{3} * sizeof(float) * view.stride * view.height),
-                     view};
-        const cl::Buffer stored = stored_lights(program, lights, timer);
-        const auto items_per_tile = static_cast<std::size_t>(FINE_TILE / gpu_.info.lane_width);
-        // Staging is a whole tile's common work.
-        const auto rows =
-            static_cast<std::size_t>(tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
-        const cl::NDRange items(view.stride / FINE_TILE * items_per_tile,
-                                round_up(view.height, rows));
-        cl::KernelFunctor<cl::Buffer, GBufferLayout, View, cl::Buffer, cl::Buffer, uint, cl::Buffer,
-                          uint, ClusterGrid, cl::Buffer, cl::Buffer, uint, cl::Buffer, cl::Buffer,
-                          float, cl::Buffer>
-            kernel(program, "shade");
-        timer.record(kStage,
-                     kernel(cl::EnqueueArgs(gpu_.queue, items, cl::NDRange(items_per_tile, rows)),
-                            gbuffer.bytes, gbuffer.layout, view, srgb_.get(), lights.directional,
-                            lights.directional_count, stored, lights.count, grid, clusters.offsets,
-                            clusters.clusters, clusters.capacity, clusters.order, lists.lists,
-                            ambient_, out.planes));
-        return out;
-    });
+Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
+                           StageTimer& timer) {
+    const View& view = gbuffer.view;
+    const Radiance out = resources_.radiance(view);
+    kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
+                    resources_.srgb(), lights.directional, lights.directional_count,
+                    resources_.stored_lights(lights, timer), lights.count, ambient_, out.planes);
+    return out;
 }
 
 }  // namespace kilolux

@@ -1,43 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/buffer.h"
+#include <optional>
+
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
-/// Radiance of every pixel from the lists of its active cluster, or from all lights.
+/// What both ways of shading have: the build options, tables, lights as they read them, output.
+class ShadingResources {
+ public:
+    ShadingResources(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    BuildOptions options() const;
+    WorkSize work_size(const View& view) const;
+
+    /// The lights as the kernels read them: as they are, or with colours in half precision.
+    cl::Buffer stored_lights(const PreparedLights& lights, StageTimer& timer);
+
+    DeviceArray<float> srgb() const { return srgb_.get(); }
+    Radiance radiance(const View& view);
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    KernelFeatures features_;
+    std::optional<Kernel> store_lights_;  // with half_light_colors
+    GrowingArray<float> srgb_, radiance_;
+    GrowingArray<float4> stored_;
+};
+
+/// Radiance of every pixel from the lists of its active cluster.
 class Shade {
  public:
     Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Sums over the lists. Enqueues only.
+    /// Enqueues only.
     Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
                      const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer);
-
-    /// Sums over every light: the reference, bit for bit. Enqueues only.
-    Radiance enqueue_all_lights(const GBuffer& gbuffer, const PreparedLights& lights,
-                                StageTimer& timer);
 
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient) { ambient_ = ambient; }
 
  private:
-    Radiance launch(const cl::Program& program, const GBuffer& gbuffer,
-                    const PreparedLights& lights, const ClusterGrid& grid,
-                    const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer);
-
-    cl::Buffer stored_lights(const cl::Program& program, const PreparedLights& lights,
-                             StageTimer& timer);
-
-    Gpu gpu_;
-    Tuning tuning_;
-    KernelFeatures features_;
-    cl::Program program_;
+    ShadingResources resources_;
+    Kernel kernel_;
     float ambient_ = 0.0f;
-    GrowingBuffer srgb_, radiance_, empty_, stored_;
+};
+
+/// Radiance of every pixel from every light: the reference for Shade, bit for bit.
+class ShadeAll {
+ public:
+    ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Enqueues only.
+    Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer);
+
+    /// Radiance that falls in from everywhere.
+    void set_ambient(float ambient) { ambient_ = ambient; }
+
+ private:
+    ShadingResources resources_;
+    Kernel kernel_;
+    float ambient_ = 0.0f;
 };
 
 }  // namespace kilolux

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/stage_timer.h"
+#include "host/gpu/kernel.h"
 
 namespace kilolux {
 
@@ -15,17 +14,18 @@ class Tonemap {
     Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve);
 
     /// Returns uint[height][stride]: R | G << 8 | B << 16 | 255 << 24. Enqueues only.
-    cl::Buffer enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer);
+    DeviceArray<uint> enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer);
 
     /// The same into the caller's `display`, which has room for all pixels. Enqueues only.
-    void enqueue_to(const cl::Buffer& display, const Radiance& radiance, float exposure_ev,
+    void enqueue_to(const DeviceArray<uint>& display, const Radiance& radiance, float exposure_ev,
                     StageTimer& timer);
 
  private:
     Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
-    GrowingBuffer boundary_, code_, display_;
+    Kernel kernel_;
+    GrowingArray<float> boundary_;
+    GrowingArray<uint> code_, display_;
 };
 
 }  // namespace kilolux

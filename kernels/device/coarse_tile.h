@@ -10,10 +10,10 @@ typedef struct CoarseTile {
 } CoarseTile;
 
 static inline CoarseTile coarse_tile(View view, ClusterGrid grid, uint fine_tile) {
-    uint fine_tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    uint tiles_x = fine_tiles_x(view);
     CoarseTile coarse;
-    coarse.column = fine_tile % fine_tiles_x * FINE_TILE / grid.tile_width;
-    coarse.row = (fine_tile / fine_tiles_x * FINE_TILE + view.first_row) / grid.tile_height;
+    coarse.column = fine_tile % tiles_x * FINE_TILE / grid.tile_width;
+    coarse.row = (fine_tile / tiles_x * FINE_TILE + view.first_row) / grid.tile_height;
     return coarse;
 }
 

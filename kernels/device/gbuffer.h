@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes VW pixels of a G-buffer. GBUFFER, HAS_MATERIAL, HAS_OCCLUSION and HAS_SPECULAR say what
-// it holds. With ORDERED_PIXELS the pixels may be any of a tile's, else they are neighbours in a
-// row.
+// it holds.
 #ifndef KILOLUX_DEVICE_GBUFFER_H
 #define KILOLUX_DEVICE_GBUFFER_H
 #include "kernels/device/lanes.h"
+#include "kernels/device/pixels.h"
 #include "kernels/device/prefetch.h"
-#include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/evaluate.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/view.h"
@@ -20,9 +19,6 @@
 #ifndef HAS_OCCLUSION
 #define HAS_OCCLUSION 0
 #endif
-#ifndef ORDERED_PIXELS
-#define ORDERED_PIXELS 0
-#endif
 
 // What a kernel needs to read a G-buffer.
 typedef struct GBuffer {
@@ -31,62 +27,6 @@ typedef struct GBuffer {
     View view;
     global const float* srgb;  // [256] linear value of an sRGB code
 } GBuffer;
-
-// Where VW pixels are.
-typedef struct Pixels {
-    FV x, y;     // centres in the picture [pixel]
-    uint first;  // lane 0's place in a plane
-#if ORDERED_PIXELS
-    bool in_row;     // lane i's place is first + i
-    uint place[VW];  // each lane's place in a plane
-#endif
-} Pixels;
-
-#if ORDERED_PIXELS
-#define PLACE(pixels, lane) (pixels).place[lane]
-#define LOAD_PLANE(T, plane, pixels) \
-    ((pixels).in_row ? load_lanes((plane) + (pixels).first) : LANES(T, PLANE_AT))
-#else
-#define PLACE(pixels, lane) ((pixels).first + (lane))
-#define LOAD_PLANE(T, plane, pixels) load_lanes((plane) + (pixels).first)
-#endif
-#define PLANE_AT(i) plane[PLACE(pixels, i)]
-
-// VW neighbours of a row of the planes from (x, y) on.
-static inline Pixels row_pixels(View view, uint x, uint y) {
-    Pixels pixels;
-    pixels.x = to_float_lanes(lane_numbers + x) + 0.5f;
-    pixels.y = fv((float)(y + view.first_row) + 0.5f);
-    pixels.first = y * view.stride + x;
-#if ORDERED_PIXELS
-    pixels.in_row = true;
-    for (uint i = 0; i < VW; ++i) pixels.place[i] = pixels.first + i;
-#endif
-    return pixels;
-}
-
-#if ORDERED_PIXELS
-// The VW pixels that `order` names, of the tile whose first pixel is (tile_x, tile_y): row *
-// FINE_TILE + column each.
-static inline Pixels ordered_pixels(View view, uint tile_x, uint tile_y,
-                                    global const uchar* order) {
-    Pixels pixels;
-    UV code = KX_CONCAT(convert_, UV)(load_lanes(order));
-    UV x = code % FINE_TILE + tile_x;
-    UV y = code / FINE_TILE + tile_y;
-    pixels.x = to_float_lanes(x) + 0.5f;
-    pixels.y = to_float_lanes(y + view.first_row) + 0.5f;
-    UV place = y * view.stride + x;
-    store_lanes(place, pixels.place);
-    pixels.first = pixels.place[0];
-    pixels.in_row = !any_lane(full_mask(place != lane_numbers + pixels.first));
-    return pixels;
-}
-#endif
-
-static inline MASK within_width(View view, Pixels pixels) {
-    return full_mask(pixels.x < fv((float)view.width));
-}
 
 static inline FV load_float(GBuffer g, uint plane_index, Pixels pixels) {
     global const float* plane = (global const float*)(g.bytes + g.layout.offset_bytes[plane_index]);
@@ -129,10 +69,8 @@ static inline FV srgb_to_linear(global const float* table, UV code) {
     return table[code];
 #else
     uint index[VW];
-    store_lanes(code, index);
-#define TABLE_AT(i) table[index[i]]
-    return LANES(FV, TABLE_AT);
-#undef TABLE_AT
+    lane_store(code, index);
+    return lane_gather(FV, table, index);
 #endif
 }
 
@@ -141,11 +79,11 @@ static inline FV3 decode_srgb(global const float* table, UV rgba) {
                srgb_to_linear(table, (rgba >> 16) & 255u));
 }
 
-static inline FV unorm8(UV code) { return to_float_lanes(code) * (1.0f / 255.0f); }
+static inline FV unorm8(UV code) { return lane_to_float(code) * (1.0f / 255.0f); }
 
 // [-1, 1] of a 16-bit UNORM.
 static inline FV snorm_of_unorm16(UV code) {
-    return fma(to_float_lanes(code), fv(2.0f / 65535.0f), fv(-1.0f));
+    return fma(lane_to_float(code), fv(2.0f / 65535.0f), fv(-1.0f));
 }
 
 static inline FV3 rotate_to_view(View view, FV3 v) {
@@ -162,27 +100,27 @@ static inline FV3 load_float3(GBuffer g, uint first_plane, Pixels pixels) {
                load_float(g, first_plane + 2, pixels));
 }
 
+#define HALF_AT(i, plane, pixels) vload_half(PLACE(i, pixels), plane)
+
 static inline FV load_half(GBuffer g, uint plane_index, Pixels pixels) {
     global const half* plane = (global const half*)(g.bytes + g.layout.offset_bytes[plane_index]);
-#define HALF_AT(i) vload_half(PLACE(pixels, i), plane)
 #if VW > 1
 #if ORDERED_PIXELS
-    if (!pixels.in_row) return LANES(FV, HALF_AT);
+    if (!pixels.in_row) return LANES(FV, HALF_AT, plane, pixels);
 #endif
     return KX_CONCAT(vload_half, VW)(0, plane + pixels.first);
 #else
-    return HALF_AT(0);
+    return HALF_AT(0, plane, pixels);
 #endif
-#undef HALF_AT
 }
 
 static inline global const float4* row_plane(GBuffer g, uint plane_index) {
     return (global const float4*)(g.bytes + g.layout.offset_bytes[plane_index]);
 }
-#define ROW_X(i) rows[PLACE(pixels, i)].x
-#define ROW_Y(i) rows[PLACE(pixels, i)].y
-#define ROW_Z(i) rows[PLACE(pixels, i)].z
-#define ROW_W(i) rows[PLACE(pixels, i)].w
+#define ROW_X(i, rows, pixels) (rows)[PLACE(i, pixels)].x
+#define ROW_Y(i, rows, pixels) (rows)[PLACE(i, pixels)].y
+#define ROW_Z(i, rows, pixels) (rows)[PLACE(i, pixels)].z
+#define ROW_W(i, rows, pixels) (rows)[PLACE(i, pixels)].w
 
 // Positions in view space of pixels with depth z [m].
 static inline FV3 load_position(GBuffer g, Pixels pixels, FV z) {
@@ -190,7 +128,8 @@ static inline FV3 load_position(GBuffer g, Pixels pixels, FV z) {
     return load_float3(g, PLANE_POSITION_X, pixels);
 #elif GBUFFER == GBUFFER_OCT_2X4
     global const float4* rows = row_plane(g, PLANE_ROW_0);
-    return fv3(LANES(FV, ROW_X), LANES(FV, ROW_Y), LANES(FV, ROW_Z));
+    return fv3(LANES(FV, ROW_X, rows, pixels), LANES(FV, ROW_Y, rows, pixels),
+               LANES(FV, ROW_Z, rows, pixels));
 #elif GBUFFER == GBUFFER_HALF
     // World positions in half floats, as three WebGPU ancestors store them.
     float4 camera = g.view.camera_position;
@@ -210,16 +149,16 @@ static inline FV3 load_normal(GBuffer g, Pixels pixels) {
     FV3 world = fv3(load_half(g, PLANE_NORMAL_X, pixels), load_half(g, PLANE_NORMAL_Y, pixels),
                     load_half(g, PLANE_NORMAL_Z, pixels));
     FV3 n = rotate_to_view(g.view, world);
-    return scale3(n, rsqrt(max(dot3(n, n), fv(1e-20f))));
+    return scale3(n, lane_rsqrt(max(dot3(n, n), fv(1e-20f))));
 #elif GBUFFER == GBUFFER_OCT_2X4
     global const float4* rows = row_plane(g, PLANE_ROW_1);
-    return octahedral_decode(LANES(FV, ROW_X), LANES(FV, ROW_Y));
+    return octahedral_decode(LANES(FV, ROW_X, rows, pixels), LANES(FV, ROW_Y, rows, pixels));
 #else
     UV packed = load_uint(g, PLANE_NORMAL, pixels);
     FV nx = snorm_of_unorm16(packed & 0xffffu);
     FV ny = snorm_of_unorm16(packed >> 16);
 #if GBUFFER == GBUFFER_NORMAL_XY
-    return fv3(nx, ny, sqrt(max(fma(-nx, nx, fma(-ny, ny, fv(1.0f))), fv(0.0f))));
+    return fv3(nx, ny, lane_sqrt(max(fma(-nx, nx, fma(-ny, ny, fv(1.0f))), fv(0.0f))));
 #else
     return octahedral_decode(nx, ny);
 #endif
@@ -245,13 +184,15 @@ static inline Surface load_float_material(GBuffer g, Pixels pixels, Surface s) {
 
 // Reflectance of a code, the square root in 255ths: 51 is DIELECTRIC_F0 exactly.
 static inline FV reflectance_of(UV code) {
-    FV root = to_float_lanes(code);
+    FV root = lane_to_float(code);
     return root * root * (1.0f / 65025.0f);
 }
 
 static inline FV3 unorm8_color(UV rgba) {
     return fv3(unorm8(rgba & 255u), unorm8((rgba >> 8) & 255u), unorm8((rgba >> 16) & 255u));
 }
+
+#define CODE_AT(i, plane, pixels) ((uint)PLANE_AT(i, plane, pixels))
 
 // The 8-bit planes that all layouts but `full` may have.
 static inline Surface load_optional_planes(GBuffer g, Pixels pixels, Surface s) {
@@ -262,10 +203,7 @@ static inline Surface load_optional_planes(GBuffer g, Pixels pixels, Surface s) 
 #endif
 #if HAS_OCCLUSION
     global const uchar* plane = g.bytes + g.layout.offset_bytes[PLANE_OCCLUSION];
-#define OCCLUSION_AT(i) ((uint)plane[PLACE(pixels, i)])
-    UV code = LANES(UV, OCCLUSION_AT);
-#undef OCCLUSION_AT
-    s.occlusion = unorm8(code);
+    s.occlusion = unorm8(LANES(UV, CODE_AT, plane, pixels));
 #endif
 #if HAS_SPECULAR
     UV specular = load_uint(g, PLANE_SPECULAR, pixels);
@@ -289,12 +227,12 @@ static inline Surface load_packed_material(GBuffer g, Pixels pixels, Surface s) 
 
 static inline Surface load_row_material(GBuffer g, Pixels pixels, Surface s) {
     global const float4* rows = row_plane(g, PLANE_ROW_0);
-    s.albedo = unorm8_color(to_uint_lanes(LANES(FV, ROW_W)));
+    s.albedo = unorm8_color(lane_to_uint(LANES(FV, ROW_W, rows, pixels)));
     s = load_optional_planes(g, pixels, s);
     rows = row_plane(g, PLANE_ROW_1);
-    s.roughness = LANES(FV, ROW_Z);
+    s.roughness = LANES(FV, ROW_Z, rows, pixels);
 #if HAS_MATERIAL
-    s.metallic = LANES(FV, ROW_W);
+    s.metallic = LANES(FV, ROW_W, rows, pixels);
 #endif
     return s;
 }

@@ -4,44 +4,50 @@
 #define KILOLUX_DEVICE_LANES_H
 #include "kernels/shared/types.h"
 
-// LANES(T, f): a vector of type T whose lane i is f(i). Gathers and ramps are written with it.
+// LANES(T, f, a, b): a vector of type T whose lane i is f(i, a, b). Gathers and ramps are written
+// with it.
 #if VW == 1
-#define LANES(T, f) ((T)(f(0)))
-#define load_lanes(p) (*(p))
-#define store_lanes(v, p) (*(p) = (v))
+#define LANES(T, f, a, b) ((T)(f(0, a, b)))
+#define lane_load(p) (*(p))
+#define lane_store(v, p) (*(p) = (v))
 #elif VW == 2
-#define LANES(T, f) ((T)(f(0), f(1)))
+#define LANES(T, f, a, b) ((T)(f(0, a, b), f(1, a, b)))
 #elif VW == 4
-#define LANES(T, f) ((T)(f(0), f(1), f(2), f(3)))
+#define LANES(T, f, a, b) ((T)(f(0, a, b), f(1, a, b), f(2, a, b), f(3, a, b)))
 #elif VW == 8
-#define LANES(T, f) ((T)(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)))
+#define LANES(T, f, a, b)                                                                    \
+    ((T)(f(0, a, b), f(1, a, b), f(2, a, b), f(3, a, b), f(4, a, b), f(5, a, b), f(6, a, b), \
+         f(7, a, b)))
 #elif VW == 16
-#define LANES(T, f)                                                                              \
-    ((T)(f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9), f(10), f(11), f(12), f(13), \
-         f(14), f(15)))
+#define LANES(T, f, a, b)                                                                        \
+    ((T)(f(0, a, b), f(1, a, b), f(2, a, b), f(3, a, b), f(4, a, b), f(5, a, b), f(6, a, b),     \
+         f(7, a, b), f(8, a, b), f(9, a, b), f(10, a, b), f(11, a, b), f(12, a, b), f(13, a, b), \
+         f(14, a, b), f(15, a, b)))
 #endif
 
 #if VW > 1
-#define load_lanes(p) KX_CONCAT(vload, VW)(0, p)
-#define store_lanes(v, p) KX_CONCAT(vstore, VW)(v, 0, p)
+#define lane_load(p) KX_CONCAT(vload, VW)(0, p)
+#define lane_store(v, p) KX_CONCAT(vstore, VW)(v, 0, p)
 #endif
 
-#define LANE_NUMBER(i) i
-#define lane_numbers LANES(UV, LANE_NUMBER)
-#define to_float_lanes(u) KX_CONCAT(convert_, FV)(u)
-#define to_uint_lanes(x) KX_CONCAT(convert_, UV)(x)
-#define to_int_lanes(x) KX_CONCAT(convert_, IV)(x)
+// table[index[i]] for each lane.
+#define ELEMENT_AT(i, table, index) (table)[(index)[i]]
+#define lane_gather(T, table, index) LANES(T, ELEMENT_AT, table, index)
 
-static inline bool any_lane(MASK mask) { return any_of(mask); }
+#define LANE_NUMBER(i, a, b) i
+#define lane_numbers LANES(UV, LANE_NUMBER, 0, 0)
+#define lane_to_float(u) KX_CONCAT(convert_, FV)(u)
+#define lane_to_uint(x) KX_CONCAT(convert_, UV)(x)
+#define lane_to_int(x) KX_CONCAT(convert_, IV)(x)
 
 // A comparison's value as a mask of all bits, whatever the width: scalars compare to 0 or 1.
 #if VW == 1
-#define full_mask(m) (-(IV)((m) != 0))
+#define lane_mask(m) (-(IV)((m) != 0))
 #else
-#define full_mask(m) (m)
+#define lane_mask(m) (m)
 #endif
 
-static inline float min_lane(FV v) {
+static inline float lane_min(FV v) {
 #if VW == 16
     float8 a = min(v.lo, v.hi);
     float4 b = min(a.lo, a.hi);
@@ -61,9 +67,9 @@ static inline float min_lane(FV v) {
 #endif
 }
 
-static inline float max_lane(FV v) { return -min_lane(-v); }
+static inline float lane_max(FV v) { return -lane_min(-v); }
 
-static inline uint min_lane_uint(UV v) {
+static inline uint lane_min_uint(UV v) {
 #if VW == 16
     uint8 a = min(v.lo, v.hi);
     uint4 b = min(a.lo, a.hi);
@@ -83,7 +89,7 @@ static inline uint min_lane_uint(UV v) {
 #endif
 }
 
-static inline uint sum_lanes(UV v) {
+static inline uint lane_sum(UV v) {
 #if VW == 16
     uint8 a = v.lo + v.hi;
     uint4 b = a.lo + a.hi;

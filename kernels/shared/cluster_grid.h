@@ -3,6 +3,7 @@
 #ifndef KILOLUX_SHARED_CLUSTER_GRID_H
 #define KILOLUX_SHARED_CLUSTER_GRID_H
 #include "kernels/shared/types.h"
+#include "kernels/shared/view.h"
 #if defined(__cplusplus)
 namespace kilolux {
 #endif
@@ -10,6 +11,18 @@ namespace kilolux {
 // A fine tile: what one active cluster covers on the screen, and one work-group shades [pixel].
 #define FINE_TILE 16
 #define FINE_TILE_PIXELS (FINE_TILE * FINE_TILE)
+
+// Fine tiles of a row of the picture.
+SHARED_FN uint fine_tiles_x(View view) { return (view.width + FINE_TILE - 1) / FINE_TILE; }
+
+SHARED_FN uint fine_tile_count(View view) {
+    return fine_tiles_x(view) * ((view.height + FINE_TILE - 1) / FINE_TILE);
+}
+
+// Number of the fine tile that holds pixel (x, y) of the planes.
+SHARED_FN uint fine_tile_of(View view, uint x, uint y) {
+    return y / FINE_TILE * fine_tiles_x(view) + x / FINE_TILE;
+}
 
 // cluster = (slice * tiles_y + tile_y) * tiles_x + tile_x. Tile edges are multiples of FINE_TILE,
 // so every fine tile lies in one coarse tile.
@@ -35,16 +48,16 @@ SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 // rounded down, the octave and what is within it apart, so that 32 bits hold the product. Nearer
 // than z_first (or negative) falls into slice 0, farther than the last slice into the last: no
 // pixel is lost. NaN, which max() leaves open, falls into either.
-SHARED_FN LANE_UINT slice_of_depth(ClusterGrid grid, FV z) {
+SHARED_FN UV slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
-    LANE_UINT steps = lane_bits(clamped) - grid.z_first_bits;
-    LANE_UINT within = ((steps & OCTAVE_MASK) * grid.slices_per_octave) >> OCTAVE_BITS;
-    LANE_UINT slice = (steps >> OCTAVE_BITS) * grid.slices_per_octave + within;
-    return min(slice, lane_uints(grid.slices - 1u));
+    UV steps = lane_bits(clamped) - grid.z_first_bits;
+    UV within = ((steps & OCTAVE_MASK) * grid.slices_per_octave) >> OCTAVE_BITS;
+    UV slice = (steps >> OCTAVE_BITS) * grid.slices_per_octave + within;
+    return min(slice, lane_uint(grid.slices - 1u));
 }
 
 // The same for the finer slices of active clusters; a coarse slice is fine >> grid.fine_slice_bits.
-SHARED_FN LANE_UINT fine_slice_of_depth(ClusterGrid grid, FV z) {
+SHARED_FN UV fine_slice_of_depth(ClusterGrid grid, FV z) {
     grid.slices_per_octave <<= grid.fine_slice_bits;
     grid.slices <<= grid.fine_slice_bits;
     return slice_of_depth(grid, z);

@@ -28,6 +28,19 @@ SHARED_STRUCT(ActiveCluster) {
 };
 SHARED_ASSERT(active_cluster_size, sizeof(ActiveCluster) == 48);
 
+#if !defined(GL_core_profile)  // GLSL has no 64-bit integers
+// What a frame's lists hold. The first three decide whether they are complete.
+SHARED_STRUCT(PairCounts) {
+    ulong coarse_pairs;     // entries of the coarse lists
+    ulong active_clusters;  // of all fine tiles
+    ulong refine_tests;     // lights tested, once for each active cluster
+    ulong refined_pairs;    // entries of the refined lists
+    ulong drawn_pixels;     // pixels of the active clusters
+    ulong evaluations;      // sum over active clusters of list_count * pixel_count
+};
+SHARED_ASSERT(pair_counts_size, sizeof(PairCounts) == 48);
+#endif
+
 #if defined(__cplusplus)
 }  // namespace kilolux
 #endif

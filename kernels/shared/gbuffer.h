@@ -8,55 +8,66 @@ namespace kilolux {
 #endif
 
 // Layouts, by name on the command line.
-#define GBUFFER_PACKED \
-    0  // depth f32 | normal 2x16 | albedo sRGB8 + roughness 8 (+ material, occlusion)
-#define GBUFFER_FULL 1  // float32 position, normal, linear albedo, ...: for error accounting
-#define GBUFFER_HALF 2  // float16 position and normal, 8-bit linear albedo (three WebGPU ancestors)
-#define GBUFFER_NORMAL_XY \
-    3  // packed, but normal.xy only with z = +sqrt(1-x^2-y^2) (one WebGL ancestor)
-#define GBUFFER_OCT_2X4 \
-    4  // two float4: position + packed albedo, octahedral normal + ... (one WebGL ancestor)
+// packed: depth f32 | normal 2x16 | albedo sRGB8 + roughness 8 (+ material, occlusion, specular)
+#define GBUFFER_PACKED 0
+// full: float32 position, normal, linear albedo, ...: for error accounting
+#define GBUFFER_FULL 1
+// half: float16 position and normal, 8-bit linear albedo (three WebGPU ancestors)
+#define GBUFFER_HALF 2
+// normal-xy: packed, but normal.xy only with z = +sqrt(1-x^2-y^2) (one WebGL ancestor)
+#define GBUFFER_NORMAL_XY 3
+// oct-2x4: two float4: position + packed albedo, octahedral normal + ... (one WebGL ancestor)
+#define GBUFFER_OCT_2X4 4
 
 // Planes. Each is stride * height elements; a G-buffer is one buffer that holds its planes one
 // after the other. A layout has some of them; the scene plan leaves out what the scene does not
-// need.
-#define PLANE_DEPTH 0  // all: float reversed-Z depth01, 0 = background
-#define PLANE_NORMAL \
-    1  // packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half; normal-xy: its x
-       // and y
-#define PLANE_ALBEDO \
-    2  // packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th; half: colour linear
-       // too
-#define PLANE_MATERIAL \
-    3  // packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
-#define PLANE_OCCLUSION 4   // packed, optional: uchar, ambient occlusion, linear
-#define PLANE_POSITION_X 5  // full: float [m] view space; half: half [m] world space
+// need ("optional").
+// all: float reversed-Z depth01, 0 = background
+#define PLANE_DEPTH 0
+// packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half; normal-xy: its x and y
+#define PLANE_NORMAL 1
+// packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th; half: colour linear too
+#define PLANE_ALBEDO 2
+// packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
+#define PLANE_MATERIAL 3
+// packed, optional: uchar, ambient occlusion, linear
+#define PLANE_OCCLUSION 4
+// full: float [m] view space; half: half [m] world space
+#define PLANE_POSITION_X 5
 #define PLANE_POSITION_Y 6
 #define PLANE_POSITION_Z 7
-#define PLANE_NORMAL_X 8  // full: float, view space, unit; half: half, world space
+// full: float, view space, unit; half: half, world space
+#define PLANE_NORMAL_X 8
 #define PLANE_NORMAL_Y 9
 #define PLANE_NORMAL_Z 10
-#define PLANE_ALBEDO_R 11  // full: float, linear Rec. 709
+// full: float, linear Rec. 709
+#define PLANE_ALBEDO_R 11
 #define PLANE_ALBEDO_G 12
 #define PLANE_ALBEDO_B 13
-#define PLANE_ROUGHNESS 14   // full: float, perceptual
-#define PLANE_METALLIC 15    // full, optional: float
-#define PLANE_EMISSIVE_R 16  // full, optional: float, linear radiance
+// full: float, perceptual
+#define PLANE_ROUGHNESS 14
+// full, optional: float
+#define PLANE_METALLIC 15
+// full, optional: float, linear radiance
+#define PLANE_EMISSIVE_R 16
 #define PLANE_EMISSIVE_G 17
 #define PLANE_EMISSIVE_B 18
-#define PLANE_OCCLUSION_F 19  // full, optional: float
-#define PLANE_ROW_0 \
-    20  // oct-2x4: float4, view-space position [m]; linear albedo: 8 bits a channel, red lowest, as
-        // the float's value
-#define PLANE_ROW_1 \
-    21  // oct-2x4: float4, octahedral view-space normal in [-1, 1]^2, roughness, metallic
-#define PLANE_SPECULAR \
-    22  // all but full, optional: uchar4, square roots of the dielectric's reflectance head on;
-        // grazing in the 4th
-#define PLANE_SPECULAR_R 23  // full, optional: float, the reflectance head on
+// full, optional: float
+#define PLANE_OCCLUSION_F 19
+// oct-2x4: float4, view-space position [m]; linear albedo: 8 bits a channel, red lowest, as the
+// float's value
+#define PLANE_ROW_0 20
+// oct-2x4: float4, octahedral view-space normal in [-1, 1]^2, roughness, metallic
+#define PLANE_ROW_1 21
+// all but full, optional: uchar4, square roots of the dielectric's reflectance head on; grazing in
+// the 4th
+#define PLANE_SPECULAR 22
+// full, optional: float, the reflectance head on
+#define PLANE_SPECULAR_R 23
 #define PLANE_SPECULAR_G 24
 #define PLANE_SPECULAR_B 25
-#define PLANE_SPECULAR_F90 26  // full, optional: float, the reflectance at grazing angles
+// full, optional: float, the reflectance at grazing angles
+#define PLANE_SPECULAR_F90 26
 #define PLANE_COUNT 27
 #define PLANE_ABSENT 0xffffffffu
 
@@ -81,16 +92,16 @@ SHARED_FN FV3 octahedral_encode(FV3 n) {
     FV ay = max(n.y, -n.y);
     FV az = max(n.z, -n.z);
     FV sum = ax + ay + az;
-    FV inv = select_fv(sum > fv(0.0f), fv(1.0f) / sum, fv(0.0f));
+    FV inv = lane_select(sum > fv(0.0f), fv(1.0f) / sum, fv(0.0f));
     FV x = n.x * inv;
     FV y = n.y * inv;
     FV one = fv(1.0f);
-    FV sign_x = select_fv(x >= fv(0.0f), one, -one);
-    FV sign_y = select_fv(y >= fv(0.0f), one, -one);
+    FV sign_x = lane_select(x >= fv(0.0f), one, -one);
+    FV sign_y = lane_select(y >= fv(0.0f), one, -one);
     MASK lower = n.z < fv(0.0f);
     FV fx = (one - ay * inv) * sign_x;
     FV fy = (one - ax * inv) * sign_y;
-    return fv3(select_fv(lower, fx, x), select_fv(lower, fy, y), fv(0.0f));
+    return fv3(lane_select(lower, fx, x), lane_select(lower, fy, y), fv(0.0f));
 }
 
 // Unit vector of octahedral coordinates in [-1, 1]^2 (ibid.).
@@ -100,9 +111,9 @@ SHARED_FN FV3 octahedral_decode(FV x, FV y) {
     FV zero = fv(0.0f);
     FV z = fv(1.0f) - ax - ay;
     FV fold = max(-z, zero);
-    FV nx = x + select_fv(x >= zero, -fold, fold);
-    FV ny = y + select_fv(y >= zero, -fold, fold);
-    FV inv = fv(1.0f) / sqrt(fma(nx, nx, fma(ny, ny, z * z)));
+    FV nx = x + lane_select(x >= zero, -fold, fold);
+    FV ny = y + lane_select(y >= zero, -fold, fold);
+    FV inv = fv(1.0f) / lane_sqrt(fma(nx, nx, fma(ny, ny, z * z)));
     return fv3(nx * inv, ny * inv, z * inv);
 }
 

@@ -27,13 +27,13 @@ SHARED_FN FV log2_slope(FV f) {
 // a lobe's peak, and denormals, which are slow, stay out of what follows.
 SHARED_FN FV exp2_of_negative(FV x) {
     x = max(x, fv(-60.0f));
-    LANE_UINT i = lane_uint_of(x - fv(0.5f));  // to nearest, as conversion truncates
-    FV g = x - lane_float_of(i);
+    UV i = lane_truncate(x - fv(0.5f));  // to nearest, as conversion truncates
+    FV g = x - lane_from_int(i);
     FV g2 = g * g;
     FV q = fma(fma(fma(g, fv(1.32647546e-3f), fv(9.67149799e-3f)), g2,
                    fma(g, fv(5.55073346e-2f), fv(0.240222424f))),
                g2, fma(g, fv(0.693146978f), fv(1.0f)));
-    return lane_float(lane_bits(q) + (i << 23u));
+    return lane_from_bits(lane_bits(q) + (i << 23u));
 }
 
 // cos^(2n) for an angle in [0, pi/2], of which cos2 / scale is cos^2 and sin2 / scale is sin^2, and
@@ -41,12 +41,12 @@ SHARED_FN FV exp2_of_negative(FV x) {
 // cos^2. Absolute error below 3e-7 at any n.
 SHARED_FN FV pow_of_cos2(FV cos2, FV sin2, FV scale, FV n) {
     MASK near = sin2 * fv(3.41421356f) < scale;  // cos^2 > sqrt(1/2)
-    FV q = select_fv(near, sin2, cos2) / scale;
-    FV c = select_fv(near, fv(1.0f), q);
+    FV q = lane_select(near, sin2, cos2) / scale;
+    FV c = lane_select(near, fv(1.0f), q);
     // c = m 2^e with m in [sqrt(1/2), sqrt(2)).
-    LANE_UINT e = (lane_bits(c) - SQRT_HALF_BITS) & EXPONENT_MASK;           // times 2^23
-    FV f = select_fv(near, q, fma(-c, lane_float(ONE_BITS - e), fv(1.0f)));  // 1 - m
-    return exp2_of_negative(n * fma(-f, log2_slope(f), lane_float_of(e) * fv(1.1920929e-7f)));
+    UV e = (lane_bits(c) - SQRT_HALF_BITS) & EXPONENT_MASK;                        // times 2^23
+    FV f = lane_select(near, q, fma(-c, lane_from_bits(ONE_BITS - e), fv(1.0f)));  // 1 - m
+    return exp2_of_negative(n * fma(-f, log2_slope(f), lane_from_int(e) * fv(1.1920929e-7f)));
 }
 
 #if defined(__cplusplus)

@@ -22,7 +22,8 @@ namespace kilolux {
 // Khronos PBR Neutral Tone Mapper specification, 2024: 1:1 below 0.8 - 0.04, then compressed.
 SHARED_FN FV3 neutral_tone_curve(FV3 c) {
     FV lowest = min(c.x, min(c.y, c.z));
-    FV offset = select_fv(lowest < fv(0.08f), fma(fv(-6.25f) * lowest, lowest, lowest), fv(0.04f));
+    FV offset =
+        lane_select(lowest < fv(0.08f), fma(fv(-6.25f) * lowest, lowest, lowest), fv(0.04f));
     c = fv3(c.x - offset, c.y - offset, c.z - offset);
     FV peak = max(c.x, max(c.y, c.z));
     FV start = fv(0.76f);
@@ -31,9 +32,9 @@ SHARED_FN FV3 neutral_tone_curve(FV3 c) {
     FV3 squeezed = scale3(c, new_peak / max(peak, start));
     FV g = fv(1.0f) - fv(1.0f) / fma(fv(0.15f), peak - new_peak, fv(1.0f));
     MASK high = peak >= start;
-    return fv3(select_fv(high, fma(g, new_peak - squeezed.x, squeezed.x), c.x),
-               select_fv(high, fma(g, new_peak - squeezed.y, squeezed.y), c.y),
-               select_fv(high, fma(g, new_peak - squeezed.z, squeezed.z), c.z));
+    return fv3(lane_select(high, fma(g, new_peak - squeezed.x, squeezed.x), c.x),
+               lane_select(high, fma(g, new_peak - squeezed.y, squeezed.y), c.y),
+               lane_select(high, fma(g, new_peak - squeezed.z, squeezed.z), c.z));
 }
 
 SHARED_FN FV aces_rational(FV v) {

@@ -6,10 +6,21 @@
 //
 // A shared function is written on the lane type FV: one float in C++ and GLSL, VW floats in OpenCL
 // C (VW is the device's lane width, set at build time). MASK is what comparing two FV gives. Such a
-// function uses only + - * /, fma, min, max, sqrt, select_fv and the functions of this file, so
-// that its text means the same in the three languages.
+// function uses only + - * /, fma, min, max and the functions of this file, so that its text means
+// the same in the three languages. Operations on lanes are called lane_*; UV is a uint for each.
+//
+// Two switches choose other instructions where a device has faster ones:
+// FAST_RSQRT   lane_rsqrt is one instruction (GPUs) rather than a root and a division (CPUs)
+// NATIVE_MATH  roots and quotients as the hardware makes them, of unstated accuracy (OpenCL only)
 #ifndef KILOLUX_SHARED_TYPES_H
 #define KILOLUX_SHARED_TYPES_H
+
+#ifndef FAST_RSQRT
+#define FAST_RSQRT 0
+#endif
+#ifndef NATIVE_MATH
+#define NATIVE_MATH 0
+#endif
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 #define SHARED_STRUCT(Name)   \
@@ -38,20 +49,28 @@
 #define MASK IV
 #define fv(s) ((FV)(s))
 // `a` where the mask is set, else `b`.
-#define select_fv(mask, a, b) select((FV)(b), (FV)(a), (MASK)(mask))
+#define lane_select(mask, a, b) select((FV)(b), (FV)(a), (MASK)(mask))
 #define float_bits(x) as_uint(x)
 #define bits_float(x) as_float(x)
-#define LANE_UINT UV
-#define any_of(mask) any_lane_set(mask)
-#define lane_uints(s) ((UV)(s))
+#if NATIVE_MATH
+#define lane_sqrt(x) native_sqrt(x)
+#define lane_rsqrt(x) native_rsqrt(x)
+#define lane_divide(a, b) ((a)*native_recip(b))
+#else
+#define lane_sqrt(x) sqrt(x)
+#define lane_rsqrt(x) rsqrt(x)
+#define lane_divide(a, b) ((a) / (b))
+#endif
+#define make_float4(x, y, z, w) ((float4)(x, y, z, w))
+#define lane_uint(s) ((UV)(s))
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
-#define lane_float(x) KX_CONCAT(as_, FV)(x)
+#define lane_from_bits(x) KX_CONCAT(as_, FV)(x)
 // Truncated to an integer (two's complement), and back.
-#define lane_uint_of(x) KX_CONCAT(as_, UV)(KX_CONCAT(convert_, IV)(x))
-#define lane_float_of(x) KX_CONCAT(convert_, FV)(KX_CONCAT(as_, IV)(x))
+#define lane_truncate(x) KX_CONCAT(as_, UV)(KX_CONCAT(convert_, IV)(x))
+#define lane_from_int(x) KX_CONCAT(convert_, FV)(KX_CONCAT(as_, IV)(x))
 
 // Is the mask set in any lane? By halves: PoCL's any() asks lane by lane.
-static inline bool any_lane_set(MASK m) {
+static inline bool lane_any(MASK m) {
 #if VW == 16
     int8 a = m.lo | m.hi;
     int4 b = a.lo | a.hi;
@@ -78,6 +97,7 @@ static inline bool any_lane_set(MASK m) {
 #include <cstdint>
 namespace kilolux {
 using uint = std::uint32_t;
+using ulong = std::uint64_t;
 struct alignas(16) float4 {
     float x, y, z, w;
 };
@@ -86,23 +106,25 @@ struct alignas(16) uint4 {
 };
 using FV = float;
 using MASK = bool;
-using LANE_UINT = uint;
+using UV = uint;
 using std::floor;
 using std::fma;
 using std::max;
 using std::min;
-using std::sqrt;
 inline float fv(float s) { return s; }
-inline bool any_of(bool mask) { return mask; }
-inline uint lane_uints(uint s) { return s; }
-inline float select_fv(bool mask, float a, float b) { return mask ? a : b; }
+inline bool lane_any(bool mask) { return mask; }
+inline uint lane_uint(uint s) { return s; }
+inline float lane_select(bool mask, float a, float b) { return mask ? a : b; }
 inline uint float_bits(float x) { return std::bit_cast<uint>(x); }
 inline float bits_float(uint x) { return std::bit_cast<float>(x); }
-inline float rsqrt(float x) { return 1.0f / std::sqrt(x); }
+inline float lane_sqrt(float x) { return std::sqrt(x); }
+inline float lane_rsqrt(float x) { return 1.0f / std::sqrt(x); }
+inline float lane_divide(float a, float b) { return a / b; }
+inline float4 make_float4(float x, float y, float z, float w) { return {x, y, z, w}; }
 inline uint lane_bits(float x) { return std::bit_cast<uint>(x); }
-inline float lane_float(uint x) { return std::bit_cast<float>(x); }
-inline uint lane_uint_of(float x) { return static_cast<uint>(static_cast<int>(x)); }
-inline float lane_float_of(uint x) { return static_cast<float>(static_cast<int>(x)); }
+inline float lane_from_bits(uint x) { return std::bit_cast<float>(x); }
+inline uint lane_truncate(float x) { return static_cast<uint>(static_cast<int>(x)); }
+inline float lane_from_int(uint x) { return static_cast<float>(static_cast<int>(x)); }
 }  // namespace kilolux
 #define SHARED_STRUCT(Name) struct alignas(16) Name
 #define SHARED_PLAIN_STRUCT(Name) struct Name
@@ -121,17 +143,20 @@ inline float lane_float_of(uint x) { return static_cast<float>(static_cast<int>(
 #define FV float
 #define MASK bool
 #define fv(s) float(s)
-#define select_fv(mask, a, b) ((mask) ? (a) : (b))
-#define any_of(mask) (mask)
-#define rsqrt inversesqrt
+#define lane_select(mask, a, b) ((mask) ? (a) : (b))
+#define lane_any(mask) (mask)
+#define lane_sqrt sqrt
+#define lane_rsqrt inversesqrt
+#define lane_divide(a, b) ((a) / (b))
+#define make_float4 vec4
 #define float_bits floatBitsToUint
 #define bits_float uintBitsToFloat
-#define LANE_UINT uint
-#define lane_uints(s) uint(s)
+#define UV uint
+#define lane_uint(s) uint(s)
 #define lane_bits floatBitsToUint
-#define lane_float uintBitsToFloat
-#define lane_uint_of(x) uint(int(x))
-#define lane_float_of(x) float(int(x))
+#define lane_from_bits uintBitsToFloat
+#define lane_truncate(x) uint(int(x))
+#define lane_from_int(x) float(int(x))
 #endif
 
 #if defined(__cplusplus)

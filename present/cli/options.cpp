@@ -29,7 +29,7 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
         s.height = size[1];
     };
     const auto aovs = [&s](const std::string& name, const std::string& text) {
-        s.aovs = parse_name_list(name, text, aov_names());
+        s.want.aovs = parse_name_list(name, text, aov_names());
     };
     Registrar(command, "Picture")
         .choice({"--renderer", "", "deferred",
@@ -45,7 +45,7 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
                 kAmbientRange)
         .count({"--samples", "N", "1", "Jittered samples a pixel"}, s.samples, kSamplesRange)
         .number({"--time", "T", "0", "Seconds: moves the lights and the file's animations"}, o.time)
-        .choice({"--show", "", "lit", "What the picture shows"}, s.show, show_names())
+        .choice({"--show", "", "lit", "What the picture shows"}, s.want.view, show_names())
         .value(
             {"--aov", joined(aov_names(), "|") + ",...", "none", "Layers beside an EXR's colour"},
             aovs);

@@ -78,7 +78,7 @@ void check_output_options(const SharedOptions& shared, const OutputOptions& opti
                          "' has # for a frame number, but there is no --frames A:B");
     }
     if (!options.frames && options.shard.count > 1) throw UsageError("--shard: needs --frames A:B");
-    if (!shared.settings.aovs.empty() && !holds_layers(options.output)) {
+    if (!shared.settings.want.aovs.empty() && !holds_layers(options.output)) {
         throw UsageError("--aov: '" + options.output.string() + "' cannot hold layers; use .exr");
     }
     if (options.half_colour && !holds_layers(options.output)) {

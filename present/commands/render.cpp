@@ -133,13 +133,23 @@ void require_passed(const std::vector<FrameRecord>& records) {
     }
 }
 
-// Counting useful evaluations costs a pass of its own: only for those who read the counts.
+// What the files and the comparison read. Counting useful evaluations costs a pass of its own.
+FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked) {
+    const OutputOptions& out = options.output;
+    const bool own_display = wants_own_display(options);
+    const bool for_the_eye = image_meaning(out.output) == ImageMeaning::display;
+    FrameRequest want = asked;
+    want.display = for_the_eye || !out.reference.empty();
+    want.radiance = !for_the_eye || own_display || !out.reference.empty();
+    want.bloomed = own_display;
+    want.counts =
+        !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
+    return want;
+}
+
 RenderSettings settings_of(const RenderOptions& options, const ReportView& view) {
     RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
-    const auto& aovs = settings.aovs;
-    settings.keep_bloomed = wants_own_display(options);
-    settings.count_useful = !options.output.stats.empty() ||
-                            std::find(aovs.begin(), aovs.end(), "light-count") != aovs.end();
+    settings.want = request_of(options, settings.want);
     return settings;
 }
 

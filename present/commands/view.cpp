@@ -29,7 +29,7 @@ struct ViewOptions {
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file) {
     ViewState state;
     state.settings = options.shared.settings;
-    state.settings.aovs.clear();
+    state.settings.want.aovs.clear();
     const auto is_given = [&command](const std::string& name) {
         const CLI::Option* option = command.get_option_no_throw(name);
         return option != nullptr && option->count() > 0;

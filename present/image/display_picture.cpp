@@ -101,7 +101,7 @@ std::vector<float> display_colours(const Frame& frame, const RenderSettings& set
     const std::size_t count =
         static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
     std::vector<float> rgb(3 * count);
-    if (settings.show != "lit") {
+    if (settings.want.view != ViewKind::lit) {
         for (std::size_t i = 0; i < rgb.size(); ++i) {
             rgb[i] = static_cast<float>(frame.display[i / 3 * 4 + i % 3]) / 255.0f;
         }

@@ -24,7 +24,7 @@ bool uses_ocio(const OcioOptions& options);
 
 /// The colours a file for the eye holds, RGB from 0 to 1, encoded for the display: exposure, then
 /// OpenColorIO's view or our tone curve and sRGB. Of a frame that shows something else than light
-/// (settings.show), what Frame::display says. Throws Error with OpenColorIO's reason, and
+/// (settings.want.view), what Frame::display says. Throws Error with OpenColorIO's reason, and
 /// UsageError for displays, views and spaces that the configuration lacks.
 std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
                                    const OcioOptions& ocio);

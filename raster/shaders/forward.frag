@@ -69,7 +69,7 @@ Surface surface_of(MaterialSample m, float z) {
 
 // First and end of the fragment's lights in light_lists, or in lights.
 uvec2 light_range(float z) {
-#ifdef CLUSTERED
+#if CLUSTERED
     uvec2 tile = uvec2(fragment_pixel()) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
     uint cluster = cluster_index(frame.grid, tile.x, tile.y, slice_of_depth(frame.grid, z));
     return uvec2(cluster_offset(cluster), cluster_offset(cluster + 1u));
@@ -78,24 +78,19 @@ uvec2 light_range(float z) {
 #endif
 }
 
-// Blocked by light index as in kernels/shade.cl, so that a light that adds nothing changes nothing.
+// As kernels/shade.cl: in blocks by light index.
 LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
-    LightSum block = zero_sum();
-    uint current = 0u;
+    RunningSum sum = start_sum(total);
     for (uint i = range.x; i < range.y; ++i) {
-#ifdef CLUSTERED
+#if CLUSTERED
         uint light = listed_light(i);
 #else
         uint light = i;
 #endif
-        if (light >> SUM_BLOCK_LOG2 != current) {
-            current = light >> SUM_BLOCK_LOG2;
-            total = add_sums(total, block);
-            block = zero_sum();
-        }
-        block = evaluate(block, p, light_at(light));
+        sum = enter_block(sum, light);
+        sum.block = evaluate(sum.block, p, light_at(light));
     }
-    return add_sums(total, block);
+    return finish_sum(sum);
 }
 
 void main() {
@@ -104,7 +99,7 @@ void main() {
     Surface s = surface_of(m, z);
     ShadingPoint p = make_shading_point(s, frame.view.orthographic != 0u);
     LightSum sum = zero_sum();
-#ifdef HAS_DIRECTIONAL_LIGHTS
+#if HAS_DIRECTIONAL_LIGHTS
     for (uint i = 0u; i < frame.directional_count; ++i) {
         sum = evaluate_directional(sum, p, directional_lights[i]);
     }

@@ -18,7 +18,7 @@ class HardCases : public testing::TestWithParam<Parameter> {};
 Gpu test_gpu(int lanes) {
     const char* choice = std::getenv("KILOLUX_TEST_DEVICE");
     static const Gpu gpu(choose_device(choice != nullptr ? choice : ""));
-    return Gpu(gpu.context, gpu.queue, lanes);
+    return gpu.with_lanes(lanes);
 }
 
 TEST_P(HardCases, HoldsItsThreshold) {

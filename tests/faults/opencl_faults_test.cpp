@@ -42,8 +42,8 @@ void start_opencl() { choose_device(""); }
 RenderSettings faulty_settings() {
     RenderSettings settings = small_settings(64, 48, 200);
     settings.bloom = 0.2f;
-    settings.aovs = {"depth", "light-count"};
-    settings.count_useful = true;
+    settings.want.aovs = {"depth", "light-count"};
+    settings.want.counts = true;
     return settings;
 }
 

@@ -54,7 +54,7 @@ void expect_plausible(const DeviceLimits& l) {
 TEST_F(DeviceLimitsTest, ArePlausibleAndUseTheVectorUnit) {
     DeviceLimits limits = measure_device_limits(gpu_);
     expect_plausible(limits);
-    EXPECT_EQ(limits.lanes, describe(gpu_.device).lane_width);
+    EXPECT_EQ(limits.lanes, describe(gpu_.device).vector_width);
     if (!gpu_.info.is_cpu || limits.lanes == 1) return;
     // Lanes that are done one after the other give 1. What else the machine does may slow a
     // measurement.
@@ -65,8 +65,8 @@ TEST_F(DeviceLimitsTest, ArePlausibleAndUseTheVectorUnit) {
 }
 
 TEST_F(DeviceLimitsTest, DoNotDependOnTheLanesThatTheCallerShadesWith) {
-    const Gpu one_lane(gpu_.context, gpu_.queue, 1);
-    EXPECT_EQ(measure_device_limits(one_lane).lanes, describe(gpu_.device).lane_width);
+    const Gpu one_lane = gpu_.with_lanes(1);
+    EXPECT_EQ(measure_device_limits(one_lane).lanes, describe(gpu_.device).vector_width);
 }
 
 TEST_F(DeviceLimitsTest, AreMeasuredOnceAndKept) {
@@ -84,7 +84,7 @@ TEST_F(DeviceLimitsTest, AreMeasuredOnceAndKept) {
 }
 
 TEST_F(DeviceLimitsTest, AreMeasuredAgainWhenAnEntryCannotBeTrue) {
-    auto values = CacheValues{{"lanes", describe(gpu_.device).lane_width}, {"fma_flops", 1.0}};
+    auto values = CacheValues{{"lanes", describe(gpu_.device).vector_width}, {"fma_flops", 1.0}};
     write_device_cache(gpu_.info, kKind, values);  // incomplete
     expect_plausible(cached_device_limits(gpu_));
     values = *read_device_cache(gpu_.info, kKind);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "host/base/error.h"
 #include "host/certify/synthetic/stage_run.h"
 #include "host/certify/synthetic/synthetic.h"
 #include "tests/support/test_gpu.h"
@@ -171,6 +172,24 @@ TEST(BuildClusters, GridNeverFails) {
         EXPECT_EQ(grid.slices_per_octave, 64u);
         EXPECT_EQ(grid.cluster_count, grid.tiles_x * grid.tiles_y * grid.slices);
     }
+}
+
+TEST(ClusterGrid, MoreTilesOrClustersThan32BitsNumberAreAnError) {
+    const auto message_of = [](const GridRequest& request, uint width, uint height) -> std::string {
+        try {
+            make_cluster_grid(request, width, height);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    const GridRequest absurd{1u << 20, 1u << 20, 64, 1e-30f, 1e30f, 0.0f};
+    EXPECT_NE(message_of(absurd, 65536, 65536).find("a grid of 4096 x 4096 tiles and "),
+              std::string::npos);
+    EXPECT_EQ(message_of(absurd, 512, 512), "no error");
+    EXPECT_EQ(message_of({1u << 20, 1, 1, 1.0f, 1.5f, 0.0f}, 65535 * 16, 16), "no error");
+    EXPECT_NE(message_of({1u << 20, 1, 1, 1.0f, 1.5f, 0.0f}, 65536 * 16, 16).find("65535 a side"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ void expect_as_brute_force(const Gpu& gpu, const CullCase& c, const DeviceLists&
     const CoarseLists brute = oracle.brute_force(device.lights, device.boxes, timer);
     const auto offsets = download<uint>(gpu, brute.offsets, std::size_t{c.grid.cluster_count} + 1);
     const auto entries =
-        download_indices(gpu, brute.lists, offsets.back(), c.features.light_index_bits);
+        download_indices(gpu, brute.lists, c.features.light_index_bits, offsets.back());
     for (uint cluster = 0; cluster < c.grid.cluster_count; ++cluster) {
         const std::span expected(entries.data() + offsets[cluster],
                                  offsets[cluster + 1] - offsets[cluster]);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/base/error.h"
+#include "host/gpu/tuning_store.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -69,6 +70,35 @@ TEST(Device, LaneWidthIsTheDevicesOwnUnlessGiven) {
     EXPECT_EQ(Gpu(gpu.context, gpu.queue, 2).info.lane_width, 2);
     EXPECT_EQ(Gpu(gpu.context, gpu.queue).info.lane_width, own);
     EXPECT_EQ(Gpu(gpu.device).info.name, gpu.info.name);
+}
+
+// What a library's user gets is what the program takes without a tuning.
+TEST(Device, OnePlaceSaysTheLaneWidth) {
+    const Gpu gpu(test_gpu().device);
+    EXPECT_EQ(gpu.info.lane_width, built_in_tuning(describe(gpu.device)).lanes);
+    if (gpu.info.is_cpu) {
+        EXPECT_EQ(gpu.info.lane_width, std::min(2 * gpu.info.vector_width, 16));
+    } else {
+        EXPECT_EQ(gpu.info.lane_width, 2);
+    }
+}
+
+TEST(Device, QueuesOutOfOrderOrWithoutProfilingAreRefused) {
+    const Gpu gpu = test_gpu();
+    const auto message_of = [&](cl_command_queue_properties properties) -> std::string {
+        const cl::CommandQueue queue(gpu.context, gpu.device, properties);
+        try {
+            Gpu(gpu.context, queue);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_EQ(message_of(CL_QUEUE_PROFILING_ENABLE), "no error");
+    EXPECT_NE(message_of(0).find("the given queue has no profiling enabled"), std::string::npos);
+    EXPECT_NE(message_of(CL_QUEUE_PROFILING_ENABLE | CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE)
+                  .find(gpu.info.name + ": the given queue runs out of order"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
                   global const DirectionalLight* directional, uint directional_count, float ambient,
                   uint orthographic, global float* out) {
     uint i = get_global_id(0) * VW;
-#define VALUE(row) load_lanes(in + (row) * count + i)
+#define VALUE(row) lane_load(in + (row) * count + i)
     Surface s;
     s.position = fv3(VALUE(0), VALUE(1), VALUE(2));
     s.normal = fv3(VALUE(3), VALUE(4), VALUE(5));
@@ -35,9 +35,9 @@ kernel void probe(global const float* in, uint count, global const ShadeLight* l
         sum = add_sums(sum, block);
     }
     FV3 color = finish_shading(s, sum, ambient);
-    store_lanes(color.x, out + i);
-    store_lanes(color.y, out + count + i);
-    store_lanes(color.z, out + 2 * count + i);
+    lane_store(color.x, out + i);
+    lane_store(color.y, out + count + i);
+    lane_store(color.z, out + 2 * count + i);
 }
 )";
 constexpr std::string_view kPowProbe = R"(
@@ -45,8 +45,8 @@ kernel void probe(global const float* cos2, global const float* sin2, global con
                   global float* out) {
     uint i = get_global_id(0) * VW;
     FV unit = fv(4.0f);
-    store_lanes(pow_of_cos2(unit * load_lanes(cos2 + i), unit * load_lanes(sin2 + i), unit,
-                            load_lanes(n + i)),
+    lane_store(pow_of_cos2(unit * lane_load(cos2 + i), unit * lane_load(sin2 + i), unit,
+                            lane_load(n + i)),
                 out + i);
 }
 )";

@@ -7,6 +7,7 @@
 #include "host/certify/synthetic/stage_run.h"
 #include "host/stages/bloom.h"
 #include "host/stages/count_lights.h"
+#include "host/stages/count_pairs.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
 #include "kernels/shared/evaluate_modes.h"
@@ -51,15 +52,16 @@ KernelFeatures features_of(const Variant& v) {
 }
 
 // Radiance by lists, after it was found to have the bits of that by all lights.
-Radiance shade_both_ways(const Gpu& gpu, Shade& shade, const GBuffer& gbuffer,
-                         const DeviceLists& lists, const ClusterGrid& grid) {
+Radiance shade_both_ways(const Gpu& gpu, Shade& shade, ShadeAll& shade_all, const GBuffer& gbuffer,
+                         const DeviceLists& lists) {
     StageTimer timer;
+    const ClusterGrid& grid = lists.boxes.grid;
     const std::size_t size = std::size_t{3} * gbuffer.view.stride * gbuffer.view.height;
     const Radiance radiance =
         shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
     const auto listed = download<float>(gpu, radiance.planes, size);
     const auto all =
-        download<float>(gpu, shade.enqueue_all_lights(gbuffer, lists.lights, timer).planes, size);
+        download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer).planes, size);
     for (std::size_t i = 0; i < size; ++i) {
         EXPECT_EQ(listed[i], all[i]) << "value " << i << " of planes of " << size / 3;
         if (listed[i] != all[i]) break;
@@ -93,14 +95,22 @@ void run_every_kernel(const Variant& v) {
     oracle.brute_force(lists.lights, lists.boxes, timer);
     oracle.enqueue(lists.lights, lists.boxes, timer, lists.clusters.occupied);
     Shade shade(gpu, tuning, features);
-    const Radiance radiance = shade_both_ways(gpu, shade, gbuffer, lists, grid);
+    ShadeAll shade_all(gpu, tuning, features);
+    const Radiance radiance = shade_both_ways(gpu, shade, shade_all, gbuffer, lists);
     Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
     tonemap.enqueue(radiance, 0.0f, timer);
     CountLights count(gpu, tuning, features);
     count.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
     decode(gpu, features, gbuffer);
-    gpu.queue.finish();
-    EXPECT_GT(download_lists(gpu, features, grid, lists).refined.size(), 100u);
+    const HostLists host = download_lists(gpu, features, grid, lists);
+    EXPECT_GT(host.refined.size(), 100u);
+    const DeviceArray<std::uint64_t> active(
+        new_buffer(gpu, std::vector<std::uint64_t>{host.clusters.size(), 0}));
+    CountPairs count_pairs(gpu, tuning);
+    count_pairs.enqueue({oracle.total(), active, active}, lists.clusters, true, timer);
+    std::uint64_t pairs = 0;
+    for (const ActiveCluster& c : host.clusters) pairs += c.list_count;
+    EXPECT_EQ(count_pairs.read().refined_pairs, pairs);
 }
 
 TEST(EveryKernel, OneItemAGroup) { run_every_kernel({}); }

@@ -38,10 +38,10 @@ void expect_sums(PrefixSum& stage, const std::vector<uint>& counts, const std::s
     const cl::Buffer in = new_buffer(gpu, counts);
     const cl::Buffer out = new_buffer(gpu, std::vector<uint>(n + 2, kGuard));
     StageTimer timer;
-    stage.enqueue(in, n, out, timer, "test");
+    stage.enqueue(in, n, out, timer);
     const Sums expected = expected_sums(counts);
     const auto found = download<uint>(gpu, out, n + 2);
-    ASSERT_EQ(stage.total(), expected.total) << what;
+    ASSERT_EQ(download(gpu, stage.total()).front(), expected.total) << what;
     ASSERT_EQ(std::vector<uint>(found.begin(), found.end() - 1), expected.offsets) << what;
     ASSERT_EQ(found.back(), kGuard) << what << ": written beyond the end";
 }
@@ -55,7 +55,7 @@ std::vector<uint> random_counts(std::size_t n, uint end) {
 
 TEST(PrefixSum, AgreesWithTheSumAtEveryBlockSizeAndLength) {
     for (const auto& [group, per_item] : {std::pair{1, 4096}, {1, 1}, {4, 3}, {64, 8}, {256, 1}}) {
-        PrefixSum stage(test_gpu(), tuning_of(group, per_item));
+        PrefixSum stage(test_gpu(), tuning_of(group, per_item), "test");
         const auto block = static_cast<std::size_t>(group * per_item);
         for (const std::size_t n :
              {std::size_t{0}, std::size_t{1}, std::size_t{2}, block - 1, block, block + 1,
@@ -69,7 +69,7 @@ TEST(PrefixSum, AgreesWithTheSumAtEveryBlockSizeAndLength) {
 
 TEST(PrefixSum, TotalIsExactBeyond32Bits) {
     for (const auto& [group, per_item] : {std::pair{1, 4096}, {64, 8}}) {
-        PrefixSum stage(test_gpu(), tuning_of(group, per_item));
+        PrefixSum stage(test_gpu(), tuning_of(group, per_item), "test");
         expect_sums(stage, random_counts(10000, 0), "random 32-bit counts");
         expect_sums(stage, std::vector<uint>(5000, 0xffffffffu), "largest counts");
     }

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/base/hash.h"
 #include "host/base/memory.h"
 #include "host/base/source.h"
+#include "host/base/text.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/stage_timer.h"
 #include "tests/support/test_gpu.h"
@@ -69,6 +71,20 @@ TEST(Program, SameTextAndOptionsAreBuiltOnce) {
     EXPECT_NE(first(), build_program(test_gpu(2), "build_clusters")());
 }
 
+// A window opens a Gpu for every change of settings: neither context nor programs may stay behind.
+TEST(Program, ContextsAndProgramsGoWithTheLastGpu) {
+    const cl::Device device = test_gpu().device;
+    const cl::Context context(device);
+    const cl::CommandQueue queue(context, device, cl::QueueProperties::Profiling);
+    const auto before = context.getInfo<CL_CONTEXT_REFERENCE_COUNT>();
+    for (int change = 0; change < 3; ++change) {
+        const Gpu gpu(context, queue);
+        const cl::Program program = build_program(gpu, "build_clusters");
+        EXPECT_EQ(build_program(gpu.with_lanes(0), "build_clusters")(), program());
+    }
+    EXPECT_EQ(context.getInfo<CL_CONTEXT_REFERENCE_COUNT>(), before);
+}
+
 TEST(Program, LaunchFailureNamesStageAndError) {
     const std::string message = error_of([] {
         in_stage("cull_lights", [] {
@@ -106,6 +122,59 @@ TEST(GrowingBuffer, MoreThanTheDeviceAllocatesIsAnErrorAndKeepsWhatThereIs) {
     expect_contains(message, gpu.info.name + " allocates at most " + mebibytes(limit));
     EXPECT_EQ(buffer.bytes(), 64u);
     EXPECT_EQ(buffer.get().getInfo<CL_MEM_SIZE>(), 64u);
+}
+
+Gpu gpu_with_budget(std::uint64_t limit) {
+    Gpu gpu = test_gpu();
+    gpu.budget = std::make_shared<MemoryBudget>();
+    gpu.budget->limit = limit;
+    return gpu;
+}
+
+TEST(GrowingBuffer, SlackIsLeftOutWhereOnlyTheNeedFits) {
+    const Gpu gpu = gpu_with_budget(1000);
+    GrowingBuffer buffer(gpu, "test");
+    buffer.reserve(400, 100);
+    EXPECT_EQ(buffer.bytes(), 500u);
+    buffer.reserve(900, 112);
+    EXPECT_EQ(buffer.bytes(), 900u);
+    EXPECT_EQ(gpu.budget->used, 900u);
+    expect_contains(error_of([&] { buffer.reserve(1001, 0); }), "--max-memory");
+}
+
+TEST(GrowingBuffer, BudgetCountsTheOldBufferWhileACopyHoldsIt) {
+    const Gpu gpu = gpu_with_budget(1000);
+    GrowingArray<std::byte> array(gpu, "test");
+    DeviceArray<std::byte> held = array.reserve(400);
+    expect_contains(error_of([&] { array.reserve(700); }), "--max-memory");
+    EXPECT_EQ(array.reserve(600).count(), 600u);
+    EXPECT_EQ(gpu.budget->used, 1000u);
+    held = {};
+    EXPECT_EQ(gpu.budget->used, 600u);
+}
+
+TEST(DeviceArray, TakesACallersBufferAsLargeAsItIs) {
+    const Gpu gpu = test_gpu();
+    const DeviceArray<uint> array = new_buffer(gpu, std::vector<uint>{1, 2, 3, 4, 5});
+    EXPECT_EQ(array.count(), 5u);
+    EXPECT_EQ(download(gpu, array), (std::vector<uint>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(download(gpu, array, 2, 3), (std::vector<uint>{4, 5}));
+    EXPECT_EQ(DeviceArray<uint>().count(), 0u);
+}
+
+TEST(DownloadIndices, WidensThem) {
+    const Gpu gpu = test_gpu();
+    const cl::Buffer narrow = new_buffer(gpu, std::vector<std::uint16_t>{7, 65535, 9});
+    EXPECT_EQ(download_indices(gpu, narrow, 16, 2, 1), (std::vector<uint>{65535, 9}));
+    const cl::Buffer wide = new_buffer(gpu, std::vector<uint>{7, 70000, 9});
+    EXPECT_EQ(download_indices(gpu, wide, 32, 1, 1), (std::vector<uint>{70000}));
+}
+
+TEST(Text, SplitsAndLowers) {
+    EXPECT_EQ(split("a,,b,", ','), (std::vector<std::string_view>{"a", "", "b", ""}));
+    EXPECT_EQ(split("", ','), (std::vector<std::string_view>{""}));
+    EXPECT_EQ(lower("NVIDIA h200-Z"), "nvidia h200-z");
+    EXPECT_EQ(Fnv1a().add("foo").add("bar").hex(), "85944171f73967e8");
 }
 
 TEST(StageTimer, SumsEventsByStageInOrderOfFirstUse) {

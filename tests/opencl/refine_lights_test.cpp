@@ -25,7 +25,7 @@ double box_distance(const ActiveCluster& c, float4 p) {
 }
 
 uint coarse_cluster(const View& view, const ClusterGrid& grid, uint tile, uint slice) {
-    const uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    const uint tiles_x = fine_tiles_x(view);
     return cluster_index(grid, tile % tiles_x * FINE_TILE / grid.tile_width,
                          tile / tiles_x * FINE_TILE / grid.tile_height,
                          slice >> grid.fine_slice_bits);
@@ -143,6 +143,32 @@ TEST(RefineLights, SpotsThatShineAwayAreLeftOut) {
         const auto list = lists.refined_of(c);
         EXPECT_EQ(std::vector<uint>(list.begin(), list.end()), (std::vector<uint>{1, 3}));
     }
+}
+
+// Two active clusters of one tile whose coarse lists together have 2^32 entries and some.
+TEST(RefineLights, MoreTestsInATileThan32BitsCountAreAnError) {
+    const Gpu gpu = test_gpu();
+    const View view = make_view({16, 16});
+    ClusterGrid grid = make_cluster_grid({1, 1, 1, 1.0f, 3.0f, 0.0f, 1}, 16, 16);
+    ASSERT_EQ(grid.cluster_count, 2u);
+    std::vector<ActiveCluster> active(2);
+    active[1].slice = 1;
+    // The second list ends where 32 bits wrap: offsets do not ascend.
+    const std::vector<uint> offsets{0, 0xffffffffu, 15};
+    ActiveClusters clusters;
+    clusters.offsets = new_buffer(gpu, std::vector<uint>{0, 2});
+    clusters.clusters = new_buffer(gpu, active);
+    clusters.capacity = 2;
+    clusters.tile_count = 1;
+    const CoarseLists coarse{new_buffer(gpu, offsets), new_buffer(gpu, std::vector<uint>(4)), 0};
+    PreparedLights lights;
+    lights.lights = new_buffer(gpu, std::vector<ShadeLight>(1));
+    lights.bounds = new_buffer(gpu, std::vector<float4>(1));
+    RefineLights stage(gpu, default_tuning(gpu.info), {});
+    StageTimer timer;
+    stage.enqueue(lights, coarse, clusters, view, grid, timer);
+    EXPECT_EQ(stage.tests(), 0xffffffffu) << "saturates";
+    EXPECT_THROW(stage.fits(), Error);
 }
 
 }  // namespace

@@ -52,6 +52,8 @@ Frame shade_frame(const Gpu& gpu, const FrameInput& in, const Tuning& tuning) {
     StageRun stages(gpu, tuning, in.features);
     Shade shade(gpu, tuning, in.features);
     shade.set_ambient(kAmbient);
+    ShadeAll shade_all(gpu, tuning, in.features);
+    shade_all.set_ambient(kAmbient);
     const DeviceLists lists = stages.run(upload_lights(gpu, in.lights, sun()), gbuffer, grid);
     StageTimer timer;
     const std::size_t size = std::size_t{3} * view.stride * view.height;
@@ -60,8 +62,7 @@ Frame shade_frame(const Gpu& gpu, const FrameInput& in, const Tuning& tuning) {
         gpu,
         shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer).planes,
         size);
-    frame.all =
-        download<float>(gpu, shade.enqueue_all_lights(gbuffer, lists.lights, timer).planes, size);
+    frame.all = download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer).planes, size);
     frame.lists = fingerprint(download_lists(gpu, in.features, grid, lists));
     frame.lights = download<ShadeLight>(gpu, lists.lights.lights, in.lights.size());
     frame.directional = download<DirectionalLight>(gpu, lists.lights.directional, sun().size());

@@ -19,7 +19,7 @@ constexpr std::string_view kHeaders[] = {"kernels/device/lanes.h", "kernels/shar
 constexpr std::string_view kProbe = R"(
 kernel void slices(ClusterGrid grid, global const float* z, global uint* out) {
     size_t first = get_global_id(0) * VW;
-    store_lanes(slice_of_depth(grid, load_lanes(z + first)), out + first);
+    lane_store(slice_of_depth(grid, lane_load(z + first)), out + first);
 }
 )";
 

@@ -71,7 +71,7 @@ TEST(DisplayPicture, IsSrgbOfTheToneCurve) {
     EXPECT_EQ(rgb[3 * 63], 1.0f);
     const double linear = 2.0 * 10 / 63.0;
     EXPECT_NEAR(rgb[30], 1.055 * std::pow(linear, 1 / 2.4) - 0.055, 1e-6);
-    settings.show = "normal";
+    settings.want.view = ViewKind::normal;
     EXPECT_FLOAT_EQ(display_colours(ramp(), settings, {})[3 * 20], 20.0f / 255.0f);
 }
 

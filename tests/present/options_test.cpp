@@ -46,7 +46,7 @@ TEST(Options, DefaultsAreThoseOfTheSettings) {
     EXPECT_EQ(p.shared.settings.samples, 1);
     EXPECT_EQ(p.shared.settings.ambient, 0.02f);
     EXPECT_EQ(p.shared.settings.tone_curve, ToneCurve::neutral);
-    EXPECT_EQ(p.shared.settings.show, "lit");
+    EXPECT_EQ(p.shared.settings.want.view, ViewKind::lit);
     EXPECT_EQ(p.output.frames_per_second, 24.0);
     EXPECT_FALSE(p.output.frames.has_value());
 }
@@ -74,7 +74,8 @@ TEST(Options, DefaultsInHelpAreTheRealOnes) {
     EXPECT_EQ(std::tie(a.width, a.height, a.samples), std::tie(b.width, b.height, b.samples));
     EXPECT_EQ(std::tie(a.gbuffer, a.shading), std::tie(b.gbuffer, b.shading));
     EXPECT_EQ(std::tie(a.ambient, a.bloom, a.exposure), std::tie(b.ambient, b.bloom, b.exposure));
-    EXPECT_EQ(std::tie(a.tone_curve, a.show, a.aovs), std::tie(b.tone_curve, b.show, b.aovs));
+    EXPECT_EQ(std::tie(a.tone_curve, a.want.view, a.want.aovs),
+              std::tie(b.tone_curve, b.want.view, b.want.aovs));
     EXPECT_EQ(std::tie(a.lights.count, a.lights.seed), std::tie(b.lights.count, b.lights.seed));
     EXPECT_EQ(std::tie(a.lights.radius, a.lights.intensity),
               std::tie(b.lights.radius, b.lights.intensity));
@@ -102,7 +103,7 @@ TEST(Options, PictureOptionsArrive) {
     EXPECT_EQ(s.ambient, 0.5f);
     EXPECT_EQ(s.samples, 16);
     EXPECT_EQ(p.shared.time, -2.5);
-    EXPECT_EQ(s.aovs, (std::vector<std::string>{"depth", "light-count"}));
+    EXPECT_EQ(s.want.aovs, (std::vector<std::string>{"depth", "light-count"}));
     EXPECT_EQ(s.bloom, 0.25f);
     EXPECT_EQ(s.exposure, -1.5f);
     EXPECT_EQ(s.tone_curve, ToneCurve::aces);

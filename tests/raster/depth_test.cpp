@@ -108,7 +108,8 @@ TEST_F(DepthTest, ReconstructsPositions) {
         glm::dmat4 world_from_view(c.camera.world_from_view);
         world_from_view[3] = glm::dvec4(c.camera.position, 1.0);
         const Scene scene = one_object(mesh, {}, world_from_view);
-        const GBufferNeeds full{GBUFFER_FULL, false, false, 1.0f};
+        GBufferNeeds full;
+        full.layout = GBUFFER_FULL;
         const HostGBuffer g = draw_gbuffer(scene, c.camera, kWidth, kHeight, full);
         const View view = view_of(c.camera, kWidth, kHeight);
         double worst = 0.0;

@@ -118,7 +118,7 @@ std::vector<float> draw(const Scene& scene, const ForwardFeatures& features,
 }
 
 HostGBuffer full_gbuffer(const Scene& scene) {
-    return draw_gbuffer(scene, boxes_camera(), kWidth, kHeight, {GBUFFER_FULL, true, true, 1.0f});
+    return draw_gbuffer(scene, boxes_camera(), kWidth, kHeight, make_needs(GBUFFER_FULL));
 }
 
 FV3 to_fv3(const glm::dvec3& v) {

@@ -28,7 +28,7 @@ Camera tilted_camera() {
     return camera;
 }
 
-GBufferNeeds needs_of(uint layout) { return {layout, true, true, 2.0f}; }
+GBufferNeeds needs_of(uint layout) { return make_needs(layout, 2.0f); }
 
 HostGBuffer draw(uint layout) {
     return draw_gbuffer(tilted_scene(), tilted_camera(), kWidth, kHeight, needs_of(layout));
@@ -58,7 +58,8 @@ void for_each_pixel(Check check) {
 TEST_F(GBufferLayoutsTest, ReadsAreThePlanesOfTheLayout) {
     for (uint layout = 0; layout <= GBUFFER_OCT_2X4; ++layout) {
         for (const bool optional : {false, true}) {
-            const GBufferNeeds needs{layout, optional, optional, 1.0f, optional, optional};
+            GBufferNeeds needs = make_needs(layout);
+            needs.material = needs.occlusion = needs.specular = needs.unlit = optional;
             const GBufferLayout planes = make_gbuffer_layout(needs, 16, 1);
             const TargetPlan plan = plan_targets(needs);
             std::vector<uint> expected;
@@ -114,8 +115,9 @@ TEST_F(GBufferLayoutsTest, HalfHoldsWorldSpace) {
 
 TEST_F(GBufferLayoutsTest, HalfPositionsStayFinite) {
     const Scene scene = one_object(quad_mesh(1e6f), {}, translation({0, 0, -1e5}));
-    const HostGBuffer g =
-        draw_gbuffer(scene, front_camera(1), 8, 8, {GBUFFER_HALF, false, false, 1.0f});
+    GBufferNeeds half;
+    half.layout = GBUFFER_HALF;
+    const HostGBuffer g = draw_gbuffer(scene, front_camera(1), 8, 8, half);
     EXPECT_EQ(half_value(g.at<std::uint16_t>(PLANE_POSITION_Z, 4, 4)), -65504.0);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using GeometryPassTest = GlTest;
 
-constexpr GBufferNeeds kFull{GBUFFER_FULL, true, true, 1.0f};
+const GBufferNeeds kFull = make_needs(GBUFFER_FULL);
 
 // Half a step of the 16-bit octahedral code, worst case 0.0037 degrees, as a chord; and float32.
 constexpr double kPackedNormal = 7e-5;
@@ -163,7 +163,7 @@ TEST_F(GeometryPassTest, PackedHoldsSrgbColoursAndLinearParameters) {
     material.roughness = 0.4f;
     material.metallic = 0.6f;
     material.emissive = {4.0f, 1.0f, 0.5f};
-    const GBufferNeeds needs{GBUFFER_PACKED, true, true, 4.0f};
+    const GBufferNeeds needs = make_needs(GBUFFER_PACKED, 4.0f);
     const HostGBuffer g =
         draw_gbuffer(one_object(quad_mesh(), material), front_camera(2), 8, 8, needs);
     const glm::ivec4 albedo = g.bytes4(PLANE_ALBEDO, 4, 4);

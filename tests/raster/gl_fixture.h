@@ -140,4 +140,13 @@ inline glm::dmat4 translation(const glm::dvec3& t) {
     return m;
 }
 
+/// A G-buffer with the material and occlusion planes.
+inline GBufferNeeds make_needs(uint layout, float emissive_scale = 1.0f) {
+    GBufferNeeds needs;
+    needs.layout = layout;
+    needs.emissive_scale = emissive_scale;
+    needs.material = needs.occlusion = true;
+    return needs;
+}
+
 }  // namespace kilolux

@@ -11,7 +11,7 @@ namespace {
 
 using MaterialTest = GlTest;
 
-constexpr GBufferNeeds kFull{GBUFFER_FULL, true, true, 1.0f};
+const GBufferNeeds kFull = make_needs(GBUFFER_FULL);
 
 // A quad that fills 16 x 16 pixels exactly, so that a pixel (x, y) has texture coordinates
 // ((x + 0.5) / 16, (y + 0.5) / 16).
@@ -69,7 +69,8 @@ TEST_F(MaterialTest, SpecularTexturesColourAndWeighTheReflectance) {
     // The weight is the alpha of its texture, linear; the colour is sRGB.
     material.specular_texture = add_texture(scene, 1, 1, {255, 255, 255, 51});
     material.specular_color_texture = add_texture(scene, 1, 1, {128, 255, 255, 0});
-    const GBufferNeeds needs{GBUFFER_FULL, true, true, 1.0f, true};
+    GBufferNeeds needs = make_needs(GBUFFER_FULL);
+    needs.specular = true;
     const HostGBuffer g = draw_gbuffer(scene, front_camera(1), 16, 16, needs);
     const glm::dvec3 head_on(0.04 * linear_of(128), 0.04 * 0.5, 1.0);
     expect_near(g.vector(PLANE_SPECULAR_R, 8, 8), 0.1 * head_on, 1e-4, "limited, then weighed");

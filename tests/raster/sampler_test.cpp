@@ -9,7 +9,7 @@ namespace {
 
 using SamplerTest = GlTest;
 
-constexpr GBufferNeeds kFull{GBUFFER_FULL, true, true, 1.0f};
+const GBufferNeeds kFull = make_needs(GBUFFER_FULL);
 constexpr int kPixels = 32;  // side of the picture that the quad fills
 // Of a value in [0, 1]: hardware filters with 8-bit weights and keeps mipmaps in 8 bits of sRGB,
 // which are up to 0.009 apart in light.

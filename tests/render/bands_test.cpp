@@ -95,8 +95,8 @@ TEST(Bands, ChangeNoBit) {
         SCOPED_TRACE(gbuffer_layout_name(layout));
         RenderSettings settings = small_settings(150, 131, 400);
         settings.gbuffer = layout;
-        settings.count_useful = true;
-        settings.aovs = {"depth", "position", "normal", "light-count", "cluster"};
+        settings.want.counts = true;
+        settings.want.aovs = {"depth", "position", "normal", "light-count", "cluster"};
         expect_same_in_bands(grid_with_every_light(), settings);
     }
 }
@@ -108,7 +108,7 @@ TEST(Bands, ChangeNoBitOfSamplesBloomAndViews) {
     settings.bloom = 0.3f;
     expect_same_in_bands(scene, settings);
     settings.samples = 1;
-    settings.show = "lights";
+    settings.want.view = ViewKind::lights;
     expect_same_in_bands(scene, settings);
 }
 

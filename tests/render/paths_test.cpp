@@ -118,7 +118,7 @@ TEST(Paths, SurfacesThatBlendAreDrawnByAll) {
 TEST(Paths, CountsAreThoseOfThePath) {
     const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_settings();
-    settings.count_useful = true;
+    settings.want.counts = true;
     const auto stats = [&](RendererKind renderer) {
         return render_as(scene, settings, renderer).stats;
     };
@@ -133,7 +133,7 @@ TEST(Paths, CountsAreThoseOfThePath) {
     EXPECT_LT(plus.evaluations_per_pixel, 300.0);
     EXPECT_GT(plus.evaluations_per_pixel, deferred.evaluations_per_pixel);
     EXPECT_GT(deferred.evaluations_per_pixel, deferred.useful_evaluations_per_pixel);
-    settings.count_useful = false;
+    settings.want.counts = false;
     EXPECT_LT(stats(RendererKind::forward).evaluations_per_pixel, 0.0);
 }
 
@@ -156,7 +156,7 @@ TEST(Paths, Oct2x4DecodesToWhatFullStores) {
     const Scene scene = make_generated_scene("grid");
     for (const int lanes : {1, 8}) {
         RenderSettings settings = small_settings(96, 54, 0);
-        settings.aovs = {"depth", "position", "normal", "albedo", "roughness", "metallic"};
+        settings.want.aovs = {"depth", "position", "normal", "albedo", "roughness", "metallic"};
         settings.kernels.lanes = lanes;
         settings.gbuffer = GBUFFER_FULL;
         const Frame full = render_once(scene, settings);

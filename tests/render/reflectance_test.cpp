@@ -37,7 +37,7 @@ TEST(Unlit, LeavesTheSurfaceAsItIsAmongGlossyOnes) {
     for (const uint layout : {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_OCT_2X4}) {
         RenderSettings settings = small_settings();
         settings.gbuffer = layout;
-        settings.aovs = {"emissive", "depth"};
+        settings.want.aovs = {"emissive", "depth"};
         const Frame frame = render_once(scene, settings);
         const Layer& emissive = layer(frame, "emissive");
         std::size_t unlit = 0, lit = 0;

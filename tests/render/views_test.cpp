@@ -20,9 +20,9 @@ Frame frame_of(const std::string& view, RendererKind renderer = RendererKind::de
                std::vector<std::string> aovs = {}) {
     static const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_settings(kWidth, kHeight, 200);
-    settings.show = view;
+    settings.want.view = parse_view(view);
     settings.renderer = renderer;
-    settings.aovs = std::move(aovs);
+    settings.want.aovs = std::move(aovs);
     return render_once(scene, settings);
 }
 

@@ -15,7 +15,7 @@ Gpu first_gpu() {
 
 Gpu test_gpu(int lane_width) {
     static const Gpu gpu = first_gpu();
-    return Gpu(gpu.context, gpu.queue, lane_width);
+    return gpu.with_lanes(lane_width);
 }
 
 }  // namespace kilolux

@@ -53,7 +53,7 @@ TEST(CommandText, ReproducesEverySetting) {
     s.exposure = -1.1f;
     s.tone_curve = ToneCurve::aces;
     s.samples = 3;
-    s.show = "slices";
+    s.want.view = ViewKind::slices;
     s.grid = {20, 11, 8, 16};
     s.kernels.lanes = 4;
     CameraRig rig(choose_camera(options.camera, scene), bounds(scene));

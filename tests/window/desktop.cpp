@@ -85,7 +85,7 @@ Desktop::Desktop(const std::vector<std::string>& options)
 bool Desktop::try_tool(const std::vector<std::string>& words, std::string& out) const {
     const ChildResult result = run_child(with_variables({variable_}, words));
     if (result.code == 127) {
-        throw std::runtime_error(words[0] + " is not installed; host/install_packages installs it");
+        throw std::runtime_error(words[0] + " is not installed; tests/run installs it");
     }
     out = result.code == 0 ? result.out : result.err;
     return result.code == 0;

@@ -96,8 +96,9 @@ TEST(Window, ShowsEveryView) {
     play(script);
     ExpectedPicture expected;
     for (const std::string& name : view_names()) {
-        expect_same_picture(folder / (name + ".png"),
-                            expected.of([&](RenderSettings& s) { s.show = name; }));
+        expect_same_picture(folder / (name + ".png"), expected.of([&](RenderSettings& s) {
+            s.want.view = parse_view(name);
+        }));
     }
 }
 

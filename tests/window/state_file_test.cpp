@@ -20,7 +20,7 @@ ViewState unusual_state() {
     state.settings.renderer = RendererKind::forward_plus;
     state.settings.shading = Shading::lambert;
     state.settings.gbuffer = GBUFFER_HALF;
-    state.settings.show = "slices";
+    state.settings.want.view = ViewKind::slices;
     state.settings.exposure = -1.3f;
     state.settings.tone_curve = ToneCurve::aces;
     state.settings.bloom = 0.1f;
@@ -81,7 +81,7 @@ TEST(StateFile, TheCommandLineWins) {
     given.settings.lights.count = 7;
     run(file, given, {"--lights"}, [](ViewState& state) {
         EXPECT_EQ(state.settings.lights.count, 7u);
-        EXPECT_EQ(state.settings.show, "slices");
+        EXPECT_EQ(state.settings.want.view, ViewKind::slices);
     });
 }
 

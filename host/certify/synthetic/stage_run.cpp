@@ -38,20 +38,13 @@ const ActiveCluster* HostLists::find(uint tile, uint slice) const {
     return nullptr;
 }
 
-std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& lists, std::size_t count,
-                                   int bits) {
-    if (bits == 32) return download<uint>(gpu, lists, count);
-    const auto narrow = download<std::uint16_t>(gpu, lists, count);
-    return {narrow.begin(), narrow.end()};
-}
-
 HostLists download_lists(const Gpu& gpu, const KernelFeatures& features, const ClusterGrid& grid,
                          const DeviceLists& lists) {
     const int bits = features.light_index_bits;
     HostLists out;
     out.coarse_offsets =
         download<uint>(gpu, lists.coarse.offsets, std::size_t{grid.cluster_count} + 1);
-    out.coarse = download_indices(gpu, lists.coarse.lists, out.coarse_offsets.back(), bits);
+    out.coarse = download_indices(gpu, lists.coarse.lists, bits, out.coarse_offsets.back());
     out.cluster_offsets =
         download<uint>(gpu, lists.clusters.offsets, std::size_t{lists.clusters.tile_count} + 1);
     out.clusters =
@@ -60,7 +53,7 @@ HostLists download_lists(const Gpu& gpu, const KernelFeatures& features, const C
     for (const ActiveCluster& c : out.clusters) {
         end = std::max<std::size_t>(end, c.list_begin + c.list_count);
     }
-    out.refined = download_indices(gpu, lists.refined.lists, end, bits);
+    out.refined = download_indices(gpu, lists.refined.lists, bits, end);
     return out;
 }
 

@@ -58,10 +58,6 @@ struct HostLists {
     const ActiveCluster* find(uint tile, uint slice) const;
 };
 
-/// Light indices widened to 32 bits.
-std::vector<uint> download_indices(const Gpu& gpu, const cl::Buffer& lists, std::size_t count,
-                                   int bits);
-
 HostLists download_lists(const Gpu& gpu, const KernelFeatures& features, const ClusterGrid& grid,
                          const DeviceLists& lists);
 
@@ -84,9 +80,7 @@ struct Planes {
 
 Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbuffer);
 
-inline uint fine_tile(const View& view, uint x, uint y) {
-    return y / FINE_TILE * ((view.width + FINE_TILE - 1) / FINE_TILE) + x / FINE_TILE;
-}
+inline uint fine_tile(const View& view, uint x, uint y) { return fine_tile_of(view, x, y); }
 
 /// The grid whose slices are those of active clusters.
 ClusterGrid fine_grid(ClusterGrid grid);

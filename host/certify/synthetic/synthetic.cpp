@@ -156,8 +156,10 @@ DepthOf no_depth() {
 
 Synthetic make_synthetic(const View& view, const KernelFeatures& features, const DepthOf& depth,
                          std::uint32_t seed) {
-    const GBufferNeeds needs{features.gbuffer,  features.material, features.occlusion, 2.5f,
-                             features.specular, features.unlit};
+    GBufferNeeds needs;
+    static_cast<SceneFeatures&>(needs) = features;
+    needs.layout = features.gbuffer;
+    needs.emissive_scale = 2.5f;
     Synthetic image{view, make_gbuffer_layout(needs, view.stride, view.height), {}};
     image.bytes.resize(gbuffer_bytes(image.layout, view.stride, view.height));
     Random random(seed);

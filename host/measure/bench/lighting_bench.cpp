@@ -2,17 +2,17 @@
 #include "host/measure/bench/lighting_bench.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <optional>
 #include <span>
 
 #include "host/interop/gbuffer_bridge.h"
-#include "host/lighting/light_lists.h"
+#include "host/lighting/deferred_lighting.h"
 #include "host/render/grid_request.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/light_rows.h"
 #include "host/render/light_source.h"
-#include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
 #include "raster/geometry_pass.h"
 #include "raster/gl_context.h"
@@ -47,13 +47,11 @@ void keep_least(std::vector<StageTime>& least, const std::string& stage, double 
 // The stages after the G-buffer.
 struct Stages {
     Stages(const Gpu& gpu, const LightingRequest& request, const RenderSettings& settings)
-        : lists(gpu, request.tuning.tuning, request.plan.kernels),
-          shade(gpu, request.tuning.tuning, request.plan.kernels),
+        : lighting(gpu, request.tuning.tuning, request.plan.kernels),
           tonemap(gpu, request.tuning.tuning, static_cast<int>(settings.tone_curve)) {
-        shade.set_ambient(settings.ambient);
+        lighting.set_ambient(settings.ambient);
     }
-    ListStages lists;
-    Shade shade;
+    DeferredLighting lighting;
     Tonemap tonemap;
 };
 
@@ -65,7 +63,7 @@ struct LightingBench::Parts {
     void load_lights(double time);
     void set_layout(const GBufferNeeds& needs);
     void draw(std::vector<StageTime>* least);
-    LightLists light(Stages& stages, Radiance& radiance);
+    Radiance light(Stages& stages);
     LightingRun run(const LightingRequest& request);
 
     const Scene& scene;
@@ -137,34 +135,31 @@ void LightingBench::Parts::draw(std::vector<StageTime>* least) {
     keep_least(*least, "gbuffer_bridge", bridge.last_ms());
 }
 
-LightLists LightingBench::Parts::light(Stages& stages, Radiance& radiance) {
+Radiance LightingBench::Parts::light(Stages& stages) {
     const GridRequest request = grid_request(settings.grid, camera, box,
                                              position_pad(geometry->needs().layout, box, camera));
     const ClusterGrid grid = make_cluster_grid(request, gbuffer.view.width, gbuffer.view.height);
-    LightLists lists = stages.lists.enqueue(lights, gbuffer, grid, timer);
-    radiance =
-        stages.shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
-    stages.tonemap.enqueue(radiance, settings.exposure, timer);
-    return lists;
+    return stages.lighting.light({gbuffer, lights, grid}, timer, [&](const Radiance& radiance) {
+        stages.tonemap.enqueue(radiance, settings.exposure, timer);
+    });
 }
 
 LightingRun LightingBench::Parts::run(const LightingRequest& request) {
     context.make_current();
     set_layout(request.plan.gbuffer);
-    const Gpu lanes_gpu(gpu.context, gpu.queue, request.tuning.lanes);
+    const Gpu lanes_gpu = gpu.with_lanes(request.tuning.lanes);
     Stages stages(lanes_gpu, request, settings);
     LightingRun out;
     out.stats = light_stats;
-    Radiance radiance;
-    LightLists lists = light(stages, radiance);
-    // The lists' room grows to what this frame needs.
-    while (!stages.lists.fit()) lists = light(stages, radiance);
+    Radiance radiance = light(stages);
     timer.take();
-    stages.lists.count(lists, out.stats);
+    static_cast<PairCounts&>(out.stats) = stages.lighting.light_lists().counts();
+    const ClusterGrid& grid = stages.lighting.lists().grid;
+    std::ranges::copy(std::array{grid.tiles_x, grid.tiles_y, grid.slices}, out.stats.grid);
     out.stats.useful_evaluations_per_pixel = -1.0;
     for (int i = 0; i < std::max(request.runs, 1); ++i) {
         if (request.geometry) draw(&out.stats.stages);
-        light(stages, radiance);
+        radiance = light(stages);
         for (const StageTimer::Time& stage : timer.take())
             keep_least(out.stats.stages, stage.stage, stage.ms);
     }

@@ -76,7 +76,7 @@ BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera
       time_(time),
       gl_(gl),
       watch_(choose_device(base_.device)) {
-    base_.aovs.clear();
+    base_.want.aovs.clear();
 }
 
 std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFrames& frames) {
@@ -98,7 +98,7 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
         if (is_forward(point.renderer)) {
             // Counted by a pass that the frames in the sweep do not pay for.
             RenderSettings counted = settings;
-            counted.count_useful = true;
+            counted.want.counts = true;
             renderer.change(counted);
             measured.back().evaluations_per_pixel =
                 renderer.render(camera_, time_).stats.evaluations_per_pixel;
@@ -160,7 +160,7 @@ const BenchRun::Coverage& BenchRun::coverage(const SweepPoint& point) {
     if (!is_new) return found->second;
     RenderSettings settings = settings_at(base_, point);
     settings.renderer = RendererKind::deferred;
-    settings.count_useful = true;
+    settings.want.counts = true;
     const FrameStats stats = Renderer(scene_, settings, gl_).render(camera_, time_).stats;
     on_frame_();
     found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels};

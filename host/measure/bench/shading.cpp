@@ -23,7 +23,9 @@ constexpr const char* kModelNames[] = {"lambert", "blinn-phong", "pbr"};
 constexpr float kNearest = 2.0f, kFarthest = 20.0f;  // of the pixels [m]
 constexpr float kRange = 100.0f;                     // of the lights [m]
 
-std::set<int> lane_widths(const DeviceInfo& device) { return {1, 2, 4, 8, 16, device.lane_width}; }
+std::set<int> lane_widths(const DeviceInfo& device) {
+    return {1, 2, 4, 8, 16, device.vector_width};
+}
 
 // Numbers in [0, 1), the same on every machine.
 class Noise {
@@ -81,7 +83,7 @@ PreparedLights make_lights(const Gpu& gpu) {
 struct Variant {
     ShadingMeasurement measurement;
     KernelFeatures features;
-    Shade shade;
+    ShadeAll shade;
     std::vector<double> times_ms;
 };
 
@@ -96,8 +98,8 @@ std::vector<Variant> make_variants(const Gpu& gpu, const RenderSettings& setting
             ShadingMeasurement measurement;
             measurement.model = kModelNames[model];
             measurement.lanes = lanes;
-            const Gpu lanes_gpu(gpu.context, gpu.queue, lanes);
-            variants.push_back({measurement, features, Shade(lanes_gpu, tuning, features), {}});
+            const Gpu lanes_gpu = gpu.with_lanes(lanes);
+            variants.push_back({measurement, features, ShadeAll(lanes_gpu, tuning, features), {}});
             variants.back().shade.set_ambient(settings.ambient);
         }
     }
@@ -145,12 +147,12 @@ std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, 
             make_gbuffer(gpu, view_of(Camera{}, settings.width, settings.height));
         const PreparedLights lights = make_lights(gpu);
         std::vector<Variant> variants = make_variants(gpu, settings);
-        LimitKernels limit_kernels(Gpu(gpu.context, gpu.queue, describe(gpu.device).lane_width));
+        LimitKernels limit_kernels(gpu.with_lanes(gpu.info.vector_width));
         for (int run = -1; run < runs; ++run) {
             raise_arithmetic_limits(limits, limit_kernels);
             for (Variant& variant : variants) {
                 StageTimer timer;
-                variant.shade.enqueue_all_lights(gbuffer, lights, timer);
+                variant.shade.enqueue(gbuffer, lights, timer);
                 const double ms = timer.take().front().ms;
                 if (run >= 0) variant.times_ms.push_back(ms);  // the first one warms up
                 on_run();

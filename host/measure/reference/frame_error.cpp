@@ -68,8 +68,7 @@ std::vector<double> relative_errors(const RgbImage& picture, const ReferencePict
 FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, const Camera& camera,
                                double time, const OnProgress& progress) {
     make_small(settings, renderer.light_count(settings));
-    settings.show = "lit";
-    settings.aovs.clear();
+    settings.want = radiance_only();
     settings.samples = 1;
     renderer.change(settings);
     const Frame frame = renderer.render(camera, time);

@@ -230,7 +230,7 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
     RenderSettings settings = row.setting.settings;
     if (timing.scaled) settings = at_error_size(settings);
     RenderSettings counted = settings;
-    counted.count_useful = true;
+    counted.want.counts = true;
     counted.renderer = RendererKind::deferred;
     const auto [found, is_new] = coverages_.try_emplace(coverage_key(counted));
     if (is_new) {

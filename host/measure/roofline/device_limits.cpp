@@ -96,14 +96,14 @@ void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
 DeviceLimits measure_device_limits(const Gpu& gpu) {
     return in_stage("measure_limits", [&] {
         const DeviceInfo info = describe(gpu.device);
-        const Gpu natural(gpu.context, gpu.queue, info.lane_width);
-        const Gpu one_lane(gpu.context, gpu.queue, 1);
+        const Gpu natural = gpu.with_lanes(info.vector_width);
+        const Gpu one_lane = gpu.with_lanes(1);
         LimitKernels kernels(natural);
         DeviceLimits limits;
-        limits.lanes = info.lane_width;
+        limits.lanes = info.vector_width;
         settle_arithmetic_limits(limits, kernels);
         limits.one_lane_fma_flops =
-            info.lane_width == 1
+            info.vector_width == 1
                 ? limits.fma_flops
                 : 2.0 * LimitKernels(one_lane).lane_operations_per_s("fma_rate", kFmaChains);
         limits.cache_bytes = static_cast<double>(std::max(info.cache_bytes, kSmallestCache));
@@ -133,7 +133,7 @@ DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again) {
     const DeviceInfo info = describe(gpu.device);
     if (!measure_again) {
         if (const auto values = read_device_cache(info, kKind)) {
-            if (const auto limits = limits_of(*values, info.lane_width)) return *limits;
+            if (const auto limits = limits_of(*values, info.vector_width)) return *limits;
         }
     }
     const DeviceLimits limits = measure_device_limits(gpu);

@@ -4,7 +4,9 @@
 namespace kilolux {
 
 LimitWatch::LimitWatch(const cl::Device& device)
-    : gpu_(device), kernels_(gpu_), limits_(cached_device_limits(gpu_)) {
+    : gpu_(device, describe(device).vector_width),
+      kernels_(gpu_),
+      limits_(cached_device_limits(gpu_)) {
     const DeviceLimits before = limits_;
     settle_arithmetic_limits(limits_, kernels_);
     if (limits_ != before) keep_device_limits(gpu_.info, limits_);

@@ -45,7 +45,7 @@ void add_picture(OptionList& list, const RenderSettings& s, const RenderSettings
     list.add("--shading", name_of(s.shading), name_of(d.shading));
     list.add("--ambient", float_text(s.ambient), float_text(d.ambient));
     list.add("--samples", std::to_string(s.samples), std::to_string(d.samples));
-    list.add("--show", s.show, d.show);
+    list.add("--show", name_of(s.want.view), name_of(d.want.view));
     list.add("--bloom", float_text(s.bloom), float_text(d.bloom));
     list.add("--exposure", float_text(s.exposure), float_text(d.exposure));
     list.add("--tonemap", name_of(s.tone_curve), name_of(d.tone_curve));

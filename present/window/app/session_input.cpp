@@ -22,10 +22,9 @@ CameraMode other(CameraMode mode) {
 }
 
 void step_view(ViewState& state, int step) {
-    const std::vector<std::string>& names = view_names();
-    const auto now = std::find(names.begin(), names.end(), state.settings.show) - names.begin();
-    const auto count = static_cast<std::ptrdiff_t>(names.size());
-    state.settings.show = names[static_cast<std::size_t>((now + step + count) % count)];
+    const int count = static_cast<int>(view_names().size());
+    const int now = static_cast<int>(state.settings.want.view);
+    state.settings.want.view = static_cast<ViewKind>((now + step + count) % count);
 }
 
 // What a key does, with Shift, Ctrl, both or none held as `modifiers` says.
@@ -51,7 +50,7 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_C, kControl, [](ViewState&, Actions& a) { a.copy_camera = true; }},
     {GLFW_KEY_V, 0, [](ViewState& s, Actions&) { step_view(s, 1); }},
     {GLFW_KEY_V, kShift, [](ViewState& s, Actions&) { step_view(s, -1); }},
-    {GLFW_KEY_L, 0, [](ViewState& s, Actions&) { s.settings.show = "lit"; }},
+    {GLFW_KEY_L, 0, [](ViewState& s, Actions&) { s.settings.want.view = ViewKind::lit; }},
     {GLFW_KEY_SPACE, 0, [](ViewState& s, Actions&) { s.lights_move = !s.lights_move; }},
     {GLFW_KEY_X, 0, [](ViewState& s, Actions&) { s.probe = !s.probe; }},
     {GLFW_KEY_G, 0, [](ViewState& s, Actions&) { s.frozen = !s.frozen; }},

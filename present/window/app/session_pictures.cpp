@@ -74,7 +74,7 @@ PictureRequest ViewSession::wanted() const {
     const Area area = picture_area();
     out.settings.width = std::max(static_cast<int>(scale * area.width), kSmallestEdge);
     out.settings.height = std::max(static_cast<int>(scale * area.height), kSmallestEdge);
-    if (state_.frozen) out.settings.aovs = {"depth"};
+    if (state_.frozen) out.settings.want.aovs = {"depth"};
     out.camera = rig_.camera();
     out.time = time_;
     return out;

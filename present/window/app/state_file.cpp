@@ -31,9 +31,6 @@ struct Writer {
         json[name] = value;
     }
     void flag(const char* name, bool& value) { json[name] = value; }
-    void word(const char* name, const char*, std::string& value, const Names&) {
-        json[name] = value;
-    }
     template <typename Enum>
     void choice(const char* name, const char*, Enum& value, const Names& known) {
         json[name] = known.at(static_cast<std::size_t>(value));
@@ -60,9 +57,6 @@ struct Reader {
         if (!json[name].is_boolean()) throw Error(std::string(name) + " is not true or false");
         value = json[name].get<bool>();
     }
-    void word(const char* name, const char* option, std::string& value, const Names& known) {
-        if (const auto at = place(name, known); at && !is_given(option)) value = known[*at];
-    }
     template <typename Enum>
     void choice(const char* name, const char* option, Enum& value, const Names& known) {
         const auto at = place(name, known);
@@ -82,7 +76,7 @@ void visit_picture(Visitor& v, RenderSettings& s) {
     v.choice("renderer", "--renderer", s.renderer, renderer_names());
     v.choice("shading", "--shading", s.shading, shading_names());
     v.choice("gbuffer", "--gbuffer", s.gbuffer, gbuffer_names());
-    v.word("show", "--show", s.show, view_names());
+    v.choice("show", "--show", s.want.view, view_names());
     v.number("exposure", "--exposure", s.exposure, kExposureRange);
     v.choice("tonemap", "--tonemap", s.tone_curve, tone_curve_names());
     v.number("bloom", "--bloom", s.bloom, kBloomRange);
@@ -96,7 +90,7 @@ void visit_picture(Visitor& v, RenderSettings& s) {
     v.number("tiles_y", "--grid", s.grid.tiles_y, kTilesRange);
     v.number("slices", "--grid", s.grid.slices_per_octave, kSlicesRange);
     v.number("fine_slices", "--grid", s.grid.fine_per_octave, kSlicesRange);
-    v.flag("count_useful", s.count_useful);
+    v.flag("count_useful", s.want.counts);
 }
 
 template <typename Visitor>

@@ -40,7 +40,7 @@ void Panel::picture() const {
     enum_choice(ui, "Shading", s.shading, shading_names());
     int layout = static_cast<int>(s.gbuffer);
     if (ui.choice("G-buffer", layout, gbuffer_names())) s.gbuffer = static_cast<uint>(layout);
-    ui.choice("Show", s.show, view_names());
+    enum_choice(ui, "Show", s.want.view, view_names());
     ui.slider("Exposure", s.exposure, {-8.0, 8.0, false, "%+.1f EV"});
     enum_choice(ui, "Tone map", s.tone_curve, tone_curve_names());
     ui.slider("Bloom", s.bloom, {0.0, 1.0, false, "%.2f"});

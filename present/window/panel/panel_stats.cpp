@@ -149,7 +149,7 @@ void Panel::speed() const {
         fact_line("Kernels", text);
     }
     count_lines(facts.stats);
-    ui.checkbox("Count k*", state.settings.count_useful);
+    ui.checkbox("Count k*", state.settings.want.counts);
     ui.tip("Counts the evaluated lights whose range covers the pixel: one more pass");
     fact_line("Memory", byte_text(facts.device_bytes) + " OpenCL, " +
                             byte_text(facts.process_bytes) + " process");

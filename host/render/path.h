@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
+#include "host/lighting/deferred_lighting.h"
 #include "host/picture/bands.h"
 #include "host/picture/frame.h"
 #include "host/render/light_rows.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
-#include "host/scene/camera.h"
 #include "raster/gpu_scene.h"
 
 namespace kilolux {
 
-/// What every path of a renderer is made for; outlives them.
-struct RenderContext {
+/// What the way from surfaces to radiance is made for; outlives it.
+struct PathContext {
     const RenderSettings& settings;
     const ScenePlan& plan;
     const Gpu& gpu;
@@ -26,12 +24,18 @@ struct RenderContext {
 };
 
 /// One sample of a band of a frame to light: the lights on the host and, uploaded, on the device.
-struct SampleInput {
+struct Sample {
     const Camera& camera;  // of the whole picture
     const LightRows& rows;
     LightInput lights;
     Band band;
     bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
+};
+
+/// What a path adds to while it lights a sample.
+struct Measured {
+    StageTimer& timer;  // the device's stages
+    FrameStats& stats;  // counts, and the host's stages
 };
 
 }  // namespace kilolux

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Making a renderer, and changing its settings.
+#include "host/render/pipeline.h"
+
 #include <utility>
 
 #include "host/render/kernel_choice.h"
-#include "host/render/renderer_parts.h"
+#include "host/render/renderer.h"
 
 namespace kilolux {
 namespace {
@@ -11,8 +12,7 @@ namespace {
 // The same picture with every light at every pixel.
 RenderSettings reference_of(RenderSettings settings) {
     settings.renderer = RendererKind::deferred_all;
-    settings.show = "lit";
-    settings.aovs.clear();
+    settings.want = radiance_only();
     return settings;
 }
 
@@ -35,42 +35,49 @@ const Scene& checked(const Scene& scene, const RenderSettings& settings) {
 
 }  // namespace
 
-Renderer::Parts::Parts(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings)
+Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings)
     : scene(std::move(the_scene)),
       settings(the_settings),
       plan(plan_of(scene->scene(), settings)),
       gpu(open_device(settings)),
       memory(limit_buffers(gpu, plan_memory(scene->scene(), settings, plan, gpu.info))),
-      tuning(choose_tuning(describe(gpu.device), settings.kernels).tuning),
-      lights(gpu, scene->scene(), settings),
-      context{settings, plan, gpu, tuning, scene->meshes(), scene->box()},
-      sum(gpu),
-      tonemap(gpu, tuning, static_cast<int>(settings.tone_curve)) {
+      tuning_(choose_tuning(describe(gpu.device), settings.kernels).tuning),
+      lights_(gpu, scene->scene(), settings),
+      context_{settings, plan, gpu, tuning_, scene->meshes(), scene->box()},
+      sum_(gpu, tuning_),
+      tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
+      whole_light_(gpu, "bloom"),
+      reader_(gpu) {
     make_optional_parts();
 }
 
-Renderer::Parts::~Parts() { scene->make_current_or_lost(); }
+Pipeline::~Pipeline() { scene->make_current_or_lost(); }
 
 // What some settings need and others do not.
-void Renderer::Parts::make_optional_parts() {
+void Pipeline::make_optional_parts() {
     const RendererKind kind = settings.renderer;
-    if (is_forward(kind)) {
-        if (!forward.contains(kind)) forward.try_emplace(kind, context);
-    } else if (!deferred.contains(kind)) {
-        deferred.try_emplace(kind, context);
+    if (!paths_.contains(kind)) {
+        if (is_forward(kind)) {
+            paths_.try_emplace(kind, std::in_place_type<ForwardPath>, context_);
+        } else if (kind == RendererKind::deferred) {
+            paths_.try_emplace(kind, std::in_place_type<DeferredPath>, context_);
+        } else {
+            paths_.try_emplace(kind, std::in_place_type<DeferredAllPath>, context_);
+        }
     }
-    if (settings.bloom > 0.0f && !bloom) bloom.emplace(gpu);
-    if (settings.show == "overdraw" && !overdraw) overdraw.emplace(scene->meshes());
-    if (settings.show == "difference") change(reference, scene, reference_of(settings));
+    const ViewKind view = settings.want.view;
+    if (settings.bloom > 0.0f && !bloom_) bloom_.emplace(gpu);
+    if (view == ViewKind::overdraw && !overdraw_) overdraw_.emplace(scene->meshes());
+    if (view == ViewKind::difference) change(reference_, scene, reference_of(settings));
 }
 
 // Whether other settings need neither other kernels nor another device.
-bool Renderer::Parts::is_built_for(const RenderSettings& other) const {
+bool Pipeline::is_built_for(const RenderSettings& other) const {
     return other.device == settings.device && other.kernels == settings.kernels &&
            other.range_budget == settings.range_budget && plan_of(scene->scene(), other) == plan;
 }
 
-void Renderer::Parts::take(const RenderSettings& next) {
+void Pipeline::take(const RenderSettings& next) {
     const RenderSettings former = std::exchange(settings, next);
     const MemoryPlan former_memory = memory;
     try {
@@ -78,7 +85,7 @@ void Renderer::Parts::take(const RenderSettings& next) {
         gpu.budget->limit = memory.device_bytes;
         make_optional_parts();
         if (next.tone_curve != former.tone_curve) {
-            tonemap = Tonemap(gpu, tuning, static_cast<int>(next.tone_curve));
+            tonemap_ = Tonemap(gpu, tuning_, static_cast<int>(next.tone_curve));
         }
     } catch (...) {
         settings = former;
@@ -86,22 +93,21 @@ void Renderer::Parts::take(const RenderSettings& next) {
         gpu.budget->limit = memory.device_bytes;
         throw;
     }
-    lights.set_generated(next.lights);
+    lights_.set_generated(next.lights);
 }
 
-void Renderer::Parts::change(std::unique_ptr<Parts>& parts,
-                             const std::shared_ptr<RenderScene>& scene,
-                             const RenderSettings& settings) {
-    if (parts && parts->is_built_for(settings)) {
-        parts->take(settings);
+void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,
+                      const std::shared_ptr<RenderScene>& scene, const RenderSettings& settings) {
+    if (pipeline && pipeline->is_built_for(settings)) {
+        pipeline->take(settings);
     } else {
-        parts = std::make_unique<Parts>(scene, settings);
+        pipeline = std::make_unique<Pipeline>(scene, settings);
     }
 }
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
-    : parts_(in_stage("renderer", [&] {
-          return std::make_unique<Parts>(
+    : pipeline_(in_stage("renderer", [&] {
+          return std::make_unique<Pipeline>(
               std::make_shared<RenderScene>(checked(scene, settings), gl == GlSource::headless),
               settings);
       })) {}
@@ -110,9 +116,9 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::change(const RenderSettings& settings) {
-    if (settings == parts_->settings) return;
-    parts_->scene->make_current();
-    in_stage("settings", [&] { Parts::change(parts_, parts_->scene, settings); });
+    if (settings == pipeline_->settings) return;
+    pipeline_->scene->make_current();
+    in_stage("settings", [&] { Pipeline::change(pipeline_, pipeline_->scene, settings); });
 }
 
 }  // namespace kilolux

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // bin_pixels by a work-group a tile: all slices and strips at once, in local memory. For GPUs.
-#ifndef KILOLUX_DEVICE_BIN_BY_GROUP_H
-#define KILOLUX_DEVICE_BIN_BY_GROUP_H
+#include "kernels/device/bin_pixels.h"
+
+#ifndef GROUP
+#define GROUP 64
+#endif
 
 // Strips that one work-item takes: number round * GROUP + its own.
 #define ROUNDS ((FINE_TILE * STRIPS + GROUP - 1) / GROUP)
@@ -35,7 +38,7 @@ static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint ti
             slices[round] = slices_of_pixels(g, grid, pixels, &z);
         }
         uint slice[VW];
-        store_lanes(slices[round], slice);
+        lane_store(slices[round], slice);
         for (uint lane = 0; lane < VW; ++lane) {
             if (slice[lane] == last) continue;
             last = slice[lane];
@@ -64,7 +67,7 @@ kernel void bin_pixels_count(
     // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
     global uchar* restrict occupied) {  // [cluster_count]
     local uint seen[SLICE_WORDS];
-    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    uint tiles_x = fine_tiles_x(view);
     uint tile = get_group_id(0);
     GBuffer g = {gbuffer, layout, view, 0};
     UV slices[ROUNDS];
@@ -102,8 +105,8 @@ static inline void clear_clusters(local TileClusters* tile, uint count) {
     }
 }
 
-// A work-item's pixels that follow each other in one cluster: they join it together, as few
-// work-items as can be meet there.
+// A run of one work-item's pixels in the same cluster. Its box is merged locally first, so few
+// atomics contend.
 typedef struct Run {
     uint cluster;  // NO_CLUSTER: none yet
     float low[3], high[3];
@@ -138,10 +141,10 @@ static inline Run add_strip(Run run, GBuffer g, Pixels at, UV slices, uint pixel
     FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
     uint slice[VW];
     float x[VW], y[VW], z[VW];
-    store_lanes(slices, slice);
-    store_lanes(p.x, x);
-    store_lanes(p.y, y);
-    store_lanes(p.z, z);
+    lane_store(slices, slice);
+    lane_store(p.x, x);
+    lane_store(p.y, y);
+    lane_store(p.z, z);
     for (uint lane = 0; lane < VW; ++lane) {
         bool in_one = slice[lane] != NO_SLICE;
         uint cluster = in_one ? cluster_of(seen, slice[lane]) : count;
@@ -195,7 +198,7 @@ static inline ActiveCluster finished_cluster(local const TileClusters* tile, uin
 static inline void place_strip(UV slices, uint pixel, local const uint* seen, uint count,
                                local const TileClusters* tile, global uchar* order) {
     uint slice[VW];
-    store_lanes(slices, slice);
+    lane_store(slices, slice);
     for (uint lane = 0; lane < VW; ++lane) {
         uint cluster = slice[lane] != NO_SLICE ? cluster_of(seen, slice[lane]) : count;
         uint place = tile->first[cluster];
@@ -214,7 +217,7 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
                             global uchar* restrict order) {  // out [tiles][FINE_TILE_PIXELS]
     local uint seen[SLICE_WORDS];
     local TileClusters made;
-    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    uint tiles_x = fine_tiles_x(view);
     uint tile = get_group_id(0);
     uint tile_x = tile % tiles_x;
     uint tile_y = tile / tiles_x;
@@ -247,4 +250,3 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
                         order + tile * FINE_TILE_PIXELS);
     }
 }
-#endif

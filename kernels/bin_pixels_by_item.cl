@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bin_pixels by one work-item a tile: slice after slice, all its strips. For CPUs.
-#ifndef KILOLUX_DEVICE_BIN_BY_ITEM_H
-#define KILOLUX_DEVICE_BIN_BY_ITEM_H
+#include "kernels/device/bin_pixels.h"
 
 // Slices of a tile's pixels.
 typedef struct TileSlices {
@@ -24,8 +23,8 @@ static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint ti
         // NO_SLICE + 1 wraps to 0.
         last = max(last, slice + 1u);
     }
-    out->first = min_lane_uint(first);
-    out->last = ~min_lane_uint(~last) - 1u;
+    out->first = lane_min_uint(first);
+    out->last = ~lane_min_uint(~last) - 1u;
 }
 
 // The smallest slice of the tile above `slice`, or NO_SLICE.
@@ -34,9 +33,9 @@ static inline uint next_slice(const TileSlices* tile, uint slice) {
     UV next = (UV)(NO_SLICE);
     for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
         MASK above = tile->slice[i] > (UV)(slice);
-        next = min(next, select((UV)(NO_SLICE), tile->slice[i], full_mask(above)));
+        next = min(next, select((UV)(NO_SLICE), tile->slice[i], lane_mask(above)));
     }
-    return min_lane_uint(next);
+    return lane_min_uint(next);
 }
 
 kernel void bin_pixels_count(
@@ -44,7 +43,7 @@ kernel void bin_pixels_count(
     global uint* restrict counts,  // out [tiles]: active clusters
     // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
     global uchar* restrict occupied) {  // [cluster_count]
-    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    uint tiles_x = fine_tiles_x(view);
     uint tile = get_global_id(0);
     GBuffer g = {gbuffer, layout, view, 0};
     TileSlices slices;
@@ -65,25 +64,25 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
     FV3 hi = fv3(fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED), fv(-Z_UNBOUNDED));
     UV pixels = (UV)(0u);
     for (uint i = 0; i < FINE_TILE * STRIPS; ++i) {
-        MASK mask = full_mask(tile->slice[i] == (UV)(slice));
-        if (!any_lane(mask)) continue;
+        MASK mask = lane_mask(tile->slice[i] == (UV)(slice));
+        if (!lane_any(mask)) continue;
         Pixels at = strip_pixels(g.view, tile_x, tile_y, i);
         FV3 p = load_position(g, at, tile->z[i]);
-        lo = fv3(min(lo.x, select_fv(mask, p.x, lo.x)), min(lo.y, select_fv(mask, p.y, lo.y)),
-                 min(lo.z, select_fv(mask, p.z, lo.z)));
-        hi = fv3(max(hi.x, select_fv(mask, p.x, hi.x)), max(hi.y, select_fv(mask, p.y, hi.y)),
-                 max(hi.z, select_fv(mask, p.z, hi.z)));
-        pixels -= KX_CONCAT(as_, UV)(mask);
+        lo = fv3(min(lo.x, lane_select(mask, p.x, lo.x)), min(lo.y, lane_select(mask, p.y, lo.y)),
+                 min(lo.z, lane_select(mask, p.z, lo.z)));
+        hi = fv3(max(hi.x, lane_select(mask, p.x, hi.x)), max(hi.y, lane_select(mask, p.y, hi.y)),
+                 max(hi.z, lane_select(mask, p.z, hi.z)));
+        pixels -= lane_bits(mask);
     }
     ActiveCluster c;
-    c.min_x = min_lane(lo.x);
-    c.min_y = min_lane(lo.y);
-    c.min_z = min_lane(lo.z);
-    c.max_x = max_lane(hi.x);
-    c.max_y = max_lane(hi.y);
-    c.max_z = max_lane(hi.z);
+    c.min_x = lane_min(lo.x);
+    c.min_y = lane_min(lo.y);
+    c.min_z = lane_min(lo.z);
+    c.max_x = lane_max(hi.x);
+    c.max_y = lane_max(hi.y);
+    c.max_z = lane_max(hi.z);
     c.slice = slice;
-    c.pixel_count = sum_lanes(pixels);
+    c.pixel_count = lane_sum(pixels);
     c.list_begin = 0;
     c.list_count = 0;
     c.unused0 = 0;
@@ -97,10 +96,10 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
 static inline uint append_pixels(const TileSlices* tile, uint slice, uint strips, uchar* order,
                                  uint count) {
     for (uint i = 0; i < strips; ++i) {
-        MASK mine = full_mask(tile->slice[i] == (UV)(slice));
-        if (!any_lane(mine)) continue;
+        MASK mine = lane_mask(tile->slice[i] == (UV)(slice));
+        if (!lane_any(mine)) continue;
         uint flag[VW];
-        store_lanes(KX_CONCAT(as_, UV)(mine) & 1u, flag);
+        lane_store(lane_bits(mine) & 1u, flag);
 #pragma unroll
         for (uint lane = 0; lane < VW; ++lane) {
             order[count] = (uchar)(i * VW + lane);
@@ -116,7 +115,7 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
                             global ActiveCluster* restrict clusters,  // out [capacity]
                             uint capacity,
                             global uchar* restrict order) {  // out [tiles][FINE_TILE_PIXELS]
-    uint tiles_x = (view.width + FINE_TILE - 1) / FINE_TILE;
+    uint tiles_x = fine_tiles_x(view);
     uint tile = get_global_id(0);
     uint tile_y = tile / tiles_x;
     uint place = offsets[tile];
@@ -136,4 +135,3 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
     ordered = append_pixels(&slices, NO_SLICE, strips, tile_order, ordered);
     for (uint i = 0; i < ordered; ++i) order[tile * FINE_TILE_PIXELS + i] = tile_order[i];
 }
-#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/base/scene_features.h"
+
+namespace kilolux {
+namespace {
+
+using F = SceneFeatures;
+
+constexpr SceneFeature kTable[] = {
+    {"point-lights", &F::point_lights},
+    {"spot-lights", &F::spot_lights, "HAS_SPOT_LIGHTS", true},
+    {"directional-lights", &F::directional_lights, "HAS_DIRECTIONAL_LIGHTS", true},
+    {"metallic", &F::metallic, "HAS_METALLIC", true},
+    {"emissive", &F::emissive, nullptr, true},
+    {"", &F::material, "HAS_MATERIAL"},
+    {"occlusion", &F::occlusion, "HAS_OCCLUSION", true},
+    {"specular", &F::specular, "HAS_SPECULAR", true},
+    {"unlit", &F::unlit_materials, nullptr, true},
+    {"", &F::unlit, "HAS_UNLIT"},
+    {"normal-maps", &F::normal_maps},
+    {"alpha-mask", &F::alpha_mask},
+    {"alpha-blend", &F::alpha_blend},
+    {"wide-light-index", &F::wide_light_index, nullptr, true},
+};
+
+}  // namespace
+
+std::span<const SceneFeature> scene_feature_table() { return kTable; }
+
+std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatures& features) {
+    std::vector<std::pair<std::string, std::string>> macros;
+    for (const SceneFeature& feature : kTable) {
+        if (feature.macro) macros.emplace_back(feature.macro, features.*feature.member ? "1" : "0");
+    }
+    return macros;
+}
+
+}  // namespace kilolux

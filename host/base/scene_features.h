@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace kilolux {
+
+/// What a scene has that not every scene has. Kernels, shaders and G-buffer leave out the rest.
+struct SceneFeatures {
+    bool point_lights = false;
+    bool spot_lights = false;
+    bool directional_lights = false;
+    bool metallic = false;         // any metal: tinted specular reflection
+    bool emissive = false;         // surfaces that emit light
+    bool material = false;         // metallic or emissive: the G-buffer has a plane for them
+    bool occlusion = false;        // an occlusion texture, and ambient light that it darkens
+    bool specular = false;         // dielectrics that reflect otherwise than 4 %
+    bool unlit = false;            // unlit surfaces among glossy ones: a roughness of 0 marks them
+    bool unlit_materials = false;  // unlit surfaces at all
+    bool normal_maps = false;
+    bool alpha_mask = false;
+    bool alpha_blend = false;
+    bool wide_light_index = false;  // more than 65536 lights
+    bool operator==(const SceneFeatures&) const = default;
+};
+
+/// One row of the table of features.
+struct SceneFeature {
+    std::string_view name;  // in the scene plan; empty: not listed
+    bool SceneFeatures::*member;
+    const char* macro = nullptr;  // 0 or 1 in OpenCL C and GLSL; null: no kernel asks
+    bool forceable = false;       // may be compiled in although the scene lacks it
+};
+
+std::span<const SceneFeature> scene_feature_table();
+
+/// The table's macros with their values, for both languages.
+std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatures& features);
+
+}  // namespace kilolux

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "host/lighting/light_lists.h"
+#include "host/stages/shade.h"
+
+namespace kilolux {
+
+/// What a frame is lit from.
+struct LightingInput {
+    GBuffer gbuffer;
+    LightInput lights;
+    ClusterGrid grid{};
+};
+
+/// Enqueues what reads a frame's radiance. It may run more than once a frame; only the last run's
+/// results count.
+using AfterShading = std::function<void(const Radiance&)>;
+
+/// Lights a G-buffer with the lights of each pixel's list: LightLists, then Shade.
+///
+///     DeferredLighting lighting(gpu, tuning, features);
+///     const Radiance radiance = lighting.light({gbuffer, lights, grid}, timer);
+class DeferredLighting {
+ public:
+    DeferredLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Radiance of every pixel; 0 for background. `then` runs before the frame is waited for.
+    /// Blocks. Valid until the next call. Throws Error as the stages do.
+    Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
+
+    /// Radiance that falls in from everywhere.
+    void set_ambient(float ambient) { shade_.set_ambient(ambient); }
+
+    LightLists& light_lists() { return light_lists_; }
+    const LightLists& light_lists() const { return light_lists_; }
+
+    /// Those of the last light().
+    const ListedLights& lists() const { return lists_; }
+
+ private:
+    LightLists light_lists_;
+    Shade shade_;
+    ListedLights lists_;
+};
+
+/// Lights a G-buffer with every light at every pixel: DeferredLighting's reference, bit for bit.
+class AllLightsLighting {
+ public:
+    AllLightsLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// As DeferredLighting::light().
+    Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
+
+    void set_ambient(float ambient) { shade_.set_ambient(ambient); }
+
+    /// Those of the last light(), view space.
+    const PreparedLights& lights() const { return lights_; }
+
+ private:
+    PrepareLights prepare_;
+    ShadeAll shade_;
+    PreparedLights lights_;
+};
+
+}  // namespace kilolux

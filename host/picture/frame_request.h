@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kilolux {
+
+/// What a picture shows (`--show`): the lit scene, or a view of what lights it.
+enum class ViewKind {
+    lit,
+    albedo,
+    normal,
+    depth,
+    position,
+    roughness,
+    lights,
+    clusters,
+    slices,
+    active,
+    overdraw,
+    difference,
+    false_positives
+};
+
+/// The words of the command line, in the enumeration's order.
+const std::vector<std::string>& view_names();
+const std::string& name_of(ViewKind view);
+
+/// Throws UsageError for an unknown name.
+ViewKind parse_view(std::string_view name);
+
+/// What a caller wants of a frame. Nothing else leaves the device.
+struct FrameRequest {
+    bool display = true;            // Frame::display
+    bool radiance = true;           // Frame::radiance
+    bool bloomed = false;           // Frame::bloomed, where there is bloom
+    bool counts = false;            // also k*, by one more pass
+    ViewKind view = ViewKind::lit;  // what Frame::display shows
+    std::vector<std::string> aovs;  // Frame::aovs, see aov_names()
+    bool operator==(const FrameRequest&) const = default;
+
+    /// Whether surfaces or counts of single pixels are read.
+    bool pixels() const { return !aovs.empty() || view != ViewKind::lit; }
+};
+
+/// Only the linear light.
+inline FrameRequest radiance_only() {
+    FrameRequest request;
+    request.display = false;
+    return request;
+}
+
+}  // namespace kilolux

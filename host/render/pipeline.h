@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <variant>
+
+#include "host/picture/frame_reader.h"
+#include "host/render/deferred_path.h"
+#include "host/render/forward_path.h"
+#include "host/render/light_source.h"
+#include "host/render/memory_plan.h"
+#include "host/render/render_scene.h"
+#include "host/stages/bloom.h"
+#include "host/stages/sum_samples.h"
+#include "host/stages/tonemap.h"
+#include "raster/overdraw_pass.h"
+
+namespace kilolux {
+
+/// The ways from surfaces to radiance; one for each RendererKind, the forward ones share a class.
+using Path = std::variant<DeferredPath, DeferredAllPath, ForwardPath>;
+
+/// Where a frame's display picture goes beside Frame::display: the caller's memory, see
+/// Renderer::render_to(); none where it is empty.
+using DisplayMemory = std::span<uint>;
+
+/// A renderer's stages, built for one device and scene plan.
+class Pipeline {
+ public:
+    /// Throws Error as Renderer does.
+    Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings);
+    ~Pipeline();
+    Pipeline(const Pipeline&) = delete;
+    Pipeline& operator=(const Pipeline&) = delete;
+
+    /// Makes `pipeline` one for `settings`: the same one where its kernels and device serve.
+    static void change(std::unique_ptr<Pipeline>& pipeline,
+                       const std::shared_ptr<RenderScene>& scene, const RenderSettings& settings);
+
+    Frame render(const Camera& camera, double time, const std::function<void()>& between,
+                 DisplayMemory memory);
+    PixelProbe probe(int x, int y);
+    Path& path() { return paths_.at(settings.renderer); }
+
+    bool is_whole() const { return make_bands(settings.height, memory.band_rows).size() == 1; }
+
+    /// Throws Error where the picture is made in bands: what is on the device is the last band's.
+    void require_whole(const char* what) const;
+
+    std::shared_ptr<RenderScene> scene;  // first: the last to go
+    RenderSettings settings;
+    ScenePlan plan;
+    Gpu gpu;
+    MemoryPlan memory;
+
+ private:
+    bool is_built_for(const RenderSettings& other) const;
+    void take(const RenderSettings& next);
+    void make_optional_parts();
+    bool blooms_at_end() const { return settings.bloom > 0.0f && !is_whole(); }
+
+    LightInput begin(const Camera& camera, double time, Frame& frame);
+    void render_band(const Sample& band, Frame& frame);
+    void light_samples(const Sample& band, Measured out, const AfterShading& then);
+    void develop(const Radiance& radiance, Frame& frame);
+    void bloom_whole(Frame& frame);
+    void add_pixels(const Sample& band, Frame& frame);
+    void show_view(double time, Frame& frame);
+    void read_display(const Radiance& glowing, Frame& frame);
+
+    Tuning tuning_;
+    LightSource lights_;
+    PathContext context_;
+    std::map<RendererKind, Path> paths_;   // made when first asked for
+    std::unique_ptr<Pipeline> reference_;  // for the view of differences from it
+    std::optional<OverdrawPass> overdraw_;
+    SumSamples sum_;
+    std::optional<Bloom> bloom_;  // none at a share of 0
+    Tonemap tonemap_;
+    GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
+    FrameReader reader_;
+    StageTimer timer_;
+    DisplayMemory display_memory_;  // of the render() that runs
+    // Of the last render().
+    LightRows rows_;
+    Camera camera_;
+    DecodedSurfaces surfaces_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+
+namespace kilolux {
+
+/// What the list stages counted last: one element each, on the device.
+struct ListTotals {
+    DeviceArray<std::uint64_t> coarse_pairs;     // CullLights::total()
+    DeviceArray<std::uint64_t> active_clusters;  // BinPixels::total()
+    DeviceArray<std::uint64_t> refine_tests;     // RefineLights::total()
+};
+
+/// Gathers the totals of a frame's lists and the sums over its active clusters in one place, so
+/// that one read of 48 bytes tells whether the lists fit and what they hold:
+///
+///     const PairCounts counts = count_pairs.read();  // the frame's only wait
+///     const bool coarse = cull.fits(counts.coarse_pairs), active =
+///     bin.fits(counts.active_clusters); const bool complete = coarse && active &&
+///     refine.fits(counts.refine_tests);
+class CountPairs {
+ public:
+    CountPairs(const Gpu& gpu, const Tuning& tuning);
+
+    /// Enqueues only. Without `sums` only the totals are gathered, and PairCounts' sums are 0. The
+    /// sums mean nothing unless all lists fit. Returns one element.
+    DeviceArray<PairCounts> enqueue(const ListTotals& totals, const ActiveClusters& clusters,
+                                    bool sums, StageTimer& timer);
+
+    /// The counts of the last enqueue. Blocks.
+    PairCounts read() const { return download(gpu_, counts_.get()).front(); }
+
+ private:
+    Gpu gpu_;
+    int group_;
+    cl::Program program_;
+    Kernel sum_shares_, gather_;
+    GrowingArray<std::uint64_t> shares_;
+    GrowingArray<PairCounts> counts_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+
+namespace kilolux {
+
+/// Mean of pictures, summed with more bits than float64 has and rounded once.
+class SumSamples {
+ public:
+    SumSamples(const Gpu& gpu, const Tuning& tuning);
+
+    /// Forgets all pictures.
+    void clear() { count_ = 0; }
+
+    /// Adds a picture; all must have the same size. Enqueues only.
+    void add(const Radiance& radiance, StageTimer& timer);
+
+    /// The mean of at least one picture. Valid until the next call. Enqueues only.
+    Radiance mean(StageTimer& timer);
+
+ private:
+    WorkSize work_size() const;
+
+    uint lanes_;
+    int group_;
+    cl::Program program_;
+    Kernel add_, mean_kernel_;
+    View view_{};
+    uint count_ = 0;
+    GrowingArray<float> sums_, mean_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The VW pixels of a work-item. With ORDERED_PIXELS they may be any of a tile's, else they are
+// neighbours in a row.
+#ifndef KILOLUX_DEVICE_PIXELS_H
+#define KILOLUX_DEVICE_PIXELS_H
+#include "kernels/device/lanes.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/view.h"
+
+#ifndef ORDERED_PIXELS
+#define ORDERED_PIXELS 0
+#endif
+
+// Where VW pixels are.
+typedef struct Pixels {
+    FV x, y;     // centres in the picture [pixel]
+    uint first;  // lane 0's place in a plane
+#if ORDERED_PIXELS
+    bool in_row;     // lane i's place is first + i
+    uint place[VW];  // each lane's place in a plane
+#endif
+} Pixels;
+
+// PLACE(i, pixels): lane i's place in a plane. PLANE_AT: the plane's element there.
+#if ORDERED_PIXELS
+#define PLACE(i, pixels) (pixels).place[i]
+#define LOAD_PLANE(T, plane, pixels) \
+    ((pixels).in_row ? lane_load((plane) + (pixels).first) : LANES(T, PLANE_AT, plane, pixels))
+#else
+#define PLACE(i, pixels) ((pixels).first + (i))
+#define LOAD_PLANE(T, plane, pixels) lane_load((plane) + (pixels).first)
+#endif
+#define PLANE_AT(i, plane, pixels) (plane)[PLACE(i, pixels)]
+
+// VW neighbours of a row of the planes from (x, y) on.
+static inline Pixels row_pixels(View view, uint x, uint y) {
+    Pixels pixels;
+    pixels.x = lane_to_float(lane_numbers + x) + 0.5f;
+    pixels.y = fv((float)(y + view.first_row) + 0.5f);
+    pixels.first = y * view.stride + x;
+#if ORDERED_PIXELS
+    pixels.in_row = true;
+    for (uint i = 0; i < VW; ++i) pixels.place[i] = pixels.first + i;
+#endif
+    return pixels;
+}
+
+#if ORDERED_PIXELS
+// The VW pixels that `order` names, of the tile whose first pixel is (tile_x, tile_y): row *
+// FINE_TILE + column each.
+static inline Pixels ordered_pixels(View view, uint tile_x, uint tile_y,
+                                    global const uchar* order) {
+    Pixels pixels;
+    UV code = KX_CONCAT(convert_, UV)(lane_load(order));
+    UV x = code % FINE_TILE + tile_x;
+    UV y = code / FINE_TILE + tile_y;
+    pixels.x = lane_to_float(x) + 0.5f;
+    pixels.y = lane_to_float(y + view.first_row) + 0.5f;
+    UV place = y * view.stride + x;
+    lane_store(place, pixels.place);
+    pixels.first = pixels.place[0];
+    pixels.in_row = !lane_any(lane_mask(place != lane_numbers + pixels.first));
+    return pixels;
+}
+#endif
+
+static inline MASK within_width(View view, Pixels pixels) {
+    return lane_mask(pixels.x < fv((float)view.width));
+}
+#endif

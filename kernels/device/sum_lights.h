@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sum of evaluate() over a list of lights, or with ALL_LIGHTS over lights 0 .. count - 1, for
+// VW pixels. With STAGE > 0 a work-group reads that many lights at a time into local memory, which
+// GPUs read faster than global memory through its cache.
+#ifndef KILOLUX_DEVICE_SUM_LIGHTS_H
+#define KILOLUX_DEVICE_SUM_LIGHTS_H
+#include "kernels/device/light_index.h"
+#include "kernels/device/stored_light.h"
+#include "kernels/shared/evaluate.h"
+
+#ifndef ALL_LIGHTS
+#define ALL_LIGHTS 0
+#endif
+#ifndef STAGE
+#define STAGE 0
+#endif
+#ifndef HAS_DIRECTIONAL_LIGHTS
+#define HAS_DIRECTIONAL_LIGHTS 0
+#endif
+
+typedef struct LightSet {
+    global const StoredLight* lights;
+#if STAGE > 0
+    local ShadeLight* staged;    // [STAGE]
+    local uint* staged_indices;  // [STAGE]
+#endif
+} LightSet;
+
+static inline uint light_of_entry(global const LIGHT_INDEX* list, uint entry) {
+#if ALL_LIGHTS
+    return entry;
+#else
+    return list[entry];
+#endif
+}
+
+#if STAGE > 0
+static inline void stage_batch(LightSet set, global const LIGHT_INDEX* list, uint first, uint end) {
+    uint item = get_local_id(1) * get_local_size(0) + get_local_id(0);
+    uint items = get_local_size(0) * get_local_size(1);
+    for (uint i = item; first + i < end; i += items) {
+        uint light = light_of_entry(list, first + i);
+        set.staged_indices[i] = light;
+        set.staged[i] = LIGHT_AT(set.lights, light);
+    }
+}
+#endif
+
+// Adds the lights of list[0..count) to `total` where `wanted`. The whole work-group calls this with
+// the same list: it may stage the lights together.
+static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, LightSet set,
+                                  global const LIGHT_INDEX* list, uint count) {
+    RunningSum sum = start_sum(total);
+#if STAGE > 0
+    for (uint first = 0; first < count; first += STAGE) {
+        uint end = min(first + STAGE, count);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the batch before is used up
+        stage_batch(set, list, first, end);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the batch is complete
+        for (uint i = 0; wanted && i < end - first; ++i) {
+            sum = enter_block(sum, set.staged_indices[i]);
+            sum.block = evaluate(sum.block, p, set.staged[i]);
+        }
+    }
+#else
+    if (!wanted) return total;
+    for (uint i = 0; i < count; ++i) {
+        uint light = light_of_entry(list, i);
+        sum = enter_block(sum, light);
+        sum.block = evaluate(sum.block, p, LIGHT_AT(set.lights, light));
+    }
+#endif
+    return finish_sum(sum);
+}
+
+static inline LightSum sum_directional(ShadingPoint p, global const DirectionalLight* lights,
+                                       uint count) {
+    LightSum sum = zero_sum();
+#if HAS_DIRECTIONAL_LIGHTS
+    for (uint i = 0; i < count; ++i) sum = evaluate_directional(sum, p, lights[i]);
+#endif
+    return sum;
+}
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Radiance of every pixel from every light: the reference that lists must not change by a bit.
+// One work-item shades VW neighbouring pixels of a row. A work-group lies within one fine tile;
+// with STAGE > 0 it is a whole one.
+#define ALL_LIGHTS 1
+#include "kernels/device/gbuffer.h"
+#include "kernels/device/radiance.h"
+#include "kernels/device/sum_lights.h"
+
+kernel void shade_all(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+    global const float* restrict srgb,                           // [256]
+    global const DirectionalLight* restrict directional_lights,  // [directional_count], view space
+    uint directional_count,
+    global const StoredLight* restrict lights,  // [light_count], view space
+    uint light_count, float ambient,
+    global float* restrict radiance) {  // out [3][height][stride]
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    bool inside = y < view.height;
+    LightSet set;
+    set.lights = lights;
+#if STAGE > 0
+    local ShadeLight staged_lights[STAGE];
+    local uint staged_indices[STAGE];
+    set.staged = staged_lights;
+    set.staged_indices = staged_indices;
+#else
+    if (!inside) return;
+#endif
+    uint row = inside ? y : view.height - 1u;  // rows below the image only help to stage
+    GBuffer g = {gbuffer, layout, view, srgb};
+    prefetch_next_tile(g, radiance, x, row);
+    Pixels pixels = row_pixels(view, x, row);
+    FV depth01 = load_depth01(g, pixels);
+    MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
+    bool any_drawn = inside && lane_any(drawn);
+#if STAGE == 0
+    if (!any_drawn) {
+        store_radiance(radiance, view, pixels, zero3());
+        return;
+    }
+#endif
+    FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
+    Surface s = load_surface(g, pixels, z);
+    ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+    LightSum sum = sum_directional(p, directional_lights, directional_count);
+    sum = sum_lights(sum, any_drawn, p, set, 0, light_count);
+    FV3 color = finish_shading(s, sum, ambient);
+    if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera-relative lights in world axes -> view space.
+#ifndef KILOLUX_SHARED_LIGHT_TRANSFORM_H
+#define KILOLUX_SHARED_LIGHT_TRANSFORM_H
+#include "kernels/shared/light.h"
+#include "kernels/shared/view.h"
+
+// Largest 1/range^2 [1/m^2]: a range below 1e-19 m must not become infinity times 0.
+#define INV_RANGE2_MAX 1e38f
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+SHARED_FN float rotate_row(float4 row, float4 v) {
+    return fma(row.z, v.z, fma(row.y, v.y, row.x * v.x));
+}
+
+// xyz of `v` in view axes, and `w`.
+SHARED_FN float4 rotated(View view, float4 v, float w) {
+    return make_float4(rotate_row(view.view_from_world_x, v), rotate_row(view.view_from_world_y, v),
+                       rotate_row(view.view_from_world_z, v), w);
+}
+
+SHARED_FN ShadeLight shade_light(View view, Light light) {
+    float range = light.position_range.w;
+    ShadeLight local_light;
+    local_light.position_inv_range2 =
+        rotated(view, light.position_range, min(1.0f / (range * range), INV_RANGE2_MAX));
+    local_light.color_scale = light.color_scale;
+    local_light.axis_cos = rotated(view, light.axis_cos, light.axis_cos.w);
+    return local_light;
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

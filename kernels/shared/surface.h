@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// A point on a surface, and what of it is the same for all lights.
+//
+// Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
+// KHR_materials_specular), HAS_UNLIT, HAS_SPOT_LIGHTS. What the scene does not need is not compiled
+// in; compiling it in changes no bit.
+#ifndef KILOLUX_SHARED_SURFACE_H
+#define KILOLUX_SHARED_SURFACE_H
+#include "kernels/shared/evaluate_modes.h"
+#include "kernels/shared/types.h"
+
+#ifndef SHADING
+#define SHADING SHADING_LAMBERT
+#endif
+#ifndef HAS_SPOT_LIGHTS
+#define HAS_SPOT_LIGHTS 0
+#endif
+#ifndef HAS_METALLIC
+#define HAS_METALLIC 0
+#endif
+#ifndef HAS_SPECULAR
+#define HAS_SPECULAR 0
+#endif
+// Surfaces of roughness 0 are unlit; lit ones have at least 1/255, which is as narrow a lobe.
+#ifndef HAS_UNLIT
+#define HAS_UNLIT 0
+#endif
+#define F0_VARIES (HAS_METALLIC || HAS_SPECULAR)
+
+// Perceptual roughness below which a lobe is too narrow for float32 and 2x16 normals (Filament's
+// limit).
+#define ROUGHNESS_MIN 0.045f
+// Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
+#define DIELECTRIC_F0 0.04f
+// Cosine to the eye below which the surface is seen edge on (Filament, MIN_N_DOT_V).
+#define N_DOT_V_MIN 1e-4f
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+SHARED_FN FV3 zero3() { return fv3(fv(0.0f), fv(0.0f), fv(0.0f)); }
+
+// A point on a surface, in view space.
+SHARED_PLAIN_STRUCT(Surface) {
+    FV3 position;  // [m]
+    FV3 normal;    // unit
+    FV3 albedo;    // base colour, linear Rec. 709
+    FV3 emissive;  // radiance
+    FV roughness;  // perceptual
+    FV metallic;
+    FV occlusion;
+#if HAS_SPECULAR
+    FV3 specular;     // reflectance of the dielectric part head on
+    FV specular_f90;  // and at grazing angles
+#endif
+};
+
+// What of a surface is the same for all lights.
+SHARED_PLAIN_STRUCT(ShadingPoint) {
+    FV3 position;
+    FV3 normal;
+    FV3 to_eye;    // unit
+    FV n_dot_v;    // pbr
+    FV alpha2;     // pbr: roughness^4
+    FV ggx_slope;  // pbr: (1 - alpha2) / alpha
+    FV ggx_floor;  // pbr: alpha
+    FV smith_v;    // pbr: sqrt(n.v^2 (1 - alpha2) + alpha2)
+    FV exponent;   // blinn-phong: of cos^2
+#if F0_VARIES
+    FV3 f0;  // pbr: reflectance head on
+#endif
+#if HAS_SPECULAR
+    FV f90;            // pbr: reflectance at grazing angles
+    FV diffuse_rises;  // pbr: what diffuse light keeps at grazing angles, relative to head on
+#endif
+};
+
+SHARED_FN FV clamped_alpha(FV roughness) {
+    FV r = max(roughness, fv(ROUGHNESS_MIN));
+    return r * r;
+}
+
+// Reflectance head on of a surface whose dielectric part has `dielectric`.
+SHARED_FN FV3 mixed_f0(Surface s, FV3 dielectric) {
+#if HAS_METALLIC
+    FV rest = fv(1.0f) - s.metallic;
+    return fv3(fma(s.albedo.x, s.metallic, rest * dielectric.x),
+               fma(s.albedo.y, s.metallic, rest * dielectric.y),
+               fma(s.albedo.z, s.metallic, rest * dielectric.z));
+#else
+    return dielectric;
+#endif
+}
+
+SHARED_FN FV3 dielectric_f0(Surface s) {
+#if HAS_SPECULAR
+    return s.specular;
+#else
+    return fv3(fv(DIELECTRIC_F0), fv(DIELECTRIC_F0), fv(DIELECTRIC_F0));
+#endif
+}
+
+// What diffuse light loses head on: the strongest channel's reflectance, so that a tinted one does
+// not colour the rest (KHR_materials_specular, implementation).
+SHARED_FN FV3 diffuse_f0(Surface s) {
+    FV3 f0 = dielectric_f0(s);
+    FV most = max(max(f0.x, f0.y), f0.z);
+    return mixed_f0(s, fv3(most, most, most));
+}
+
+SHARED_FN ShadingPoint make_shading_point(Surface s, bool orthographic) {
+    ShadingPoint p;
+    p.position = s.position;
+    p.normal = s.normal;
+    p.to_eye = zero3();
+    p.n_dot_v = fv(0.0f);
+    p.alpha2 = fv(0.0f);
+    p.ggx_slope = fv(0.0f);
+    p.ggx_floor = fv(0.0f);
+    p.smith_v = fv(0.0f);
+    p.exponent = fv(0.0f);
+#if SHADING != SHADING_LAMBERT
+    FV alpha = clamped_alpha(s.roughness);
+    p.alpha2 = alpha * alpha;
+    p.ggx_slope = (fv(1.0f) - p.alpha2) / alpha;
+    p.ggx_floor = alpha;
+    p.to_eye = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
+    if (!orthographic) {
+        // 1e-30: a point at the eye itself has no direction to it.
+        FV inv_distance = lane_rsqrt(max(dot3(s.position, s.position), fv(1e-30f)));
+        p.to_eye = scale3(s.position, -inv_distance);
+    }
+#endif
+#if SHADING == SHADING_BLINN_PHONG
+    p.exponent = fv(1.0f) / p.alpha2 - fv(1.0f);
+#elif SHADING == SHADING_PBR
+    p.n_dot_v = max(dot3(s.normal, p.to_eye), fv(N_DOT_V_MIN));
+    p.smith_v = lane_sqrt(fma(p.n_dot_v * p.n_dot_v, fv(1.0f) - p.alpha2, p.alpha2));
+#endif
+#if F0_VARIES
+    p.f0 = mixed_f0(s, dielectric_f0(s));
+#endif
+#if HAS_SPECULAR
+    FV lost = fv(1.0f) - s.specular_f90;
+    p.f90 = fma(s.metallic - fv(1.0f), lost, fv(1.0f));
+    FV most = max(max(s.specular.x, s.specular.y), s.specular.z);
+    p.diffuse_rises = min(lost / max(fv(1.0f) - most, fv(1e-6f)), fv(1.0f));
+#endif
+    return p;
+}
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

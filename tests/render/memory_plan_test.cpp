@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/memory_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+DeviceInfo cpu() {
+    DeviceInfo device;
+    device.is_cpu = true;
+    device.max_allocation_bytes = std::uint64_t{1} << 30;
+    return device;
+}
+
+MemoryPlan plan(const Scene& scene, RenderSettings settings) {
+    settings.max_memory_bytes = std::uint64_t{1} << 30;
+    const std::uint64_t lights = settings.lights.count + scene.lights.size();
+    return plan_memory(scene, settings, make_scene_plan(scene, settings, lights), cpu());
+}
+
+TEST(MemoryPlan, DeviceBuffersHoldTheScenesOwnLightsToo) {
+    Scene scene = make_generated_scene("plain");
+    const MemoryPlan generated = plan(scene, small_settings(64, 64, 100'000));
+    scene.lights.assign(100'000, SceneLight{});
+    const MemoryPlan own = plan(scene, small_settings(64, 64, 0));
+    EXPECT_EQ(own.device_bytes, generated.device_bytes);
+}
+
+TEST(MemoryPlan, DeviceBuffersHoldTheWholePictureOfBloom) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(1024, 1024, 100);
+    const MemoryPlan without = plan(scene, settings);
+    settings.bloom = 0.5f;
+    const MemoryPlan with = plan(scene, settings);
+    EXPECT_EQ(with.device_bytes, without.device_bytes);
+    EXPECT_GE(with.bytes, without.bytes);
+}
+
+}  // namespace
+}  // namespace kilolux
