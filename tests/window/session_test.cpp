@@ -92,7 +92,9 @@ TEST(Window, ShowsThePictureOfEveryRenderer) {
 TEST(Window, ShowsEveryView) {
     const TemporaryFolder folder;
     Script script(folder);
-    for (const std::string& name : view_names()) script.line("choose show " + name).shot(name);
+    for (const std::string& name : view_names()) {
+        script.line("choose show " + name).line("move 5 415").shot(name);
+    }
     play(script);
     ExpectedPicture expected;
     for (const std::string& name : view_names()) {
@@ -107,7 +109,7 @@ TEST(Window, SlidersAndTextReachThePicture) {
     Script script(folder);
     script.line("slide exposure -4").shot("dark").line("type exposure 0");
     script.line("slide lights 20000").line("move 20 410").shot("lights");
-    script.line("type lights 150").line("choose tone map aces").shot("aces");
+    script.line("type lights 150").line("choose tone map aces").line("move 5 415").shot("aces");
     script.line("slide bloom 0.6").line("move 20 410").shot("bloom");
     play(script);
     ExpectedPicture expected;
@@ -200,8 +202,17 @@ TEST(Window, SaysWhichRendererHasNoClusters) {
 TEST(Window, MeasuresItsErrorAndShowsAMap) {
     const TemporaryFolder folder;
     Script script(folder);
-    script.shot("start").line("open error").line("click measure error").shot("measured");
-    script.line("click error map").shot("map").line("type exposure 1").shot("other");
+    script.shot("start")
+        .line("open error")
+        .line("click measure error")
+        .line("move 5 415")
+        .shot("measured");
+    script.line("click error map")
+        .line("move 5 415")
+        .shot("map")
+        .line("type exposure 1")
+        .line("move 5 415")
+        .shot("other");
     play(script);
     const ScenePart start = scene_part(folder / "start.png");
     EXPECT_EQ(mean_difference(start, scene_part(folder / "measured.png")), 0.0);
