@@ -223,6 +223,7 @@ void ScriptPlayer::add_slide(const std::string& widget, double value) {
 }
 
 void ScriptPlayer::add_value(const std::string& widget, const std::string& text) {
+    actions_.push_back([this, widget] { return reach(widget); });
     actions_.push_back([this, widget, text, value = parse_number(place_, text)] {
         const std::optional<SliderRange>& range = place_of(widget).slider;
         if (!range) throw Error(place_ + ": '" + widget + "' is not a slider");
