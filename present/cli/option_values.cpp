@@ -57,12 +57,6 @@ std::string describe(const CountRange& range) {
     return "a whole number from " + std::to_string(range.min) + " to " + std::to_string(range.max);
 }
 
-bool contains(const NumberRange& range, double value) {
-    if (!std::isfinite(value)) return false;
-    return range.open ? value > range.min && value < range.max
-                      : value >= range.min && value <= range.max;
-}
-
 std::vector<double> parse_numbers(const std::string& option, std::string_view text,
                                   std::string_view form) {
     const auto wanted = split(form, ',').size();
@@ -89,6 +83,16 @@ std::optional<std::pair<int, int>> int_pair(std::string_view text, char separato
 }
 
 }  // namespace
+
+bool contains(const NumberRange& range, double value) {
+    if (!std::isfinite(value)) return false;
+    return range.open ? value > range.min && value < range.max
+                      : value >= range.min && value <= range.max;
+}
+
+bool contains(const CountRange& range, double value) {
+    return value >= static_cast<double>(range.min) && value <= static_cast<double>(range.max);
+}
 
 double parse_number(const std::string& option, std::string_view text, const NumberRange& range) {
     const auto value = number_of<double>(text);

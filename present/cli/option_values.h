@@ -27,6 +27,9 @@ struct CountRange {
     std::uint64_t max = 0;
 };
 
+bool contains(const NumberRange& range, double value);
+bool contains(const CountRange& range, double value);
+
 /// A finite number within `range`.
 double parse_number(const std::string& option, std::string_view text,
                     const NumberRange& range = {});

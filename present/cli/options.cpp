@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/options.h"
 
-#include <limits>
-
 #include "host/base/suggest.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"
+#include "present/cli/setting_ranges.h"
 
 namespace kilolux {
 namespace {
-
-// Lights are counted in 31 bits: their indices and list offsets are 32-bit on the device.
-constexpr std::uint64_t kMaxLights = std::uint64_t{1} << 31;
-constexpr NumberRange kAboveZero{0.0, std::numeric_limits<float>::max(), true};
-constexpr NumberRange kAtLeastZero{0.0, std::numeric_limits<float>::max()};
 
 void add_scene_option(CLI::App& command, SharedOptions& o) {
     Registrar(command, "Scene")
@@ -30,7 +24,7 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
 void add_picture_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto resolution = [&s](const std::string& name, const std::string& text) {
-        const auto size = parse_counts(name, text, "W,H", {1, 65536});
+        const auto size = parse_counts(name, text, "W,H", kEdgeRange);
         s.width = size[0];
         s.height = size[1];
     };
@@ -48,8 +42,8 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
         .choice({"--shading", "", "auto", "How surfaces reflect; auto asks the scene's materials"},
                 s.shading, shading_names())
         .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,
-                kAtLeastZero)
-        .count({"--samples", "N", "1", "Jittered samples a pixel"}, s.samples, {1, 65536})
+                kAmbientRange)
+        .count({"--samples", "N", "1", "Jittered samples a pixel"}, s.samples, kSamplesRange)
         .number({"--time", "T", "0", "Seconds: moves the lights and the file's animations"}, o.time)
         .choice({"--show", "", "lit", "What the picture shows"}, s.want.view, show_names())
         .value(
@@ -60,9 +54,9 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
 void add_display_options(CLI::App& command, RenderSettings& s) {
     Registrar(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
-                {0.0, 1.0})
+                kBloomRange)
         .number({"--exposure", "EV", "0", "Twice as bright for every one"}, s.exposure,
-                {-126.0, 126.0})
+                kExposureRange)
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
                 s.tone_curve, tone_curve_names());
 }
@@ -74,20 +68,20 @@ void add_light_options(CLI::App& command, RenderSettings& s) {
     };
     Registrar(command, "Generated point lights, added to the file's own")
         .count({"--lights", "N", "5000", "How many; 0 keeps only the file's own"}, l.count,
-               {0, kMaxLights})
+               kLightsRange)
         .count({"--light-seed", "S", "1", "Decides places, colours and motion"}, l.seed,
-               {0, std::numeric_limits<std::uint64_t>::max()})
+               kLightSeedRange)
         .number_or_auto(
             {"--light-radius", "R|auto", "auto", "Range in metres; beyond it a light is exactly 0"},
-            l.radius, kAboveZero)
+            l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
-                        l.intensity, kAboveZero)
+                        l.intensity, kAboveZeroRange)
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
                box)
         .number({"--range-budget", "E", "0.00390625",
                  "Radiance that a light of the file without a range may be wrong by; decides its "
                  "range"},
-                s.range_budget, kAboveZero);
+                s.range_budget, kAboveZeroRange);
 }
 
 void add_camera_options(CLI::App& command, CameraChoice& c) {
@@ -115,8 +109,8 @@ void add_camera_options(CLI::App& command, CameraChoice& c) {
 void add_device_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto grid = [&s](const std::string& name, const std::string& text) {
-        const auto v = parse_counts(name, text, "X,Y,SLICES_PER_OCTAVE", {1, 4096});
-        parse_count(name + ": slices per octave", std::to_string(v[2]), {1, 64});
+        const auto v = parse_counts(name, text, "X,Y,SLICES_PER_OCTAVE", kTilesRange);
+        parse_count(name + ": slices per octave", std::to_string(v[2]), kSlicesRange);
         s.grid = {v[0], v[1], v[2]};
     };
     const auto lanes = [&s](const std::string& name, const std::string& text) {

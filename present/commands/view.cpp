@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "host/base/atomic_write.h"
@@ -9,8 +11,8 @@
 #include "present/cli/scene_choice.h"
 #include "present/commands/commands.h"
 #include "present/image/image_file.h"
-#include "present/window/app/saved_state.h"
 #include "present/window/app/session.h"
+#include "present/window/app/state_file.h"
 
 namespace kilolux {
 namespace {
@@ -24,7 +26,7 @@ struct ViewOptions {
 };
 
 // What the window was left with, and over it what the command line says.
-ViewState start_state(const ViewOptions& options, const CLI::App& command) {
+ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file) {
     ViewState state;
     state.settings = options.shared.settings;
     state.settings.want.aovs.clear();
@@ -35,7 +37,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command) {
     if (is_given("--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
-    return options.fresh ? state : load_view_state(view_state_file(), state, is_given);
+    return file.load(state, is_given);
 }
 
 // What would fail at the end is asked at the beginning.
@@ -58,14 +60,18 @@ void run_view(const ViewOptions& options, const CLI::App& command) {
     if (!options.script.empty()) session.script = read_script(options.script);
     choose_device(options.shared.settings.device);  // throws before anything is on the screen
     const WindowSystem system;
-    session.state = start_state(options, command);
+    StateFile file(options.fresh ? std::filesystem::path() : view_state_file());
+    session.state = start_state(options, command, file);
     const Window context({16, 16}, "Kilolux", false);
     Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
     const Scene scene = open_scene(options.shared.scene, options.shared.time);
     window.show();
-    ViewSession view(scene, session, window, context);
+    ViewSession view(scene, session, file, window, context);
     view.run();
-    if (!options.fresh) save_view_state(view_state_file(), view.state());
+    if (view.stop()) return;
+    // All files are written. The end of a long kernel or compilation is not waited for.
+    std::fflush(nullptr);
+    std::_Exit(0);
 }
 
 constexpr const char* kExamples =
@@ -85,15 +91,15 @@ void add_view_command(Program& program) {
     add_shared_options(command, options->shared);
     Registrar(command, "Window")
         .flag("--fresh", options->fresh,
-              "Begin with the defaults instead of what the last window was left with; keep nothing")
+              "Begin with the defaults instead of the last window's settings; keep nothing")
         .count(
             {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
             options->exit_after, {1, 1'000'000'000})
         .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
               options->screenshot)
-        .text(
-            {"--script", "FILE", "", "Do what the file's lines say, then leave; README tells how"},
-            options->script);
+        .text({"--script", "FILE", "",
+               "Replay user input, one step per line, then leave; see present/window/README.md"},
+              options->script);
 }
 
 }  // namespace kilolux

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "tests/window/desktop.h"
 #include "tests/window/scripted_window.h"
@@ -44,13 +45,79 @@ TEST(Desktop, RestsWhileMinimised) {
     viewer.wait_for_rest();
     const std::size_t rest = viewer.record().size();
     wait_for("more of it", [&] { return viewer.record().size() >= rest + 6; });
-    // Neither drawn nor rendered, and no hurry.
+    // Neither drawn nor rendered.
     const std::vector<std::string> calls = viewer.record();
     for (std::size_t i = rest; i < calls.size(); ++i) EXPECT_EQ(calls[i], "wait 0.250") << i;
     viewer.activate();
     viewer.wait_for_change();
     viewer.key("space");
     leave(viewer);
+}
+
+TEST(Desktop, DrawsNothingWhileNothingHappens) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    viewer.settled();
+    wait_for("the device's limits", [&] {
+        const std::size_t swaps = viewer.count("swap");
+        viewer.wait_for_rest();
+        return viewer.count("swap") == swaps;
+    });
+    const std::size_t swaps = viewer.count("swap");
+    const std::size_t waits = viewer.count("wait 0.250");
+    wait_for("more of it", [&] { return viewer.count("wait 0.250") >= waits + 6; });
+    EXPECT_EQ(viewer.count("swap"), swaps);
+    leave(viewer);
+}
+
+TEST(Desktop, FreezesClustersAfterItCouldNot) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop);
+    viewer.activate();
+    viewer.settled();
+    viewer.key("3");  // forward: no clusters
+    viewer.settled();
+    viewer.key("g");
+    viewer.wait_for_change();  // a message
+    viewer.key("1");
+    const Seen before = viewer.settled();
+    viewer.key("g");
+    wait_for("boxes", [&] { return viewer.settled() != before; });
+    leave(viewer);
+}
+
+TEST(Desktop, LeavesWhileAPictureIsMade) {
+    const Desktop desktop({"--manager"});
+    // One that takes minutes.
+    Viewer viewer(desktop, {"--renderer", "deferred-all", "--lights", "1000000"});
+    viewer.activate();
+    leave(viewer);
+}
+
+TEST(Desktop, KeepsItsSettingsWhenTheDisplayIsLost) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "kilolux" / "view.json";
+    std::optional<Desktop> desktop(std::in_place, std::vector<std::string>{"--manager"});
+    Background program(
+        with_variables({desktop->variable(), "XDG_CONFIG_HOME=" + folder.path().string()},
+                       {program_file(), "view", "plain", "--quiet", "--resolution", "560,330",
+                        "--lights", "100"}));
+    std::string window;
+    wait_for("the window", [&] {
+        return desktop->try_tool({"xdotool", "search", "--onlyvisible", "--name", "^Kilolux - "},
+                                 window);
+    });
+    window = window.substr(0, window.find('\n'));
+    desktop->tool({"xdotool", "windowactivate", "--sync", window});
+    desktop->tool({"xdotool", "key", "space"});
+    wait_for("the settings", [&] {
+        return fs::exists(file) &&
+               text_of_file(file).find("\"lights_move\": true") != std::string::npos;
+    });
+    desktop.reset();
+    EXPECT_EQ(program.result().code, 1);
+    EXPECT_NE(text_of_file(file).find("\"lights_move\": true"), std::string::npos);
 }
 
 TEST(Desktop, ComesBackFromMinimisedAsItWas) {

@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "host/picture/views.h"
 #include "present/cli/names.h"
+#include "present/window/script/script.h"
 #include "tests/support/paths.h"
+#include "tests/window/expected_picture.h"
 #include "tests/window/scripted_window.h"
 
 namespace kilolux {
@@ -22,80 +27,102 @@ void play(const Script& script) {
     EXPECT_EQ(result.err, "");
 }
 
+// A script's drag with a button down, as the camera gets it.
+void drag(CameraRig& rig, CameraMode mode, const glm::dvec2& from, const glm::dvec2& to) {
+    glm::dvec2 last = from;
+    for (int i = 1; i <= 6; ++i) {
+        const double t = i / 6.0;
+        const glm::dvec2 at(std::lerp(from.x, to.x, t), std::lerp(from.y, to.y, t));
+        rig.move({.look = (at - last) / 420.0}, mode, ScriptPlayer::kFrameSeconds);
+        last = at;
+    }
+}
+
 TEST(Window, MovesTheCameraByKeysAndMouse) {
     const TemporaryFolder folder;
     Script script(folder);
-    script.shot("start").shot("again");
-    script.line("key W 0.4").shot("forward");
+    script.shot("start").line("key W 0.4").shot("forward");
     script.line("drag 450 250 530 280").shot("looked");
     script.line("key R 0").shot("reset");
     script.line("key O 0").line("drag 450 250 520 250").shot("orbited");
     script.line("wheel 4").shot("zoomed");
     script.line("key F 0").shot("framed");
     play(script);
-    std::map<std::string, ScenePart> parts;
-    for (const char* name :
-         {"start", "again", "forward", "looked", "reset", "orbited", "zoomed", "framed"}) {
-        parts[name] = scene_part(folder / (std::string(name) + ".png"));
-        EXPECT_GT(mean_of(parts[name]), 0.01) << name;
+    ExpectedPicture expected;
+    CameraRig rig = expected.rig();
+    const auto expect = [&](const char* name) {
+        expect_same_picture(folder / (std::string(name) + ".png"), expected.of(rig.camera()));
+    };
+    expect("start");
+    // The key is down for 12 frames after the one that presses it.
+    for (int i = 0; i < 13; ++i) {
+        rig.move({.move = {0, 0, 1}}, CameraMode::fly, ScriptPlayer::kFrameSeconds);
     }
-    EXPECT_EQ(mean_difference(parts["start"], parts["again"]), 0.0);
-    EXPECT_EQ(mean_difference(parts["start"], parts["reset"]), 0.0);
-    EXPECT_GT(mean_difference(parts["start"], parts["forward"]), 0.005);
-    EXPECT_GT(mean_difference(parts["forward"], parts["looked"]), 0.005);
-    EXPECT_GT(mean_difference(parts["reset"], parts["orbited"]), 0.005);
-    EXPECT_GT(mean_difference(parts["orbited"], parts["zoomed"]), 0.005);
-    EXPECT_GT(mean_difference(parts["zoomed"], parts["framed"]), 0.005);
+    expect("forward");
+    drag(rig, CameraMode::fly, {450, 250}, {530, 280});
+    expect("looked");
+    rig.set(expected.rig().camera());
+    expect("reset");
+    drag(rig, CameraMode::orbit, {450, 250}, {520, 250});
+    expect("orbited");
+    rig.move({.wheel = 4.0}, CameraMode::orbit, ScriptPlayer::kFrameSeconds);
+    expect("zoomed");
+    rig.frame();
+    expect("framed");
 }
 
-TEST(Window, EveryRendererShowsTheSamePicture) {
+TEST(Window, ShowsThePictureOfEveryRenderer) {
     const TemporaryFolder folder;
     Script script(folder);
     for (const std::string& name : renderer_names()) {
         script.line("choose renderer " + name).shot(name);
     }
     play(script);
-    const ScenePart deferred = scene_part(folder / "deferred.png");
-    EXPECT_EQ(mean_difference(deferred, scene_part(folder / "deferred-all.png")), 0.0);
-    EXPECT_LT(mean_difference(deferred, scene_part(folder / "forward.png")), 0.01);
-    EXPECT_LT(mean_difference(deferred, scene_part(folder / "forward-plus.png")), 0.01);
+    ExpectedPicture expected;
+    for (int i = 0; const std::string& name : renderer_names()) {
+        const auto renderer = static_cast<RendererKind>(i++);
+        expect_same_picture(folder / (name + ".png"),
+                            expected.of([&](RenderSettings& s) { s.renderer = renderer; }));
+    }
+    EXPECT_EQ(mean_difference(scene_part(folder / "deferred.png"),
+                              scene_part(folder / "deferred-all.png")),
+              0.0);
 }
 
-TEST(Window, EveryViewIsAPictureOfItsOwn) {
+TEST(Window, ShowsEveryView) {
     const TemporaryFolder folder;
     Script script(folder);
-    for (const std::string& name : view_names()) script.line("choose show " + name).shot(name);
+    for (const std::string& name : view_names()) {
+        script.line("choose show " + name).line("move 5 415").shot(name);
+    }
     play(script);
-    for (const std::string& a : view_names()) {
-        for (const std::string& b : view_names()) {
-            if (a >= b) continue;
-            EXPECT_GT(mean_difference(scene_part(folder / (a + ".png")),
-                                      scene_part(folder / (b + ".png"))),
-                      0.001)
-                << a << " and " << b;
-        }
+    ExpectedPicture expected;
+    for (const std::string& name : view_names()) {
+        expect_same_picture(folder / (name + ".png"), expected.of([&](RenderSettings& s) {
+            s.want.view = parse_view(name);
+        }));
     }
 }
 
 TEST(Window, SlidersAndTextReachThePicture) {
     const TemporaryFolder folder;
     Script script(folder);
-    script.shot("start");
-    script.line("slide exposure -4").shot("dark");
-    script.line("type exposure 0").shot("back");
+    script.line("slide exposure -4").shot("dark").line("type exposure 0");
     script.line("slide lights 20000").line("move 20 410").shot("lights");
-    script.line("type lights 150").line("move 20 410").shot("typed");
-    script.line("choose tone map aces").shot("aces");
-    script.line("slide bloom 0.6").shot("bloom");
+    script.line("type lights 150").line("choose tone map aces").line("move 5 415").shot("aces");
+    script.line("slide bloom 0.6").line("move 20 410").shot("bloom");
     play(script);
-    const ScenePart start = scene_part(folder / "start.png");
-    EXPECT_LT(mean_of(scene_part(folder / "dark.png")), 0.6 * mean_of(start));
-    EXPECT_EQ(mean_difference(start, scene_part(folder / "back.png")), 0.0);
-    EXPECT_GT(mean_difference(start, scene_part(folder / "lights.png")), 0.005);
-    EXPECT_EQ(mean_difference(start, scene_part(folder / "typed.png")), 0.0);
-    EXPECT_GT(mean_difference(start, scene_part(folder / "aces.png")), 0.002);
-    EXPECT_GT(mean_difference(scene_part(folder / "aces.png"), scene_part(folder / "bloom.png")),
-              0.002);
+    ExpectedPicture expected;
+    const auto expect = [&](const char* name, const std::function<void(RenderSettings&)>& change) {
+        expect_same_picture(folder / (std::string(name) + ".png"), expected.of(change));
+    };
+    expect("dark", [](RenderSettings& s) { s.exposure = -4.0f; });
+    expect("lights", [](RenderSettings& s) { s.lights.count = 20000; });
+    expect("aces", [](RenderSettings& s) { s.tone_curve = ToneCurve::aces; });
+    expect("bloom", [](RenderSettings& s) {
+        s.tone_curve = ToneCurve::aces;
+        s.bloom = 0.6f;
+    });
 }
 
 TEST(Window, ResizesAndHidesItsPanel) {
@@ -113,62 +140,149 @@ TEST(Window, ResizesAndHidesItsPanel) {
     EXPECT_GT(mean_difference(left_of(folder / "bare.png"), left_of(folder / "help.png")), 0.01);
 }
 
+// Pixels of the screenshot's rectangle that are not as in the other, and how many of them are
+// nearly white.
+struct Changes {
+    int changed = 0, white = 0;
+};
+Changes changes(const fs::path& before, const fs::path& after, const std::array<int, 4>& place) {
+    const FloatImage a = read_image(before), b = read_image(after);
+    const std::size_t channels = a.channels.size();
+    Changes out;
+    for (int y = place[1]; y < place[1] + place[3]; ++y) {
+        for (int x = place[0]; x < place[0] + place[2]; ++x) {
+            const std::size_t at = channels * static_cast<std::size_t>(y * a.width + x);
+            const auto is = [&](const FloatImage& image) {
+                return std::array{image.values[at], image.values[at + 1], image.values[at + 2]};
+            };
+            const auto colour = is(b);
+            if (colour == is(a)) continue;
+            ++out.changed;
+            out.white += *std::min_element(colour.begin(), colour.end()) > 0.7f;
+        }
+    }
+    return out;
+}
+
 TEST(Window, LooksIntoClusters) {
     const TemporaryFolder folder;
     Script script(folder);
-    script.shot("start").line("key X 0").line("move 480 330").shot("probed").line("key X 0");
-    script.shot("after").line("key G 0").shot("frozen").line("key S 0.3").shot("flown");
-    script.line("key G 0").shot("thawed");
+    script.line("resize 1000 700")
+        .shot("start")
+        .line("key X 0")
+        .line("move 700 300")
+        .shot("probed");
+    script.line("key X 0").shot("after").line("key G 0").shot("frozen");
+    script.line("key S 0.3").shot("flown").line("key G 0").shot("thawed");
     play(script);
-    const ScenePart start = scene_part(folder / "start.png");
-    EXPECT_GT(mean_difference(start, scene_part(folder / "probed.png")), 0.005);
-    EXPECT_EQ(mean_difference(start, scene_part(folder / "after.png")), 0.0);
-    EXPECT_GT(mean_difference(start, scene_part(folder / "frozen.png")), 0.005);
-    EXPECT_GT(mean_difference(scene_part(folder / "flown.png"), scene_part(folder / "thawed.png")),
-              0.002);
+    const auto file = [&](const char* name) { return folder / (std::string(name) + ".png"); };
+    // The active cluster's box is white and about a tile large. Its lists stand in the lower right.
+    const Changes box = changes(file("start"), file("probed"), {660, 260, 80, 80});
+    EXPECT_GT(box.white, 15);
+    EXPECT_LT(box.changed, 80 * 80 / 2);
+    EXPECT_GT(changes(file("start"), file("probed"), {590, 640, 400, 50}).changed, 400 * 45);
+    EXPECT_EQ(changes(file("start"), file("after"), {360, 0, 640, 700}).changed, 0);
+    // Lines over the picture, not another picture. They stay where they are in the scene.
+    const int lines = changes(file("start"), file("frozen"), {360, 120, 640, 580}).changed;
+    EXPECT_GT(lines, 2000);
+    EXPECT_LT(lines, 640 * 580 * 9 / 10);
+    EXPECT_GT(changes(file("thawed"), file("flown"), {360, 120, 640, 580}).changed, 2000);
+    EXPECT_GT(changes(file("start"), file("thawed"), {360, 120, 640, 580}).changed, 640 * 580 / 10);
 }
 
-TEST(Window, MeasuresItsErrorAndBenchmarks) {
+TEST(Window, SaysWhichRendererHasNoClusters) {
+    const TemporaryFolder folder;
+    Script script(folder);
+    script.line("choose renderer forward").line("settle").line("key G 0").line("settle");
+    const ChildResult result = view_in_display({}, small_window(script.write()));
+    EXPECT_EQ(result.code, 1) << result.err;
+    EXPECT_NE(result.err.find("only the renderer deferred"), std::string::npos) << result.err;
+}
+
+TEST(Window, MeasuresItsErrorAndShowsAMap) {
     const TemporaryFolder folder;
     Script script(folder);
     script.shot("start")
         .line("open error")
         .line("click measure error")
-        .line("frames 4")
-        .shot("error");
-    script.line("open benchmark").line("type most lights 256").line("click run benchmark");
-    script.line("frames 4").shot("bench");
-    const fs::path before = fs::current_path();
-    fs::current_path(folder.path());
+        .line("move 5 415")
+        .shot("measured");
+    script.line("click error map")
+        .line("move 5 415")
+        .shot("map")
+        .line("type exposure 1")
+        .line("move 5 415")
+        .shot("other");
     play(script);
-    fs::current_path(before);
-    const std::string csv = text_of_file(folder / "kilolux-001-bench.csv");
-    EXPECT_NE(csv.find("forward-plus"), std::string::npos) << csv;
-    const auto panel = [&](const char* name) {
-        ScenePart whole = scene_part(folder / name, 0);
-        return whole;
-    };
-    EXPECT_GT(mean_difference(panel("start.png"), panel("error.png")), 0.001);
+    const ScenePart start = scene_part(folder / "start.png");
+    EXPECT_EQ(mean_difference(start, scene_part(folder / "measured.png")), 0.0);
+    // The heat map's colours and nothing else: green never exceeds both red and blue.
+    const ScenePart map = scene_part(folder / "map.png");
+    std::set<std::array<float, 3>> colours;
+    int green = 0;
+    for (std::size_t i = 0; i + 2 < map.values.size(); i += 3) {
+        const float r = map.values[i], g = map.values[i + 1], b = map.values[i + 2];
+        colours.insert({r, g, b});
+        green += g > std::max(r, b) + 0.02f;
+    }
+    EXPECT_EQ(green, 0);
+    EXPECT_GT(colours.size(), 20u);
+    EXPECT_GT(mean_difference(start, map), 0.05);
+    // Errors are those of the picture that was measured: another one is shown itself.
+    ExpectedPicture expected;
+    expect_same_picture(folder / "other.png",
+                        expected.of([](RenderSettings& s) { s.exposure = 1.0f; }));
+}
+
+TEST(Window, NoticesFade) {
+    const TemporaryFolder folder;
+    Script script(folder);
+    script.shot("start").line("key C 0").line("frames 9").shot("notice");
+    script.line("frames 200").shot("faded");
+    play(script);
+    const std::array<int, 4> overlay = {360, 0, 340, kUnderlay};
+    EXPECT_GT(changes(folder / "start.png", folder / "notice.png", overlay).changed, 500);
+    EXPECT_EQ(changes(folder / "start.png", folder / "faded.png", overlay).changed, 0);
+}
+
+TEST(Window, SettlingWhileTheLightsMoveEndsWithAMessage) {
+    const TemporaryFolder folder;
+    Script script(folder);
+    script.line("key Space 0").line("settle");
+    const ChildResult result = view_in_display({}, small_window(script.write()));
+    EXPECT_EQ(result.code, 1) << result.err;
+    EXPECT_NE(result.err.find("script:2"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("lights move"), std::string::npos) << result.err;
+}
+
+TEST(Window, SettlesWhileItRendersAlways) {
+    const TemporaryFolder folder;
+    Script script(folder);
+    script.line("open window").line("click render always").shot("shown");
+    play(script);
+    EXPECT_GT(mean_of(scene_part(folder / "shown.png")), 0.01);
 }
 
 TEST(Window, KeepsItsValues) {
     const TemporaryFolder folder;
     const std::string config = "XDG_CONFIG_HOME=" + folder.path().string();
     Script script(folder);
-    script.line("type lights 77").line("choose show normal").line("settle");
+    script.line("type lights 77").line("choose show normal").line("resize 690 410").line("settle");
     auto words = small_window(script.write());
     std::erase(words, "--fresh");
+    words.insert(words.end(), {"--exposure", "1"});
     ASSERT_EQ(view_in_display({config}, words).code, 0);
     const auto kept = nlohmann::json::parse(text_of_file(folder / "kilolux" / "view.json"));
     EXPECT_EQ(kept.at("lights"), 77);
     EXPECT_EQ(kept.at("show"), "normal");
+    EXPECT_EQ(kept.at("exposure"), 0.0) << "from the command line, not changed in the window";
     const std::string again = (folder / "again.png").string();
     const ChildResult result = view_in_display(
         {config}, {"view", "plain", "-q", "--exit-after", "2", "--screenshot", again});
     ASSERT_EQ(result.code, 0) << result.err;
     // A view of normals is nothing like the lit picture: blue is never 0 on what faces the camera.
     EXPECT_GT(mean_of(scene_part(again)), 0.1);
-    EXPECT_EQ(read_image(again).width, 700);
+    EXPECT_EQ(read_image(again).width, 690);
 }
 
 TEST(Window, GoesBackToItsDefaults) {
@@ -222,6 +336,10 @@ TEST(Window, ScriptsSayWhatTheyDoNotUnderstand) {
     const ChildResult result = view_in_display({}, small_window((folder / "script").string()));
     EXPECT_EQ(result.code, 1) << result.err;
     EXPECT_NE(result.err.find("nonsense"), std::string::npos) << result.err;
+    write_text(folder / "script", "slide lights 2000000\n");
+    const ChildResult beyond = view_in_display({}, small_window((folder / "script").string()));
+    EXPECT_EQ(beyond.code, 1) << beyond.err;
+    EXPECT_NE(beyond.err.find("1 to 1000000"), std::string::npos) << beyond.err;
 }
 
 }  // namespace

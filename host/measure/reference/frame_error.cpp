@@ -50,6 +50,19 @@ ReferenceError error_of(const RgbImage& picture, const ReferencePicture& referen
     return out;
 }
 
+// |x - r| / max(|r|, E) of each pixel, the largest of its channels; 0 where x = r.
+std::vector<double> relative_errors(const RgbImage& picture, const ReferencePicture& reference) {
+    std::vector<double> out(picture.pixel_count(), 0.0);
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+        const double r = reference.radiance.rgb[i];
+        const double error = std::abs(picture.rgb[i] - r);
+        if (error == 0.0) continue;
+        double& worst = out[i / 3];
+        worst = std::max(worst, error / std::max(std::abs(r), reference.scale.rgb[i]));
+    }
+    return out;
+}
+
 }  // namespace
 
 FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, const Camera& camera,
@@ -79,6 +92,7 @@ FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, cons
     renderer.render(camera, time);
     const ReferencePicture full = reference_of(renderer, camera.orthographic, part(first, 1.0));
     out.whole = error_of(picture, full);
+    out.relative = relative_errors(picture, full);
     out.lights_per_pixel = full.lights_per_pixel;
     return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "host/measure/metrics/metrics.h"
 #include "host/measure/metrics/parallel_rows.h"
@@ -25,6 +26,7 @@ struct FrameError {
     std::optional<ReferenceError> kernels;
     ReferenceError whole;           // the reference shades surfaces stored in float32
     double lights_per_pixel = 0.0;  // k*, by the reference
+    std::vector<double> relative;   // of `whole`: the largest of each pixel, row 0 on top
 };
 
 /// Renders with `settings` at a size so small that the float64 reference takes seconds, and

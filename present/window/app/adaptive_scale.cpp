@@ -7,9 +7,8 @@
 namespace kilolux {
 namespace {
 
-// Edges shrink by this factor from a step to the next; pixels by its square.
-constexpr double kStep = 0.875;
-// A picture this much below the target leaves room for one of the next larger step.
+constexpr double kStep = 0.875;  // of the edges; pixels shrink by its square
+// A picture below this share of the target leaves room for the next larger step.
 constexpr double kRoom = kStep * kStep * 0.9;
 
 }  // namespace
@@ -19,7 +18,7 @@ void AdaptiveScale::picture_took(double ms, double scale) {
     const double share = ms / target_ms_;
     double next = scale;
     if (share > 1.0) {
-        // As if time went with the pixels: part of it does not, so later pictures correct this one.
+        // Assumes that time is proportional to the pixels. Later pictures correct the rest.
         const double steps = std::ceil(0.5 * std::log(share) / -std::log(kStep));
         next = scale * std::pow(kStep, std::clamp(steps, 1.0, 6.0));
     } else if (share < kRoom) {

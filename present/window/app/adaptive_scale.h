@@ -3,11 +3,10 @@
 
 namespace kilolux {
 
-/// Chooses how many pixels of the window's are rendered, so that pictures keep coming.
+/// Chooses how many of the window's pixels are rendered.
 ///
-/// While something moves, the edge of the picture shrinks or grows by steps of a tenth or so until
-/// a picture takes no longer than the target, within a band that keeps it from flickering between
-/// two steps. When nothing moves any more, the picture is made once at its full size.
+/// While something moves, the picture's edges shrink or grow by steps of an eighth until a picture
+/// takes no longer than the target; a margin prevents changes to and fro. At rest it is full size.
 class AdaptiveScale {
  public:
     static constexpr double kLeast = 0.125;
@@ -20,7 +19,7 @@ class AdaptiveScale {
     /// A picture of the moving scale took `ms` at scale `scale`.
     void picture_took(double ms, double scale);
 
-    /// The scale for the next picture, 0..1: of each edge.
+    /// The scale of the next picture's edges, 0..1.
     double scale(bool moving) const { return moving ? moving_scale_ : 1.0; }
 
  private:

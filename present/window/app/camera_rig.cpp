@@ -19,7 +19,7 @@ constexpr double kSpeedRange = 1e4;  // from the slowest to the fastest
 
 }  // namespace
 
-bool CameraWish::any() const {
+bool CameraMotion::any() const {
     const bool moves = move != glm::dvec3(0.0) || look != glm::dvec2(0.0);
     return moves || pan != glm::dvec2(0.0) || wheel != 0.0;
 }
@@ -34,7 +34,7 @@ CameraRig::CameraRig(const Camera& start, const Box& scene_box)
 void CameraRig::set(const Camera& camera) {
     camera_ = camera;
     const glm::dvec3 middle = box_.empty() ? glm::dvec3(0.0) : box_.center();
-    // Where it looks, as far away as the scene's middle; see choose_camera().
+    // In its direction, as far away as the scene's middle; see choose_camera().
     const double reach = std::max(glm::length(middle - camera.position), 1e-3 * radius_);
     focal_ = camera.position - camera.world_from_view[2] * reach;
     unmoved_ = true;
@@ -74,45 +74,45 @@ glm::dvec3 CameraRig::turned(const glm::dvec3& direction, const glm::dvec2& radi
     return {std::cos(pitch) * std::sin(yaw), std::sin(pitch), -std::cos(pitch) * std::cos(yaw)};
 }
 
-void CameraRig::move(const CameraWish& wish, CameraMode mode, double seconds) {
-    if (!wish.any()) return;
+void CameraRig::move(const CameraMotion& motion, CameraMode mode, double seconds) {
+    if (!motion.any()) return;
     if (mode == CameraMode::fly) {
-        fly(wish, seconds);
+        fly(motion, seconds);
     } else {
-        orbit(wish, seconds);
+        orbit(motion, seconds);
     }
 }
 
-void CameraRig::fly(const CameraWish& wish, double seconds) {
-    if (wish.wheel != 0.0) set_speed(speed_ * std::pow(kSpeedPerClick, wish.wheel));
-    if (wish.move == glm::dvec3(0.0) && wish.look == glm::dvec2(0.0)) return;
+void CameraRig::fly(const CameraMotion& motion, double seconds) {
+    if (motion.wheel != 0.0) set_speed(speed_ * std::pow(kSpeedPerClick, motion.wheel));
+    if (motion.move == glm::dvec3(0.0) && motion.look == glm::dvec2(0.0)) return;
     const double reach = std::max(glm::length(focal_ - camera_.position), 1e-6 * radius_);
     const glm::dvec3 forward =
         turned(-camera_.world_from_view[2],
-               kTurnPerHeight * (camera_.y_fov / glm::radians(45.0)) * wish.look);
+               kTurnPerHeight * (camera_.y_fov / glm::radians(45.0)) * motion.look);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, kUp));
     double metres = speed_ * seconds;
-    if (wish.faster) metres *= kFastFactor;
-    if (wish.slower) metres /= kFastFactor;
-    const glm::dvec3 step = wish.move.x * right + wish.move.y * kUp + wish.move.z * forward;
+    if (motion.faster) metres *= kFastFactor;
+    if (motion.slower) metres /= kFastFactor;
+    const glm::dvec3 step = motion.move.x * right + motion.move.y * kUp + motion.move.z * forward;
     const glm::dvec3 position = camera_.position + metres * step;
     place(position, position + reach * forward);
 }
 
-void CameraRig::orbit(const CameraWish& wish, double seconds) {
+void CameraRig::orbit(const CameraMotion& motion, double seconds) {
     const glm::dvec3 offset = camera_.position - focal_;
     double distance = std::max(glm::length(offset), 1e-6 * radius_);
-    const glm::dvec2 keys(wish.move.x, wish.move.y);
+    const glm::dvec2 keys(motion.move.x, motion.move.y);
     const glm::dvec3 forward =
-        turned(-offset, 2.0 * kTurnPerHeight * wish.look + seconds * glm::dvec2(keys.x, -keys.y));
-    const double nearer = wish.wheel + 8.0 * seconds * wish.move.z;
+        turned(-offset, 2.0 * kTurnPerHeight * motion.look + seconds * glm::dvec2(keys.x, -keys.y));
+    const double nearer = motion.wheel + 8.0 * seconds * motion.move.z;
     distance =
         std::clamp(distance * std::pow(kDistancePerClick, nearer), 1e-4 * radius_, 1e3 * radius_);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, kUp));
     const glm::dvec3 up = glm::cross(right, forward);
     // What is under the mouse follows it.
     const double metres = 2.0 * distance * std::tan(0.5 * camera_.y_fov);
-    const glm::dvec3 focal = focal_ + metres * (wish.pan.y * up - wish.pan.x * right);
+    const glm::dvec3 focal = focal_ + metres * (motion.pan.y * up - motion.pan.x * right);
     if (camera_.orthographic) camera_.y_extent *= std::pow(kDistancePerClick, nearer);
     place(focal - distance * forward, focal);
 }

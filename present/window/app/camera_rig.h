@@ -11,12 +11,12 @@ namespace kilolux {
 
 enum class CameraMode { fly, orbit };
 
-/// What a person wants of the camera in one frame.
-struct CameraWish {
+/// What input asks of the camera in one frame.
+struct CameraMotion {
     glm::dvec3 move{0.0};  // -1..1 along right, up, forward: keys held
     glm::dvec2 look{0.0};  // mouse [window heights], right and down: turn (fly) or orbit
     glm::dvec2 pan{0.0};   // mouse [window heights], right and down: orbit's pan
-    double wheel = 0.0;    // clicks: fly's speed, orbit's zoom
+    double wheel = 0.0;    // clicks: speed (fly) or zoom (orbit)
     bool faster = false;
     bool slower = false;
     bool any() const;
@@ -24,20 +24,20 @@ struct CameraWish {
 
 /// The window's camera: flies, or orbits about a point.
 ///
-/// It starts as a camera of the scene, bit for bit; from the first movement on it is one that
-/// `--camera-position`, `--camera-focal-point` and `--camera-view-angle` describe, with +Y up.
+/// Until it is moved, it is exactly the camera given. Then it is one that `--camera-position`,
+/// `--camera-focal-point` and `--camera-view-angle` describe, with +Y up.
 class CameraRig {
  public:
     CameraRig(const Camera& start, const Box& scene_box);
 
-    /// Goes on from another camera: a scene's, or one a command line described.
+    /// Goes on from another camera.
     void set(const Camera& camera);
 
-    /// Sees all of the scene in the direction it looks.
+    /// Steps back until it sees all of the scene.
     void frame();
 
-    /// Moves as wished for over `seconds`.
-    void move(const CameraWish& wish, CameraMode mode, double seconds);
+    /// Moves the camera for `seconds`.
+    void move(const CameraMotion& motion, CameraMode mode, double seconds);
 
     const Camera& camera() const { return camera_; }
     const glm::dvec3& focal_point() const { return focal_; }
@@ -48,8 +48,8 @@ class CameraRig {
     void set_speed(double metres_per_second);
 
  private:
-    void fly(const CameraWish& wish, double seconds);
-    void orbit(const CameraWish& wish, double seconds);
+    void fly(const CameraMotion& motion, double seconds);
+    void orbit(const CameraMotion& motion, double seconds);
     glm::dvec3 turned(const glm::dvec3& direction, const glm::dvec2& radians) const;
     void place(const glm::dvec3& position, const glm::dvec3& focal);
 

@@ -37,13 +37,6 @@ glm::dvec4 to_clip(const glm::dvec3& world, const Camera& camera, const ScreenPl
     return clip * glm::dvec4(view, 1.0);
 }
 
-void draw_lines(ImDrawList& draw, const std::vector<ScreenLine>& lines, ImU32 color,
-                float thickness) {
-    for (const ScreenLine& line : lines) {
-        draw.AddLine({line[0].x, line[0].y}, {line[1].x, line[1].y}, color, thickness);
-    }
-}
-
 void draw_lights(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
                  const ScreenPlace& place) {
     const double most = pixel.shares.empty() ? 0.0 : brightness(pixel.shares.front().radiance);
@@ -123,28 +116,26 @@ void describe_lists(const ProbedPixel& pixel) {
     }
 }
 
-}  // namespace
-
-std::vector<ScreenLine> project_edges(const std::array<glm::dvec3, 8>& corners_world,
-                                      const Camera& camera, const ScreenPlace& place) {
+// The box's edges as `camera` sees them. Bits 0, 1, 2 of a corner's index: x, y, z.
+void draw_edges(ImDrawList& draw, const std::array<glm::dvec3, 8>& corners, const Camera& camera,
+                const ScreenPlace& place, ImU32 color) {
     constexpr double kNear = 1e-4;  // of clip w, which is the depth [m]
-    std::vector<ScreenLine> lines;
     for (std::size_t from = 0; from < 8; ++from) {
         for (const std::size_t bit : {1u, 2u, 4u}) {
             if ((from & bit) != 0) continue;
-            glm::dvec4 a = to_clip(corners_world[from], camera, place);
-            glm::dvec4 b = to_clip(corners_world[from | bit], camera, place);
+            glm::dvec4 a = to_clip(corners[from], camera, place);
+            glm::dvec4 b = to_clip(corners[from | bit], camera, place);
             if (a.w < kNear && b.w < kNear) continue;
             if (a.w < kNear) a = glm::mix(a, b, (kNear - a.w) / (b.w - a.w));
             if (b.w < kNear) b = glm::mix(b, a, (kNear - b.w) / (a.w - b.w));
-            lines.push_back({on_screen(a, place), on_screen(b, place)});
+            const glm::vec2 from_at = on_screen(a, place), to_at = on_screen(b, place);
+            draw.AddLine({from_at.x, from_at.y}, {to_at.x, to_at.y}, color, 1.5f);
         }
     }
-    return lines;
 }
 
 std::array<glm::dvec3, 8> active_corners(const ProbedPixel& pixel) {
-    const ActiveCluster a = pixel.probe.active.value_or(ActiveCluster{});
+    const ActiveCluster& a = *pixel.probe.active;
     std::array<glm::dvec3, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
         corners[i] = to_world(pixel.camera,
@@ -169,16 +160,16 @@ std::array<glm::dvec3, 8> coarse_corners(const ProbedPixel& pixel) {
     return corners;
 }
 
+}  // namespace
+
 void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
                 const ScreenPlace& place) {
     if (!pixel.probe.drawn()) return;
     draw.PushClipRect({place.x0, place.y0}, {place.x1, place.y1});
     if (pixel.probe.has_list) {
-        draw_lines(draw, project_edges(coarse_corners(pixel), camera, place), kCoarseColor, 1.0f);
+        draw_edges(draw, coarse_corners(pixel), camera, place, kCoarseColor);
     }
-    if (pixel.probe.active) {
-        draw_lines(draw, project_edges(active_corners(pixel), camera, place), kActiveColor, 1.5f);
-    }
+    if (pixel.probe.active) draw_edges(draw, active_corners(pixel), camera, place, kActiveColor);
     draw_lights(draw, pixel, camera, place);
     draw.PopClipRect();
 }

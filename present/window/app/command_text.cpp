@@ -20,7 +20,7 @@ std::string vector_text(const glm::dvec3& v) {
     return number_text(v.x) + "," + number_text(v.y) + "," + number_text(v.z);
 }
 
-// In single quotes where a shell would see more than a word.
+// In single quotes unless it is a plain word for a shell.
 std::string quoted(const std::string& word) {
     const bool plain = word.find_first_not_of(
                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"

@@ -8,11 +8,11 @@
 
 namespace kilolux {
 
-/// The camera as options of a command line: `first` is what the window began with.
+/// The camera as command-line options. `first`: the command line of the window.
 std::string camera_options(const CameraRig& rig, const SharedOptions& first, const Scene& scene);
 
-/// The command that renders the picture of `options.settings` from this camera at options.time; its
-/// file is kilolux.png. Only what is not the default is named.
+/// The command that renders options.settings from this camera at options.time to kilolux.png.
+/// Defaults are left out.
 std::string render_command(const CameraRig& rig, const SharedOptions& options, const Scene& scene);
 
 }  // namespace kilolux

@@ -19,7 +19,7 @@ void InputState::take(const InputEvent& event) {
     }
     const auto* focus = std::get_if<FocusEvent>(&event);
     if (focus != nullptr && !focus->focused) {
-        // Releases happen elsewhere now, and are never told.
+        // Their releases go to another window.
         keys_.clear();
         buttons_.fill(false);
     }

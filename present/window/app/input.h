@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-// What a person does to a window. Codes are GLFW's; positions are in window coordinates, from the
+// Events of a window. Codes are GLFW's; positions are in window coordinates, from the
 // upper left.
 struct KeyEvent {
     int key = 0;
@@ -36,17 +36,18 @@ struct WheelEvent {
 struct FocusEvent {
     bool focused = false;
 };
+struct RedrawEvent {};  // the window was uncovered or has another size
 using InputEvent =
-    std::variant<KeyEvent, TextEvent, ButtonEvent, MoveEvent, WheelEvent, FocusEvent>;
+    std::variant<KeyEvent, TextEvent, ButtonEvent, MoveEvent, WheelEvent, FocusEvent, RedrawEvent>;
 
-/// Which keys and buttons are down, where the mouse is, and what happened since the last frame.
+/// Keys and buttons that are down, the mouse's position, and the events since the last frame.
 class InputState {
  public:
     static constexpr std::size_t kButtons = 3;  // left, right, middle
 
     void take(const InputEvent& event);
 
-    /// Forgets what happened; what is down stays down.
+    /// Forgets the frame's events; keys and buttons stay down.
     void end_frame();
 
     bool is_down(int key) const { return keys_.contains(key); }

@@ -6,8 +6,6 @@
 
 namespace kilolux {
 
-PictureBuffers::PictureBuffers() = default;
-
 PictureBuffers::~PictureBuffers() {
     for (Slot& slot : slots_) {
         if (slot.read != nullptr) glDeleteSync(slot.read);
@@ -81,12 +79,6 @@ void PictureBuffers::show(std::size_t index, int width, int height) {
     if (slot.buffer) slot.read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     slot.used = false;
     check_gl_errors("picture texture");
-}
-
-std::size_t PictureBuffers::bytes() const {
-    std::size_t sum = sizeof(uint) * static_cast<std::size_t>(width_ * height_);
-    for (const Slot& slot : slots_) sum += slot.pixels.size_bytes();
-    return sum;
 }
 
 }  // namespace kilolux

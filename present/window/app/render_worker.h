@@ -1,101 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <mutex>
-#include <optional>
-#include <stop_token>
-#include <string>
-#include <thread>
+#include <future>
+#include <memory>
+#include <span>
 
 #include "host/render/renderer.h"
-#include "present/window/app/window.h"
+#include "present/window/app/task_thread.h"
 
 namespace kilolux {
 
 /// A picture to render, and where to.
 struct PictureRequest {
-    std::uint64_t serial = 0;  // which state of the window it shows
     RenderSettings settings;
     Camera camera;
-    double time = 0.0;     // [s]
-    std::size_t slot = 0;  // of PictureBuffers
-    std::span<uint> pixels;
+    double time = 0.0;       // [s]
+    std::span<uint> pixels;  // rows display_stride() apart
 };
 
-/// A rendered one.
+/// What came with a rendered picture.
 struct Picture {
-    PictureRequest request;
     Frame frame;  // without display and radiance
     DeviceInfo device;
     ScenePlan plan;
     std::uint64_t device_bytes = 0;  // of our OpenCL buffers
 };
 
-/// The Renderer in a thread of its own, so that the window answers while a picture takes its time,
-/// and draws one picture while the next is made.
-///
-/// It renders what request() asked for last, and between pictures does what post() gave it. Calls
-/// wake_windows() whenever there is something new to take.
+/// The Renderer in a thread of its own: the window answers while a picture is made, and shows one
+/// picture while the next is made.
 class RenderWorker {
  public:
-    using Job = std::function<void(Renderer&)>;
+    /// `use_context` makes an OpenGL context of its own current in the thread (true), or none
+    /// (false); `wake` is called in the thread whenever a future has become ready. The scene must
+    /// outlive this.
+    RenderWorker(const Scene& scene, const RenderSettings& settings,
+                 std::function<void(bool)> use_context, TaskThread::Call wake);
 
-    /// `context`: a window of its own for the thread's OpenGL. Scene and context must outlive this.
-    RenderWorker(const Scene& scene, const RenderSettings& settings, const Window& context);
-    ~RenderWorker();
-    RenderWorker(const RenderWorker&) = delete;
-    RenderWorker& operator=(const RenderWorker&) = delete;
+    /// Renders after all tasks. Replaces the last request that has not begun.
+    std::future<Picture> render(PictureRequest request);
 
-    /// Asks for a picture instead of the last one asked for, if that has not been begun: then
-    /// returns its slot.
-    std::optional<std::size_t> request(PictureRequest request);
-
-    /// Has `job` done before the next picture. What it throws becomes take_error()'s.
-    void post(Job job);
-
-    std::optional<Picture> take_picture();
-
-    /// A request or job that failed, in one line; its picture's slot, if it had one, is free.
-    struct Failure {
-        std::string what;
-        std::optional<std::size_t> slot;
-        std::uint64_t serial = 0;  // of the request; 0: a job
-    };
-    std::optional<Failure> take_failure();
+    /// Runs work(renderer) before the next picture.
+    template <typename Work>
+    auto ask(Work work, AtStop at_stop = AtStop::drop) {
+        return thread_.ask([this, work = std::move(work)] { return work(*renderer_); }, at_stop);
+    }
 
     /// Throws what kept the renderer from being made.
-    void check_alive() const;
-
-    /// Neither a picture nor a job is asked for or being worked on.
-    bool is_idle() const;
-
-    /// Asked by jobs that take long: the window closes.
-    bool is_stopping() const { return stopping_; }
+    void check_begun() const { thread_.check_begun(); }
+    bool is_stopping() const { return thread_.is_stopping(); }
+    bool stop(std::chrono::milliseconds patience) { return thread_.stop(patience); }
 
  private:
-    void run();
-    void work(Renderer& renderer);
-    void do_job(Renderer& renderer, const Job& job);
-    void do_picture(Renderer& renderer, PictureRequest request);
-    void fail(const std::string& what, const PictureRequest* request);
-
-    const Scene& scene_;
-    RenderSettings first_settings_;
-    const Window& context_;
-    mutable std::mutex mutex_;  // guards all below but the thread
-    std::condition_variable changed_;
-    std::optional<PictureRequest> request_;
-    std::deque<Job> jobs_;
-    std::deque<Picture> pictures_;
-    std::deque<Failure> failures_;
-    std::exception_ptr fatal_;
-    bool working_ = true;
-    std::atomic<bool> stopping_ = false;
-    std::thread thread_;
+    std::unique_ptr<Renderer> renderer_;  // used in the thread only
+    TaskThread thread_;                   // last: it ends first
 };
 
 }  // namespace kilolux

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,7 +16,7 @@
 #include "present/window/app/cluster_view.h"
 #include "present/window/app/picture_buffers.h"
 #include "present/window/app/render_worker.h"
-#include "present/window/app/view_state.h"
+#include "present/window/app/state_file.h"
 #include "present/window/app/window.h"
 #include "present/window/panel/gui.h"
 #include "present/window/panel/panel.h"
@@ -22,7 +24,7 @@
 
 namespace kilolux {
 
-/// What a run of the window is told.
+/// What a run of the window is given.
 struct SessionOptions {
     SharedOptions shared;  // scene, camera, time
     ViewState state;
@@ -36,78 +38,101 @@ struct Area {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// The window: what a person does changes the state and the camera, the worker renders what they
-/// describe, and every frame shows the latest picture with the panel beside it.
+/// The window: input changes the state and the camera, the worker renders what they describe, and
+/// every frame shows the latest picture with the panel beside it.
 class ViewSession {
  public:
-    /// Opens nothing: window and context are there, the window's context is current.
-    ViewSession(const Scene& scene, SessionOptions options, Window& window, const Window& context);
+    /// `window` is current and on the screen; `context` becomes the worker's. Changes of the state
+    /// go to `file`.
+    ViewSession(const Scene& scene, SessionOptions options, StateFile& file, Window& window,
+                const Window& context);
     ~ViewSession();
 
     /// Until the window is closed, exit_after pictures are shown, or a signal comes: Interrupted.
-    /// Nothing is rendered while it is minimised, unless something waits for the pictures: a script
-    /// or exit_after.
+    /// Nothing is rendered while it is minimised, unless a script or exit_after waits for pictures.
     void run();
 
-    const ViewState& state() const { return state_; }
+    /// Ends the worker after files that are being saved. Returns false if it is still busy after a
+    /// moment: then only the end of the process ends it.
+    bool stop();
 
  private:
     using Clock = std::chrono::steady_clock;
+    static constexpr int kSmallestEdge = 16;  // [pixel] of a picture
 
     // A frame of the window, in order.
     void wait();
     void take_results();
-    void take_picture(Picture picture);
     void obey_input();
     void describe();
     void request_picture();
     void paint();
-    void finish_frame();
+    void draw();
+    double wait_seconds();
+    void redraw_soon(int frames = 2);
+    void fade_notice();
+    void remember_size();
+    void keep_state();
 
     // Input.
     void take_event(const InputEvent& event);
     void obey_key(const KeyEvent& key);
-    CameraWish camera_wish();
+    CameraMotion camera_motion();
     void steer();
-    void obey_wishes(const PanelWishes& wishes);
+    void obey_actions(const Actions& actions);
     void reset_settings();
 
     // Pictures.
+    struct PendingPicture {
+        std::size_t slot = 0;  // of buffers_
+        PictureRequest request;
+        std::future<Picture> picture;
+    };
     PictureRequest wanted() const;
+    PictureRequest wanted_whole() const;
     bool is_moving() const;
     bool is_resting() const;
-    bool is_settled() const;
-    void post_startup_jobs();
+    bool renders_always() const;
+    Settled settled() const;
+    bool take_picture(PendingPicture& pending);
+    void show_picture(const PendingPicture& pending, Picture picture);
     void save_picture(const std::string& extension);
     void save_window(const std::filesystem::path& file);
     std::string command() const;
     void copy(const std::string& text);
+    void notify(const std::string& text);
+    void fail(const std::string& what);
+    template <typename T, typename Take>
+    bool take(std::future<T>& future, Take take);
     Area picture_area() const;
     float panel_width() const;
 
     // Drawing.
-    void describe_panel(PanelWishes& wishes);
+    void describe_panel(Actions& actions);
     void describe_overlay();
     void describe_help();
-    void describe_failure(PanelWishes& wishes);
+    void describe_failure(Actions& actions);
 
-    // Clusters.
+    // Clusters and errors.
     ScreenPlace picture_place() const;
-    void ask_probe();
     void describe_picture();
     void describe_clusters();
+    void ask_probe();
+    void ask_clusters();
     void take_clusters();
     void paint_boxes() const;
     void show_boxes();
-
-    // The benchmark.
-    void start_bench();
-    void start_error();
+    void measure_error();
+    void take_error(FrameError error);
+    bool shows_error() const;
 
     const Scene& scene_;
     SessionOptions options_;
+    StateFile& file_;
     Window& window_;
     ViewState state_;
+    ViewState kept_;  // as last written to file_
+    ViewState seen_;  // when writing was considered last
     CameraRig rig_;
     double time_;  // of the lights [s]
     InputState input_;
@@ -116,29 +141,58 @@ class ViewSession {
     PictureBuffers buffers_;
     PanelFacts facts_;
     AdaptiveScale scale_;
+
+    std::deque<PendingPicture> pending_;
     std::optional<PictureRequest> requested_;  // the last
-    std::uint64_t serial_ = 0;
-    std::uint64_t shown_ = 0;         // pictures
-    std::optional<Picture> picture_;  // on the screen
+    std::optional<PictureRequest> drawn_;      // on the screen
+    std::uint64_t shown_ = 0;                  // pictures
+
     Clock::time_point last_frame_ = Clock::now();
     Clock::time_point last_change_;
     double frame_seconds_ = 0.0;
+    double clock_ = 0.0;         // sum of frame_seconds_ [s]
+    double notice_until_ = 0.0;  // by clock_
+    double next_keep_ = 0.0;     // by clock_
+    int frames_to_draw_ = 4;
     std::unique_ptr<ScriptPlayer> script_;  // none: a person
-    int lively_frames_ = 0;  // to draw without waiting, for what the panel still has to settle
-    bool dragging_ = false;  // the mouse, begun on the picture
-    std::unique_ptr<BoxPass> boxes_;        // made when first frozen
-    std::optional<FrozenClusters> frozen_;  // asked for by state_.frozen
-    bool freezing_ = false;                 // asked for, not there yet
-    int box_lights_ = -1;                   // that boxes_ were made for
-    std::optional<ProbedPixel> probed_;
-    bool probing_ = false;                       // asked for, not there yet
-    std::array<int, 3> probed_for_{-1, -1, -1};  // pixel, and number of the picture
-    std::shared_ptr<BenchProgress> bench_;       // none before the first
-    std::shared_ptr<ErrorProgress> error_;
+    bool dragging_ = false;                 // the mouse, begun on the picture
     bool show_help_ = false;
     bool full_screen_ = false;
-    std::shared_ptr<struct SessionNews> news_;  // what jobs of the worker found out
-    std::unique_ptr<RenderWorker> worker_;      // last: its thread ends first
+
+    // Valid while asked for.
+    std::future<DeviceLimits> limits_;
+    std::future<std::optional<ProbedPixel>> probing_;
+    std::future<FrozenClusters> freezing_;
+    std::future<FrameError> measuring_;
+    std::deque<std::future<std::string>> saving_;  // what was written
+
+    std::unique_ptr<BoxPass> boxes_;        // made when first frozen
+    std::optional<FrozenClusters> frozen_;  // while state_.frozen
+    int box_lights_ = -1;                   // that boxes_ were made for
+    std::optional<ProbedPixel> probed_;
+    std::array<int, 3> probed_for_{-1, -1, -1};  // pixel, and number of the picture
+    std::optional<PictureRequest> error_of_;     // the picture whose error was measured
+    GlTexture error_map_;
+    std::atomic<float> error_share_ = 0.0f;  // of the measurement that is done
+    std::atomic<bool> woken_ = false;        // by the worker
+    std::unique_ptr<RenderWorker> worker_;   // last: its thread ends first
 };
+
+/// Takes the result of `future` once it is there. Reports what it throws: then returns false.
+template <typename T, typename Take>
+bool ViewSession::take(std::future<T>& future, Take take) {
+    if (!future.valid() || future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+        return true;
+    }
+    std::future<T> ready = std::move(future);
+    redraw_soon();
+    try {
+        take(ready.get());
+        return true;
+    } catch (const std::exception& error) {
+        fail(error.what());
+        return false;
+    }
+}
 
 }  // namespace kilolux

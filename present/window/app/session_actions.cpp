@@ -4,147 +4,131 @@
 #include <cstring>
 
 #include "host/base/error.h"
+#include "host/picture/view_canvas.h"
 #include "present/cli/frame_summary.h"
 #include "present/image/image_file.h"
 #include "present/window/app/command_text.h"
 #include "present/window/app/session.h"
-#include "present/window/app/worker_results.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The first of kilolux-001, kilolux-002, ... that is not there.
-fs::path free_file(const fs::path& folder, const std::string& extension) {
+// The first of kilolux-001, kilolux-002, ... that does not exist.
+fs::path free_file(const std::string& extension) {
     for (int i = 1;; ++i) {
-        char number[16];
-        std::snprintf(number, sizeof number, "%03d", i);
-        fs::path file = folder / ("kilolux-" + std::string(number) + extension);
+        char name[32];
+        std::snprintf(name, sizeof name, "kilolux-%03d", i);
+        fs::path file = name + extension;
         if (!fs::exists(file)) return file;
     }
 }
 
+// A heat map of relative errors at the picture's size, with its legend.
+Canvas error_picture(const FrameError& error, int width, int height) {
+    const HeatScale scale{1e-8, 1.0, true, "RELATIVE ERROR"};
+    Canvas canvas = make_canvas(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const int from = y * error.height / height * error.width + x * error.width / width;
+            const double value = error.relative.at(static_cast<std::size_t>(from));
+            canvas.set(x, y, heat_color(position_on(scale, value)));
+        }
+    }
+    draw_legend(canvas, scale);
+    return canvas;
+}
+
 }  // namespace
 
-void ViewSession::post_startup_jobs() {
-    worker_->post([news = news_](Renderer& renderer) {
-        const DeviceLimits limits = cached_device_limits(renderer.gpu());
-        const std::lock_guard lock(news->mutex);
-        news->limits = limits;
-    });
-}
-
-// Of the picture as it is on the screen.
-void ViewSession::start_error() {
-    error_ = std::make_shared<ErrorProgress>();
-    worker_->post([progress = error_, request = wanted(), &worker = *worker_](Renderer& renderer) {
-        const auto tell = [&](double share) {
-            progress->share = static_cast<float>(share);
+void ViewSession::measure_error() {
+    if (measuring_.valid()) return;
+    error_of_ = wanted();
+    error_share_ = 0.0f;
+    measuring_ = worker_->ask([this, request = *error_of_, &worker = *worker_](Renderer& renderer) {
+        const auto progress = [&](double share) {
             if (worker.is_stopping()) throw Interrupted();
+            error_share_ = static_cast<float>(share);
+            woken_ = true;
             wake_windows();
         };
-        try {
-            const FrameError error =
-                measure_frame_error(renderer, request.settings, request.camera, request.time, tell);
-            const std::lock_guard lock(progress->mutex);
-            progress->result = error;
-        } catch (...) {
-            progress->running = false;
-            throw;
-        }
-        progress->running = false;
+        return measure_frame_error(renderer, request.settings, request.camera, request.time,
+                                   progress);
     });
 }
 
-void ViewSession::start_bench() {
-    BenchRequest request;
-    const PictureRequest now = wanted();
-    request.settings = now.settings;
-    request.settings.want.aovs.clear();
-    request.camera = now.camera;
-    request.time = now.time;
-    request.renderers = {RendererKind::deferred, RendererKind::forward_plus};
-    request.most_lights = state_.bench_lights;
-    request.csv = free_file(state_.folder, "-bench.csv");
-    bench_ = std::make_shared<BenchProgress>();
-    worker_->post([news = news_, request, progress = bench_, &scene = scene_](Renderer&) {
-        run_bench_job(scene, request, *progress);
-        const std::lock_guard lock(news->mutex);
-        if (!progress->rows.empty()) news->message = "wrote " + request.csv.string();
-    });
+void ViewSession::take_error(FrameError error) {
+    const RenderSettings& measured = error_of_->settings;
+    const Canvas canvas = error_picture(error, measured.width, measured.height);
+    error_map_ = make_texture(GL_TEXTURE_2D);
+    glTextureStorage2D(error_map_.name(), 1, GL_RGBA8, canvas.width, canvas.height);
+    glTextureParameteri(error_map_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureSubImage2D(error_map_.name(), 0, 0, 0, canvas.width, canvas.height, GL_RGBA,
+                        GL_UNSIGNED_BYTE, canvas.rgba.data());
+    facts_.error = std::move(error);
+    requested_.reset();  // the renderer's last picture is the window's again
 }
 
-void ViewSession::obey_wishes(const PanelWishes& wishes) {
-    if (wishes.reset_camera) rig_.set(choose_camera(options_.shared.camera, scene_));
-    if (wishes.frame_scene) rig_.frame();
-    if (wishes.scene_camera) {
-        rig_.set(camera_of(scene_.cameras.at(static_cast<std::size_t>(*wishes.scene_camera))));
+void ViewSession::obey_actions(const Actions& actions) {
+    if (actions.reset_camera) rig_.set(choose_camera(options_.shared.camera, scene_));
+    if (actions.frame_scene) rig_.frame();
+    if (actions.scene_camera) {
+        rig_.set(camera_of(scene_.cameras.at(static_cast<std::size_t>(*actions.scene_camera))));
     }
-    if (wishes.copy_camera) {
-        copy(camera_options(rig_, options_.shared, scene_));
-    }
-    if (wishes.copy_command) {
-        copy(command());
-    }
-    if (wishes.measure_error) start_error();
-    if (wishes.start_bench) start_bench();
-    if (wishes.stop_bench && bench_) bench_->cancelled = true;
-    if (wishes.save_png) save_picture(".png");
-    if (wishes.save_exr) save_picture(".exr");
-    if (wishes.help) show_help_ = !show_help_;
-    if (wishes.dismiss_failure) facts_.failure.clear();
-    if (wishes.reset_settings) reset_settings();
-    if (wishes.full_screen) full_screen_ = !full_screen_;
+    if (actions.copy_camera) copy(camera_options(rig_, options_.shared, scene_));
+    if (actions.copy_command) copy(command());
+    if (actions.measure_error) measure_error();
+    if (actions.save_png) save_picture(".png");
+    if (actions.save_exr) save_picture(".exr");
+    if (actions.help) show_help_ = !show_help_;
+    if (actions.close_help) show_help_ = false;
+    if (actions.dismiss_failure) facts_.failure.clear();
+    if (actions.reset_settings) reset_settings();
+    if (actions.full_screen) full_screen_ = !full_screen_;
+    if (actions.close) window_.close();
     window_.set_full_screen(full_screen_);
 }
 
-// The program's, whatever the command line said; the device was chosen for the run.
+// The program's defaults, whatever the command line said; the device was chosen for the run.
 void ViewSession::reset_settings() {
     ViewState fresh;
     fresh.settings = SharedOptions().settings;
     fresh.settings.device = state_.settings.device;
     fresh.window_size = state_.window_size;
-    fresh.folder = state_.folder;
     state_ = std::move(fresh);
+    file_.forget();
 }
 
 void ViewSession::copy(const std::string& text) {
     window_.set_clipboard(text);
-    facts_.message = "copied: " + text;
+    notify("copied: " + text);
 }
 
 std::string ViewSession::command() const {
     SharedOptions options = options_.shared;
-    options.settings = wanted().settings;
-    const Area area = picture_area();
-    options.settings.width = area.width;
-    options.settings.height = area.height;
+    options.settings = wanted_whole().settings;
     options.time = time_;
     return render_command(rig_, options, scene_);
 }
 
-// In full size, whatever is on the screen.
 void ViewSession::save_picture(const std::string& extension) {
-    const fs::path file = free_file(state_.folder, extension);
-    PictureRequest request = wanted();
-    const Area area = picture_area();
-    request.settings.width = std::max(area.width, 16);
-    request.settings.height = std::max(area.height, 16);
+    const PictureRequest request = wanted_whole();
     SharedOptions shared = options_.shared;
     shared.settings = request.settings;
-    worker_->post([news = news_, request, shared, file](Renderer& renderer) {
+    const auto save = [request, shared, extension](Renderer& renderer) {
         renderer.change(request.settings);
         const Frame frame = renderer.render(request.camera, request.time);
         ImageNotes notes = picture_notes(shared, renderer.device(), frame.stats);
         notes.camera = request.camera;
+        const fs::path file = free_file(extension);
         write_image(file, frame, notes);
-        const std::lock_guard lock(news->mutex);
-        news->message = "wrote " + file.string();
-    });
+        return "wrote " + file.string();
+    };
+    saving_.push_back(worker_->ask(save, AtStop::finish));
 }
 
-// The window as it is, or of a linear file the picture.
+// A screenshot of the whole window.
 void ViewSession::save_window(const fs::path& file) {
     if (image_meaning(file) == ImageMeaning::linear) {
         throw UsageError("--screenshot: " + file.string() +
@@ -156,7 +140,7 @@ void ViewSession::save_window(const fs::path& file) {
     frame.height = pixels[1];
     const std::size_t row = 4 * static_cast<std::size_t>(frame.width);
     std::vector<std::uint8_t> rows(row * static_cast<std::size_t>(frame.height));
-    paint();
+    draw();
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
     glReadBuffer(GL_BACK);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

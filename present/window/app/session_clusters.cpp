@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking into clusters with the mouse: the pixel under it, and the frozen boxes.
+// The picture in the window, and what is drawn over it: the probed pixel's lists, frozen clusters,
+// the error map.
 #include <imgui.h>
 
 #include <algorithm>
 
+#include "host/base/error.h"
 #include "present/window/app/session.h"
-#include "present/window/app/worker_results.h"
 
 namespace kilolux {
 
@@ -14,11 +15,11 @@ ScreenPlace ViewSession::picture_place() const {
     return {panel_width(), 0.0f, static_cast<float>(size[0]), static_cast<float>(size[1])};
 }
 
-// Once for every pixel that the mouse comes to, and again in every new picture.
+// Once for each pixel that the mouse comes to in each picture.
 void ViewSession::ask_probe() {
-    if (!state_.probe || !picture_ || probing_) return;
+    if (!state_.probe || !drawn_ || probing_.valid()) return;
     const ScreenPlace place = picture_place();
-    const RenderSettings& drawn = picture_->request.settings;
+    const RenderSettings& drawn = drawn_->settings;
     const double u = (input_.mouse().x - static_cast<double>(place.x0)) /
                      std::max(static_cast<double>(place.x1 - place.x0), 1.0);
     const double v = (input_.mouse().y - static_cast<double>(place.y0)) /
@@ -33,60 +34,46 @@ void ViewSession::ask_probe() {
     const std::array<int, 3> wanted_for = {x, y, static_cast<int>(shown_)};
     if (wanted_for == probed_for_) return;
     probed_for_ = wanted_for;
-    probing_ = true;
-    const Camera camera = picture_->request.camera;
-    worker_->post([news = news_, x, y, camera](Renderer& renderer) {
+    probing_ = worker_->ask([x, y, drawn = *drawn_](Renderer& renderer) {
         const RenderSettings& s = renderer.settings();
         std::optional<ProbedPixel> out;
-        if (x < s.width && y < s.height) {
-            out = ProbedPixel{x, y, s.width, s.height, camera, renderer.probe(x, y), {}};
-            const auto shading = static_cast<Shading>(renderer.plan().kernels.shading + 1);
-            out->shares = light_shares(out->probe, shading, camera.orthographic);
-        }
-        const std::lock_guard lock(news->mutex);
-        news->probed = std::move(out);
-        news->probe_done = true;
+        // Another picture may have been made since, as by a measurement.
+        if (s.width != drawn.settings.width || s.height != drawn.settings.height) return out;
+        out = ProbedPixel{x, y, s.width, s.height, drawn.camera, renderer.probe(x, y), {}};
+        const auto shading = static_cast<Shading>(renderer.plan().kernels.shading + 1);
+        out->shares = light_shares(out->probe, shading, drawn.camera.orthographic);
+        return out;
     });
 }
 
+void ViewSession::ask_clusters() {
+    if (!state_.frozen) frozen_.reset();
+    if (!state_.frozen || frozen_ || freezing_.valid() || !drawn_) return;
+    freezing_ = worker_->ask([camera = drawn_->camera](Renderer& renderer) {
+        FrozenClusters frozen{camera, renderer.active_clusters()};
+        if (frozen.clusters.empty()) {
+            throw Error("clusters: only the renderer deferred has active ones to freeze");
+        }
+        return frozen;
+    });
+}
+
+// What cannot be looked at is switched off.
 void ViewSession::take_clusters() {
-    const std::lock_guard lock(news_->mutex);
-    if (news_->probe_done) {
-        probed_ = std::move(news_->probed);
-        news_->probe_done = false;
-        probing_ = false;
-        lively_frames_ = std::max(lively_frames_, 1);
-    }
-    if (news_->frozen) {
-        frozen_ = std::move(news_->frozen);
-        news_->frozen.reset();
-        freezing_ = false;
+    state_.probe &=
+        take(probing_, [this](std::optional<ProbedPixel> pixel) { probed_ = std::move(pixel); });
+    state_.frozen &= take(freezing_, [this](FrozenClusters clusters) {
+        frozen_ = std::move(clusters);
         box_lights_ = -1;
-        lively_frames_ = std::max(lively_frames_, 1);
-    }
+    });
 }
 
 void ViewSession::describe_clusters() {
     ask_probe();
-    if (!state_.frozen) {
-        frozen_.reset();
-        freezing_ = false;
-    } else if (!frozen_ && !freezing_ && picture_) {
-        freezing_ = true;
-        const Camera camera = picture_->request.camera;
-        worker_->post([news = news_, camera](Renderer& renderer) {
-            FrozenClusters frozen{camera, renderer.active_clusters()};
-            if (frozen.clusters.empty()) {
-                throw Error("clusters: only the renderer deferred has active ones to freeze");
-            }
-            const std::lock_guard lock(news->mutex);
-            news->frozen = std::move(frozen);
-        });
-    }
+    ask_clusters();
     show_boxes();
-    if (!state_.probe || !probed_ || !picture_) return;
-    draw_probe(*ImGui::GetBackgroundDrawList(), *probed_, picture_->request.camera,
-               picture_place());
+    if (!state_.probe || !probed_ || !drawn_) return;
+    draw_probe(*ImGui::GetBackgroundDrawList(), *probed_, drawn_->camera, picture_place());
     const auto size = window_.size();
     const float margin = gui_.scaled(10.0f);
     describe_probe(*probed_,
@@ -112,16 +99,17 @@ void ViewSession::show_boxes() {
 }
 
 void ViewSession::paint_boxes() const {
-    if (!picture_) return;
+    if (!drawn_) return;
     const Area area = picture_area();
-    boxes_->draw(picture_->request.camera, {area.x, 0, area.width, area.height});
+    boxes_->draw(drawn_->camera, {area.x, 0, area.width, area.height});
 }
 
 void ViewSession::describe_picture() {
     if (buffers_.width() == 0) return;
     const ScreenPlace place = picture_place();
+    const GLuint name = shows_error() ? error_map_.name() : buffers_.texture();
     // Dear ImGui passes names of textures as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
-    const auto texture = reinterpret_cast<ImTextureID>(std::uintptr_t{buffers_.texture()});
+    const auto texture = reinterpret_cast<ImTextureID>(std::uintptr_t{name});
     ImGui::GetBackgroundDrawList()->AddImage(texture, {place.x0, place.y0}, {place.x1, place.y1});
 }
 

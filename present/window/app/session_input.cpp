@@ -17,31 +17,67 @@ double held(const InputState& input, int plus, int minus) {
     return (input.is_down(plus) ? 1.0 : 0.0) - (input.is_down(minus) ? 1.0 : 0.0);
 }
 
-std::string next_of(const std::vector<std::string>& names, const std::string& now, int step) {
-    const auto found = std::find(names.begin(), names.end(), now);
-    const int count = static_cast<int>(names.size());
-    const int place = static_cast<int>(found - names.begin());
-    return names[static_cast<std::size_t>((place + step + count) % count)];
+CameraMode other(CameraMode mode) {
+    return mode == CameraMode::fly ? CameraMode::orbit : CameraMode::fly;
 }
+
+void step_view(ViewState& state, int step) {
+    const int count = static_cast<int>(view_names().size());
+    const int now = static_cast<int>(state.settings.want.view);
+    state.settings.want.view = static_cast<ViewKind>((now + step + count) % count);
+}
+
+// What a key does, with Shift, Ctrl, both or none held as `modifiers` says.
+struct KeyBinding {
+    int key;
+    int modifiers;
+    void (*act)(ViewState& state, Actions& actions);
+};
+
+constexpr int kShift = GLFW_MOD_SHIFT;
+constexpr int kControl = GLFW_MOD_CONTROL;
+
+// session_panel.cpp lists them for the reader.
+constexpr KeyBinding kBindings[] = {
+    {GLFW_KEY_F1, 0, [](ViewState&, Actions& a) { a.help = true; }},
+    {GLFW_KEY_H, 0, [](ViewState&, Actions& a) { a.help = true; }},
+    {GLFW_KEY_ESCAPE, 0, [](ViewState&, Actions& a) { a.close_help = true; }},
+    {GLFW_KEY_TAB, 0, [](ViewState& s, Actions&) { s.show_panel = !s.show_panel; }},
+    {GLFW_KEY_F, 0, [](ViewState&, Actions& a) { a.frame_scene = true; }},
+    {GLFW_KEY_R, 0, [](ViewState&, Actions& a) { a.reset_camera = true; }},
+    {GLFW_KEY_O, 0, [](ViewState& s, Actions&) { s.camera_mode = other(s.camera_mode); }},
+    {GLFW_KEY_C, 0, [](ViewState&, Actions& a) { a.copy_command = true; }},
+    {GLFW_KEY_C, kControl, [](ViewState&, Actions& a) { a.copy_camera = true; }},
+    {GLFW_KEY_V, 0, [](ViewState& s, Actions&) { step_view(s, 1); }},
+    {GLFW_KEY_V, kShift, [](ViewState& s, Actions&) { step_view(s, -1); }},
+    {GLFW_KEY_L, 0, [](ViewState& s, Actions&) { s.settings.want.view = ViewKind::lit; }},
+    {GLFW_KEY_SPACE, 0, [](ViewState& s, Actions&) { s.lights_move = !s.lights_move; }},
+    {GLFW_KEY_X, 0, [](ViewState& s, Actions&) { s.probe = !s.probe; }},
+    {GLFW_KEY_G, 0, [](ViewState& s, Actions&) { s.frozen = !s.frozen; }},
+    {GLFW_KEY_F11, 0, [](ViewState&, Actions& a) { a.full_screen = true; }},
+    {GLFW_KEY_P, 0, [](ViewState&, Actions& a) { a.save_png = true; }},
+    {GLFW_KEY_P, kShift, [](ViewState&, Actions& a) { a.save_exr = true; }},
+    {GLFW_KEY_Q, kControl, [](ViewState&, Actions& a) { a.close = true; }},
+};
 
 }  // namespace
 
-CameraWish ViewSession::camera_wish() {
-    CameraWish wish;
+CameraMotion ViewSession::camera_motion() {
+    CameraMotion motion;
     const bool command = input_.is_down(GLFW_KEY_LEFT_CONTROL);
     if (!gui_.wants_keys() && !command) {
-        wish.move = {held(input_, GLFW_KEY_D, GLFW_KEY_A), held(input_, GLFW_KEY_E, GLFW_KEY_Q),
-                     held(input_, GLFW_KEY_W, GLFW_KEY_S)};
+        motion.move = {held(input_, GLFW_KEY_D, GLFW_KEY_A), held(input_, GLFW_KEY_E, GLFW_KEY_Q),
+                       held(input_, GLFW_KEY_W, GLFW_KEY_S)};
     }
-    wish.faster = input_.is_down(GLFW_KEY_LEFT_SHIFT) || input_.is_down(GLFW_KEY_RIGHT_SHIFT);
-    wish.slower = input_.is_down(GLFW_KEY_LEFT_ALT) || input_.is_down(GLFW_KEY_RIGHT_ALT);
-    if (!gui_.wants_mouse()) wish.wheel = input_.wheel();
-    if (!dragging_) return wish;
+    motion.faster = input_.is_down(GLFW_KEY_LEFT_SHIFT) || input_.is_down(GLFW_KEY_RIGHT_SHIFT);
+    motion.slower = input_.is_down(GLFW_KEY_LEFT_ALT) || input_.is_down(GLFW_KEY_RIGHT_ALT);
+    if (!gui_.wants_mouse()) motion.wheel = input_.wheel();
+    if (!dragging_) return motion;
     const double height = std::max(window_.size()[1], 1);
     const glm::dvec2 dragged(input_.motion().x / height, input_.motion().y / height);
     const bool pans = input_.was_button_down(kRight) || input_.was_button_down(kMiddle);
-    (state_.camera_mode == CameraMode::orbit && pans ? wish.pan : wish.look) = dragged;
-    return wish;
+    (state_.camera_mode == CameraMode::orbit && pans ? motion.pan : motion.look) = dragged;
+    return motion;
 }
 
 void ViewSession::steer() {
@@ -49,9 +85,9 @@ void ViewSession::steer() {
                          input_.was_button_down(kMiddle);
     const bool begins = pressed && !dragging_ && !gui_.wants_mouse();
     if (begins) dragging_ = true;
-    // What is flown by the mouse wants room for the mouse.
+    // While flying, the mouse is not stopped by the screen's edges.
     if (begins && !script_ && state_.camera_mode == CameraMode::fly) window_.grab_mouse(true);
-    rig_.move(camera_wish(), state_.camera_mode, frame_seconds_);
+    rig_.move(camera_motion(), state_.camera_mode, frame_seconds_);
     if (dragging_ && !pressed) {
         dragging_ = false;
         if (!script_) window_.grab_mouse(false);
@@ -65,63 +101,15 @@ void ViewSession::obey_input() {
 }
 
 void ViewSession::obey_key(const KeyEvent& key) {
-    PanelWishes wishes;
-    const bool shift = (key.modifiers & GLFW_MOD_SHIFT) != 0;
-    const bool control = (key.modifiers & GLFW_MOD_CONTROL) != 0;
-    RenderSettings& s = state_.settings;
-    switch (key.key) {
-        case GLFW_KEY_F1:
-        case GLFW_KEY_H:
-            wishes.help = true;
-            break;
-        case GLFW_KEY_ESCAPE:
-            show_help_ = false;
-            break;
-        case GLFW_KEY_TAB:
-            state_.show_panel = !state_.show_panel;
-            break;
-        case GLFW_KEY_F:
-            wishes.frame_scene = true;
-            break;
-        case GLFW_KEY_R:
-            wishes.reset_camera = true;
-            break;
-        case GLFW_KEY_O:
-            state_.camera_mode =
-                state_.camera_mode == CameraMode::fly ? CameraMode::orbit : CameraMode::fly;
-            break;
-        case GLFW_KEY_C:
-            (control ? wishes.copy_camera : wishes.copy_command) = true;
-            break;
-        case GLFW_KEY_V:
-            s.want.view = parse_view(next_of(view_names(), name_of(s.want.view), shift ? -1 : 1));
-            break;
-        case GLFW_KEY_L:
-            s.want.view = ViewKind::lit;
-            break;
-        case GLFW_KEY_SPACE:
-            state_.lights_move = !state_.lights_move;
-            break;
-        case GLFW_KEY_X:
-            state_.probe = !state_.probe;
-            break;
-        case GLFW_KEY_G:
-            state_.frozen = !state_.frozen;
-            break;
-        case GLFW_KEY_F11:
-            wishes.full_screen = true;
-            break;
-        case GLFW_KEY_P:
-            (shift ? wishes.save_exr : wishes.save_png) = true;
-            break;
-        default:
-            break;
-    }
     if (key.key >= GLFW_KEY_1 && key.key <= GLFW_KEY_4) {
-        s.renderer = static_cast<RendererKind>(key.key - GLFW_KEY_1);
+        state_.settings.renderer = static_cast<RendererKind>(key.key - GLFW_KEY_1);
     }
-    if (control && key.key == GLFW_KEY_Q) window_.close();
-    obey_wishes(wishes);
+    Actions actions;
+    for (const KeyBinding& binding : kBindings) {
+        const bool held = (key.modifiers & (kShift | kControl)) == binding.modifiers;
+        if (binding.key == key.key && held) binding.act(state_, actions);
+    }
+    obey_actions(actions);
 }
 
 }  // namespace kilolux

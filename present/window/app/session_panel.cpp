@@ -47,31 +47,29 @@ constexpr KeyHelp kKeys[] = {
 void ViewSession::describe() {
     gui_.begin(input_, script_ ? std::optional(ScriptPlayer::kFrameSeconds) : std::nullopt);
     ui_.begin_frame();
-    PanelWishes wishes;
+    Actions actions;
     describe_picture();
     describe_clusters();
-    if (state_.show_panel) describe_panel(wishes);
+    if (state_.show_panel) describe_panel(actions);
     if (state_.show_overlay) describe_overlay();
     if (show_help_) describe_help();
-    describe_failure(wishes);
+    describe_failure(actions);
     ui_.end_frame();
-    if (ImGui::IsAnyItemActive()) lively_frames_ = std::max(lively_frames_, 1);
-    obey_wishes(wishes);
+    obey_actions(actions);
 }
 
-void ViewSession::describe_panel(PanelWishes& wishes) {
+void ViewSession::describe_panel(Actions& actions) {
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::SetNextWindowSize({panel_width(), static_cast<float>(window_.size()[1])});
     ImGui::Begin("panel", nullptr, kPinned);
     ui_.set_label_width(gui_.scaled(104.0f));
-    const Panel panel{ui_, state_, wishes, facts_};
+    const Panel panel{ui_, state_, actions, facts_};
     panel.picture();
     panel.lights();
     panel.speed();
     panel.clusters();
     panel.camera(rig_);
-    panel.error(error_);
-    panel.bench(bench_);
+    panel.error();
     panel.window();
     panel.device();
     ImGui::End();
@@ -90,18 +88,13 @@ void ViewSession::describe_overlay() {
         ImGui::Text("%.1f ms  %.0f/s", ms, 1000.0 / std::max(ms, 1e-3));
         ImGui::Text("%d x %d at %.2f", facts_.width, facts_.height, facts_.scale);
         ImGui::Text("%s  %s lights", name_of(state_.settings.renderer).c_str(),
-                    short_count(static_cast<double>(facts_.stats.lights_used)).c_str());
+                    short_count(facts_.stats.lights_used).c_str());
     }
-    if (bench_ && bench_->running) {
-        ImGui::Text("benchmark: %zu of %zu pictures", bench_->frames_done.load(),
-                    bench_->frames_total.load());
-    }
-    if (state_.frozen)
-        ImGui::Text("frozen: %s clusters", short_count(static_cast<double>(facts_.boxes)).c_str());
-    if (!facts_.status.empty() && shown_ > 0) ImGui::TextUnformatted(facts_.status.c_str());
-    if (!facts_.message.empty()) {
+    if (state_.frozen) ImGui::Text("frozen: %s clusters", short_count(facts_.boxes).c_str());
+    if (facts_.measuring) ImGui::Text("error: %.0f %% measured", 100.0 * facts_.error_share);
+    if (!facts_.notice.empty()) {
         ImGui::PushTextWrapPos(gui_.scaled(260.0f));
-        ImGui::TextUnformatted(facts_.message.c_str());
+        ImGui::TextColored({1.0f, 1.0f, 1.0f, facts_.notice_alpha}, "%s", facts_.notice.c_str());
         ImGui::PopTextWrapPos();
     }
     ImGui::End();
@@ -129,7 +122,7 @@ void ViewSession::describe_help() {
     ImGui::End();
 }
 
-void ViewSession::describe_failure(PanelWishes& wishes) {
+void ViewSession::describe_failure(Actions& actions) {
     if (facts_.failure.empty()) return;
     const auto size = window_.size();
     const float middle = 0.5f * (panel_width() + static_cast<float>(size[0]));
@@ -139,7 +132,7 @@ void ViewSession::describe_failure(PanelWishes& wishes) {
     ImGui::PushTextWrapPos(gui_.scaled(420.0f));
     ImGui::TextColored({1.0f, 0.5f, 0.4f, 1.0f}, "%s", facts_.failure.c_str());
     ImGui::PopTextWrapPos();
-    wishes.dismiss_failure |= ui_.button("Dismiss");
+    actions.dismiss_failure |= ui_.button("Dismiss");
     ImGui::End();
 }
 

@@ -2,33 +2,31 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <string>
 
 #include "host/render/settings.h"
 #include "present/window/app/camera_rig.h"
 
 namespace kilolux {
 
-/// Everything that a person sets in the window, and that is kept from one run to the next.
+/// What can be set in the window. All but the last group is kept from one run to the next.
 struct ViewState {
-    RenderSettings settings;  // width, height and aovs are the window's business
+    RenderSettings settings;  // width, height and aovs follow from the window
     bool lights_move = false;
-    double light_speed = 1.0;  // seconds of the lights' time in one
+    double light_speed = 1.0;  // seconds of the lights' time per second
     CameraMode camera_mode = CameraMode::fly;
     bool adaptive = true;      // fewer pixels while something moves
     double target_ms = 80.0;   // that a picture may take then
-    double fixed_scale = 1.0;  // of the edges, unless adaptive
+    double fixed_scale = 1.0;  // of the picture's edges when not adaptive
     bool continuous = false;   // render even when nothing changes
     bool vsync = true;
     bool show_panel = true;
     bool show_overlay = true;
-    bool frozen = false;  // the clusters of a moment are drawn as boxes; not kept
-    int box_lights = 1;   // that a frozen cluster must have to be drawn
-    std::uint64_t bench_lights = 16384;
-    bool probe = false;  // lists of the pixel under the mouse
+    bool probe = false;  // show the lists of the pixel under the mouse
     std::array<int, 2> window_size = {1280, 800};
-    std::string folder;  // for saved pictures; empty: where the program was started
+
+    bool frozen = false;     // draw the clusters of one picture as boxes
+    int box_lights = 1;      // that a frozen cluster must have to be drawn
+    bool error_map = false;  // show the measured error in place of the picture
 
     bool operator==(const ViewState&) const = default;
 };

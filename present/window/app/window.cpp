@@ -33,7 +33,7 @@ void set_hints(bool visible) {
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     if (visible) glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    // In full screen it goes on being seen while a window on another monitor has the focus.
+    // In full screen it stays visible while a window on another monitor has the focus.
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
 }
 
@@ -83,6 +83,9 @@ void Window::install_callbacks() {
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
         window_of(w).post(FocusEvent{focused == GLFW_TRUE});
     });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { window_of(w).post(RedrawEvent{}); });
+    glfwSetFramebufferSizeCallback(
+        window_, [](GLFWwindow* w, int, int) { window_of(w).post(RedrawEvent{}); });
 }
 
 void Window::make_current() const { glfwMakeContextCurrent(window_); }
@@ -99,6 +102,7 @@ bool Window::should_close() const { return glfwWindowShouldClose(window_) == GLF
 void Window::close() const { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 void Window::swap() const { glfwSwapBuffers(window_); }
 void Window::show() const { glfwShowWindow(window_); }
+void Window::hide() const { glfwHideWindow(window_); }
 
 std::array<int, 2> Window::size() const {
     std::array<int, 2> out{};
@@ -124,11 +128,7 @@ bool Window::is_minimised() const {
            pixels[1] == 0;
 }
 
-bool Window::has_focus() const { return glfwGetWindowAttrib(window_, GLFW_FOCUSED) == GLFW_TRUE; }
 void Window::resize(std::array<int, 2> size) const { glfwSetWindowSize(window_, size[0], size[1]); }
-void Window::set_title(const std::string& title) const {
-    glfwSetWindowTitle(window_, title.c_str());
-}
 
 void Window::set_vsync(bool on) {
     if (vsync_ == on) return;

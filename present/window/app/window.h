@@ -15,8 +15,7 @@ struct GLFWwindow;
 
 namespace kilolux {
 
-/// The window system, while it lives. Throws Error that says how to do without when there is no
-/// display.
+/// The window system. Throws Error when there is no display, and names the command that needs none.
 class WindowSystem {
  public:
     WindowSystem();
@@ -28,8 +27,8 @@ class WindowSystem {
 /// A window with an OpenGL 4.5 core context.
 class Window {
  public:
-    /// `visible`: on the screen; else only a context to draw with. Throws Error that names the
-    /// packages when the display has no OpenGL 4.5.
+    /// Not `visible`: only a context. Throws Error that names the packages when the display has no
+    /// OpenGL 4.5.
     Window(std::array<int, 2> size, const std::string& title, bool visible);
     ~Window();
     Window(const Window&) = delete;
@@ -37,33 +36,31 @@ class Window {
 
     void make_current() const;
 
-    /// Takes over what a person or a script does: every event, and nothing else, moves the program.
+    /// `take` gets every event, a person's and a script's.
     void on_event(std::function<void(const InputEvent&)> take) { take_ = std::move(take); }
     void post(const InputEvent& event) const {
         if (take_) take_(event);
     }
 
-    /// Handles what happened; waits for something to happen for at most `seconds`, 0: not at all.
+    /// Handles events; waits at most `seconds` for one.
     void wait_events(double seconds) const;
 
     bool should_close() const;
     void close() const;
     void swap() const;
     void show() const;
+    void hide() const;
 
     std::array<int, 2> size() const;         // window coordinates
     std::array<int, 2> framebuffer() const;  // [pixel]; 0,0 while minimised
     float content_scale() const;             // of fonts: 2 on a screen of twice the usual density
     bool is_minimised() const;
-    bool has_focus() const;
     void resize(std::array<int, 2> size) const;
-    void set_title(const std::string& title) const;
-    /// Costs nothing where it is so already. The window's context is current.
+    /// The window's context is current. Does nothing when it is so already.
     void set_vsync(bool on);
     void set_full_screen(bool on);
     bool is_full_screen() const;
-    /// What Window() makes this window of again: its size, or the one before full screen, on a
-    /// screen of usual density.
+    /// The size to give Window() next time: not that of full screen, for a screen of usual density.
     std::array<int, 2> size_to_keep() const;
     /// Hides the mouse and lets it move without end.
     void grab_mouse(bool on) const;

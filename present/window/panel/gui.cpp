@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kFontPixels = 15.0f;
 
-// Where distributions put a font that reads well small; else the one that is built in.
+// DejaVu Sans where distributions put it, else the built-in font.
 void load_font(float scale) {
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     const float size = std::round(kFontPixels * scale);
@@ -30,32 +30,32 @@ void load_font(float scale) {
     fonts.AddFontDefault(&config);
 }
 
+struct Shade {
+    ImGuiCol_ color;
+    float value;
+    float alpha;
+};
+
+constexpr Shade kGrays[] = {
+    {ImGuiCol_WindowBg, 0.085f, 0.97f},     {ImGuiCol_PopupBg, 0.10f, 0.98f},
+    {ImGuiCol_Border, 0.24f, 0.6f},         {ImGuiCol_FrameBg, 0.17f, 1.0f},
+    {ImGuiCol_FrameBgHovered, 0.23f, 1.0f}, {ImGuiCol_FrameBgActive, 0.27f, 1.0f},
+    {ImGuiCol_Header, 0.20f, 1.0f},         {ImGuiCol_HeaderHovered, 0.26f, 1.0f},
+    {ImGuiCol_HeaderActive, 0.30f, 1.0f},   {ImGuiCol_Button, 0.24f, 1.0f},
+    {ImGuiCol_ScrollbarBg, 0.06f, 0.4f},    {ImGuiCol_Separator, 0.28f, 0.8f}};
+
+constexpr Shade kAmbers[] = {
+    {ImGuiCol_ButtonHovered, 0.62f, 1.0f}, {ImGuiCol_ButtonActive, 0.8f, 1.0f},
+    {ImGuiCol_SliderGrab, 0.85f, 1.0f},    {ImGuiCol_SliderGrabActive, 1.0f, 1.0f},
+    {ImGuiCol_CheckMark, 1.0f, 1.0f},      {ImGuiCol_PlotHistogram, 0.9f, 1.0f}};
+
 void set_colors() {
     ImGui::StyleColorsDark();
     ImVec4* colors = ImGui::GetStyle().Colors;
-    const auto gray = [](float v, float alpha) { return ImVec4(v, v, v * 1.06f, alpha); };
-    const auto amber = [](float v, float alpha) {
-        return ImVec4(0.95f * v, 0.66f * v, 0.24f * v, alpha);
-    };
-    colors[ImGuiCol_WindowBg] = gray(0.085f, 0.97f);
-    colors[ImGuiCol_PopupBg] = gray(0.10f, 0.98f);
-    colors[ImGuiCol_Border] = gray(0.24f, 0.6f);
-    colors[ImGuiCol_FrameBg] = gray(0.17f, 1.0f);
-    colors[ImGuiCol_FrameBgHovered] = gray(0.23f, 1.0f);
-    colors[ImGuiCol_FrameBgActive] = gray(0.27f, 1.0f);
-    colors[ImGuiCol_Header] = gray(0.20f, 1.0f);
-    colors[ImGuiCol_HeaderHovered] = gray(0.26f, 1.0f);
-    colors[ImGuiCol_HeaderActive] = gray(0.30f, 1.0f);
-    colors[ImGuiCol_Button] = gray(0.24f, 1.0f);
-    colors[ImGuiCol_ButtonHovered] = amber(0.62f, 1.0f);
-    colors[ImGuiCol_ButtonActive] = amber(0.8f, 1.0f);
-    colors[ImGuiCol_SliderGrab] = amber(0.85f, 1.0f);
-    colors[ImGuiCol_SliderGrabActive] = amber(1.0f, 1.0f);
-    colors[ImGuiCol_CheckMark] = amber(1.0f, 1.0f);
-    colors[ImGuiCol_PlotHistogram] = amber(0.9f, 1.0f);
-    colors[ImGuiCol_PlotLines] = amber(1.0f, 1.0f);
-    colors[ImGuiCol_ScrollbarBg] = gray(0.06f, 0.4f);
-    colors[ImGuiCol_Separator] = gray(0.28f, 0.8f);
+    for (const auto [color, v, alpha] : kGrays) colors[color] = {v, v, 1.06f * v, alpha};
+    for (const auto [color, v, alpha] : kAmbers) {
+        colors[color] = {0.95f * v, 0.66f * v, 0.24f * v, alpha};
+    }
 }
 
 void set_style(float scale) {
@@ -114,8 +114,7 @@ void Gui::take(const InputEvent& event) {
 void Gui::begin(const InputState& input, std::optional<double> seconds) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    // The backend asks the window system for the mouse; events are what counts here, a script's
-    // like a person's.
+    // The backend asks the window system for the mouse. Ours comes from events, a script's too.
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = {static_cast<float>(input.mouse().x), static_cast<float>(input.mouse().y)};
     for (std::size_t i = 0; i < InputState::kButtons; ++i) {

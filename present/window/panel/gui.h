@@ -21,20 +21,20 @@ class Gui {
 
     void take(const InputEvent& event);
 
-    /// Begins a frame: the mouse as `input` has it. `seconds`: what passed since the last frame, if
-    /// not by the clock.
+    /// Begins a frame with the mouse of `input`. `seconds` since the last frame; none: by the
+    /// clock.
     void begin(const InputState& input, std::optional<double> seconds);
 
     /// Draws what was described since begin() to the current framebuffer.
     void draw();
-    /// Instead of draw(), while nobody sees it.
+    /// Instead of draw(), while the window is not visible.
     void skip();
 
     /// Whether the mouse is on a panel, and whether keys belong to a text field.
     bool wants_mouse() const;
     bool wants_keys() const;
 
-    /// Heights and widths made for a font of 15 pixels, on this screen.
+    /// A length for a font of 15 pixels, on this screen.
     float scaled(float pixels) const { return scale_ * pixels; }
 
  private:

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,37 +10,39 @@
 #include "host/measure/roofline/stage_report.h"
 #include "host/render/scene_plan.h"
 #include "host/scene/scene.h"
-#include "present/window/app/bench_job.h"
 #include "present/window/app/view_state.h"
 #include "present/window/panel/stage_history.h"
 #include "present/window/panel/widgets.h"
 
 namespace kilolux {
 
-/// What the panel says about the last picture and what made it.
+/// What the panel shows of the last picture and of what made it.
 struct PanelFacts {
     const Scene& scene;
     std::size_t triangles = 0;
-    DeviceInfo device;
-    ScenePlan plan;
-    FrameStats stats;
-    int width = 0;   // of the last picture [pixel]
-    int height = 0;  // [pixel]
-    double scale = 1.0;
-    StageHistory history;
-    std::optional<DeviceLimits> limits;
-    std::string opengl;               // the window's renderer
-    const char* picture_way = "";     // how pictures come to the window
-    std::uint64_t device_bytes = 0;   // of our OpenCL buffers
-    std::uint64_t process_bytes = 0;  // resident
-    std::size_t boxes = 0;            // frozen clusters drawn
-    std::string status;               // what is being worked on; empty: nothing
-    std::string failure;              // the last one; empty: none
-    std::string message;              // what was done last: a file saved, text copied
+    std::string opengl{};  // the window's renderer
+    DeviceInfo device{};
+    ScenePlan plan{};
+    FrameStats stats{};
+    int width = 0;       // of the last picture [pixel]
+    int height = 0;      // [pixel]
+    double scale = 1.0;  // of its edges
+    StageHistory history{};
+    std::optional<DeviceLimits> limits{};
+    const char* picture_way = "";       // how pictures come to the window
+    std::uint64_t device_bytes = 0;     // of our OpenCL buffers
+    std::uint64_t process_bytes = 0;    // resident
+    std::size_t boxes = 0;              // frozen clusters drawn
+    std::optional<FrameError> error{};  // of the picture measured last
+    bool measuring = false;
+    float error_share = 0.0f;  // of the measurement that is done
+    std::string failure{};     // the last one; empty: none
+    std::string notice{};      // a file was saved, text was copied; empty: none
+    float notice_alpha = 1.0f;
 };
 
-/// What a person asked for in this frame.
-struct PanelWishes {
+/// What input asks for in one frame.
+struct Actions {
     std::optional<int> scene_camera;
     bool reset_camera = false;
     bool frame_scene = false;
@@ -52,27 +51,19 @@ struct PanelWishes {
     bool save_png = false;
     bool save_exr = false;
     bool full_screen = false;
-    bool help = false;
+    bool help = false;  // shows or hides it
+    bool close_help = false;
     bool reset_settings = false;
     bool dismiss_failure = false;
-    bool start_bench = false;
-    bool stop_bench = false;
     bool measure_error = false;
+    bool close = false;
 };
 
-/// A measurement of the picture's error, shared by the thread that measures and the window.
-struct ErrorProgress {
-    std::mutex mutex;  // guards the result
-    std::optional<FrameError> result;
-    std::atomic<float> share = 0.0f;
-    std::atomic<bool> running = true;
-};
-
-/// The sections of the panel, one function each; they change `state` and `wishes`.
+/// The sections of the panel, one function each; they change `state` and `actions`.
 struct Panel {
     Widgets& ui;
     ViewState& state;
-    PanelWishes& wishes;
+    Actions& actions;
     const PanelFacts& facts;
 
     void picture() const;
@@ -81,8 +72,7 @@ struct Panel {
     void speed() const;
     void camera(const CameraRig& rig) const;
     void window() const;
-    void error(const std::shared_ptr<ErrorProgress>& progress) const;
-    void bench(const std::shared_ptr<BenchProgress>& progress) const;
+    void error() const;
     void device() const;
 };
 
@@ -90,7 +80,7 @@ struct Panel {
 void fact_line(const char* name, const std::string& value);
 
 /// "12.3 k", "1.20 M"; "34.5 MiB".
-std::string short_count(double value);
+std::string short_count(std::uint64_t value);
 std::string byte_text(std::uint64_t bytes);
 
 }  // namespace kilolux

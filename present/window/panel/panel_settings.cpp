@@ -18,7 +18,7 @@ void enum_choice(Widgets& ui, const char* label, Enum& value,
     if (ui.choice(label, index, names)) value = static_cast<Enum>(index);
 }
 
-// A value that is automatic at 0: a box to tick, and a slider beside when it is not.
+// A slider and a box for a value that is automatic at 0.
 void automatic_slider(Widgets& ui, const char* label, double& value, double automatic,
                       const SliderRange& range) {
     bool is_automatic = value <= 0.0;
@@ -46,7 +46,7 @@ void Panel::picture() const {
     ui.slider("Bloom", s.bloom, {0.0, 1.0, false, "%.2f"});
     ui.slider("Ambient", s.ambient, {0.0, 1.0, false, "%.3f"});
     ui.slider("Samples", s.samples, {1, 16, false, "%.0f"});
-    ui.tip("Jittered samples a pixel");
+    ui.tip("Jittered samples per pixel");
 }
 
 void Panel::lights() const {
@@ -71,21 +71,21 @@ void Panel::clusters() const {
     ui.slider("Slices", grid.slices_per_octave, {1, 64, true, "%.0f"});
     ui.tip("Depth slices for each doubling of the distance");
     ui.slider("Fine slices", grid.fine_per_octave, {1, 64, true, "%.0f"});
-    ui.tip("Of the active clusters: the nearest below that is the slices times a power of two");
+    ui.tip("Of the active clusters; rounded down to the slices times a power of two");
     const std::vector<std::string> lanes = {"auto", "1", "2", "4", "8", "16"};
     int lane = state.settings.kernels.lanes;
     lane = lane == 0 ? 0 : 1 + static_cast<int>(std::lround(std::log2(lane)));
     if (ui.choice("Lanes", lane, lanes)) {
         state.settings.kernels.lanes = lane == 0 ? 0 : 1 << (lane - 1);
     }
-    ui.tip("Pixels or lights a work-item treats at once; changes no bit of a picture");
+    ui.tip("Pixels or lights per work-item; changes no bit of a picture");
     ui.checkbox("Point at a pixel", state.probe);
-    ui.tip("Its tile, slice and box, and the lights in its list with what each adds");
+    ui.tip("Shows its tile, slice and box, and what each light of its list adds");
     ui.checkbox("Freeze", state.frozen);
-    ui.tip("Keeps the active clusters of this moment and draws them as boxes");
+    ui.tip("Draws the active clusters of this picture as boxes");
     if (!state.frozen) return;
     ui.slider("Least lights", state.box_lights, {0, 200, false, "%.0f"});
-    fact_line("Boxes", short_count(static_cast<double>(facts.boxes)));
+    fact_line("Boxes", short_count(facts.boxes));
 }
 
 void Panel::camera(const CameraRig& rig) const {
@@ -100,7 +100,7 @@ void Panel::camera(const CameraRig& rig) const {
             names.push_back(std::to_string(i) + (name.empty() ? "" : " " + name));
         }
         int chosen = 0;
-        if (ui.choice("Go to", chosen, names) && chosen > 0) wishes.scene_camera = chosen - 1;
+        if (ui.choice("Go to", chosen, names) && chosen > 0) actions.scene_camera = chosen - 1;
     }
     char text[96];
     const glm::dvec3& p = rig.camera().position;
@@ -108,35 +108,35 @@ void Panel::camera(const CameraRig& rig) const {
     fact_line("Position", text);
     std::snprintf(text, sizeof text, "%.3g m/s", rig.speed());
     fact_line("Fly speed", text);
-    wishes.reset_camera |= ui.button("Reset");
+    actions.reset_camera |= ui.button("Reset");
     ImGui::SameLine();
-    wishes.frame_scene |= ui.button("Frame");
+    actions.frame_scene |= ui.button("Frame");
     ImGui::SameLine();
-    wishes.copy_camera |= ui.button("Copy camera");
-    wishes.copy_command |= ui.button("Copy the command that renders this", true);
+    actions.copy_camera |= ui.button("Copy camera");
+    actions.copy_command |= ui.button("Copy the command that renders this", true);
 }
 
 void Panel::window() const {
     if (!ui.section("Window", false)) return;
     ui.checkbox("Adaptive scale", state.adaptive);
-    ui.tip("Fewer pixels while something moves, so that it stays fluent; all of them at rest");
+    ui.tip("Renders fewer pixels while something moves, all of them at rest");
     if (state.adaptive) {
         ui.slider("Target", state.target_ms, {10.0, 1000.0, true, "%.0f ms"});
     } else {
         ui.slider("Scale", state.fixed_scale, {0.1, 1.0, false, "%.2f"});
     }
     ui.checkbox("Render always", state.continuous);
-    ui.tip("Also when nothing changes: for steady times");
+    ui.tip("Renders also when nothing changes, for steady times");
     ui.checkbox("Vsync", state.vsync);
     ui.checkbox("Overlay", state.show_overlay);
-    wishes.save_png |= ui.button("Save PNG");
+    actions.save_png |= ui.button("Save PNG");
     ImGui::SameLine();
-    wishes.save_exr |= ui.button("Save EXR");
+    actions.save_exr |= ui.button("Save EXR");
     ImGui::SameLine();
-    wishes.full_screen |= ui.button("Full screen");
-    wishes.help |= ui.button("Help");
+    actions.full_screen |= ui.button("Full screen");
+    actions.help |= ui.button("Help");
     ImGui::SameLine();
-    wishes.reset_settings |= ui.button("All settings to their defaults");
+    actions.reset_settings |= ui.button("All settings to their defaults");
 }
 
 }  // namespace kilolux

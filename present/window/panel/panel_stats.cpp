@@ -50,11 +50,6 @@ void stage_row(const StageHistory& history, std::size_t stage,
     if (limited && ImGui::IsItemHovered()) ImGui::SetTooltip("bound by %s", found->bound.c_str());
 }
 
-void head(const char* text) {
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", text);
-}
-
 void stage_table(const PanelFacts& facts, const std::vector<StageReport>& reports) {
     if (!ImGui::BeginTable("stages", 4, ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("stage", 0, 2.4f);
@@ -62,7 +57,10 @@ void stage_table(const PanelFacts& facts, const std::vector<StageReport>& report
     ImGui::TableSetupColumn("limit", 0, 1.0f);
     ImGui::TableSetupColumn("ratio", 0, 0.9f);
     ImGui::TableNextRow();
-    for (const char* text : {"stage", "ms", "limit", "of limit"}) head(text);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    cell("stage");
+    for (const char* text : {"ms", "limit", "of limit"}) number_cell(text);
+    ImGui::PopStyleColor();
     for (std::size_t i = 0; i < facts.history.stages().size(); ++i) {
         stage_row(facts.history, i, reports);
     }
@@ -73,7 +71,7 @@ void stage_table(const PanelFacts& facts, const std::vector<StageReport>& report
 }
 
 std::string lights_text(const FrameStats& s) {
-    std::string out = short_count(static_cast<double>(s.lights_used)) + " used";
+    std::string out = short_count(s.lights_used) + " used";
     if (s.lights_rejected > 0) out += ", " + std::to_string(s.lights_rejected) + " rejected";
     return out + ", dropped = " + std::to_string(s.lights_dropped);
 }
@@ -91,11 +89,11 @@ void count_lines(const FrameStats& s) {
     fact_line("Grid", std::to_string(s.grid[0]) + " x " + std::to_string(s.grid[1]) + " x " +
                           std::to_string(s.grid[2]));
     if (s.coarse_pairs > 0) {
-        fact_line("Coarse pairs", short_count(static_cast<double>(s.coarse_pairs)));
+        fact_line("Coarse pairs", short_count(s.coarse_pairs));
     }
     if (s.active_clusters == 0) return;
-    fact_line("Active", short_count(static_cast<double>(s.active_clusters)) + " clusters, " +
-                            short_count(static_cast<double>(s.refined_pairs)) + " pairs");
+    fact_line("Active", short_count(s.active_clusters) + " clusters, " +
+                            short_count(s.refined_pairs) + " pairs");
 }
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -119,16 +117,10 @@ void fact_line(const char* name, const std::string& value) {
     ImGui::TextUnformatted(value.c_str());
 }
 
-std::string short_count(double value) {
-    char text[32];
-    if (value < 1e4) {
-        std::snprintf(text, sizeof text, "%.0f", value);
-    } else if (value < 1e6) {
-        std::snprintf(text, sizeof text, "%.1f k", 1e-3 * value);
-    } else {
-        std::snprintf(text, sizeof text, "%.2f M", 1e-6 * value);
-    }
-    return text;
+std::string short_count(std::uint64_t value) {
+    const auto number = static_cast<double>(value);
+    if (value < 10'000) return std::to_string(value);
+    return value < 1'000'000 ? fixed(1e-3 * number, 1) + " k" : fixed(1e-6 * number, 2) + " M";
 }
 
 std::string byte_text(std::uint64_t bytes) {
@@ -158,7 +150,7 @@ void Panel::speed() const {
     }
     count_lines(facts.stats);
     ui.checkbox("Count k*", state.settings.want.counts);
-    ui.tip("Lights whose range covers the pixel, of those evaluated: one more pass");
+    ui.tip("Counts the evaluated lights whose range covers the pixel: one more pass");
     fact_line("Memory", byte_text(facts.device_bytes) + " OpenCL, " +
                             byte_text(facts.process_bytes) + " process");
 }
@@ -170,13 +162,12 @@ void Panel::device() const {
                           " units, " + std::to_string(d.lane_width) + " lanes");
     wrapped("OpenGL", facts.opengl);
     wrapped("Picture to the window", facts.picture_way);
-    wrapped("Scene", facts.scene.name + ", " + short_count(static_cast<double>(facts.triangles)) +
-                         " triangles, " + std::to_string(facts.scene.instances.size()) +
-                         " instances, " + std::to_string(facts.scene.materials.size()) +
-                         " materials");
+    wrapped("Scene", facts.scene.name + ", " + short_count(facts.triangles) + " triangles, " +
+                         std::to_string(facts.scene.instances.size()) + " instances, " +
+                         std::to_string(facts.scene.materials.size()) + " materials");
     wrapped("Compiled in", list_of(facts.plan.features));
     wrapped("Left out", list_of(facts.plan.left_out));
-    wrapped("G-buffer", std::to_string(facts.plan.gbuffer_bytes_per_pixel) + " bytes a pixel");
+    wrapped("G-buffer", std::to_string(facts.plan.gbuffer_bytes_per_pixel) + " bytes per pixel");
 }
 
 }  // namespace kilolux

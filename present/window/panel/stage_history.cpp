@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 namespace kilolux {
 namespace {
@@ -40,18 +41,12 @@ void StageHistory::add(const FrameStats& stats, int pixels) {
         }
         times[place] = stage.ms;
     }
-    times_.push_back(std::move(times));
-    frames_.push_back(stats.frame_ms);
-    pixels_.push_back(pixels);
-    if (times_.size() > kLength) {
-        times_.pop_front();
-        frames_.pop_front();
-        pixels_.pop_front();
-    }
+    pictures_.push_back({std::move(times), stats.frame_ms, pixels});
+    if (pictures_.size() > kLength) pictures_.pop_front();
 }
 
 double StageHistory::ms(std::size_t i, std::size_t stage) const {
-    const std::vector<double>& times = times_.at(i);
+    const std::vector<double>& times = pictures_.at(i).stages;
     return stage < times.size() ? times[stage] : 0.0;
 }
 
@@ -65,9 +60,9 @@ double StageHistory::median_ms(std::size_t stage) const {
 }
 
 double StageHistory::median_frame_ms() const {
-    if (frames_.empty()) return 0.0;
+    if (pictures_.empty()) return 0.0;
     std::vector<double> values;
-    for (const std::size_t i : recent()) values.push_back(frames_[i]);
+    for (const std::size_t i : recent()) values.push_back(pictures_[i].frame_ms);
     return median(values);
 }
 
@@ -75,17 +70,15 @@ double StageHistory::median_frame_ms() const {
 std::vector<std::size_t> StageHistory::recent() const {
     std::vector<std::size_t> out;
     for (std::size_t i = size() - std::min(size(), kRecent); i < size(); ++i) {
-        if (pixels_[i] == pixels_.back()) out.push_back(i);
+        if (pictures_[i].pixels == pictures_.back().pixels) out.push_back(i);
     }
     return out;
 }
 
 double StageHistory::usual_ms() const {
     std::vector<double> sums;
-    for (const std::vector<double>& times : times_) {
-        double sum = 0.0;
-        for (const double time : times) sum += time;
-        sums.push_back(sum);
+    for (const Times& picture : pictures_) {
+        sums.push_back(std::reduce(picture.stages.begin(), picture.stages.end()));
     }
     if (sums.empty()) return 0.0;
     std::sort(sums.begin(), sums.end());
@@ -93,11 +86,11 @@ double StageHistory::usual_ms() const {
 }
 
 unsigned stage_color(std::size_t stage) {
-    // Tol's muted colours, apart for the colour blind too, and then again.
+    // Tol's muted colours, which the colour blind can tell apart.
     static constexpr unsigned kColors[] = {0xff77ccdd, 0xffeecc88, 0xff7766cc, 0xff99aa44,
                                            0xff9944aa, 0xff337711, 0xff3399dd, 0xff883322,
                                            0xffaa5588, 0xffbbbbbb};
-    return kColors[stage % (sizeof kColors / sizeof kColors[0])];
+    return kColors[stage % std::size(kColors)];
 }
 
 void draw_stage_history(const StageHistory& history, float height) {

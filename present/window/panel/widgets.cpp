@@ -26,6 +26,7 @@ ImGuiSliderFlags flags_of(const SliderRange& range) {
 
 // As ImGui::SliderBehavior has it: the grab stays inside the frame.
 double WidgetPlace::x_of(double value) const {
+    const auto [low, high, logarithmic, format] = slider.value();
     double t = (value - low) / (high - low);
     if (logarithmic) t = std::log(std::max(value, low) / low) / std::log(high / low);
     const double margin = 2.0 + 0.5 * static_cast<double>(ImGui::GetStyle().GrabMinSize);
@@ -82,38 +83,12 @@ bool Widgets::button(const char* text, bool wide) {
     return clicked;
 }
 
-bool Widgets::slider(const char* text, double& value, const SliderRange& range,
-                     const char* beside) {
+bool Widgets::slide(const char* text, double& value, const SliderRange& range, const char* beside) {
     label(text, beside);
     const bool changed =
         ImGui::SliderScalar(hidden(text).c_str(), ImGuiDataType_Double, &value, &range.low,
                             &range.high, range.format, flags_of(range));
-    WidgetPlace& place = note(text);
-    place.is_slider = true;
-    place.low = range.low;
-    place.high = range.high;
-    place.logarithmic = range.logarithmic;
-    return changed;
-}
-
-bool Widgets::slider(const char* text, float& value, const SliderRange& range) {
-    double wide = static_cast<double>(value);
-    const bool changed = slider(text, wide, range);
-    if (changed) value = static_cast<float>(wide);
-    return changed;
-}
-
-bool Widgets::slider(const char* text, int& value, const SliderRange& range) {
-    double wide = value;
-    const bool changed = slider(text, wide, range);
-    if (changed) value = static_cast<int>(std::lround(wide));
-    return changed;
-}
-
-bool Widgets::slider(const char* text, std::uint64_t& value, const SliderRange& range) {
-    double wide = static_cast<double>(value);
-    const bool changed = slider(text, wide, range);
-    if (changed) value = static_cast<std::uint64_t>(std::llround(std::max(wide, 0.0)));
+    note(text).slider = range;
     return changed;
 }
 

@@ -1,28 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace kilolux {
-
-/// Where a widget was in the last frame, in window coordinates, and how to reach its values: for
-/// scripts, which find and click it as a person does.
-struct WidgetPlace {
-    float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
-    bool visible = false;  // its middle can be clicked
-    bool is_slider = false;
-    double low = 0.0, high = 1.0;  // of a slider
-    bool logarithmic = false;
-    bool open = false;  // of a section
-    double middle_x() const { return 0.5 * (x0 + x1); }
-    double middle_y() const { return 0.5 * (y0 + y1); }
-    /// Where on a slider a value is.
-    double x_of(double value) const;
-};
 
 /// A slider's ends.
 struct SliderRange {
@@ -32,11 +18,24 @@ struct SliderRange {
     const char* format = "%.2f";
 };
 
-/// The panel's widgets: a label at the left, the control at the right, and a note of where each is.
-/// Names for scripts are the labels in lower case.
+/// Where a widget was in the last frame, in window coordinates: for scripts, which find and click
+/// it as a person does.
+struct WidgetPlace {
+    float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
+    bool visible = false;               // it can be clicked
+    bool open = false;                  // of a section
+    std::optional<SliderRange> slider;  // of a slider
+    double middle_x() const { return 0.5 * (x0 + x1); }
+    double middle_y() const { return 0.5 * (y0 + y1); }
+    /// Where on the slider a value is.
+    double x_of(double value) const;
+};
+
+/// The panel's widgets: a label at the left, the control at the right. The place of each is
+/// recorded under its label in lower case, for scripts.
 class Widgets {
  public:
-    /// The frame's widgets begin; those of the last stay to be found until end_frame().
+    /// find() has the last frame's widgets until end_frame().
     void begin_frame();
     void end_frame();
 
@@ -44,24 +43,27 @@ class Widgets {
     void set_label_width(float width) { label_width_ = width; }
 
     bool section(const char* label, bool open_at_first);
-    /// `owner`: what it belongs to where several have the same label; first word of its name.
+    /// `owner`: the first word of its name where several boxes have the same label.
     bool checkbox(const char* label, bool& value, const char* owner = "");
     bool button(const char* label, bool wide = false);
-    /// `beside`: the label of a box that follows in the same line.
-    bool slider(const char* label, double& value, const SliderRange& range,
-                const char* beside = "");
-    bool slider(const char* label, float& value, const SliderRange& range);
-    bool slider(const char* label, int& value, const SliderRange& range);
-    bool slider(const char* label, std::uint64_t& value, const SliderRange& range);
+    /// `beside`: the label of a box that follows on the same line.
+    template <typename T>
+    bool slider(const char* label, T& value, const SliderRange& range, const char* beside = "") {
+        double wide = static_cast<double>(value);
+        if (!slide(label, wide, range, beside)) return false;
+        value = static_cast<T>(std::is_integral_v<T> ? std::round(wide) : wide);
+        return true;
+    }
     bool choice(const char* label, int& value, const std::vector<std::string>& names);
     bool choice(const char* label, std::string& value, const std::vector<std::string>& names);
-    /// Shown while the mouse is on the widget before.
+    /// Shown while the mouse is on the previous widget.
     void tip(const char* text) const;
 
     const WidgetPlace* find(const std::string& name) const;
     std::vector<std::string> names() const;
 
  private:
+    bool slide(const char* label, double& value, const SliderRange& range, const char* beside);
     void label(const char* text, const char* beside = "") const;
     WidgetPlace& note(const std::string& name);
 

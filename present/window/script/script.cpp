@@ -33,7 +33,7 @@ void check_step(const ScriptStep& step) {
     if (found == known_steps().end()) {
         std::vector<std::string> names;
         for (const auto& [known, arity] : known_steps()) names.push_back(known);
-        throw UsageError(step.place + ": '" + name + "' is no step; there are " + joined(names) +
+        throw UsageError(step.place + ": '" + name + "' is not a step; there are " + joined(names) +
                          did_you_mean(name, names));
     }
     const std::size_t count = step.words.size() - 1;

@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 #include "host/base/error.h"
@@ -13,7 +14,7 @@ namespace kilolux {
 namespace {
 
 constexpr int kDragFrames = 6;
-constexpr int kMaxTries = 60;  // frames until a widget must be there and in sight
+constexpr int kMaxTries = 60;  // frames until a widget must be visible
 
 struct Keys {
     int key = 0;
@@ -30,7 +31,7 @@ int key_code(const std::string& place, const std::string& name) {
     const char c = name.size() == 1 ? name[0] : '\0';
     // GLFW's codes of letters and digits are their ASCII ones.
     if ((c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')) return c;
-    throw UsageError(place + ": '" + name + "' is no key: A to Z, 0 to 9, Tab, Space, Escape, " +
+    throw UsageError(place + ": '" + name + "' is not a key: A to Z, 0 to 9, Tab, Space, Escape, " +
                      "Enter, F1, F11, Shift, Alt");
 }
 
@@ -135,12 +136,10 @@ void ScriptPlayer::begin_widget(const ScriptStep& step) {
     } else if (name == "choose") {
         add_click(phrase(step, 1));
         add_click(phrase(step, 0));
-    } else if (name == "slide") {
-        add_slide(phrase(step, 1), number(step, step.words.size() - 1));
     } else {
-        add_click(phrase(step, 1), GLFW_MOD_CONTROL);
-        add_text(step.words.back());
-        add_key("Enter", 0.0);
+        // Dragging reaches only the values of whole pixels: the exact one is typed.
+        if (name == "slide") add_slide(phrase(step, 1), number(step, step.words.size() - 1));
+        add_value(phrase(step, 1), step.words.back());
     }
 }
 
@@ -151,12 +150,16 @@ void ScriptPlayer::add_wait(int frames) {
 }
 
 void ScriptPlayer::add_settle() {
-    // What the last step did has to reach the panel first.
-    add_wait(2);
+    add_wait(2);  // the last step reaches the panel first
     actions_.push_back([this] {
-        settling_ = !stage_.is_settled();
+        const Settled settled = stage_.settled();
+        if (settled == Settled::never) {
+            throw Error(place_ + ": the picture never settles while the lights move");
+        }
+        settling_ = settled == Settled::not_yet;
         return !settling_;
     });
+    add_wait(4);  // until the panel's layout of new results is final
 }
 
 void ScriptPlayer::add_key(const std::string& name, double seconds) {
@@ -219,7 +222,17 @@ void ScriptPlayer::add_slide(const std::string& widget, double value) {
     add_press(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE);
 }
 
-void ScriptPlayer::add_text(const std::string& text) {
+void ScriptPlayer::add_value(const std::string& widget, const std::string& text) {
+    actions_.push_back([this, widget] { return reach(widget); });
+    actions_.push_back([this, widget, text, value = parse_number(place_, text)] {
+        const std::optional<SliderRange>& range = place_of(widget).slider;
+        if (!range) throw Error(place_ + ": '" + widget + "' is not a slider");
+        if (value >= range->low && value <= range->high) return true;
+        char ends[64];
+        std::snprintf(ends, sizeof ends, "%.10g to %.10g", range->low, range->high);
+        throw Error(place_ + ": " + text + " is not on the slider '" + widget + "', " + ends);
+    });
+    add_click(widget, GLFW_MOD_CONTROL);
     add_wait(1);
     for (const char c : text) {
         actions_.push_back([this, c] {
@@ -227,6 +240,7 @@ void ScriptPlayer::add_text(const std::string& text) {
             return true;
         });
     }
+    add_key("Enter", 0.0);
 }
 
 const WidgetPlace& ScriptPlayer::place_of(const std::string& widget) const {
