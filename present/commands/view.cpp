@@ -23,7 +23,7 @@ struct ViewOptions {
     bool fresh = false;
 };
 
-// What the window was left with, and over it what the command line says.
+// The settings that the last window kept, and over them those of the command line.
 ViewState start_state(const ViewOptions& options, const CLI::App& command) {
     ViewState state;
     state.settings = options.shared.settings;
@@ -38,7 +38,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command) {
     return options.fresh ? state : load_view_state(view_state_file(), state, is_given);
 }
 
-// What would fail at the end is asked at the beginning.
+// Asks at the beginning what would fail at the end.
 void check_files(const ViewOptions& options) {
     if (options.screenshot.empty()) return;
     if (image_meaning(options.screenshot) == ImageMeaning::linear) {
@@ -83,17 +83,17 @@ void add_view_command(Program& program) {
                             [options, self] { run_view(*options, **self); });
     *self = &command;
     add_shared_options(command, options->shared);
-    Registrar(command, "Window")
+    leave_to_help_all(command, {"--aov"});
+    OptionBuilder(command, "Window")
         .flag("--fresh", options->fresh,
-              "Begin with the defaults instead of what the last window was left with; keep nothing")
-        .count(
-            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
-            options->exit_after, {1, 1'000'000'000})
+              "Begin with the defaults instead of the last window's settings; keep nothing")
+        .count({"--exit-after", "N", "", "Leave when N pictures have been made"},
+               options->exit_after, {1, 1'000'000'000})
         .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
               options->screenshot)
-        .text(
-            {"--script", "FILE", "", "Do what the file's lines say, then leave; README tells how"},
-            options->script);
+        .text({"--script", "FILE", "",
+               "Replay user input from the file, one step per line, then leave"},
+              options->script);
 }
 
 }  // namespace kilolux
