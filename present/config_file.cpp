@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/config_file.h"
 
+#include <fmt/format.h>
+
 #include <CLI/Config.hpp>
 #include <cerrno>
 #include <cstring>
@@ -33,8 +35,9 @@ std::string text_of(const std::filesystem::path& file, const std::string& name, 
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number() || value.is_boolean()) return value.dump();
     if (!value.is_array()) {
-        throw UsageError(file.string() + ": " + name + ": '" + value.dump() +
-                         "' is no text, number, true, false or array of them");
+        throw UsageError(
+            fmt::format("{}: {}: '{}' is no text, number, true, false or array of them",
+                        file.string(), name, value.dump()));
     }
     std::vector<std::string> parts;
     for (const Json& part : value) parts.push_back(text_of(file, name, part));
@@ -57,8 +60,8 @@ Entries toml_entries(const std::filesystem::path& file, const std::string& text)
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(in)) {
         if (item.name == "++" || item.name == "--") continue;  // CLI11's marks around a [section]
         if (!item.parents.empty()) {
-            throw UsageError(file.string() + ": [" + joined(item.parents, ".") +
-                             "]: there are no sections");
+            throw UsageError(fmt::format("{}: [{}]: there are no sections", file.string(),
+                                         joined(item.parents, ".")));
         }
         entries.emplace_back(item.name, joined(item.inputs, ","));
     }
@@ -71,8 +74,8 @@ CLI::Option& option_of(CLI::App& command, const std::filesystem::path& file,
                               ? command.get_option_no_throw("SCENE")
                               : command.get_option_no_throw(name.size() > 1 ? "--" + name : name);
     if (option != nullptr && name != "config" && name != "help") return *option;
-    throw UsageError(file.string() + ": unknown option '" + name + "'" +
-                     did_you_mean("--" + name, option_names(command)));
+    throw UsageError(fmt::format("{}: unknown option '{}'{}", file.string(), name,
+                                 did_you_mean("--" + name, option_names(command))));
 }
 
 void apply(CLI::Option& option, const std::filesystem::path& file, const std::string& name,
@@ -80,7 +83,8 @@ void apply(CLI::Option& option, const std::filesystem::path& file, const std::st
     if (option.count() > 0) return;
     const bool is_flag = option.get_items_expected_max() == 0;
     if (is_flag && text != "true" && text != "false") {
-        throw UsageError(file.string() + ": " + name + ": '" + text + "' is not true or false");
+        throw UsageError(
+            fmt::format("{}: {}: '{}' is not true or false", file.string(), name, text));
     }
     option.add_result(text);
     option.run_callback();
@@ -90,8 +94,7 @@ void apply(CLI::Option& option, const std::filesystem::path& file, const std::st
 
 void apply_config_file(CLI::App& command, const std::filesystem::path& file) {
     const std::string text = read_text(file);
-    const std::size_t first = text.find_first_not_of(" \t\r\n");
-    const bool is_json = first != std::string::npos && text[first] == '{';
+    const bool is_json = trim(text).starts_with('{');
     const Entries entries = is_json ? json_entries(file, text) : toml_entries(file, text);
     for (const auto& [name, value] : entries) {
         apply(option_of(command, file, name), file, name, value);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/program.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -24,16 +27,34 @@ constexpr const char* kMeaning =
 constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0  done\n"
-    "  1  something outside failed: a file, a device, a driver; one line says what\n"
+    "  1  runtime error (file, device, driver); one line on stderr says which\n"
     "  2  the command line cannot be obeyed\n"
     "  3  a comparison with --reference, or a hard case of certify, failed\n"
     "130  interrupted";
+
+using Words = std::vector<std::string>;
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 bool given(const CLI::App& app, const std::string& name) {
     const CLI::Option* option = app.get_option_no_throw(name);
     return option != nullptr && option->count() > 0;
+}
+
+bool has_any(const Words& words, const Words& wanted) {
+    return std::find_first_of(words.begin(), words.end(), wanted.begin(), wanted.end()) !=
+           words.end();
+}
+
+// "help render" as "render --help", "version" as "--version".
+Words as_options(Words words) {
+    if (words.empty()) return words;
+    if (words[0] == "version") words[0] = "--version";
+    if (words[0] == "help") {
+        words.erase(words.begin());
+        words.emplace_back("--help");
+    }
+    return words;
 }
 
 }  // namespace
@@ -44,12 +65,12 @@ Program::Program() : app_(kMeaning, "kilolux") {
     app_.allow_extras();
     app_.require_subcommand(0, 1);
     app_.footer(kExitCodes);
-    Registrar(app_, "Options")
-        .question("--help,-h", "Print this help and leave; kilolux COMMAND --help for a command's")
-        .question("--version", "Print the version and leave")
+    OptionBuilder(app_, "Options")
+        .question("--help,-h", "Print this help and leave; kilolux help COMMAND for a command's")
+        .question("--version,-V", "Print the version and leave")
         .question("--list-devices", "Print the OpenCL devices and leave")
         .choice({"--completion", "", "", "Print a script that completes options in a shell"},
-                completion_shell_, completion_shells());
+                completion_shell_, Choices(Words{"bash"}));
     add_render_command(*this);
     add_view_command(*this);
     add_bench_command(*this);
@@ -64,58 +85,67 @@ CLI::App& Program::add_command(const std::string& name, const std::string& meani
     CLI::App& command = *app_.add_subcommand(name, meaning);
     command.set_help_flag();
     command.allow_extras();
-    command.footer("Examples:\n" + examples);
-    Registrar(command, "General")
+    command.footer(
+        fmt::format("kilolux {} --help-all lists every option.\n\nExamples:\n{}", name, examples));
+    OptionBuilder(command, "General")
         .question("--help,-h", "Print this help and leave")
+        .question("--help-all", "Print the help of every option and leave")
         .text({"--config", "FILE", "", "Options from a file, TOML or JSON; the command line wins"},
               config_file_);
     commands_.push_back({&command, std::move(run)});
     return command;
 }
 
-const Program::Command* Program::chosen_command() const {
-    for (const Command& command : commands_) {
-        if (command.app->parsed()) return &command;
+const Program::Command* Program::command_in(const Words& words) const {
+    for (const std::string& word : words) {
+        for (const Command& command : commands_) {
+            if (command.app->get_name() == word) return &command;
+        }
     }
     return nullptr;
 }
 
-// --help and its like, which need no valid command line beside them.
-bool Program::answer_question(const Command* command) const {
-    const CLI::App& app = command != nullptr ? *command->app : app_;
-    if (given(app, "--help") || given(app_, "--help")) {
-        print(app.help(command != nullptr ? app_.get_name() : ""));
-    } else if (given(app_, "--version")) {
-        print("kilolux " + version() + "\n");
-    } else if (given(app_, "--completion")) {
-        print(completion_script(app_, completion_shell_));
-    } else if (given(app, "--list-devices") || given(app_, "--list-devices")) {
-        print(device_list(list_devices()));
-    } else {
-        return false;
+// Help and version need no valid command line beside them.
+bool Program::answer_question(const Words& words) const {
+    const Command* command = command_in(words);
+    const bool all = has_any(words, {"--help-all"});
+    if (all || has_any(words, {"--help", "-h"})) {
+        if (command == nullptr) refuse_unknown_command(words);
+        const CLI::App& app = command != nullptr ? *command->app : app_;
+        print(app.help(command != nullptr ? app_.get_name() : "",
+                       all ? CLI::AppFormatMode::All : CLI::AppFormatMode::Normal));
+        return true;
     }
+    if (!has_any(words, {"--version", "-V"})) return false;
+    print("kilolux " + version() + "\n");
     return true;
 }
 
-void Program::refuse_unknown(const Command* command) const {
-    const std::vector<std::string> extras = app_.remaining();
-    if (command == nullptr && !extras.empty() && extras[0].rfind('-', 0) != 0) {
-        std::vector<std::string> names;
-        for (const Command& known : commands_) names.push_back(known.app->get_name());
-        throw UsageError("'" + extras[0] + "' is no command; there are " + joined(names) +
-                         did_you_mean(extras[0], names));
-    }
-    refuse_extras(app_, extras);
-    if (command == nullptr) throw UsageError("no command given; see kilolux --help");
-    refuse_extras(*command->app, command->app->remaining());
+void Program::refuse_unknown_command(const Words& words) const {
+    if (words.empty() || words[0].starts_with('-')) return;
+    Words names;
+    for (const Command& known : commands_) names.push_back(known.app->get_name());
+    throw UsageError(fmt::format("'{}' is no command; there are {}{}", words[0], joined(names),
+                                 did_you_mean(words[0], names)));
 }
 
-void Program::run(std::vector<std::string> arguments) {
+void Program::run(Words arguments) {
+    arguments = as_options(std::move(arguments));
+    if (answer_question(arguments)) return;
     // CLI11 takes them from the back.
-    app_.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-    const Command* command = chosen_command();
-    if (answer_question(command)) return;
-    refuse_unknown(command);
+    app_.parse(Words(arguments.rbegin(), arguments.rend()));
+    const Command* command = nullptr;
+    for (const Command& known : commands_) {
+        if (known.app->parsed()) command = &known;
+    }
+    if (given(app_, "--completion")) return print(bash_completion(app_));
+    if (given(command != nullptr ? *command->app : app_, "--list-devices")) {
+        return print(device_list(list_devices()));
+    }
+    if (command == nullptr) refuse_unknown_command(app_.remaining());
+    refuse_extras(app_, app_.remaining());
+    if (command == nullptr) throw UsageError("no command given; see kilolux --help");
+    refuse_extras(*command->app, command->app->remaining());
     if (!config_file_.empty()) apply_config_file(*command->app, config_file_);
     command->run();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line as a whole: what subcommands there are, and which one is meant.
+// The command line as a whole: the subcommands, and which one is meant.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -16,8 +16,8 @@ class Program {
     /// With every subcommand there is.
     Program();
 
-    /// A new subcommand with --help and --config; `examples` end its help. `run` is what it does
-    /// once the command line is parsed. The returned App lives as long as the Program.
+    /// A new subcommand with --help, --help-all and --config; `examples` end its help. `run` is
+    /// called once the command line is parsed. The returned App lives as long as the Program.
     CLI::App& add_command(const std::string& name, const std::string& meaning,
                           const std::string& examples, std::function<void()> run);
 
@@ -33,9 +33,9 @@ class Program {
         std::function<void()> run;
     };
 
-    const Command* chosen_command() const;
-    bool answer_question(const Command* command) const;
-    void refuse_unknown(const Command* command) const;
+    const Command* command_in(const std::vector<std::string>& words) const;
+    bool answer_question(const std::vector<std::string>& words) const;
+    void refuse_unknown_command(const std::vector<std::string>& words) const;
 
     CLI::App app_;
     std::string completion_shell_;

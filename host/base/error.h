@@ -6,7 +6,7 @@
 
 namespace kilolux {
 
-/// The world's fault (a file, a device, a driver), as one line: what, where, the value seen, e.g.
+/// A runtime error (file, device, driver), as one line: what, where, the value seen, e.g.
 /// "scene.gltf: light 12: range is -1, must be > 0". A programmer's mistake is an assert instead.
 class Error : public std::runtime_error {
  public:

@@ -17,7 +17,8 @@ bool interrupt_requested();
 /// Throws Interrupted once a signal has asked for the end.
 void check_interrupt();
 
-/// Names the file that a killing signal must remove; an empty path: none. One at a time.
+/// Names the file that a killing signal must remove, which exists; an empty path: none. One at a
+/// time. The signal removes it only while that name still means the same file.
 void set_unfinished_file(const std::filesystem::path& file);
 
 }  // namespace kilolux

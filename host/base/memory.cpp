@@ -36,7 +36,7 @@ std::uint64_t below(std::uint64_t limit, std::uint64_t used) {
     return limit - std::min(limit, used);
 }
 
-// Version 2, as a container sees its own group.
+// Control groups version 2: a container sees its own group here.
 std::uint64_t group_available() {
     const std::string group = "/sys/fs/cgroup/memory.";
     return below(number_in(group + "max"), number_in(group + "current"));

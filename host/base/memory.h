@@ -6,9 +6,9 @@
 
 namespace kilolux {
 
-/// Memory that this process can still get [byte]: what the system calls available, less where a
-/// control group or the limit of the address space (RLIMIT_AS) says so. 2^64 - 1 where nothing
-/// says.
+/// Memory that this process can still get [byte]: the least of the system's available memory, the
+/// control group's limit and the limit of the address space (RLIMIT_AS). 2^64 - 1 if all are
+/// unknown.
 std::uint64_t available_memory_bytes();
 
 /// "1536 MiB", rounded up.

@@ -31,7 +31,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
-    // One slip in three letters still reads as the same word; more would be guessing.
+    // At most one edit in three letters, at least one.
     std::size_t best = word.size() < 2 ? 0 : std::max<std::size_t>(word.size() / 3, 1) + 1;
     std::string nearest;
     for (const std::string& candidate : known) {
@@ -47,15 +47,6 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
     const std::string nearest = nearest_word(word, known);
     return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
-}
-
-std::string joined(const std::vector<std::string>& words, std::string_view separator) {
-    std::string out;
-    for (const std::string& word : words) {
-        if (!out.empty()) out += separator;
-        out += word;
-    }
-    return out;
 }
 
 }  // namespace kilolux

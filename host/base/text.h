@@ -27,4 +27,23 @@ inline std::vector<std::string_view> split(std::string_view text, char separator
     }
 }
 
+/// `text` without spaces, tabs and line ends at its ends.
+inline std::string_view trim(std::string_view text) {
+    constexpr std::string_view kSpaces = " \t\r\n";
+    const std::size_t first = text.find_first_not_of(kSpaces);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+}
+
+/// "a, b, c"
+inline std::string joined(const std::vector<std::string>& words,
+                          std::string_view separator = ", ") {
+    std::string out;
+    for (const std::string& word : words) {
+        if (!out.empty()) out += separator;
+        out += word;
+    }
+    return out;
+}
+
 }  // namespace kilolux

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/log.h"
@@ -142,16 +143,6 @@ void make_folder(const fs::path& folder) {
     }
 }
 
-// Writes all of `text` or returns the error's code.
-int write_all(int file, std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t written = ::write(file, text.data(), text.size());
-        if (written < 0 && errno != EINTR) return errno;
-        if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return 0;
-}
-
 }  // namespace
 
 fs::path cache_folder() {
@@ -182,15 +173,7 @@ void write_device_cache(const DeviceInfo& device, CacheKind kind, const CacheVal
     const fs::path file = device_cache_file(device, kind);
     if (file.empty()) throw Error("cache: no folder: neither XDG_CACHE_HOME nor HOME is a path");
     make_folder(file.parent_path());
-    std::string temporary = file.string() + ".XXXXXX";
-    const int descriptor = ::mkstemp(temporary.data());  // mode 0600
-    if (descriptor < 0) fail(file, "cannot write", errno);
-    int code = write_all(descriptor, entry_text(head_lines(device, kind), values));
-    if (::close(descriptor) != 0 && code == 0) code = errno;
-    if (code == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) code = errno;
-    if (code == 0) return;
-    ::unlink(temporary.c_str());
-    fail(file, "cannot write", code);
+    write_atomically(file, entry_text(head_lines(device, kind), values), FileAccess::owner_only);
 }
 
 }  // namespace kilolux

@@ -18,23 +18,22 @@ glm::dvec3 vector_at(const DecodedSurfaces& s, std::size_t plane, std::size_t pi
             value_at(s, plane + 2, pixel)};
 }
 
-// Fills a layer from `components(pixel in the planes, output)`.
-template <typename Components>
-void fill(Layer& layer, const View& view, Components&& components) {
-    const std::size_t n = layer.channels.size();
-    layer.values.resize(n * view.width * view.height);
+// Fills `n` values a pixel from `components(pixel in the planes, output)`.
+template <typename T, typename Components>
+void fill(std::vector<T>& values, std::size_t n, const View& view, Components&& components) {
+    values.resize(n * view.width * view.height);
     for (std::size_t y = 0; y < view.height; ++y) {
         for (std::size_t x = 0; x < view.width; ++x) {
-            components(y * view.stride + x, &layer.values[n * (y * view.width + x)]);
+            components(y * view.stride + x, &values[n * (y * view.width + x)]);
         }
     }
 }
 
 Layer plane_layer(std::string_view name, std::vector<std::string> channels,
                   const DecodedSurfaces& s, std::size_t first_plane) {
-    Layer layer{std::string(name), std::move(channels), {}, false};
+    Layer layer{std::string(name), std::move(channels)};
     const std::size_t n = layer.channels.size();
-    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+    fill(layer.values, n, s.view, [&](std::size_t pixel, float* out) {
         for (std::size_t c = 0; c < n; ++c) out[c] = value_at(s, first_plane + c, pixel);
     });
     return layer;
@@ -42,9 +41,9 @@ Layer plane_layer(std::string_view name, std::vector<std::string> channels,
 
 Layer world_layer(std::string_view name, std::vector<std::string> channels,
                   const DecodedSurfaces& s, const Camera& camera) {
-    Layer layer{std::string(name), std::move(channels), {}, false};
+    Layer layer{std::string(name), std::move(channels)};
     const bool position = name == "position";
-    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+    fill(layer.values, 3, s.view, [&](std::size_t pixel, float* out) {
         const glm::dvec3 v = vector_at(s, position ? SURFACE_POSITION : SURFACE_NORMAL, pixel);
         const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
         const glm::dvec3 world =
@@ -55,20 +54,20 @@ Layer world_layer(std::string_view name, std::vector<std::string> channels,
 }
 
 Layer count_layer(const DecodedSurfaces& s) {
-    Layer layer{"light-count", {"light-count"}, {}, true};
-    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+    Layer layer{"light-count", {"light-count"}};
+    fill(layer.ids, 1, s.view, [&](std::size_t pixel, std::uint32_t* out) {
         const uint count = s.evaluated[pixel];
-        *out = count == kBackground ? 0.0f : static_cast<float>(count);
+        *out = count == kBackground ? 0 : count;
     });
     return layer;
 }
 
 // Coarse cluster + 1, so that background is 0.
 Layer cluster_layer(const DecodedSurfaces& s) {
-    Layer layer{"cluster", {"cluster"}, {}, true};
-    fill(layer, s.view, [&](std::size_t pixel, float* out) {
+    Layer layer{"cluster", {"cluster"}};
+    fill(layer.ids, 1, s.view, [&](std::size_t pixel, std::uint32_t* out) {
         const std::optional<uint> cluster = coarse_cluster_at(s, pixel);
-        *out = cluster ? static_cast<float>(*cluster + 1) : 0.0f;
+        *out = cluster ? *cluster + 1 : 0;
     });
     return layer;
 }

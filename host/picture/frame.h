@@ -10,13 +10,14 @@
 
 namespace kilolux {
 
-/// Named float channels of an image, interleaved, row 0 on top.
+/// Named channels of an image, interleaved, row 0 on top: floats, or ids.
 struct Layer {
     std::string name;  // "depth", "normal", ...; "" for the colour
     std::vector<std::string>
-        channels;               // EXR channel names: {"R","G","B"}, {"Z"}, {"N.X","N.Y","N.Z"}, ...
-    std::vector<float> values;  // channels.size() * width * height
-    bool is_id = false;         // integers: written as UINT, never averaged
+        channels;  // EXR channel names: {"R","G","B"}, {"Z"}, {"N.X","N.Y","N.Z"}, ...
+    std::vector<float> values{};       // channels.size() * width * height; empty for ids
+    std::vector<std::uint32_t> ids{};  // likewise; whole numbers: written as UINT, never averaged
+    bool is_id() const { return !ids.empty(); }
 };
 
 /// Time of one stage of a frame, from its profiling events.

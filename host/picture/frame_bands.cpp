@@ -33,11 +33,13 @@ double mean_of(double whole, double whole_pixels, double band, double band_pixel
 void append_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::size_t pixels) {
     if (whole.empty()) {
         for (const Layer& layer : band) {
-            whole.push_back({layer.name, layer.channels, {}, layer.is_id});
+            whole.push_back({layer.name, layer.channels});
         }
     }
     for (std::size_t i = 0; i < band.size(); ++i) {
-        append_rows(whole[i].values, std::move(band[i].values), pixels * band[i].channels.size());
+        const std::size_t size = pixels * band[i].channels.size();
+        append_rows(whole[i].values, std::move(band[i].values), size);
+        append_rows(whole[i].ids, std::move(band[i].ids), size);
     }
 }
 

@@ -15,6 +15,7 @@ void append_rows(std::vector<T>& whole, std::vector<T>&& rows, std::size_t size)
         whole = std::move(rows);
         return;
     }
+    if (rows.empty()) return;
     whole.reserve(size);
     whole.insert(whole.end(), rows.begin(), rows.end());
 }

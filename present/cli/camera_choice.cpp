@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/camera_choice.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,9 +18,9 @@ Camera start_camera(const CameraChoice& choice, const Scene& scene, const Box& b
     const auto index = static_cast<std::size_t>(*choice.index);
     if (index < count) return camera_of(scene.cameras[index]);
     const std::string known =
-        count == 0 ? "it has none" : "they are 0 to " + std::to_string(count - 1);
-    throw UsageError("--camera-index: " + std::to_string(index) + " is no camera of " + scene.name +
-                     "; " + known);
+        count == 0 ? "it has none" : fmt::format("they are 0 to {}", count - 1);
+    throw UsageError(
+        fmt::format("--camera-index: {} is no camera of {}; {}", index, scene.name, known));
 }
 
 // Nearest and farthest distance of the box's corners along the camera's direction [m].
@@ -56,7 +58,7 @@ glm::dvec3 up_vector(const CameraChoice& choice, const glm::dvec3& direction) {
 
 Camera place_camera(const CameraPlace& place, double y_fov, double radius) {
     Camera camera = look_at(place.position, place.focal_point, place.view_up, y_fov);
-    // Near enough to enter small scenes; reversed depth loses nothing by it.
+    // Near enough to enter small scenes; reversed depth keeps its precision.
     camera.z_near = std::min(camera.z_near, 0.01 * radius);
     return camera;
 }
@@ -66,7 +68,7 @@ Camera choose_camera(const CameraChoice& choice, const Scene& scene) {
     Camera camera = start_camera(choice, scene, box);
     const double radius = box.empty() ? 1.0 : 0.5 * glm::length(box.size());
     const glm::dvec3 middle = box.empty() ? glm::dvec3(0.0) : box.center();
-    // Where a camera of the scene looks, it does not say: as far as the scene's middle.
+    // A scene's camera has no focal point: take one as far away as the scene's middle.
     const double reach = std::max(glm::length(middle - camera.position), 1e-3 * radius);
     glm::dvec3 focal = camera.position - camera.world_from_view[2] * reach;
     if (choice.position) focal = middle;

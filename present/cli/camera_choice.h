@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-/// What the command line says about the camera; what it leaves open comes from the scene.
+/// The camera options of the command line; what they leave open comes from the scene.
 struct CameraChoice {
     std::optional<int> index{};
     std::optional<glm::dvec3> position{};     // [m]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/device_list.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 
 namespace kilolux {
@@ -10,10 +12,9 @@ std::string device_list(const std::vector<DeviceInfo>& devices) {
     std::string out;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const DeviceInfo& d = devices[i];
-        out += std::to_string(i) + "  " + d.name + " (" + (d.is_cpu ? "CPU" : "GPU") + ", " +
-               std::to_string(d.compute_units) + " compute units, " + std::to_string(d.lane_width) +
-               " lanes, " + std::to_string(d.memory_bytes >> 20) + " MiB; " + d.version +
-               "; driver " + d.driver + "; " + d.platform + ")\n";
+        out += fmt::format("{}  {} ({}, {} compute units, {} lanes, {} MiB; {}; driver {}; {})\n",
+                           i, d.name, d.is_cpu ? "CPU" : "GPU", d.compute_units, d.lane_width,
+                           d.memory_bytes >> 20, d.version, d.driver, d.platform);
     }
     return out;
 }

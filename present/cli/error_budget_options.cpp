@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/error_budget_options.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "host/base/error.h"
@@ -19,51 +21,47 @@ namespace fs = std::filesystem;
 // Few frames: they are paired with the default's, and a choice is kept.
 constexpr BenchFrames kFrames = {1, 6};
 
-std::string vector_text(const glm::dvec3& v) {
-    return number_text(v.x) + "," + number_text(v.y) + "," + number_text(v.z);
-}
+std::string vector_text(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 // A scene file counts as the same while its size and time of change are.
 std::string scene_text(const std::string& scene) {
     std::error_code error;
     const fs::path file = fs::weakly_canonical(scene, error);
     if (error || !fs::is_regular_file(file, error)) return scene;
-    return file.string() + " " + std::to_string(fs::file_size(file, error)) + " " +
-           std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
+    return fmt::format("{} {} {}", file.string(), fs::file_size(file, error),
+                       fs::last_write_time(file, error).time_since_epoch().count());
 }
 
 std::string settings_text(const RenderSettings& s) {
     const LightOptions& l = s.lights;
     const KernelSettings& k = s.kernels;
-    return name_of(s.renderer) + " " + std::to_string(s.width) + "x" + std::to_string(s.height) +
-           " lights " + std::to_string(l.count) + " " + std::to_string(l.seed) + " " +
-           number_text(l.radius) + " " + number_text(l.intensity) + " " + vector_text(l.box.min) +
-           " " + vector_text(l.box.max) + " " + number_text(s.range_budget) + " gbuffer " +
-           std::to_string(s.gbuffer) + " " + name_of(s.shading) + " " + number_text(s.ambient) +
-           " " + number_text(s.exposure) + " " + name_of(s.tone_curve) + " grid " +
-           std::to_string(s.grid.tiles_x) + "," + std::to_string(s.grid.tiles_y) + "," +
-           std::to_string(s.grid.slices_per_octave) + " kernels " + std::to_string(k.lanes) + " " +
-           std::to_string(k.group_height) + " " +
-           math_names().at(static_cast<std::size_t>(k.math)) + " " +
-           light_color_names().at(static_cast<std::size_t>(k.light_colors));
+    return fmt::format("{} {}x{} ", name_of(s.renderer), s.width, s.height) +
+           fmt::format("lights {} {} {} {} {} {} {} ", l.count, l.seed, l.radius, l.intensity,
+                       vector_text(l.box.min), vector_text(l.box.max), s.range_budget) +
+           fmt::format("gbuffer {} {} {} {} {} ", s.gbuffer, name_of(s.shading), s.ambient,
+                       s.exposure, name_of(s.tone_curve)) +
+           fmt::format("grid {},{},{} ", s.grid.tiles_x, s.grid.tiles_y, s.grid.slices_per_octave) +
+           fmt::format("kernels {} {} {} {}", k.lanes, k.group_height,
+                       math_names().at(static_cast<std::size_t>(k.math)),
+                       light_color_names().at(static_cast<std::size_t>(k.light_colors)));
 }
 
 BudgetKey key_of(const SharedOptions& shared, const ErrorBudget& budget, const ReportView& view) {
     const Camera& c = view.camera;
-    return scene_text(shared.scene) + "\n" + settings_text(shared.settings) + "\ncamera " +
-           vector_text(c.position) + " " + vector_text(c.world_from_view[1]) + " " +
-           vector_text(c.world_from_view[2]) + " " + number_text(c.y_fov) + " " +
-           number_text(c.orthographic ? c.y_extent : 0.0) + " time " + number_text(view.time) +
-           "\n" + budget.metric + " " + number_text(budget.max_error);
+    return fmt::format("{}\n{}\ncamera {} {} {} {} {} time {}\n{} {}", scene_text(shared.scene),
+                       settings_text(shared.settings), vector_text(c.position),
+                       vector_text(c.world_from_view[1]), vector_text(c.world_from_view[2]),
+                       c.y_fov, c.orthographic ? c.y_extent : 0.0, view.time, budget.metric,
+                       budget.max_error);
 }
 
 void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when) {
-    note("chose   " + choice.name + ": " + budget.metric + " " + number_text(choice.error) +
-         " is within " + number_text(budget.max_error) + ", " + number_text(choice.relative) +
-         " times the default's frame time; " + when);
+    note(fmt::format(
+        "chose   {}: {} {:.3g} is within {:g}, {:.3g} times the default's frame time; {}",
+        choice.name, budget.metric, choice.error, budget.max_error, choice.relative, when));
 }
 
-// The short list: of grids and lanes the rest are `bench --tune`'s to choose.
+// Without grids and lanes, which `bench --tune` chooses.
 std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const ReportView& view,
                                          const ErrorBudget& budget, const DeviceInfo& device) {
     auto settings = report_settings(view.scene, shared.settings, device, true);
@@ -78,7 +76,7 @@ BudgetChoice measure_choice(const SharedOptions& shared, const ErrorBudget& budg
     Progress progress("choosing", ReportRun::steps(settings.size()), !shared.quiet);
     run.on_step(check_interrupt);
     run.on_progress([&progress] { progress.advance(); });
-    // What is too wrong is not timed.
+    // Settings over the budget are not timed.
     run.time_only(
         [&](const ReportRow& row) { return error_of(row, budget.metric) <= budget.max_error; });
     return choose_within(run.measure(settings, kFrames), budget);
@@ -87,12 +85,11 @@ BudgetChoice measure_choice(const SharedOptions& shared, const ErrorBudget& budg
 }  // namespace
 
 void add_budget_options(CLI::App& command, BudgetOptions& options) {
-    Registrar(command, "Error budget")
-        .value({"--max-error", "E", "",
-                "Use the fastest setting whose error on this scene and device is at most E"},
-               [&options](const std::string& name, const std::string& text) {
-                   options.max_error = parse_number(name, text, {0.0});
-               })
+    OptionBuilder(command, "Error budget")
+        .rest()
+        .number({"--max-error", "E", "",
+                 "Use the fastest setting whose error on this scene and device is at most E"},
+                options.max_error, {0.0})
         .choice({"--error-metric", "", "flip",
                  "What E is: against the float64 picture asked for; r1-: the kernels' error alone; "
                  "r3-: lights without a range"},

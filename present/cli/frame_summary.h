@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the program says about its pictures in words: on stderr, and in the files themselves.
+// Text about pictures: on stderr, and in the files themselves.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "host/base/log.h"
 #include "present/cli/options.h"
@@ -15,6 +14,9 @@ namespace kilolux {
 /// The shortest text that reads back as the same number.
 std::string number_text(double value);
 
+/// At most six significant digits, for people: "60", "0.00123457".
+std::string short_text(double value);
+
 /// "rmse 0.0012 (threshold 0.01)"
 std::string comparison_text(const Comparison& comparison);
 
@@ -22,9 +24,10 @@ std::string comparison_text(const Comparison& comparison);
 ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                          const FrameStats& stats);
 
-/// Device, what was lit, what it cost a stage (of the last frame), and the files; several lines.
-std::string frame_summary(const Scene& scene, const DeviceInfo& device,
-                          const std::vector<FrameRecord>& records);
+/// Device, scene, lights, times of the stages of the last of `count` frames, and the files; several
+/// lines.
+std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
+                          std::size_t count);
 
 Verbosity verbosity_of(const SharedOptions& options);
 

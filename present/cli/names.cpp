@@ -1,37 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/names.h"
 
+#include <algorithm>
+
 #include "host/base/gbuffer_layout.h"
+#include "host/measure/bench/sweep.h"
+#include "host/picture/decoded_surfaces.h"
 #include "host/picture/views.h"
 
 namespace kilolux {
+namespace {
 
-std::vector<std::string> renderer_names() {
-    return {"deferred", "forward-plus", "forward", "deferred-all"};
-}
-
-std::vector<std::string> shading_names() { return {"auto", "lambert", "blinn-phong", "pbr"}; }
-
-std::vector<std::string> tone_curve_names() { return {"none", "neutral", "aces"}; }
-
-std::vector<std::string> math_names() { return {"exact", "fast-relaxed", "native"}; }
-
-std::vector<std::string> light_color_names() { return {"float", "half"}; }
-
-std::vector<std::string> gbuffer_names() {
-    std::vector<std::string> names;
-    for (const int layout :
-         {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
-        names.push_back(gbuffer_layout_name(static_cast<uint>(layout)));
+// `names` in their order, with the meanings that `described` has for them.
+Choices ordered(const std::vector<std::string>& names, const Choices& described) {
+    Choices out(names);
+    for (const std::string& name : names) {
+        const auto found = std::find(described.names.begin(), described.names.end(), name);
+        const auto place = static_cast<std::size_t>(found - described.names.begin());
+        out.meanings.push_back(found == described.names.end() ? "" : described.meanings[place]);
     }
-    return names;
+    return out;
 }
 
-std::vector<std::string> show_names() { return view_names(); }
+}  // namespace
 
-std::string name_of(RendererKind renderer) {
-    return renderer_names().at(static_cast<std::size_t>(renderer));
+Choices::Choices(std::initializer_list<std::pair<std::string, std::string>> described) {
+    for (const auto& [name, meaning] : described) {
+        names.push_back(name);
+        meanings.push_back(meaning);
+    }
 }
+
+Choices renderer_choices() {
+    return {{renderer_name(RendererKind::deferred),
+             "clustered deferred: only lights that may reach a pixel are evaluated"},
+            {renderer_name(RendererKind::forward_plus), "clustered forward"},
+            {renderer_name(RendererKind::forward), "every light at every fragment: a reference"},
+            {renderer_name(RendererKind::deferred_all),
+             "every light at every pixel: the reference for deferred"}};
+}
+
+Choices shading_choices() {
+    return {{"auto", "what the scene's materials ask for"},
+            {"lambert", "matt: albedo / pi"},
+            {"blinn-phong", "with normalised highlights"},
+            {"pbr", "glTF's metallic-roughness model"}};
+}
+
+Choices tone_curve_choices() {
+    return {{"none", "clamp at 1"},
+            {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
+            {"aces", "ACES, filmic contrast"}};
+}
+
+Choices math_choices() {
+    return {{"exact", "as OpenCL C demands"},
+            {"fast-relaxed", "with -cl-fast-relaxed-math"},
+            {"native", "with native square roots and reciprocals"}};
+}
+
+Choices light_color_choices() {
+    return {{"float", "32 bits a channel"}, {"half", "16 bits a channel"}};
+}
+
+Choices gbuffer_choices() {
+    std::vector<std::string> names;
+    for (uint layout = GBUFFER_PACKED; layout <= GBUFFER_OCT_2X4; ++layout) {
+        names.push_back(gbuffer_layout_name(layout));
+    }
+    return ordered(names, {{"packed", "12 bytes a pixel, more where materials need it"},
+                           {"full", "32-bit floats"},
+                           {"half", "16-bit floats for position and normal"},
+                           {"normal-xy", "two components of the normal"},
+                           {"oct-2x4", "octahedral normal, two rows of four floats"}});
+}
+
+Choices aov_choices() {
+    return ordered(aov_names(), {{"depth", "Z: distance along the view direction, in metres"},
+                                 {"position", "P.X, P.Y, P.Z: in the world, in metres"},
+                                 {"normal", "N.X, N.Y, N.Z: in the world"},
+                                 {"albedo", "albedo.R, .G, .B: linear"},
+                                 {"roughness", "0 to 1"},
+                                 {"metallic", "0 to 1"},
+                                 {"emissive", "emissive.R, .G, .B: radiance"},
+                                 {"light-count", "lights evaluated, integers"},
+                                 {"cluster", "coarse cluster + 1, integers; 0: background"}});
+}
+
+Choices metric_choices() {
+    return {{"rmse", "root of the mean square difference"},
+            {"mean", "mean absolute difference"},
+            {"max", "largest absolute difference"},
+            {"max-relative", "largest difference relative to the reference"},
+            {"relmse", "mean of relative squares"},
+            {"different-pixels", "pixels that differ in any bit"},
+            {"flip", "mean difference that an observer sees, 0 to 1 (FLIP)"}};
+}
+
+Choices show_choices() {
+    return ordered(view_names(),
+                   {{"lit", "the lit picture"},
+                    {"albedo", "base colour"},
+                    {"normal", "world normal as colour"},
+                    {"depth", "heat map of the distance, in metres"},
+                    {"position", "place in the scene's box as colour"},
+                    {"roughness", "heat map from 0 to 1"},
+                    {"lights", "heat map of lights evaluated a pixel"},
+                    {"clusters", "coarse clusters in random colours"},
+                    {"slices", "depth slices of the coarse grid in random colours"},
+                    {"active", "active clusters in random colours"},
+                    {"overdraw", "heat map of fragments drawn a pixel"},
+                    {"difference", "heat map of the difference to deferred-all"},
+                    {"false-positives", "heat map of lights evaluated in vain (deferred only)"}});
+}
+
+std::string name_of(RendererKind renderer) { return renderer_name(renderer); }
 
 std::string name_of(Shading shading) {
     return shading_names().at(static_cast<std::size_t>(shading));

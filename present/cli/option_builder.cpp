@@ -3,19 +3,40 @@
 
 #include <utility>
 
-#include "host/base/suggest.h"
+#include "host/base/text.h"
 
 namespace kilolux {
 namespace {
 
 std::string long_name(const std::string& names) { return names.substr(0, names.find(',')); }
 
+// HelpFormat prints each line after the first as a row below the option.
+std::string described(std::string meaning, const Choices& choices) {
+    for (std::size_t i = 0; i < choices.meanings.size(); ++i) {
+        meaning += "\n" + choices.names[i] + " - " + choices.meanings[i];
+    }
+    return meaning;
+}
+
 }  // namespace
 
-Registrar::Registrar(CLI::App& command, std::string heading)
+void leave_to_help_all(CLI::App& command, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        CLI::Option* option = command.get_option(name);
+        const std::string heading = option->get_group();
+        if (!heading.ends_with(kRestSuffix)) option->group(heading + std::string(kRestSuffix));
+    }
+}
+
+OptionBuilder::OptionBuilder(CLI::App& command, std::string heading)
     : command_(command), heading_(std::move(heading)) {}
 
-Registrar& Registrar::value(const OptionText& text, Take take) {
+OptionBuilder& OptionBuilder::rest() {
+    heading_ += kRestSuffix;
+    return *this;
+}
+
+OptionBuilder& OptionBuilder::value(const OptionText& text, Take take) {
     const std::string name = long_name(text.name);
     const auto taker = [take = std::move(take), name](const std::string& seen) {
         take(name, seen);
@@ -26,71 +47,58 @@ Registrar& Registrar::value(const OptionText& text, Take take) {
     return *this;
 }
 
-Registrar& Registrar::text(const OptionText& text, std::string& out) {
+OptionBuilder& OptionBuilder::text(const OptionText& text, std::string& out) {
     return value(text, [&out](const std::string&, const std::string& seen) { out = seen; });
 }
 
-Registrar& Registrar::flag(const std::string& name, bool& out, const std::string& meaning) {
+OptionBuilder& OptionBuilder::flag(const std::string& name, bool& out, const std::string& meaning) {
     command_.add_flag(name, out, meaning)
         ->group(heading_)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     return *this;
 }
 
-Registrar& Registrar::question(const std::string& name, const std::string& meaning) {
+OptionBuilder& OptionBuilder::question(const std::string& name, const std::string& meaning) {
     command_.add_flag(name, meaning)->group(heading_);
     return *this;
 }
 
-Registrar& Registrar::number(const OptionText& text, double& out, const NumberRange& range) {
-    return value(text, [&out, range](const std::string& name, const std::string& seen) {
-        out = parse_number(name, seen, range);
-    });
-}
-
-Registrar& Registrar::number(const OptionText& text, float& out, const NumberRange& range) {
-    return value(text, [&out, range](const std::string& name, const std::string& seen) {
-        out = static_cast<float>(parse_number(name, seen, range));
-    });
-}
-
-Registrar& Registrar::number_or_auto(const OptionText& text, double& out,
-                                     const NumberRange& range) {
+OptionBuilder& OptionBuilder::number_or_auto(const OptionText& text, double& out,
+                                             const NumberRange& range) {
     return value(text, [&out, range](const std::string& name, const std::string& seen) {
         out = parse_number_or_auto(name, seen, range);
     });
 }
 
-Registrar& Registrar::count(const OptionText& text, std::uint64_t& out, const CountRange& range) {
-    return value(text, [&out, range](const std::string& name, const std::string& seen) {
-        out = parse_count(name, seen, range);
-    });
-}
-
-Registrar& Registrar::count(const OptionText& text, int& out, const CountRange& range) {
-    return value(text, [&out, range](const std::string& name, const std::string& seen) {
-        out = static_cast<int>(parse_count(name, seen, range));
-    });
-}
-
-Registrar& Registrar::vector(const OptionText& text, std::optional<glm::dvec3>& out) {
+OptionBuilder& OptionBuilder::vector(const OptionText& text, std::optional<glm::dvec3>& out) {
     return value(text, [&out](const std::string& name, const std::string& seen) {
         out = parse_vector(name, seen);
     });
 }
 
-Registrar& Registrar::choice(OptionText text, std::string& out,
-                             const std::vector<std::string>& names) {
-    return place(std::move(text), names, [&out, names](std::size_t i) { out = names[i]; });
+OptionBuilder& OptionBuilder::choice(const OptionText& text, std::string& out,
+                                     const Choices& choices) {
+    return choose(text, choices, [&out, names = choices.names](std::size_t i) { out = names[i]; });
 }
 
-Registrar& Registrar::place(OptionText text, const std::vector<std::string>& names,
-                            std::function<void(std::size_t)> take) {
-    text.form = joined(names, "|");
+OptionBuilder& OptionBuilder::choice_list(OptionText text, std::vector<std::string>& out,
+                                          const Choices& choices) {
+    text.form = joined(choices.names, "|") + ",...";
+    text.meaning = described(text.meaning, choices);
     return value(text,
-                 [names, take = std::move(take)](const std::string& name, const std::string& seen) {
-                     take(parse_name(name, seen, names));
+                 [&out, names = choices.names](const std::string& name, const std::string& seen) {
+                     out = parse_name_list(name, seen, names);
                  });
+}
+
+OptionBuilder& OptionBuilder::choose(OptionText text, const Choices& choices,
+                                     std::function<void(std::size_t)> take) {
+    text.form = joined(choices.names, "|");
+    text.meaning = described(text.meaning, choices);
+    return value(text, [names = choices.names, take = std::move(take)](const std::string& name,
+                                                                       const std::string& seen) {
+        take(parse_name(name, seen, names));
+    });
 }
 
 }  // namespace kilolux

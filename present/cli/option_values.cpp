@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/option_values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "host/base/error.h"
@@ -15,7 +16,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& option, std::string_view text,
                          const std::string& wanted) {
-    throw UsageError(option + ": '" + std::string(text) + "' is not " + wanted);
+    throw UsageError(fmt::format("{}: '{}' is not {}", option, text, wanted));
 }
 
 template <typename Number>
@@ -27,34 +28,31 @@ std::optional<Number> number_of(std::string_view text) {
     return value;
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    while (true) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        if (end == std::string_view::npos) return parts;
-        text.remove_prefix(end + 1);
-    }
-}
-
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
+// Also "5k", "2M", "1e6": a whole number that a double holds exactly.
+std::optional<std::uint64_t> count_of(std::string_view text) {
+    if (const auto value = number_of<std::uint64_t>(text)) return value;
+    double unit = 1.0;
+    if (text.ends_with('k')) unit = 1e3;
+    if (text.ends_with('M')) unit = 1e6;
+    if (unit > 1.0) text.remove_suffix(1);
+    const double value = unit * number_of<double>(text).value_or(-1.0);
+    const bool whole = value >= 0.0 && value <= 0x1p53 && value == std::floor(value);
+    return whole ? std::optional(static_cast<std::uint64_t>(value)) : std::nullopt;
 }
 
 std::string describe(const NumberRange& range) {
     const bool bounded_above = range.max < NumberRange{}.max;
     if (range.min == NumberRange{}.min && !bounded_above) return "a finite number";
-    const std::string least = short_number(range.min);
-    if (!bounded_above)
-        return "a finite number " + std::string(range.open ? "above " : "of at least ") + least;
-    return "a number " + std::string(range.open ? "between " : "from ") + least +
-           (range.open ? " and " : " to ") + short_number(range.max);
+    if (!bounded_above) {
+        return fmt::format("a finite number {} {:g}", range.open ? "above" : "of at least",
+                           range.min);
+    }
+    if (range.open) return fmt::format("a number between {:g} and {:g}", range.min, range.max);
+    return fmt::format("a number from {:g} to {:g}", range.min, range.max);
 }
 
 std::string describe(const CountRange& range) {
-    return "a whole number from " + std::to_string(range.min) + " to " + std::to_string(range.max);
+    return fmt::format("a whole number from {} to {}", range.min, range.max);
 }
 
 std::vector<double> parse_numbers(const std::string& option, std::string_view text,
@@ -67,7 +65,7 @@ std::vector<double> parse_numbers(const std::string& option, std::string_view te
         values.push_back(*value);
     }
     if (values.size() != wanted || split(text, ',').size() != wanted) {
-        refuse(option, text, std::to_string(wanted) + " finite numbers " + std::string(form));
+        refuse(option, text, fmt::format("{} finite numbers {}", wanted, form));
     }
     return values;
 }
@@ -110,7 +108,7 @@ double parse_number_or_auto(const std::string& option, std::string_view text,
 
 std::uint64_t parse_count(const std::string& option, std::string_view text,
                           const CountRange& range) {
-    const auto value = number_of<std::uint64_t>(text);
+    const auto value = count_of(text);
     if (!value || *value < range.min || *value > range.max) refuse(option, text, describe(range));
     return *value;
 }
@@ -140,9 +138,18 @@ std::vector<int> parse_counts(const std::string& option, std::string_view text,
             values.push_back(static_cast<int>(*value));
     }
     if (values.size() != wanted || parts.size() != wanted) {
-        refuse(option, text, std::string(form) + ", each " + describe(range));
+        refuse(option, text, fmt::format("{}, each {}", form, describe(range)));
     }
     return values;
+}
+
+std::pair<int, int> parse_resolution(const std::string& option, std::string_view text) {
+    const auto size = int_pair(text, text.find('x') == std::string_view::npos ? ',' : 'x');
+    const auto fits = [](int pixels) { return pixels >= 1 && pixels <= 65536; };
+    if (!size || !fits(size->first) || !fits(size->second)) {
+        refuse(option, text, "W,H or WxH, each a whole number from 1 to 65536");
+    }
+    return *size;
 }
 
 glm::dvec3 parse_vector(const std::string& option, std::string_view text) {
@@ -179,8 +186,8 @@ std::size_t parse_name(const std::string& option, std::string_view text,
                        const std::vector<std::string>& names) {
     const auto found = std::find(names.begin(), names.end(), text);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    throw UsageError(option + ": '" + std::string(text) + "' is none of " + joined(names) +
-                     did_you_mean(text, names));
+    throw UsageError(fmt::format("{}: '{}' is none of {}{}", option, text, joined(names),
+                                 did_you_mean(text, names)));
 }
 
 std::vector<std::string> parse_name_list(const std::string& option, std::string_view text,

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -38,7 +39,7 @@ double parse_number(const std::string& option, std::string_view text,
 double parse_number_or_auto(const std::string& option, std::string_view text,
                             const NumberRange& range);
 
-/// A whole number within `range`.
+/// A whole number within `range`; also as "5k", "2M" (powers of 1000) or "1e6".
 std::uint64_t parse_count(const std::string& option, std::string_view text,
                           const CountRange& range);
 
@@ -48,6 +49,9 @@ std::uint64_t parse_bytes(const std::string& option, std::string_view text);
 /// `size` whole numbers within `range`, separated by commas; `form` is how they are written: "W,H".
 std::vector<int> parse_counts(const std::string& option, std::string_view text,
                               std::string_view form, const CountRange& range);
+
+/// Width and height "W,H" or "WxH", each from 1 to 65536 [pixel].
+std::pair<int, int> parse_resolution(const std::string& option, std::string_view text);
 
 /// Three numbers "X,Y,Z".
 glm::dvec3 parse_vector(const std::string& option, std::string_view text);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/options.h"
 
-#include "host/base/suggest.h"
-#include "host/picture/decoded_surfaces.h"
+#include <fmt/format.h>
+
+#include <tuple>
+
+#include "host/base/text.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"
@@ -12,11 +15,12 @@ namespace kilolux {
 namespace {
 
 void add_scene_option(CLI::App& command, SharedOptions& o) {
-    Registrar(command, "Scene")
+    OptionBuilder(command, "Scene")
         .text({"SCENE", "", "atrium",
                "A generated scene (" + joined(generated_scene_names()) +
                    ") or a glTF 2.0 file, .gltf or .glb"},
               o.scene)
+        .rest()
         .flag("--allow-outside-paths", o.allow_outside_paths,
               "Let the file name buffers and images outside its folder");
 }
@@ -24,41 +28,34 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
 void add_picture_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto resolution = [&s](const std::string& name, const std::string& text) {
-        const auto size = parse_counts(name, text, "W,H", kEdgeRange);
-        s.width = size[0];
-        s.height = size[1];
+        std::tie(s.width, s.height) = parse_resolution(name, text);
     };
-    const auto aovs = [&s](const std::string& name, const std::string& text) {
-        s.want.aovs = parse_name_list(name, text, aov_names());
-    };
-    Registrar(command, "Picture")
-        .choice({"--renderer", "", "deferred",
-                 "Clustered deferred; clustered forward; forward or deferred with every light at "
-                 "every pixel: the references"},
-                s.renderer, renderer_names())
-        .value({"--resolution", "W,H", "1920,1080", "Size in pixels"}, resolution)
-        .choice({"--gbuffer", "", "packed", "What a pixel stores between the passes"}, s.gbuffer,
-                gbuffer_names())
-        .choice({"--shading", "", "auto", "How surfaces reflect; auto asks the scene's materials"},
-                s.shading, shading_names())
-        .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,
-                kAmbientRange)
+    OptionBuilder(command, "Picture")
+        .choice({"--renderer", "", "deferred", "How surfaces are lit"}, s.renderer,
+                renderer_choices())
+        .value({"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good"}, resolution)
         .count({"--samples", "N", "1", "Jittered samples a pixel"}, s.samples, kSamplesRange)
         .number({"--time", "T", "0", "Seconds: moves the lights and the file's animations"}, o.time)
-        .choice({"--show", "", "lit", "What the picture shows"}, s.want.view, show_names())
-        .value(
-            {"--aov", joined(aov_names(), "|") + ",...", "none", "Layers beside an EXR's colour"},
-            aovs);
+        .choice({"--show", "", "lit", "What the picture shows"}, s.want.view, show_choices())
+        .choice_list({"--aov", "", "none", "Layers of an EXR file beside its colour"}, s.want.aovs,
+                     aov_choices())
+        .rest()
+        .choice({"--gbuffer", "", "packed", "How a pixel is stored between the passes"}, s.gbuffer,
+                gbuffer_choices())
+        .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading,
+                shading_choices())
+        .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,
+                kAmbientRange);
 }
 
 void add_display_options(CLI::App& command, RenderSettings& s) {
-    Registrar(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
-        .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
-                kBloomRange)
-        .number({"--exposure", "EV", "0", "Twice as bright for every one"}, s.exposure,
+    OptionBuilder(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
+        .number({"--exposure", "EV", "0", "Each step doubles the brightness"}, s.exposure,
                 kExposureRange)
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
-                s.tone_curve, tone_curve_names());
+                s.tone_curve, tone_curve_choices())
+        .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
+                kBloomRange);
 }
 
 void add_light_options(CLI::App& command, RenderSettings& s) {
@@ -66,9 +63,9 @@ void add_light_options(CLI::App& command, RenderSettings& s) {
     const auto box = [&l](const std::string& name, const std::string& text) {
         l.box = parse_box(name, text);
     };
-    Registrar(command, "Generated point lights, added to the file's own")
-        .count({"--lights", "N", "5000", "How many; 0 keeps only the file's own"}, l.count,
-               kLightsRange)
+    OptionBuilder(command, "Generated point lights, added to the file's own")
+        .count({"--lights", "N", "5000", "How many, e.g. 20k or 1e6; 0 keeps only the file's own"},
+               l.count, kLightsRange)
         .count({"--light-seed", "S", "1", "Decides places, colours and motion"}, l.seed,
                kLightSeedRange)
         .number_or_auto(
@@ -76,41 +73,36 @@ void add_light_options(CLI::App& command, RenderSettings& s) {
             l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
+        .rest()
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
                box)
         .number({"--range-budget", "E", "0.00390625",
-                 "Radiance that a light of the file without a range may be wrong by; decides its "
-                 "range"},
+                 "Decides the range of the file's lights without one: the radiance lost beyond it"},
                 s.range_budget, kAboveZeroRange);
 }
 
 void add_camera_options(CLI::App& command, CameraChoice& c) {
-    const auto index = [&c](const std::string& name, const std::string& text) {
-        c.index = static_cast<int>(parse_count(name, text, {0, 0x7fffffff}));
-    };
-    const auto angle = [&c](const std::string& name, const std::string& text) {
-        c.view_angle = parse_number(name, text, {0.0, 180.0, true});
-    };
-    Registrar(command, "Camera")
-        .value({"--camera-index", "I", "the first, else one that frames the scene",
+    OptionBuilder(command, "Camera")
+        .count({"--camera-index", "I", "the first, else one that frames the scene",
                 "A camera of the scene, from 0"},
-               index)
+               c.index, {0, 0x7fffffff})
         .vector({"--camera-position", "X,Y,Z", "", "Where it stands, in metres"}, c.position)
         .vector({"--camera-focal-point", "X,Y,Z", "",
                  "What it looks at; with a position alone: the scene's middle"},
                 c.focal_point)
+        .rest()
         .vector({"--camera-view-up", "X,Y,Z", "0,1,0", "What is up in the picture"}, c.view_up)
-        .value(
+        .number(
             {"--camera-view-angle", "DEG", "the camera's, else 45", "Vertical angle, in degrees"},
-            angle)
+            c.view_angle, {0.0, 180.0, true})
         .flag("--camera-orthographic", c.orthographic, "Parallel projection");
 }
 
 void add_device_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto grid = [&s](const std::string& name, const std::string& text) {
-        const auto v = parse_counts(name, text, "X,Y,SLICES_PER_OCTAVE", kTilesRange);
-        parse_count(name + ": slices per octave", std::to_string(v[2]), kSlicesRange);
+        const auto v = parse_counts(name, text, "X,Y,SLICES_PER_OCTAVE", {1, 4096});
+        parse_count(name + ": slices per octave", fmt::format("{}", v[2]), {1, 64});
         s.grid = {v[0], v[1], v[2]};
     };
     const auto lanes = [&s](const std::string& name, const std::string& text) {
@@ -120,23 +112,25 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
     const auto memory = [&s](const std::string& name, const std::string& text) {
         s.max_memory_bytes = parse_bytes(name, text);
     };
-    Registrar(command, "Device and tuning")
-        .value({"--max-memory", "SIZE|auto", "auto",
-                "Of the program, e.g. 512M or 4G: pictures that need more are made in bands, with "
-                "the same bits; auto: most of what is available"},
-               memory)
+    OptionBuilder(command, "Device")
         .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, s.device)
         .question("--list-devices", "Print the OpenCL devices and leave")
+        .rest()
+        .value({"--max-memory", "SIZE|auto", "auto",
+                "Bound for rendering, e.g. 512M or 4G: pictures that need more are made in bands, "
+                "with the same bits; loading the scene is not bounded; auto: most of what is "
+                "available"},
+               memory)
         .value({"--grid", "X,Y,SLICES_PER_OCTAVE", "16,9,4",
                 "Coarse clusters: tiles across and down, slices for each doubling of depth"},
                grid)
         .value({"--lanes", "auto|1|2|4|8|16", "auto",
                 "Pixels or lights a work-item treats at once; changes no bit of a picture"},
                lanes)
-        .choice({"--math", "", "exact", "How shading kernels compute: faster ones err a little"},
-                s.kernels.math, math_names())
-        .choice({"--light-colors", "", "float", "What shading kernels store lights' colours in"},
-                s.kernels.light_colors, light_color_names());
+        .choice({"--math", "", "exact", "How shading kernels compute"}, s.kernels.math,
+                math_choices())
+        .choice({"--light-colors", "", "float", "How shading kernels store lights' colours"},
+                s.kernels.light_colors, light_color_choices());
 }
 
 }  // namespace
@@ -148,7 +142,7 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
     add_light_options(command, options.settings);
     add_camera_options(command, options.camera);
     add_device_options(command, options);
-    Registrar(command, "General")
+    OptionBuilder(command, "General")
         .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr")
         .flag("--verbose,-v", options.verbose, "More on stderr");
 }

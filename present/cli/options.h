@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options that the subcommands share, with one spelling, default and check everywhere. Checks
-// throw UsageError while the command line is parsed.
+// The options that the subcommands share: one spelling, default and check. Checks throw UsageError
+// while the command line is parsed.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -15,7 +15,7 @@
 
 namespace kilolux {
 
-/// What every subcommand knows: which picture of which scene, by which device.
+/// Options of every subcommand: which picture of which scene, on which device.
 struct SharedOptions {
     std::string scene = "atrium";      // a generated scene's name, or a .gltf or .glb file
     bool allow_outside_paths = false;  // the file may name buffers and images outside its folder
@@ -26,7 +26,7 @@ struct SharedOptions {
     bool verbose = false;
 };
 
-/// What commands that write pictures know beside.
+/// Options of commands that write pictures.
 struct OutputOptions {
     std::filesystem::path output;
     bool half_colour = false;
@@ -38,8 +38,9 @@ struct OutputOptions {
     bool skip_existing = false;
     std::string stats;  // file, "-" for stdout, empty: none
     std::string reference;
-    double threshold = 0.0;
+    std::optional<double> threshold;
     std::string metric = "rmse";
+    std::filesystem::path difference;  // empty: none
 };
 
 /// Scene, picture, lights, camera, grid and device options.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/progress.h"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -14,14 +15,9 @@ namespace {
 
 std::string duration(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(seconds));
-    if (whole < 60) return std::to_string(whole) + " s";
-    char text[48];
-    if (whole < 3600) {
-        std::snprintf(text, sizeof text, "%lld:%02lld min", whole / 60, whole % 60);
-    } else {
-        std::snprintf(text, sizeof text, "%lld:%02lld h", whole / 3600, whole / 60 % 60);
-    }
-    return text;
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
 int terminal_columns() {
@@ -35,18 +31,17 @@ int terminal_columns() {
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width) {
     const double share = total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
-    const std::string head = label + " " + std::to_string(done) + "/" + std::to_string(total) + " ";
-    char percent[8];
-    std::snprintf(percent, sizeof percent, "%3d %%", static_cast<int>(share * 100.0));
-    std::string tail = percent;
-    if (done > 0 && done < total)
-        tail += ", " + duration(elapsed_s * (1.0 / share - 1.0)) + " left";
+    const std::string head = fmt::format("{} {}/{} ", label, done, total);
+    std::string tail = fmt::format("{:3} %", static_cast<int>(share * 100.0));
+    if (done > 0 && done < total) {
+        tail += fmt::format(", {} left", duration(elapsed_s * (1.0 / share - 1.0)));
+    }
     const int room = std::min(width - static_cast<int>(head.size() + tail.size()) - 3, 40);
-    // Under eight columns a bar says nothing.
+    // A bar of fewer than eight columns is not worth its place.
     if (room < 8) return (head + tail).substr(0, static_cast<std::size_t>(std::max(width, 0)));
     const auto filled = static_cast<std::size_t>(share * room);
     const auto empty = static_cast<std::size_t>(room) - filled;
-    return head + "[" + std::string(filled, '=') + std::string(empty, ' ') + "] " + tail;
+    return fmt::format("{}[{:=<{}}{: <{}}] {}", head, "", filled, "", empty, tail);
 }
 
 Progress::Progress(std::string label, std::size_t total, bool shown)

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/scene_choice.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <optional>
+#include <set>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
@@ -13,7 +16,14 @@
 namespace kilolux {
 namespace {
 
-// The file that a name which is no generated scene's stands for.
+// Whether the extension is that of a picture.
+bool is_picture(const std::filesystem::path& file) {
+    static const std::set<std::string> extensions = {".png", ".jpg", ".jpeg", ".tif",  ".tiff",
+                                                     ".exr", ".hdr", ".bmp",  ".webp", ".gif"};
+    return extensions.contains(lower(file.extension().string()));
+}
+
+// The file that a name stands for which is not a generated scene's.
 std::filesystem::path scene_file(const std::string& name_or_file) {
     std::filesystem::path file(name_or_file);
     if (std::filesystem::is_directory(file)) {
@@ -22,8 +32,14 @@ std::filesystem::path scene_file(const std::string& name_or_file) {
     const bool named_as_file = file.has_extension() || file.has_parent_path();
     if (!std::filesystem::exists(file) && !named_as_file) {
         const std::vector<std::string> names = generated_scene_names();
-        throw UsageError("scene '" + name_or_file + "' is no file, and none of " + joined(names) +
-                         did_you_mean(name_or_file, names));
+        throw UsageError(fmt::format("scene '{}' is no file, and none of {}{}", name_or_file,
+                                     joined(names), did_you_mean(name_or_file, names)));
+    }
+    if (is_picture(file)) {
+        throw UsageError(
+            fmt::format("scene '{}' is a picture; a scene is a .gltf or .glb file, or one of {} "
+                        "(--output names the picture to write)",
+                        name_or_file, joined(generated_scene_names())));
     }
     if (!std::filesystem::exists(file)) throw Error(name_or_file + ": no such scene file");
     return file;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/sequence.h"
 
-#include <cstdint>
+#include <fmt/format.h>
+
 #include <string>
 
 namespace kilolux {
 
-std::vector<int> frames_of_shard(const FrameRange& range, const Shard& shard) {
-    std::vector<int> frames;
-    for (std::int64_t frame = std::int64_t{range.first} + shard.index; frame <= range.last;
-         frame += shard.count) {
-        frames.push_back(static_cast<int>(frame));
-    }
-    return frames;
+ShardFrames::ShardFrames(const FrameRange& range, const Shard& shard)
+    : first_(std::int64_t{range.first} + shard.index), step_(shard.count) {
+    size_ = first_ > range.last ? 0 : static_cast<std::size_t>((range.last - first_) / step_ + 1);
+}
+
+int ShardFrames::operator[](std::size_t i) const {
+    return static_cast<int>(first_ + static_cast<std::int64_t>(i) * step_);
 }
 
 bool has_frame_pattern(const std::filesystem::path& file) {
@@ -26,9 +27,7 @@ std::filesystem::path frame_file(const std::filesystem::path& pattern, int frame
     const std::size_t before = name.find_last_not_of('#', last);
     const std::size_t first = before == std::string::npos ? 0 : before + 1;
     const std::size_t width = last - first + 1;
-    std::string number = std::to_string(frame);
-    if (number.size() < width) number.insert(0, width - number.size(), '0');
-    name.replace(first, width, number);
+    name.replace(first, width, fmt::format("{:0{}}", frame, width));
     return pattern.parent_path() / name;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sequences: which frames there are, which of them are ours, and what their files are called.
+// Sequences: their frames, shards of them, and file names.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <vector>
 
 namespace kilolux {
 
@@ -19,8 +20,21 @@ struct Shard {
     int count = 1;
 };
 
-/// Frames f of `range` with (f - range.first) % shard.count == shard.index, ascending.
-std::vector<int> frames_of_shard(const FrameRange& range, const Shard& shard);
+/// Frames f of `range` with (f - range.first) % shard.count == shard.index, ascending. Counted, not
+/// stored.
+class ShardFrames {
+ public:
+    ShardFrames(const FrameRange& range, const Shard& shard);
+    std::size_t size() const { return size_; }
+
+    /// 0 <= i < size().
+    int operator[](std::size_t i) const;
+
+ private:
+    std::int64_t first_;
+    std::int64_t step_;
+    std::size_t size_;
+};
 
 /// Whether the file name holds a run of '#' that stands for the frame number.
 bool has_frame_pattern(const std::filesystem::path& file);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/stats_json.h"
 
-#include <cstdio>
+#include <array>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
@@ -45,6 +45,12 @@ void add_frame(Json& out, const FrameRecord& record) {
     if (record.comparison) out["error"] = comparison_json(*record.comparison);
 }
 
+std::string text_of(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, nlohmann::detail::error_handler_t::replace);
+}
+
+[[noreturn]] void fail_to_print() { throw Error("standard output: cannot write"); }
+
 }  // namespace
 
 Json cost_json(const FeatureCost& cost) {
@@ -60,33 +66,59 @@ Json cost_json(const FeatureCost& cost) {
     return out;
 }
 
-Json stats_json(const DeviceInfo& device, const ScenePlan& plan,
-                const std::vector<FrameRecord>& frames, bool sequence,
-                const std::vector<FeatureCost>& costs) {
+Json stats_json(const DeviceInfo& device, const ScenePlan& plan, const FrameRecord& last) {
     Json out;
     out["device"] = device_json(device);
     out["plan"] = plan.features;
     out["left_out"] = Json::array();
-    for (const FeatureCost& cost : costs) out["left_out"].push_back(cost_json(cost));
-    out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
-    if (!frames.empty()) add_frame(out, frames.back());
-    if (!sequence) return out;
-    out["frames"] = Json::array();
-    for (const FrameRecord& record : frames) {
-        Json entry{{"frame", record.frame}, {"time", record.time}, {"file", record.file}};
-        add_frame(entry, record);
-        out["frames"].push_back(std::move(entry));
+    for (const std::string& feature : absent_features(plan)) {
+        out["left_out"].push_back(cost_json(unmeasured_cost(plan, feature)));
     }
+    out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
+    add_frame(out, last);
     return out;
 }
 
-void write_json(const std::string& file, const Json& document) {
-    const std::string text =
-        document.dump(2, ' ', false, nlohmann::detail::error_handler_t::replace) + "\n";
-    if (file != "-") return write_whole_file(file, text);
-    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
-        throw Error("standard output: cannot write");
+FrameLog::FrameLog() : file_(std::tmpfile(), std::fclose) {
+    if (!file_) fail_to_write(std::filesystem::temp_directory_path());
+}
+
+void FrameLog::add(const FrameRecord& record) {
+    Json entry{{"frame", record.frame}, {"time", record.time}, {"file", record.file}};
+    add_frame(entry, record);
+    const std::string text = (empty_ ? "    " : ",\n    ") + text_of(entry, -1);
+    empty_ = false;
+    if (std::fputs(text.c_str(), file_.get()) < 0) {
+        fail_to_write(std::filesystem::temp_directory_path());
     }
+}
+
+void FrameLog::read(const std::function<void(std::string_view)>& take) const {
+    std::rewind(file_.get());
+    std::array<char, 65536> text;
+    while (const std::size_t size = std::fread(text.data(), 1, text.size(), file_.get())) {
+        take({text.data(), size});
+    }
+    if (std::ferror(file_.get())) throw Error("temporary file: cannot read");
+}
+
+void write_json(const std::string& file, const Json& document, const FrameLog* frames) {
+    std::optional<AtomicFile> out;
+    if (file != "-") out.emplace(file);
+    const auto write = [&out](std::string_view text) {
+        if (out) return out->write(text);
+        if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_print();
+    };
+    std::string text = text_of(document, 2);
+    if (frames != nullptr) {
+        text.resize(text.size() - 2);  // "\n}"
+        write(text + ",\n  \"frames\": [\n");
+        frames->read(write);
+        text = "\n  ]\n}";
+    }
+    write(text + "\n");
+    if (out) return out->commit();
+    if (std::fflush(stdout) != 0) fail_to_print();
 }
 
 }  // namespace kilolux

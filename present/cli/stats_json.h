@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdio>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "host/measure/bench/feature_cost.h"
 #include "host/picture/frame.h"
@@ -13,7 +15,7 @@
 
 namespace kilolux {
 
-/// What there is to say about one rendered frame.
+/// One rendered frame: its counts, times and file.
 struct FrameRecord {
     int frame = 0;      // number in the sequence
     double time = 0.0;  // [s]
@@ -22,18 +24,34 @@ struct FrameRecord {
     std::optional<Comparison> comparison;
 };
 
-/// The document of --stats. At the top the keys that tools may rely on: device, plan, lights,
-/// clusters, evaluations, stages, frame_ms, and error when a reference was given; of the last
-/// frame. `frames` is added for a sequence and has the same for each frame. What was not counted is
-/// null. `left_out`: what the plan leaves out, with its costs as `costs` knows them.
+/// The document of --stats, with the keys that tools may rely on: device, plan, lights, clusters,
+/// evaluations, stages, frame_ms, and error when a reference was given; of the last frame. What was
+/// not counted is null. lights.dropped is 0 by construction: lists have no capacity limit.
+/// `left_out`: features that the plan leaves out, and what each would add to a pixel.
 nlohmann::ordered_json stats_json(const DeviceInfo& device, const ScenePlan& plan,
-                                  const std::vector<FrameRecord>& frames, bool sequence,
-                                  const std::vector<FeatureCost>& costs = {});
+                                  const FrameRecord& last);
+
+/// The frames of a sequence, with the same keys each and its number, time and file. Kept in a
+/// temporary file, as there may be many. Throws Error when that cannot be written.
+class FrameLog {
+ public:
+    FrameLog();
+    void add(const FrameRecord& record);
+
+    /// Calls `take` with the text, a JSON object a line, piece by piece.
+    void read(const std::function<void(std::string_view)>& take) const;
+
+ private:
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+    bool empty_ = true;
+};
 
 /// Name, bytes a pixel, and either times or why there are none.
 nlohmann::ordered_json cost_json(const FeatureCost& cost);
 
-/// Writes a document, whole or not at all; "-" is standard output.
-void write_json(const std::string& file, const nlohmann::ordered_json& document);
+/// Writes a document, whole or not at all; "-" is standard output. With `frames`, they become its
+/// last key, "frames".
+void write_json(const std::string& file, const nlohmann::ordered_json& document,
+                const FrameLog* frames = nullptr);
 
 }  // namespace kilolux

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function a subcommand: command_<name>.cpp defines it, Program's constructor calls it.
+// One function a subcommand: <name>.cpp defines it, Program's constructor calls it.
 #pragma once
 
 #include "present/program.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cctype>
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
-#include "host/base/suggest.h"
+#include "host/base/text.h"
 #include "host/scene/export/export_scene.h"
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_ranges.h"
@@ -28,15 +28,13 @@ struct ExportOptions {
 };
 
 void check_output(const std::string& text) {
-    std::string extension = fs::path(text).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower(fs::path(text).extension().string());
     if (extension == ".glb" || extension == ".gltf") return;
-    throw UsageError("--output: '" + text + "': scene type '" + extension +
-                     "' is none of .glb, .gltf");
+    throw UsageError(
+        fmt::format("--output: '{}': scene type '{}' is none of .glb, .gltf", text, extension));
 }
 
-// The camera of the picture as the scene's first, so that it is what readers show.
+// The camera of the picture, to become the scene's first: readers show that one.
 SceneCamera scene_camera(const Camera& camera, const RenderSettings& settings) {
     SceneCamera out;
     out.name = "kilolux";
@@ -65,15 +63,15 @@ Scene scene_to_export(const ExportOptions& options) {
 std::string summary(const Scene& scene, const ExportedScene& exported, const fs::path& file) {
     std::size_t bytes = 0;
     for (const ExportedFile& part : exported.files) bytes += part.bytes.size();
-    std::string out = "scene   " + scene.name + ", " + std::to_string(triangle_count(scene)) +
-                      " triangles, " + std::to_string(scene.images.size()) + " images\n" +
-                      "lights  " + std::to_string(exported.lights) + " written, " +
-                      std::to_string(exported.unusable_lights) + " unusable left out\n" +
-                      "wrote   " + file.string();
+    std::string files = file.string();
     if (exported.files.size() > 1) {
-        out += " and " + std::to_string(exported.files.size() - 1) + " files beside it";
+        files += fmt::format(" and {} files beside it", exported.files.size() - 1);
     }
-    return out + ", " + std::to_string((bytes + 1023) / 1024) + " KiB";
+    return fmt::format(
+        "scene   {}, {} triangles, {} images\nlights  {} written, {} unusable left out\n"
+        "wrote   {}, {} KiB",
+        scene.name, triangle_count(scene), scene.images.size(), exported.lights,
+        exported.unusable_lights, files, (bytes + 1023) / 1024);
 }
 
 void run_export(const ExportOptions& options) {
@@ -85,7 +83,7 @@ void run_export(const ExportOptions& options) {
     const ExportedScene exported = export_scene(scene, options.output);
     check_interrupt();
     for (const ExportedFile& part : exported.files) {
-        write_whole_file(options.output.parent_path() / part.name, part.bytes);
+        write_atomically(options.output.parent_path() / part.name, part.bytes);
     }
     note(summary(scene, exported, options.output));
 }
@@ -107,10 +105,13 @@ void add_export_command(Program& program) {
         check_output(text);
         options->output = text;
     };
-    Registrar(command, "Output")
+    OptionBuilder(command, "Output")
         .value({"--output,-o", "FILE", "",
                 "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
                output);
+    leave_to_help_all(
+        command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
+                  "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});
 }
 
 }  // namespace kilolux

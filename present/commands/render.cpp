@@ -7,7 +7,6 @@
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
-#include "host/measure/bench/known_costs.h"
 #include "host/measure/roofline/device_limits.h"
 #include "host/measure/roofline/roofline.h"
 #include "host/render/renderer.h"
@@ -37,33 +36,73 @@ struct Task {
     int frame = 0;
     double time = 0.0;  // [s]
     fs::path file;
-    fs::path reference;  // empty: none
+    fs::path reference;   // empty: none
+    fs::path difference;  // empty: none
 };
 
-std::vector<Task> tasks_of(const RenderOptions& options) {
-    const OutputOptions& out = options.output;
-    if (!out.frames) {
-        const Task only{0, options.shared.time, out.output, out.reference};
-        return out.skip_existing && fs::exists(only.file) ? std::vector<Task>{} : std::vector{only};
+// The pictures asked for, made one at a time: a sequence may have two thousand million.
+class Tasks {
+ public:
+    explicit Tasks(const RenderOptions& options) : options_(options) {
+        if (options.output.frames) frames_.emplace(*options.output.frames, options.output.shard);
     }
-    std::vector<Task> tasks;
-    for (const int frame : frames_of_shard(*out.frames, out.shard)) {
-        const Task task{frame, options.shared.time + frame / out.frames_per_second,
-                        frame_file(out.output, frame), frame_file(out.reference, frame)};
-        // A file that is there is whole, so an interrupted sequence goes on where it stopped.
-        if (!out.skip_existing || !fs::exists(task.file)) tasks.push_back(task);
+
+    std::size_t size() const { return frames_ ? frames_->size() : 1; }
+
+    Task operator[](std::size_t i) const {
+        const OutputOptions& out = options_.output;
+        const double time = options_.shared.time;
+        if (!frames_) return {0, time, out.output, out.reference, out.difference};
+        const int frame = (*frames_)[i];
+        return {frame, time + frame / out.frames_per_second, frame_file(out.output, frame),
+                frame_file(out.reference, frame), frame_file(out.difference, frame)};
     }
-    return tasks;
-}
+
+    // A file that is there is whole, so an interrupted sequence goes on where it stopped.
+    bool is_done(const Task& task) const {
+        return options_.output.skip_existing && fs::exists(task.file);
+    }
+
+    std::size_t first_to_do() const {
+        std::size_t i = 0;
+        while (i < size() && is_done((*this)[i])) ++i;
+        return i;
+    }
+
+ private:
+    const RenderOptions& options_;
+    std::optional<ShardFrames> frames_;
+};
+
+// A summary of the pictures made so far.
+struct Made {
+    std::size_t count = 0;
+    FrameRecord last;
+    std::string first_failure;  // of a comparison; empty: none
+    std::optional<FrameLog> log;
+};
 
 bool wants_own_display(const RenderOptions& options) {
     return options.output.bits == 16 || uses_ocio(options.output.ocio);
 }
 
+// What each stage would take at the device's measured limits; measures them once a device.
+class Limits {
+ public:
+    explicit Limits(const Renderer& renderer)
+        : limits_(cached_device_limits(Gpu(choose_device(renderer.settings().device)))),
+          setup_(frame_setup(renderer.settings(), renderer.plan(), renderer.device())) {}
+    void fill(FrameStats& stats) const { fill_limits(stats, limits_, setup_); }
+
+ private:
+    DeviceLimits limits_;
+    FrameSetup setup_;
+};
+
 ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, const Camera& camera,
-                    const Task& task, const FrameRecord& record) {
+                    const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, renderer.device(), record.stats);
-    notes.strings.emplace_back("time", number_text(task.time) + " s");
+    notes.strings.emplace_back("time", number_text(record.time) + " s");
     if (record.comparison) {
         notes.strings.emplace_back("error", comparison_text(*record.comparison));
     }
@@ -71,8 +110,7 @@ ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, cons
     return notes;
 }
 
-// The display picture is made anew where the renderer's, of 8 bits and by our tone curves, is not
-// what was asked for.
+// The renderer's display picture has 8 bits and our tone curves; others are made here.
 ImageOptions image_options(const RenderOptions& options, const Frame& frame, const Task& task) {
     const OutputOptions& out = options.output;
     ImageOptions image;
@@ -88,49 +126,71 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
                         const Task& task) {
     const OutputOptions& out = options.output;
     std::optional<Reference> reference;
-    if (!task.reference.empty()) reference.emplace(task.reference);
+    if (!task.reference.empty()) {
+        require_reference_size(task.reference, renderer.settings().width,
+                               renderer.settings().height);
+        reference.emplace(task.reference);
+    }
     const Frame frame = renderer.render(camera, task.time, check_interrupt);
     check_interrupt();
     FrameRecord record{task.frame, task.time, task.file.string(), frame.stats, std::nullopt};
-    if (reference) record.comparison = reference->compare(frame, out.metric, out.threshold);
-    write_image(task.file, frame, notes_of(options, renderer, camera, task, record),
+    if (reference) {
+        record.comparison = reference->compare(frame, out.metric, out.threshold.value_or(0.0));
+    }
+    write_image(task.file, frame, notes_of(options, renderer, camera, record),
                 image_options(options, frame, task));
+    if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
     return record;
 }
 
-std::vector<FrameRecord> render_tasks(const RenderOptions& options, AnimatedScene& scene,
-                                      Renderer& renderer, const std::vector<Task>& tasks) {
-    std::vector<FrameRecord> records;
-    Progress progress("rendering", tasks.size(), !options.shared.quiet);
-    for (const Task& task : tasks) {
+void add(Made& made, FrameRecord record) {
+    if (made.log) made.log->add(record);
+    const bool failed = record.comparison && !record.comparison->passed();
+    if (failed && made.first_failure.empty()) {
+        made.first_failure = record.file + ": " + comparison_text(*record.comparison);
+    }
+    ++made.count;
+    made.last = std::move(record);
+}
+
+Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScene& scene,
+                  Renderer& renderer) {
+    Made made;
+    std::optional<Limits> limits;
+    if (!options.output.stats.empty()) {
+        limits.emplace(renderer);
+        if (options.output.frames) made.log.emplace();
+    }
+    const std::size_t first = tasks.first_to_do();
+    Progress progress("rendering", tasks.size() - first, !options.shared.quiet);
+    for (std::size_t i = first; i < tasks.size(); ++i) {
         check_interrupt();
-        scene.set_time(task.time);
-        const Camera camera = choose_camera(options.shared.camera, scene.scene());
-        records.push_back(render_task(options, renderer, camera, task));
+        const Task task = tasks[i];
+        if (!tasks.is_done(task)) {
+            scene.set_time(task.time);
+            const Camera camera = choose_camera(options.shared.camera, scene.scene());
+            FrameRecord record = render_task(options, renderer, camera, task);
+            if (limits) limits->fill(record.stats);
+            add(made, std::move(record));
+        }
         progress.advance();
     }
-    return records;
+    return made;
 }
 
-// What would fail after the work is asked before it.
-void check_files(const RenderOptions& options, const std::vector<Task>& tasks) {
-    if (!tasks.empty()) check_can_write(tasks.front().file);
-    if (!options.output.stats.empty() && options.output.stats != "-") {
-        check_can_write(options.output.stats);
+// Asks before the work what would fail after it.
+void check_files(const RenderOptions& options, const Tasks& tasks, const Task& first) {
+    const OutputOptions& out = options.output;
+    check_can_write(first.file);
+    if (!out.difference.empty()) check_can_write(first.difference);
+    if (!out.stats.empty() && out.stats != "-") check_can_write(out.stats);
+    if (out.reference.empty()) return;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        const fs::path reference = tasks[i].reference;
+        if (!fs::exists(reference)) throw Error(reference.string() + ": no such reference");
     }
-    for (const Task& task : tasks) {
-        if (!task.reference.empty() && !fs::exists(task.reference)) {
-            throw Error(task.reference.string() + ": no such reference");
-        }
-    }
-}
-
-void require_passed(const std::vector<FrameRecord>& records) {
-    for (const FrameRecord& record : records) {
-        if (record.comparison && !record.comparison->passed()) {
-            throw ComparisonFailed(record.file + ": " + comparison_text(*record.comparison));
-        }
-    }
+    const RenderSettings& settings = options.shared.settings;
+    require_reference_size(first.reference, settings.width, settings.height);
 }
 
 // What the files and the comparison read. Counting useful evaluations costs a pass of its own.
@@ -153,46 +213,36 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
     return settings;
 }
 
-// What each stage would take at the device's measured limits; measures them once a device.
-void fill_limits(std::vector<FrameRecord>& records, const Renderer& renderer) {
-    const DeviceLimits limits =
-        cached_device_limits(Gpu(choose_device(renderer.settings().device)));
-    const FrameSetup setup = frame_setup(renderer.settings(), renderer.plan(), renderer.device());
-    for (FrameRecord& record : records) fill_limits(record.stats, limits, setup);
-}
-
 void run_render(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     set_verbosity(verbosity_of(options.shared));
-    const std::vector<Task> tasks = tasks_of(options);
-    if (tasks.empty()) return note("nothing to render: every file is there");
-    check_files(options, tasks);
+    const Tasks tasks(options);
+    const std::size_t begin = tasks.first_to_do();
+    if (begin == tasks.size()) return note("nothing to render: every file is there");
+    const Task first = tasks[begin];
+    check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
-    AnimatedScene scene = open_animated_scene(options.shared, tasks.front().time);
+    AnimatedScene scene = open_animated_scene(options.shared, first.time);
     const Camera camera = choose_camera(options.shared.camera, scene.scene());
     check_interrupt();
-    Renderer renderer(scene.scene(),
-                      settings_of(options, {scene.scene(), camera, tasks.front().time}));
+    Renderer renderer(scene.scene(), settings_of(options, {scene.scene(), camera, first.time}));
     check_interrupt();
-    std::vector<FrameRecord> records = render_tasks(options, scene, renderer, tasks);
+    const Made made = render_tasks(options, tasks, scene, renderer);
     if (!out.stats.empty()) {
-        fill_limits(records, renderer);
-        write_json(out.stats,
-                   stats_json(renderer.device(), renderer.plan(), records, out.frames.has_value(),
-                              known_feature_costs(renderer.device(), scene.scene(),
-                                                  options.shared.settings)));
+        write_json(out.stats, stats_json(renderer.device(), renderer.plan(), made.last),
+                   made.log ? &*made.log : nullptr);
     }
-    note(frame_summary(scene.scene(), renderer.device(), records));
-    require_passed(records);
+    note(frame_summary(scene.scene(), renderer.device(), made.last, made.count));
+    if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }
 
 constexpr const char* kExamples =
     "  kilolux render -o atrium.png\n"
     "  kilolux render -o atrium.exr --lights 100000 --aov depth,normal,light-count\n"
-    "  kilolux render town.glb -o town.png --lights 0 --camera-index 1 --resolution 3840,2160\n"
+    "  kilolux render town.glb -o town.png --lights 0 --camera-index 1 --resolution 3840x2160\n"
     "  kilolux render -o frame.####.exr --frames 0:239 --fps 24 --shard 3/8 --skip-existing\n"
-    "  kilolux render -o now.exr --renderer deferred --reference all.exr --threshold 0\n"
+    "  kilolux render -o now.exr --reference all.exr --threshold 0 --difference where.png\n"
     "  kilolux render -o atrium.png --stats - --quiet";
 
 }  // namespace

@@ -40,7 +40,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     return file.load(state, is_given);
 }
 
-// What would fail at the end is asked at the beginning.
+// Asks at the beginning what would fail at the end.
 void check_files(const ViewOptions& options) {
     if (options.screenshot.empty()) return;
     if (image_meaning(options.screenshot) == ImageMeaning::linear) {
@@ -89,7 +89,8 @@ void add_view_command(Program& program) {
                             [options, self] { run_view(*options, **self); });
     *self = &command;
     add_shared_options(command, options->shared);
-    Registrar(command, "Window")
+    leave_to_help_all(command, {"--aov"});
+    OptionBuilder(command, "Window")
         .flag("--fresh", options->fresh,
               "Begin with the defaults instead of the last window's settings; keep nothing")
         .count(

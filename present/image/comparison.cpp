@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/image/comparison.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "host/base/error.h"
 #include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/metrics/flip_ldr.h"
 #include "host/measure/metrics/metrics.h"
+#include "host/picture/view_canvas.h"
 #include "present/image/image_file.h"
 
 namespace kilolux {
 namespace {
-
-std::string size_text(int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
 
 // Display codes as read_image() gives those of a file.
 std::vector<float> display_colour(const Frame& frame) {
@@ -46,15 +48,21 @@ Reference::Reference(std::filesystem::path file)
     colour_ = rgb_image_of(image.width, image.height, colour_of(image));
 }
 
+void require_reference_size(const std::filesystem::path& file, int width, int height) {
+    const auto [w, h] = image_size(file);
+    if (w == width && h == height) return;
+    throw Error(fmt::format("{}: the reference is {}x{} pixels, the picture {}x{}", file.string(),
+                            w, h, width, height));
+}
+
+RgbImage Reference::comparable(const Frame& frame) const {
+    return rgb_image_of(frame.width, frame.height,
+                        linear_ ? frame.radiance : display_colour(frame));
+}
+
 Comparison Reference::compare(const Frame& frame, const std::string& metric,
                               double threshold) const {
-    if (frame.width != colour_.width || frame.height != colour_.height) {
-        throw Error(file_.string() + ": the reference is " +
-                    size_text(colour_.width, colour_.height) + " pixels, the picture " +
-                    size_text(frame.width, frame.height));
-    }
-    const RgbImage picture =
-        rgb_image_of(frame.width, frame.height, linear_ ? frame.radiance : display_colour(frame));
+    const RgbImage picture = comparable(frame);
     const HdrMetrics m = compare_hdr(picture, colour_);
     Comparison out{metric, 0.0, threshold, {}};
     out.errors = {
@@ -65,6 +73,28 @@ Comparison Reference::compare(const Frame& frame, const std::string& metric,
     for (const auto& [name, value] : out.errors) {
         if (name == metric) out.value = value;
     }
+    return out;
+}
+
+Frame Reference::difference(const Frame& frame) const {
+    const RgbImage picture = comparable(frame);
+    Frame out;
+    out.width = frame.width;
+    out.height = frame.height;
+    Canvas map = make_canvas(frame.width, frame.height);
+    const HeatScale scale{1e-6, 1.0, true, "DIFFERENCE"};
+    for (std::size_t pixel = 0; pixel < picture.pixel_count(); ++pixel) {
+        double largest = 0.0;
+        for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
+            const double error = std::abs(picture.rgb[i] - colour_.rgb[i]);
+            out.radiance.push_back(static_cast<float>(error));
+            largest = std::max(largest, std::isnan(error) ? scale.high : error);
+        }
+        const int place = static_cast<int>(pixel);
+        map.set(place % frame.width, place / frame.width, heat_color(position_on(scale, largest)));
+    }
+    draw_legend(map, scale);
+    out.display = std::move(map.rgba);
     return out;
 }
 

@@ -11,12 +11,6 @@
 
 namespace kilolux {
 
-/// Errors that --metric knows; each is 0 for equal pictures and larger for worse ones. Of linear
-/// files in their unit, of others in [0, 1]: `rmse`, `mean` and `max` of |x-r|; `max-relative`, the
-/// largest |x-r| / |r|; `relmse`, relative squares; `different-pixels`, by any bit; `flip`, what an
-/// observer notices on average (HDR-FLIP for linear files).
-std::vector<std::string> metric_names();
-
 /// How far a picture is from its reference.
 struct Comparison {
     std::string metric;
@@ -31,16 +25,25 @@ struct Comparison {
 /// with Frame::display as values 0..1.
 class Reference {
  public:
-    /// Reads the file; throws UsageError for an unknown type, Error if it cannot be read.
+    /// Reads the file. Throws UsageError for an unknown type, Error if it cannot be read.
     explicit Reference(std::filesystem::path file);
 
     /// Throws Error when the sizes differ.
     Comparison compare(const Frame& frame, const std::string& metric, double threshold) const;
 
+    /// The difference as a picture: Frame::radiance is |picture - reference| of each channel,
+    /// Frame::display a heat map of each pixel's largest, logarithmic from 1e-6 to 1.
+    Frame difference(const Frame& frame) const;
+
  private:
+    RgbImage comparable(const Frame& frame) const;
+
     std::filesystem::path file_;
     bool linear_ = true;
     RgbImage colour_;
 };
+
+/// Throws Error unless the picture in `file` is of that size; reads its header only.
+void require_reference_size(const std::filesystem::path& file, int width, int height);
 
 }  // namespace kilolux

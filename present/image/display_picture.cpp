@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
+#include "host/base/srgb.h"
 #include "host/base/suggest.h"
 #include "kernels/shared/tone_curve.h"
 
@@ -20,14 +21,11 @@ const char* ocio_config() {
     return file != nullptr && *file != '\0' ? file : nullptr;
 }
 
-// IEC 61966-2-1.
 float srgb_of_linear(float linear) {
-    const double c = std::clamp<double>(linear, 0.0, 1.0);
-    const double code = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-    return static_cast<float>(code);
+    return static_cast<float>(linear_to_srgb(std::clamp<double>(linear, 0.0, 1.0)));
 }
 
-// As kernels/tonemap.cl: NaN and negative light are black, infinite light is white.
+// As kernels/tonemap.cl: NaN and negative light become black, infinite light white.
 float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
 
 FV3 tone_mapped(FV3 c, ToneCurve curve) {
@@ -36,7 +34,7 @@ FV3 tone_mapped(FV3 c, ToneCurve curve) {
     return curve == ToneCurve::aces ? aces_tone_curve(c) : c;
 }
 
-// `name`, if the list has it, else an error that names what there is.
+// `name` if the list has it; else throws UsageError with the list.
 std::string checked(const char* option, const std::string& name,
                     const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return name;
@@ -47,7 +45,7 @@ std::string checked(const char* option, const std::string& name,
 std::string input_space(const OIIO::ColorConfig& config, const std::string& wanted) {
     const std::vector<std::string> spaces = config.getColorSpaceNames();
     if (!wanted.empty()) return checked("--ocio-input", wanted, spaces);
-    // Of the ACES studio, CG and older configurations, of Blender, of the Foundry's, of Sony's.
+    // Names in the configurations of ACES (studio, CG, older), Blender, The Foundry and Sony.
     for (const char* name : {"Linear Rec.709 (sRGB)", "Utility - Linear - sRGB", "lin_srgb",
                              "Linear Rec.709", "lin_rec709", "linear", "lnf"}) {
         if (std::find(spaces.begin(), spaces.end(), name) != spaces.end()) return name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures for the eye that 8 bits and our own tone curves do not make: 16 bits, and OpenColorIO.
+// Display pictures of 16 bits a channel or by OpenColorIO, which the renderer does not make.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace kilolux {
 struct OcioOptions {
     std::string display;  // empty: the configuration's default
     std::string view;     // empty: the display's default; "none": OpenColorIO stays out
-    std::string input;    // colour space of our light; empty: a linear Rec. 709 one by its usual
+    std::string input;    // colour space of the radiance; empty: a linear Rec. 709 one by its usual
                           // names, else the role scene_linear
 };
 
@@ -22,10 +22,10 @@ struct OcioOptions {
 /// $OCIO where it is not set.
 bool uses_ocio(const OcioOptions& options);
 
-/// The colours a file for the eye holds, RGB from 0 to 1, encoded for the display: exposure, then
-/// OpenColorIO's view or our tone curve and sRGB. Of a frame that shows something else than light
-/// (settings.want.view), what Frame::display says. Throws Error with OpenColorIO's reason, and
-/// UsageError for displays, views and spaces that the configuration lacks.
+/// The picture as RGB from 0 to 1, encoded for the display: exposure, then OpenColorIO's view or
+/// the tone curve and sRGB. A debug view (settings.want.view) is Frame::display as it is. Throws
+/// Error with OpenColorIO's reason, UsageError for displays, views and spaces that the
+/// configuration lacks.
 std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
                                    const OcioOptions& ocio);
 

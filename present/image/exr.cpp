@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstring>
-#include <span>
 
 #include "host/base/error.h"
 #include "host/base/half.h"
@@ -35,22 +37,20 @@ void add_channel(OIIO::ImageSpec& spec, const std::string& name, const OIIO::Typ
     ++spec.nchannels;
 }
 
-// Copies one channel's values into every pixel's slot at `offset` bytes.
-void place_channel(std::vector<unsigned char>& pixels, std::size_t offset, std::size_t pixel_bytes,
-                   const OIIO::TypeDesc& format, std::span<const float> values,
-                   std::size_t stride) {
+// Copies interleaved values, `count` a pixel, into every pixel's slots from `offset` bytes on.
+template <typename T>
+void place(std::vector<unsigned char>& pixels, std::size_t offset, std::size_t pixel_bytes,
+           const std::vector<T>& values, std::size_t count) {
     unsigned char* out = pixels.data() + offset;
-    for (std::size_t i = 0; i < values.size(); i += stride, out += pixel_bytes) {
-        if (format == OIIO::TypeDesc::UINT32) {
-            const auto id = static_cast<std::uint32_t>(values[i]);
-            std::memcpy(out, &id, sizeof id);
-        } else if (format == OIIO::TypeDesc::HALF) {
-            const std::uint16_t narrow = half_bits_clamped(values[i]);
-            std::memcpy(out, &narrow, sizeof narrow);
-        } else {
-            std::memcpy(out, &values[i], sizeof values[i]);
-        }
+    for (std::size_t i = 0; i < values.size(); i += count, out += pixel_bytes) {
+        std::memcpy(out, &values[i], count * sizeof(T));
     }
+}
+
+std::vector<std::uint16_t> half_of(const std::vector<float>& values) {
+    std::vector<std::uint16_t> out(values.size());
+    std::transform(values.begin(), values.end(), out.begin(), half_bits_clamped);
+    return out;
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ OIIO::ImageSpec exr_spec(const Frame& frame, const ImageNotes& notes, const Imag
     for (const Layer& layer : frame.aovs) {
         for (const std::string& channel : layer.channels) {
             add_channel(spec, channel,
-                        layer.is_id ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+                        layer.is_id() ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
         }
     }
     spec.attribute("compression", "zip");
@@ -81,22 +81,30 @@ OIIO::ImageSpec exr_spec(const Frame& frame, const ImageNotes& notes, const Imag
 std::vector<unsigned char> exr_pixels(const Frame& frame, const OIIO::ImageSpec& spec) {
     const std::size_t pixel_bytes = spec.pixel_bytes(true);
     std::vector<unsigned char> pixels(pixel_bytes * spec.image_pixels());
-    std::size_t offset = 0;
     std::size_t channel = 0;
-    const auto place = [&](const std::vector<float>& values, std::size_t count) {
+    std::size_t offset = 0;
+    const auto add = [&](const auto& values, std::size_t count) {
         if (values.size() != count * spec.image_pixels()) {
-            throw Error("EXR: channel '" + spec.channelnames[channel] + "' has " +
-                        std::to_string(values.size() / count) + " values, needs " +
-                        std::to_string(spec.image_pixels()));
+            throw Error(fmt::format("EXR: channel '{}' has {} values, needs {}",
+                                    spec.channelnames[channel], values.size() / count,
+                                    spec.image_pixels()));
         }
-        for (std::size_t i = 0; i < count; ++i, ++channel) {
-            const OIIO::TypeDesc format = spec.channelformats[channel];
-            place_channel(pixels, offset, pixel_bytes, format, std::span(values).subspan(i), count);
-            offset += format.size();
-        }
+        place(pixels, offset, pixel_bytes, values, count);
+        offset += count * sizeof values[0];
+        channel += count;
     };
-    place(frame.radiance, 3);
-    for (const Layer& layer : frame.aovs) place(layer.values, layer.channels.size());
+    if (spec.channelformats[0] == OIIO::TypeDesc::HALF) {
+        add(half_of(frame.radiance), 3);
+    } else {
+        add(frame.radiance, 3);
+    }
+    for (const Layer& layer : frame.aovs) {
+        if (layer.is_id()) {
+            add(layer.ids, layer.channels.size());
+        } else {
+            add(layer.values, layer.channels.size());
+        }
+    }
     return pixels;
 }
 

@@ -4,9 +4,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -33,9 +31,7 @@ constexpr std::array kFormats = {
     Format{".tiff", "tiff", ImageMeaning::display}};
 
 const Format& format_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = lower(file.extension().string());
     std::vector<std::string> known;
     for (const Format& format : kFormats) {
         if (extension == format.extension) return format;
@@ -138,7 +134,7 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
 
 void write_image(const std::filesystem::path& file, const Frame& frame, const ImageNotes& notes,
                  const ImageOptions& options) {
-    write_whole_file(file, encode_image(file, frame, notes, options));
+    write_atomically(file, encode_image(file, frame, notes, options));
 }
 
 }  // namespace kilolux

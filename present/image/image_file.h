@@ -56,10 +56,14 @@ struct FloatImage {
     int height = 0;
     std::vector<std::string> channels;
     std::vector<float> values;  // interleaved, row 0 on top
+    std::vector<Layer> ids{};   // UINT channels of an EXR file
 };
 
 /// Throws Error if the file is not there or cannot be read.
 FloatImage read_image(const std::filesystem::path& file);
+
+/// Width and height by the file's header. Throws as read_image().
+std::pair<int, int> image_size(const std::filesystem::path& file);
 
 /// The colour of an image, 3 * width * height: R, G, B by name, else its first three channels, or
 /// its only one three times. Throws Error for an image without channels.

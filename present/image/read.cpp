@@ -2,8 +2,8 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <memory>
 
 #include "host/base/error.h"
 #include "present/image/image_file.h"
@@ -15,22 +15,12 @@ namespace {
     throw Error(file.string() + ": cannot read the image: " + reason);
 }
 
-// Reads channels [begin, end), all integers that must not be scaled or none.
-void read_channels(OIIO::ImageInput& in, const std::filesystem::path& file, FloatImage& image,
-                   int begin, int end, bool ids) {
-    const auto count = static_cast<std::size_t>(end - begin);
-    const std::size_t stride = image.channels.size() * sizeof(float);
-    float* first = image.values.data() + begin;
-    const OIIO::TypeDesc type = ids ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT;
-    if (!in.read_image(0, 0, begin, end, type, first, static_cast<OIIO::stride_t>(stride))) {
-        fail(file, in.geterror());
-    }
-    if (!ids) return;
-    for (std::size_t i = 0; i < image.values.size(); i += image.channels.size()) {
-        for (std::size_t c = 0; c < count; ++c) {
-            first[i + c] = static_cast<float>(std::bit_cast<std::uint32_t>(first[i + c]));
-        }
-    }
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) {
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored
+    auto in = OIIO::ImageInput::open(file.string(), &config);
+    if (!in) fail(file, OIIO::geterror());
+    return in;
 }
 
 // Codes of integer formats as the nearest float of code / largest, whatever the reader's
@@ -42,26 +32,42 @@ void snap_to_codes(std::vector<float>& values, float largest) {
 }  // namespace
 
 FloatImage read_image(const std::filesystem::path& file) {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored
-    const auto in = OIIO::ImageInput::open(file.string(), &config);
-    if (!in) fail(file, OIIO::geterror());
+    const auto in = open_image(file);
     const OIIO::ImageSpec& spec = in->spec();
-    FloatImage image;
-    image.width = spec.width;
-    image.height = spec.height;
-    image.channels = spec.channelnames;
-    image.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    FloatImage image{spec.width, spec.height, {}, {}};
     const auto is_id = [&spec](int c) { return spec.channelformat(c) == OIIO::TypeDesc::UINT32; };
-    for (int begin = 0; begin < spec.nchannels;) {
-        int end = begin + 1;
-        while (end < spec.nchannels && is_id(end) == is_id(begin)) ++end;
-        read_channels(*in, file, image, begin, end, is_id(begin));
-        begin = end;
+    std::size_t floats = 0;
+    for (int c = 0; c < spec.nchannels; ++c) floats += is_id(c) ? 0 : 1;
+    image.values.resize(spec.image_pixels() * floats);
+    const auto read = [&](int begin, int end, OIIO::TypeDesc type, void* out, std::size_t count) {
+        const auto stride = static_cast<OIIO::stride_t>(count * type.size());
+        if (!in->read_image(0, 0, begin, end, type, out, stride)) fail(file, in->geterror());
+    };
+    for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
+        // Floats in runs, ids one by one.
+        end = begin + 1;
+        while (!is_id(begin) && end < spec.nchannels && !is_id(end)) ++end;
+        const std::vector<std::string> names(spec.channelnames.begin() + begin,
+                                             spec.channelnames.begin() + end);
+        if (is_id(begin)) {
+            Layer layer{names[0], names};
+            layer.ids.resize(spec.image_pixels() * names.size());
+            read(begin, end, OIIO::TypeDesc::UINT32, layer.ids.data(), names.size());
+            image.ids.push_back(std::move(layer));
+        } else {
+            float* first = image.values.data() + image.channels.size();
+            read(begin, end, OIIO::TypeDesc::FLOAT, first, floats);
+            image.channels.insert(image.channels.end(), names.begin(), names.end());
+        }
     }
     if (spec.format == OIIO::TypeDesc::UINT8) snap_to_codes(image.values, 255.0f);
     if (spec.format == OIIO::TypeDesc::UINT16) snap_to_codes(image.values, 65535.0f);
     return image;
+}
+
+std::pair<int, int> image_size(const std::filesystem::path& file) {
+    const auto in = open_image(file);
+    return {in->spec().width, in->spec().height};
 }
 
 std::vector<float> colour_of(const FloatImage& image) {

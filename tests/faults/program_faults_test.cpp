@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults of the world around the program: each ends in one line and exit code 1 (130 for signals),
-// leaves no temporary file, and leaves an earlier output as it was.
+// Runtime errors (device, driver, disk, memory, signals): each ends in one line and exit code 1
+// (130 for signals), leaves no temporary file, and leaves an earlier output as it was.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
@@ -20,8 +20,8 @@ using Words = std::vector<std::string>;
 
 constexpr const char* kOld = "an earlier output";
 
-// `render` of a small scene to `file`, after `before`: a program that changes the world and runs
-// what follows.
+// `render` of a small scene to `file`, run by `before`: a program with its options that changes the
+// environment, e.g. prlimit.
 Words render_words(Words before, const fs::path& file, const Words& more = {}) {
     const Words render = {program_file(), "render", "plain", "--lights",   "50",
                           "--resolution", "48,32",  "-o",    file.string()};
@@ -40,7 +40,7 @@ bool has(const std::string& text, std::string_view part) {
     return text.find(part) != std::string::npos;
 }
 
-// The last line is ours; lines before it may be warnings of ours or of drivers.
+// The last line is the error; warnings of the program or of drivers may stand before it.
 void expect_failure(const ChildResult& result, std::string_view part) {
     EXPECT_EQ(result.code, 1) << "signal " << result.signal << "\n" << result.err;
     EXPECT_TRUE(has(result.err, part)) << result.err;
@@ -109,7 +109,7 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
 }
 
 TEST_F(Faults, FileSizeLimitAndFullDisk) {
-    // Room for what the OpenCL compiler writes (its preprocessed headers, 0.9 MB), but not for the
+    // Enough for the OpenCL compiler's files (preprocessed headers, 0.9 MB), too little for the
     // picture.
     const Words large = {"--resolution", "4000,2500"};
     ASSERT_EQ(run_child(render_words({}, elsewhere_ / "a.png", large)).code, 0);
@@ -141,8 +141,7 @@ TEST_F(Faults, MemoryThatIsShort) {
                    {"--resolution", "65536,16384", "--max-memory", "2G"});
     expect_refused({}, "memory: 2147483648 lights", {"--lights", "2147483648"});
 #if !defined(__SANITIZE_ADDRESS__)
-    // What the drivers map is beyond us: limits that they start with, and pictures that then do not
-    // fit.
+    // Limits that the drivers can start with, and pictures that then do not fit.
     for (const char* limit : {"--as=700000000", "--as=900000000"}) {
         const ChildResult result = run_child(render_words({"/usr/bin/prlimit", limit}, picture_));
         expect_failure(result, "memory: ");

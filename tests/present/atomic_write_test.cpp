@@ -29,59 +29,59 @@ int status_in_child(Act act) {
     return status;
 }
 
-TEST(WholeFile, WritesAndReplaces) {
+TEST(AtomicWrite, WritesAndReplaces) {
     const TemporaryFolder folder;
-    write_whole_file(folder / "a", "first");
+    write_atomically(folder / "a", "first");
     EXPECT_EQ(text_of_file(folder / "a"), "first");
-    write_whole_file(folder / "a", std::string_view());
+    write_atomically(folder / "a", std::string_view());
     EXPECT_EQ(text_of_file(folder / "a"), "");
     const std::string large(5'000'000, 'x');
-    write_whole_file(folder / "a", large);
+    write_atomically(folder / "a", large);
     EXPECT_EQ(text_of_file(folder / "a"), large);
     EXPECT_EQ(folder.names(), (std::set<std::string>{"a"}));
 }
 
-TEST(WholeFile, KeepsPermissionsOfTheOldFileAndAsksTheMaskForNewOnes) {
+TEST(AtomicWrite, KeepsPermissionsOfTheOldFileAndAsksTheMaskForNewOnes) {
     const TemporaryFolder folder;
     const mode_t mask = umask(027);
-    write_whole_file(folder / "new", "x");
+    write_atomically(folder / "new", "x");
     umask(mask);
     EXPECT_EQ(fs::status(folder / "new").permissions(), fs::perms(0640));
     fs::permissions(folder / "new", fs::perms(0604));
-    write_whole_file(folder / "new", "y");
+    write_atomically(folder / "new", "y");
     EXPECT_EQ(fs::status(folder / "new").permissions(), fs::perms(0604));
 }
 
-TEST(WholeFile, WritesThroughALink) {
+TEST(AtomicWrite, WritesThroughALink) {
     const TemporaryFolder folder;
     write_text(folder / "target", "old");
     fs::create_symlink("target", folder / "link");
-    write_whole_file(folder / "link", "new");
+    write_atomically(folder / "link", "new");
     EXPECT_TRUE(fs::is_symlink(folder / "link"));
     EXPECT_EQ(text_of_file(folder / "target"), "new");
 }
 
-TEST(WholeFile, SpecialFilesAreWrittenAndNotReplaced) {
-    write_whole_file("/dev/null", "x");
+TEST(AtomicWrite, SpecialFilesAreWrittenAndNotReplaced) {
+    write_atomically("/dev/null", "x");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
-    EXPECT_EQ(message_of<Error>([] { write_whole_file("/dev/full", "x"); }),
+    EXPECT_EQ(message_of<Error>([] { write_atomically("/dev/full", "x"); }),
               "/dev/full: cannot write: No space left on device");
     EXPECT_NO_THROW(check_can_write("/dev/null"));
 }
 
-TEST(WholeFile, NoFolderOrAFolderOfThatName) {
+TEST(AtomicWrite, NoFolderOrAFolderOfThatName) {
     const TemporaryFolder folder;
     const fs::path lost = folder / "no/a.png";
     EXPECT_EQ(message_of<Error>([&] { check_can_write(lost); }),
               lost.string() + ": cannot write: there is no folder " + (folder / "no").string());
-    EXPECT_THROW(write_whole_file(lost, "x"), Error);
+    EXPECT_THROW(write_atomically(lost, "x"), Error);
     EXPECT_EQ(message_of<Error>([&] { check_can_write(folder.path()); }),
               folder.path().string() + ": cannot write: Is a directory");
-    EXPECT_THROW(write_whole_file(folder.path(), "x"), Error);
+    EXPECT_THROW(write_atomically(folder.path(), "x"), Error);
     EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(WholeFile, FolderWithoutPermission) {
+TEST(AtomicWrite, FolderWithoutPermission) {
     if (geteuid() == 0) {
         // The superuser may write anywhere: become somebody else in a child.
         const TemporaryFolder folder;
@@ -89,7 +89,7 @@ TEST(WholeFile, FolderWithoutPermission) {
         const int status = status_in_child([&] {
             if (setgid(65534) != 0 || setuid(65534) != 0) _exit(50);
             const auto asked = message_of<Error>([&] { check_can_write(folder / "a"); });
-            const auto written = message_of<Error>([&] { write_whole_file(folder / "a", "x"); });
+            const auto written = message_of<Error>([&] { write_atomically(folder / "a", "x"); });
             const std::string wanted =
                 (folder / "a").string() + ": cannot write: Permission denied";
             _exit(asked == wanted && written == wanted ? 0 : 51);
@@ -101,11 +101,11 @@ TEST(WholeFile, FolderWithoutPermission) {
     const TemporaryFolder folder;
     fs::permissions(folder.path(), fs::perms(0555));
     EXPECT_THROW(check_can_write(folder / "a"), Error);
-    EXPECT_THROW(write_whole_file(folder / "a", "x"), Error);
+    EXPECT_THROW(write_atomically(folder / "a", "x"), Error);
     fs::permissions(folder.path(), fs::perms(0755));
 }
 
-TEST(WholeFile, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
+TEST(AtomicWrite, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
     const TemporaryFolder folder;
     write_text(folder / "a", "old");
     const int status = status_in_child([&] {
@@ -113,7 +113,7 @@ TEST(WholeFile, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
         const rlimit limit{1000, 1000};
         setrlimit(RLIMIT_FSIZE, &limit);
         const std::string message =
-            message_of<Error>([&] { write_whole_file(folder / "a", std::string(5000, 'x')); });
+            message_of<Error>([&] { write_atomically(folder / "a", std::string(5000, 'x')); });
         _exit(message == (folder / "a").string() + ": cannot write: File too large" ? 0 : 51);
     });
     ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
@@ -142,6 +142,59 @@ TEST(Interrupt, TheFirstSignalAsksTheSecondKillsAndRemovesTheUnfinishedFile) {
     ASSERT_TRUE(WIFSIGNALED(status)) << "exit code " << WEXITSTATUS(status);
     EXPECT_EQ(WTERMSIG(status), SIGINT);
     EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(AtomicWrite, WithoutCommitNothingChanges) {
+    const TemporaryFolder folder;
+    write_text(folder / "a", "old");
+    {
+        AtomicFile file(folder / "a");
+        file.write("new");
+        EXPECT_EQ(folder.names().size(), 2u);
+    }
+    EXPECT_EQ(text_of_file(folder / "a"), "old");
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"a"}));
+}
+
+TEST(AtomicWrite, OwnerOnlyReplacesLinks) {
+    const TemporaryFolder folder;
+    write_text(folder / "target", "old");
+    fs::create_symlink("target", folder / "link");
+    write_atomically(folder / "link", "new", FileAccess::owner_only);
+    EXPECT_FALSE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(fs::status(folder / "link").permissions(), fs::perms(0600));
+    EXPECT_EQ(text_of_file(folder / "target"), "old");
+}
+
+// A temporary name that another process has taken is neither used nor removed.
+TEST(AtomicWrite, LeavesFilesOfOthersAlone) {
+    const TemporaryFolder folder;
+    const int status = status_in_child([&] {
+        catch_signals();
+        write_text(folder / (".kilolux-" + std::to_string(getpid()) + "-0.part"), "theirs");
+        AtomicFile file(folder / "a");
+        raise(SIGTERM);
+        raise(SIGTERM);
+    });
+    EXPECT_EQ(WTERMSIG(status), SIGTERM);
+    ASSERT_EQ(folder.names().size(), 1u);
+    EXPECT_EQ(text_of_file(folder / *folder.names().begin()), "theirs");
+}
+
+// The name may mean another file by the time of the signal.
+TEST(Interrupt, TheSecondSignalRemovesOnlyTheFileThatWasNamed) {
+    const TemporaryFolder folder;
+    write_text(folder / "part", "half");
+    const int status = status_in_child([&] {
+        catch_signals();
+        set_unfinished_file(folder / "part");
+        fs::rename(folder / "part", folder / "whole");
+        write_text(folder / "part", "theirs");
+        raise(SIGTERM);
+        raise(SIGTERM);
+    });
+    EXPECT_EQ(WTERMSIG(status), SIGTERM);
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"part", "whole"}));
 }
 
 }  // namespace

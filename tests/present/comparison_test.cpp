@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "present/cli/names.h"
 #include "present/image/image_file.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
@@ -36,7 +37,7 @@ TEST(Comparison, EqualPicturesPassAtZero) {
     const Frame frame = make_frame(4, 3, 0.7f);
     for (const char* name : {"r.exr", "r.png"}) {
         write_image(folder / name, frame);
-        for (const std::string& metric : metric_names()) {
+        for (const std::string& metric : metric_choices().names) {
             const Comparison same = Reference(folder / name).compare(frame, metric, 0.0);
             EXPECT_EQ(same.value, 0.0) << name << " " << metric;
             EXPECT_TRUE(same.passed()) << name << " " << metric;
@@ -106,6 +107,32 @@ TEST(Comparison, SizesMustAgree) {
         message_of<Error>([&] { reference.compare(make_frame(3, 4, 1.0f), "max", 0.0); });
     EXPECT_TRUE(contains(message, "4x3")) << message;
     EXPECT_TRUE(contains(message, "3x4")) << message;
+}
+
+TEST(Comparison, TheSizeIsAskedOfTheHeader) {
+    const TemporaryFolder folder;
+    write_image(folder / "r.exr", make_frame(4, 3, 1.0f));
+    EXPECT_NO_THROW(require_reference_size(folder / "r.exr", 4, 3));
+    EXPECT_EQ(message_of<Error>([&] { require_reference_size(folder / "r.exr", 3, 4); }),
+              (folder / "r.exr").string() + ": the reference is 4x3 pixels, the picture 3x4");
+}
+
+TEST(Comparison, TheDifferenceIsAPictureOfEveryPixelsError) {
+    const TemporaryFolder folder;
+    Frame frame = make_frame(4, 3, 1.0f);
+    write_image(folder / "r.exr", frame);
+    frame.radiance[7] += 0.5f;
+    frame.radiance[8] -= 0.25f;
+    const Frame difference = Reference(folder / "r.exr").difference(frame);
+    for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
+        EXPECT_EQ(difference.radiance[i], i == 7 ? 0.5f : i == 8 ? 0.25f : 0.0f) << i;
+    }
+    const auto color = [&](std::size_t pixel) {
+        return std::vector(difference.display.begin() + static_cast<std::ptrdiff_t>(4 * pixel),
+                           difference.display.begin() + static_cast<std::ptrdiff_t>(4 * pixel + 4));
+    };
+    EXPECT_NE(color(2), color(0));
+    for (std::size_t pixel = 3; pixel < 12; ++pixel) EXPECT_EQ(color(pixel), color(0)) << pixel;
 }
 
 }  // namespace

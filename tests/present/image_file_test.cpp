@@ -20,10 +20,13 @@ constexpr int kHeight = 51;
 constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
 
 Layer make_layer(const std::string& name, std::vector<std::string> channels, bool is_id) {
-    Layer layer{name, std::move(channels), {}, is_id};
+    Layer layer{name, std::move(channels)};
     for (std::size_t i = 0; i < kPixels * layer.channels.size(); ++i) {
-        const auto x = static_cast<float>(i);
-        layer.values.push_back(is_id ? x * 16384.0f : std::sin(x) * 1e4f);
+        if (is_id) {
+            layer.ids.push_back(16777217u + static_cast<std::uint32_t>(i) * 2'000'003u);
+        } else {
+            layer.values.push_back(std::sin(static_cast<float>(i)) * 1e4f);
+        }
     }
     return layer;
 }
@@ -98,12 +101,22 @@ TEST(ImageFile, ExrKeepsEveryBitOfColourAndLayers) {
     EXPECT_EQ(std::memcmp(colour.data(), frame.radiance.data(), 4 * colour.size()), 0);
     std::size_t channels = 3;
     for (const Layer& layer : frame.aovs) {
+        if (layer.is_id()) continue;
         for (std::size_t c = 0; c < layer.channels.size(); ++c, ++channels) {
             EXPECT_EQ(channel_of(image, layer.channels[c]), channel_of(layer, c))
                 << layer.channels[c];
         }
     }
     EXPECT_EQ(image.channels.size(), channels);
+    // Ids that no float holds come back, too.
+    ASSERT_EQ(image.ids.size(), 2u);
+    for (const Layer& layer : image.ids) {
+        EXPECT_EQ(layer.channels, std::vector{layer.name});
+        const auto wanted = std::find_if(frame.aovs.begin(), frame.aovs.end(),
+                                         [&](const Layer& l) { return l.name == layer.name; });
+        ASSERT_NE(wanted, frame.aovs.end()) << layer.name;
+        EXPECT_EQ(layer.ids, wanted->ids) << layer.name;
+    }
 }
 
 TEST(ImageFile, ExrFormatsOfChannels) {

@@ -43,7 +43,8 @@ TEST(OptionValues, BadNumbersNameOptionValueAndRange) {
 TEST(OptionValues, CountsAreWholeAndInRange) {
     EXPECT_EQ(parse_count("--lights", "2147483648", {0, 2147483648u}), 2147483648u);
     EXPECT_EQ(parse_count("--light-seed", "18446744073709551615", {0, UINT64_MAX}), UINT64_MAX);
-    for (const char* text : {"2147483649", "-1", "1.0", "1e3", "", "0x1", "18446744073709551616"}) {
+    for (const char* text : {"2147483649", "-1", "1.5", "1e10", "", "0x1", "k", "5kk", "1.0005k",
+                             "nan", "inf", "18446744073709551616"}) {
         const auto message = message_of<UsageError>([&] {
             parse_count("--lights", text, {0, 2147483648u});
         });

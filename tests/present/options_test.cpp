@@ -84,7 +84,7 @@ TEST(Options, DefaultsInHelpAreTheRealOnes) {
     EXPECT_EQ(a.kernels.lanes, b.kernels.lanes);
     EXPECT_EQ(shared.time, plain.time);
     EXPECT_EQ(output.frames_per_second, OutputOptions().frames_per_second);
-    EXPECT_EQ(output.threshold, OutputOptions().threshold);
+    EXPECT_EQ(output.threshold, 0.0);
     EXPECT_EQ(output.metric, OutputOptions().metric);
 }
 
@@ -180,6 +180,26 @@ TEST(Options, EveryNameIsTakenAndPlacedRight) {
     EXPECT_EQ(parse("--light-radius auto").shared.settings.lights.radius, 0.0);
 }
 
+TEST(Options, PeoplesWaysToWriteNumbers) {
+    EXPECT_EQ(parse("--lights 5k").shared.settings.lights.count, 5000u);
+    EXPECT_EQ(parse("--lights 1e6").shared.settings.lights.count, 1'000'000u);
+    EXPECT_EQ(parse("--lights 1.5M").shared.settings.lights.count, 1'500'000u);
+    const RenderSettings settings = parse("--resolution 1280x720").shared.settings;
+    EXPECT_EQ(std::tie(settings.width, settings.height), std::make_tuple(1280, 720));
+}
+
+// --help says of every word what it means; scenes' views come with the renderer.
+TEST(Options, EveryChoiceHasAMeaning) {
+    for (const Choices& choices : {renderer_choices(), shading_choices(), tone_curve_choices(),
+                                   math_choices(), light_color_choices(), gbuffer_choices(),
+                                   aov_choices(), metric_choices(), show_choices()}) {
+        ASSERT_EQ(choices.meanings.size(), choices.names.size()) << choices.names[0];
+        for (std::size_t i = 0; i < choices.names.size(); ++i) {
+            EXPECT_FALSE(choices.meanings[i].empty()) << choices.names[i];
+        }
+    }
+}
+
 TEST(Options, TheLastOneCounts) {
     EXPECT_EQ(parse("--lights 5 --lights 7").shared.settings.lights.count, 7u);
     EXPECT_EQ(parse("--lights=5").shared.settings.lights.count, 5u);
@@ -243,6 +263,9 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
         {"-o a.png --exr-half", "--exr-half: 'a.png' is not an EXR file"},
         {"-o a.png --quiet --verbose", "exclude each other"},
         {"-o a.png --shard 0/2", "--shard: needs --frames"},
+        {"-o a.png --threshold 0.1", "--threshold: needs --reference FILE"},
+        {"-o a.png --difference d.png", "--difference: needs --reference FILE"},
+        {"-o a.#.png --frames 1:2 --reference r.#.png --difference d.png", "'d.png' has no ####"},
     };
     for (const auto& c : cases) {
         const Parsed p = parse(c.line);

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line as its users meet it: exit codes, messages, help, completion.
 #include "present/program.h"
-#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
+#include <new>
+#include <sstream>
+#include <thread>
+
 #include "host/base/version.h"
+#include "present/exit_code.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 namespace {
@@ -42,7 +47,10 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
         {{"render", "-o", "a.bmp"}, "image type '.bmp' is none of"},
         {{"render", "--quiet=perhaps", "-o", "a.png"}, "quiet"},
         {{"info", "--frames", "1:2"}, "unknown option --frames"},
-        {{"--completion", "csh"}, "--completion: 'csh' is none of bash, zsh, fish"},
+        {{"--completion", "csh"}, "--completion: 'csh' is none of bash"},
+        {{"help", "redner"}, "did you mean 'render'?"},
+        {{"render", "-o", "a.png", "--threshold", "1"}, "--threshold: needs --reference"},
+        {{"render", "photo.jpg", "-o", "a.png"}, "scene 'photo.jpg' is a picture"},
     };
     for (const auto& c : cases) {
         const ChildResult result = run_kilolux(c.arguments);
@@ -53,7 +61,7 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
     }
 }
 
-TEST(Program, TheWorldsFaultExitsWithOne) {
+TEST(Program, RuntimeErrorsExitWithOne) {
     const TemporaryFolder folder;
     const std::string picture = (folder / "a.png").string();
     write_text(folder / "broken.glb", "not a scene");
@@ -99,53 +107,78 @@ TEST(Program, VersionAndHelpGoToStandardOutput) {
     EXPECT_EQ(run_kilolux({"-h"}).out, help.out);
 }
 
-TEST(Program, HelpOfACommandHasOptionsDefaultsAndExamples) {
+TEST(Program, PeoplesWaysToAskForHelpAndVersion) {
+    const std::string help = run_kilolux({"--help"}).out;
+    EXPECT_EQ(run_kilolux({"help"}).out, help);
+    const std::string of_render = run_kilolux({"render", "--help"}).out;
+    EXPECT_TRUE(of_render.starts_with("Render a scene")) << of_render;
+    EXPECT_EQ(run_kilolux({"help", "render"}).out, of_render);
+    EXPECT_EQ(run_kilolux({"--help", "render"}).out, of_render);
+    const std::string said = "kilolux " + version() + "\n";
+    EXPECT_EQ(run_kilolux({"version"}).out, said);
+    EXPECT_EQ(run_kilolux({"-V"}).out, said);
+    // Whatever else is wrong with the line.
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"render", "--lights", "x", "--help"},
+          {"render", "--lights", "--help"},
+          {"render", "--frobnicate", "-h"}}) {
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        EXPECT_EQ(result.out, of_render);
+    }
+}
+
+TEST(Program, HelpOfACommandHasOptionsDefaultsMeaningsAndExamples) {
     const ChildResult help = run_kilolux({"render", "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_EQ(help.err, "");
     for (const char* text : {"Usage: kilolux render [SCENE] [OPTIONS]",
-                             "--renderer",
+                             "--renderer NAME",
+                             "deferred - clustered deferred",
+                             "forward-plus - clustered forward",
                              "--resolution W,H",
                              "[default: 1920,1080]",
                              "--lights N",
                              "[default: 5000]",
-                             "--light-seed",
-                             "--light-radius",
-                             "--light-intensity",
                              "--time T",
-                             "--camera-index",
                              "--camera-position",
-                             "--camera-focal-point",
-                             "--camera-view-up",
-                             "--camera-view-angle",
-                             "--gbuffer",
-                             "--shading",
-                             "--ambient",
-                             "--bloom",
                              "--exposure",
-                             "--tonemap",
-                             "--aov",
-                             "--show",
+                             "neutral - Khronos PBR Neutral",
+                             "--aov NAME,...",
+                             "--show NAME",
                              "--samples",
                              "--frames A:B",
-                             "--fps",
                              "--shard I/N",
                              "--device",
                              "--list-devices",
                              "--stats FILE",
                              "--reference FILE",
+                             "--difference FILE",
                              "--threshold",
                              "--quiet",
                              "--verbose",
-                             "--exr-half",
                              "--output, -o FILE",
+                             "--help-all",
                              "Examples:\n  kilolux render -o atrium.png"}) {
         EXPECT_TRUE(contains(help.out, text)) << text;
     }
-    std::istringstream lines(help.out.substr(0, help.out.find("Examples:")));
-    for (std::string line; std::getline(lines, line);) {
-        const bool is_form = contains(line, "|");  // a list of names is not broken
-        EXPECT_TRUE(line.size() <= 80 || is_form) << line;
+    for (const char* text : {"--range-budget", "--math", "--ocio-view", "--max-error"}) {
+        EXPECT_FALSE(contains(help.out, text)) << text;
+    }
+}
+
+TEST(Program, HelpAllHasEveryOptionOnPagesOfEightyColumns) {
+    const Program program;
+    for (const CLI::App* command : program.app().get_subcommands({})) {
+        const std::string help = run_kilolux({command->get_name(), "--help-all"}).out;
+        for (const std::string& name : option_names(*command)) {
+            EXPECT_TRUE(contains(help, "  " + name)) << command->get_name() << " " << name;
+        }
+        std::istringstream lines(help.substr(0, help.find("Examples:")));
+        for (std::string line; std::getline(lines, line);) {
+            const bool is_form = contains(line, "|");  // a list of names is not broken
+            EXPECT_TRUE(line.size() <= 80 || is_form) << line;
+        }
     }
 }
 
@@ -184,21 +217,64 @@ TEST(Completion, BashOffersWhatFits) {
     }
 }
 
-TEST(Completion, EveryShellKnowsEveryOption) {
+TEST(Completion, KnowsEveryOption) {
     const Program program;
-    for (const char* shell : {"bash", "zsh", "fish"}) {
-        const ChildResult script = run_kilolux({"--completion", shell});
-        EXPECT_EQ(script.code, 0) << script.err;
-        for (const CLI::App* command : program.app().get_subcommands({})) {
-            for (const std::string& name : option_names(*command)) {
-                const std::string word =
-                    std::string(shell) == "fish" ? " -l " + name.substr(2) : name;
-                EXPECT_TRUE(contains(script.out, word)) << shell << " " << word;
-            }
+    const ChildResult script = run_kilolux({"--completion", "bash"});
+    EXPECT_EQ(script.code, 0) << script.err;
+    for (const CLI::App* command : program.app().get_subcommands({})) {
+        for (const std::string& name : option_names(*command)) {
+            EXPECT_TRUE(contains(script.out, name)) << name;
         }
     }
     EXPECT_EQ(run_child({"/bin/bash", "-c", program_file() + " --completion bash | bash -n"}).code,
               0);
+}
+
+// What exit_code_of() prints and returns, in a process of its own.
+template <typename Act>
+ChildResult end_of(Act act) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "err").string();
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(open(file.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+        _exit(act());
+    }
+    ChildResult result;
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
+    result.err = text_of_file(file);
+    return result;
+}
+
+TEST(ExitCode, WhateverIsThrownIsOneLine) {
+    const struct {
+        std::function<void()> work;
+        int code;
+        const char* line;
+    } cases[] = {{[] {}, 0, ""},
+                 {[] { throw Error("a.glb: broken"); }, 1, "kilolux: a.glb: broken\n"},
+                 {[] { throw UsageError("--x"); }, 2, "kilolux: --x\n"},
+                 {[] { throw ComparisonFailed("a.png"); }, 3, "kilolux: a.png\n"},
+                 {[] { throw Interrupted(); }, 130, "kilolux: interrupted\n"},
+                 {[] { throw std::bad_alloc(); }, 1, "kilolux: out of memory\n"},
+                 {[] { throw 7; }, 1, "kilolux: internal error: an exception of unknown type\n"}};
+    for (const auto& c : cases) {
+        const ChildResult result = end_of([&] { return exit_code_of(c.work); });
+        EXPECT_EQ(result.code, c.code) << c.line;
+        EXPECT_EQ(result.err, c.line);
+    }
+}
+
+TEST(ExitCode, AnExceptionThatLeavesAThreadIsOneLine) {
+    const ChildResult result = end_of([] {
+        end_on_uncaught_exceptions();
+        std::thread([] { throw std::bad_alloc(); }).join();
+        return 99;
+    });
+    EXPECT_EQ(result.code, 1);
+    EXPECT_EQ(result.err, "kilolux: out of memory\n");
 }
 
 }  // namespace

@@ -34,10 +34,13 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     const FloatImage image = read_image(file);
     EXPECT_EQ(image.width, 48);
     EXPECT_EQ(image.height, 32);
-    for (const char* channel : {"R", "G", "B", "Z", "P.X", "N.Z", "light-count"}) {
+    for (const char* channel : {"R", "G", "B", "Z", "P.X", "N.Z"}) {
         const auto& names = image.channels;
         EXPECT_NE(std::find(names.begin(), names.end(), channel), names.end()) << channel;
     }
+    ASSERT_EQ(image.ids.size(), 1u);
+    EXPECT_EQ(image.ids[0].name, "light-count");
+    EXPECT_GT(*std::max_element(image.ids[0].ids.begin(), image.ids[0].ids.end()), 0u);
     const Json stats = Json::parse(result.out);
     EXPECT_FALSE(stats.at("device").at("name").get<std::string>().empty());
     EXPECT_EQ(stats.at("lights").at("dropped"), 0);
@@ -81,10 +84,53 @@ TEST(Render, ComparesWithAReference) {
     EXPECT_TRUE(contains(other.err, "b.exr: max ")) << other.err;
     EXPECT_TRUE(contains(other.err, "(threshold 0.001)")) << other.err;
     EXPECT_TRUE(fs::exists(folder / "b.exr")) << "the picture that failed is there to be looked at";
-    EXPECT_EQ(run_kilolux({"render", "grid", "-q", "--resolution", "9,9", "-o",
-                           (folder / "c.exr").string(), "--reference", reference})
-                  .code,
-              1);
+    // A reference of another size is refused before anything is loaded or rendered.
+    const ChildResult other_size =
+        run_kilolux({"render", (folder / "s.json").string() + ".glb", "--resolution", "9x9", "-o",
+                     (folder / "c.exr").string(), "--reference", reference});
+    EXPECT_EQ(other_size.code, 1);
+    EXPECT_TRUE(contains(other_size.err, "the reference is 48x32 pixels, the picture 9x9"))
+        << other_size.err;
+}
+
+TEST(Render, WritesTheDifference) {
+    const TemporaryFolder folder;
+    const std::string reference = (folder / "r.exr").string();
+    ASSERT_EQ(run_kilolux(small_render(reference, {"-q"})).code, 0);
+    for (const char* name : {"d.exr", "d.png"}) {
+        const std::string difference = (folder / name).string();
+        const ChildResult result = run_kilolux(
+            small_render(folder / "a.exr", {"-q", "--ambient", "0.5", "--reference", reference,
+                                            "--threshold", "9", "--difference", difference}));
+        ASSERT_EQ(result.code, 0) << result.err;
+        EXPECT_EQ(read_image(difference).width, 48);
+    }
+    const FloatImage before = read_image(reference);
+    const FloatImage after = read_image(folder / "a.exr");
+    const FloatImage difference = read_image(folder / "d.exr");
+    for (std::size_t i = 0; i < before.values.size(); ++i) {
+        ASSERT_EQ(difference.values[i], std::abs(after.values[i] - before.values[i])) << i;
+    }
+}
+
+// Waits until the program has written its first frame, for two minutes at most.
+void wait_for(const fs::path& file) {
+    const timespec pause{0, 5'000'000};
+    for (int i = 0; i < 24'000 && !fs::exists(file); ++i) nanosleep(&pause, nullptr);
+}
+
+// The list of its frames would take 8 GiB.
+TEST(Render, ASequenceOfTwoThousandMillionFramesStarts) {
+    const TemporaryFolder folder;
+    std::vector<std::string> words = {"/usr/bin/prlimit", "--as=7000000000", program_file()};
+    const auto render = small_render(folder / "f.#.exr", {"--frames", "0:2147483647", "-q"});
+    words.insert(words.end(), render.begin(), render.end());
+    const ChildResult result = run_child(words, [&](pid_t child) {
+        wait_for(folder / "f.0.exr");
+        kill(child, SIGINT);
+    });
+    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_TRUE(folder.names().contains("f.0.exr"));
 }
 
 TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
@@ -175,12 +221,6 @@ TEST(Render, FourShardsAreOneSequenceOfAnAnimatedScene) {
         EXPECT_NE(read_image(folder / "one.0.exr").values,
                   read_image(folder / ("one." + number + ".exr")).values);
     }
-}
-
-// Waits until the program has written its first frame, for two minutes at most.
-void wait_for(const fs::path& file) {
-    const timespec pause{0, 5'000'000};
-    for (int i = 0; i < 24'000 && !fs::exists(file); ++i) nanosleep(&pause, nullptr);
 }
 
 TEST(Render, ASignalEndsASequenceBetweenFrames) {

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <set>
+#include <vector>
 
 namespace kilolux {
 namespace {
@@ -22,20 +23,29 @@ TEST(Sequence, FrameNames) {
     EXPECT_FALSE(has_frame_pattern("a##/b.exr"));
 }
 
+std::vector<int> all(const ShardFrames& frames) {
+    std::vector<int> out;
+    for (std::size_t i = 0; i < frames.size(); ++i) out.push_back(frames[i]);
+    return out;
+}
+
 TEST(Sequence, ShardsPartTheFrames) {
-    EXPECT_EQ(frames_of_shard({5, 12}, {1, 3}), (std::vector{6, 9, 12}));
-    EXPECT_EQ(frames_of_shard({0, 3}, {0, 1}), (std::vector{0, 1, 2, 3}));
-    EXPECT_EQ(frames_of_shard({9, 9}, {0, 4}), (std::vector{9}));
-    EXPECT_TRUE(frames_of_shard({9, 9}, {1, 4}).empty());
+    EXPECT_EQ(all({{5, 12}, {1, 3}}), (std::vector{6, 9, 12}));
+    EXPECT_EQ(all({{0, 3}, {0, 1}}), (std::vector{0, 1, 2, 3}));
+    EXPECT_EQ(all({{9, 9}, {0, 4}}), (std::vector{9}));
+    EXPECT_EQ(all({{9, 9}, {1, 4}}), (std::vector<int>{}));
     const int end = std::numeric_limits<int>::max();
-    EXPECT_EQ(frames_of_shard({end - 2, end}, {1, 2}), (std::vector{end - 1}));
+    EXPECT_EQ(all({{end - 2, end}, {1, 2}}), (std::vector{end - 1}));
+    const ShardFrames every({0, end}, {0, 1});
+    EXPECT_EQ(every.size(), std::size_t{1} << 31);
+    EXPECT_EQ(every[every.size() - 1], end);
 }
 
 TEST(Sequence, EveryFrameIsInOneShard) {
     for (int count = 1; count <= 9; ++count) {
         std::multiset<int> seen;
         for (int index = 0; index < count; ++index) {
-            for (const int frame : frames_of_shard({7, 31}, {index, count})) {
+            for (const int frame : all({{7, 31}, {index, count}})) {
                 EXPECT_EQ((frame - 7) % count, index) << "frame " << frame << " of " << count;
                 seen.insert(frame);
             }

@@ -33,5 +33,14 @@ TEST(Suggest, Joins) {
     EXPECT_EQ(joined({"a", "b", "c"}, "|"), "a|b|c");
 }
 
+TEST(Text, LowerSplitAndTrim) {
+    EXPECT_EQ(lower("A.PnG\xc4"), "a.png\xc4");
+    EXPECT_EQ(split("a,,b", ','), (std::vector<std::string_view>{"a", "", "b"}));
+    EXPECT_EQ(split("", ','), (std::vector<std::string_view>{""}));
+    EXPECT_EQ(split("a,", ','), (std::vector<std::string_view>{"a", ""}));
+    EXPECT_EQ(trim(" \t a b\r\n"), "a b");
+    EXPECT_EQ(trim(" \n"), "");
+}
+
 }  // namespace
 }  // namespace kilolux

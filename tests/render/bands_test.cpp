@@ -37,6 +37,7 @@ void expect_same_frame(const Frame& banded, const Frame& whole) {
     ASSERT_EQ(banded.aovs.size(), whole.aovs.size());
     for (std::size_t i = 0; i < whole.aovs.size(); ++i) {
         EXPECT_EQ(banded.aovs[i].values, whole.aovs[i].values) << whole.aovs[i].name;
+        EXPECT_EQ(banded.aovs[i].ids, whole.aovs[i].ids) << whole.aovs[i].name;
     }
     // A cluster that two bands share is listed for both.
     EXPECT_GE(banded.stats.coarse_pairs, whole.stats.coarse_pairs);

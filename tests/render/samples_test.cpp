@@ -65,6 +65,7 @@ TEST(Samples, AovsAndCountsAreThoseOfTheCentre) {
     const Frame three = render_once(scene, settings);
     for (std::size_t i = 0; i < one.aovs.size(); ++i) {
         EXPECT_EQ(one.aovs[i].values, three.aovs[i].values) << one.aovs[i].name;
+        EXPECT_EQ(one.aovs[i].ids, three.aovs[i].ids) << one.aovs[i].name;
     }
     EXPECT_EQ(one.stats.refined_pairs, three.stats.refined_pairs);
     EXPECT_EQ(one.stats.stages.size() + 1, three.stats.stages.size());  // sum_samples

@@ -61,12 +61,13 @@ void for_upper_half(const Visit& visit) {
 TEST(Views, LightsAreTheCountsOfTheAov) {
     for (const RendererKind renderer : {RendererKind::deferred, RendererKind::forward_plus}) {
         const Frame frame = frame_of("lights", renderer, {"light-count", "depth"});
-        const std::vector<float>& counts = frame.aovs[0].values;
-        const float most = *std::max_element(counts.begin(), counts.end());
+        const std::vector<std::uint32_t>& counts = frame.aovs[0].ids;
+        const auto most = static_cast<float>(*std::max_element(counts.begin(), counts.end()));
         ASSERT_GT(most, 1.0f);
         for_upper_half([&](int x, int y, std::size_t i) {
             const bool drawn = frame.aovs[1].values[i] != 0.0f;
-            const DisplayColor expected = drawn ? heat_color(counts[i] / most) : DisplayColor{};
+            const DisplayColor expected =
+                drawn ? heat_color(static_cast<float>(counts[i]) / most) : DisplayColor{};
             ASSERT_EQ(color_at(frame.display, x, y), expected) << x << ", " << y;
         });
     }
@@ -93,15 +94,15 @@ TEST(Views, ClustersFollowTheAov) {
     const Frame frame = frame_of("clusters", RendererKind::deferred, {"cluster", "depth"});
     // A colour's ratios of channels survive the shading of shapes; equal clusters have equal
     // ratios.
-    std::map<float, glm::dvec3> seen;
-    for (std::size_t i = 0; i < frame.aovs[0].values.size(); ++i) {
+    std::map<std::uint32_t, glm::dvec3> seen;
+    for (std::size_t i = 0; i < frame.aovs[0].ids.size(); ++i) {
         const glm::dvec3 color(frame.display[4 * i], frame.display[4 * i + 1],
                                frame.display[4 * i + 2]);
         if (frame.aovs[1].values[i] == 0.0f) {
             EXPECT_EQ(color, glm::dvec3(0.0));
             continue;
         }
-        const auto found = seen.try_emplace(frame.aovs[0].values[i], color).first;
+        const auto found = seen.try_emplace(frame.aovs[0].ids[i], color).first;
         ASSERT_LT(glm::length(glm::normalize(found->second) - glm::normalize(color)), 0.03);
     }
     EXPECT_GT(seen.size(), 10u);
