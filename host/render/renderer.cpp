@@ -56,8 +56,11 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
     frame.height = settings.height;
     const auto pixels =
         static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-    if (display_memory_.empty() && want.display) frame.display.resize(4 * pixels);
-    if (want.radiance || want.view == ViewKind::difference) frame.radiance.resize(3 * pixels);
+    const bool shown_only = !display_memory_.empty();
+    if (want.display && !shown_only) frame.display.resize(4 * pixels);
+    if ((want.radiance && !shown_only) || want.view == ViewKind::difference) {
+        frame.radiance.resize(3 * pixels);
+    }
     if (want.bloomed && settings.bloom > 0.0f) frame.bloomed.resize(3 * pixels);
     if (blooms_at_end()) {
         const View view = view_of(camera, settings.width, settings.height);

@@ -78,6 +78,4 @@ class OptionBuilder {
     std::string heading_;
 };
 
-using Registrar = OptionBuilder;  // the former name, until every room uses the new one
-
 }  // namespace kilolux

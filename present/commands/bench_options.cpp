@@ -71,7 +71,7 @@ void add_sweep_options(CLI::App& command, BenchAxes& a) {
          {"--lights", "--renderer", "--resolution", "--gbuffer", "--grid", "--lanes"}) {
         command.remove_option(command.get_option(name));
     }
-    Registrar(command, "Sweeps: every combination of these lists is measured")
+    OptionBuilder(command, "Sweeps: every combination of these lists is measured")
         .value({"--lights", "N,A:B:STEP,A:B:*F", "5000", "Generated lights"},
                [&a](Text name, Text text) {
                    a.lights = parse_count_sweep(name, text, 0, kMostLights);
@@ -98,7 +98,7 @@ void add_sweep_options(CLI::App& command, BenchAxes& a) {
 }
 
 void add_mode_options(CLI::App& command, BenchOptions& o) {
-    Registrar(command, "What is measured, instead of the frames of a sweep")
+    OptionBuilder(command, "What is measured, instead of the frames of a sweep")
         .flag("--quick", o.quick, "A small sweep of lights, grid and groups: about two minutes")
         .flag("--culling", o.culling,
               "Light lists for 1000 to a million lights, against brute force")
@@ -128,7 +128,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
     add_shared_options(command, options.shared);
     add_sweep_options(command, options.axes);
     add_mode_options(command, options);
-    Registrar(command, "Measuring and output")
+    OptionBuilder(command, "Measuring and output")
         .value({"--warm-up", "N", "30", "Frames before those that count"},
                [&options](Text name, Text text) {
                    options.warm_up = static_cast<int>(parse_count(name, text, {0, 1000000}));

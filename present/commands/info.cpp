@@ -157,7 +157,7 @@ void add_info_command(Program& program) {
         "info", "Tell the devices, what the scene holds, and what of the renderer it needs",
         kExamples, [options] { run_info(*options); });
     add_shared_options(command, options->shared);
-    Registrar(command, "Output")
+    OptionBuilder(command, "Output")
         .flag("--json", options->json, "JSON instead of text")
         .flag("--costs", options->costs,
               "Measure what each feature that the scene does without would cost on this picture, "

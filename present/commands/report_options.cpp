@@ -12,7 +12,7 @@ std::vector<std::string> report_trade_names() {
 void add_report_options(CLI::App& command, ReportOptions& options) {
     using Text = const std::string&;
     add_shared_options(command, options.shared);
-    Registrar(command, "Measuring and output")
+    OptionBuilder(command, "Measuring and output")
         .flag("--quick", options.quick,
               "480x270 pixels, 1000 lights, fewer settings and frames: about a minute")
         .value({"--trades", joined(report_trade_names(), "|") + ",...", "all",
