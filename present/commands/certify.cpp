@@ -83,7 +83,7 @@ std::vector<std::string> labels_and_names() {
 
 void add_certify_options(CLI::App& command, CertifyOptions& options) {
     using Text = const std::string&;
-    Registrar(command, "What is run")
+    OptionBuilder(command, "What is run")
         .value({"--case", "NAME,...", "all", "Cases by name or label, e.g. tiny-lights,M3"},
                [&options](Text name, Text text) {
                    const auto words = labels_and_names();
@@ -101,7 +101,7 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
                    }
                })
         .question("--list-devices", "Print the OpenCL devices and leave");
-    Registrar(command, "Output")
+    OptionBuilder(command, "Output")
         .text({"--output,-o", "FILE", "",
                "Write the result as JSON; - prints it instead of the table"},
               options.output)
