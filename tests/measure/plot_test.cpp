@@ -73,6 +73,15 @@ TEST(PlotScript, DataIsOneBlockASeries) {
     EXPECT_EQ(plot_data(plot), "# \"a\"\n1 0.5 \"x 'y' z\"\n\n\n# \"b\"\n2 1e-09 \"\"\n");
 }
 
+TEST(PlotScript, BarsAndCaptionAreDrawn) {
+    Plot plot{.title = "t", .caption = "atrium, 5 lights", .x_label = "", .y_label = ""};
+    plot.series = {{"a", {{2, 1, "", PlotBar{1.5, 4}}, {3, 1}}}};
+    EXPECT_EQ(plot_data(plot), "# \"a\"\n2 1 \"\" 1.5 4 1 1\n3 1 \"\" 3 3 1 1\n");
+    const std::string script = plot_script(plot, "p");
+    EXPECT_NE(script.find("xyerrorbars"), std::string::npos);
+    EXPECT_NE(script.find("'atrium, 5 lights'"), std::string::npos);
+}
+
 TEST_F(PlotFolder, WritesFourFilesAndNothingElse) {
     const PlotFiles files = write_plot(sample(), folder_ / "it's a plot");
     EXPECT_EQ(files.png, folder_ / "it's a plot.png");

@@ -2,15 +2,23 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace kilolux {
 
+/// The ends of an error bar.
+struct PlotBar {
+    double low = 0.0;
+    double high = 0.0;
+};
+
 struct PlotPoint {
     double x = 0.0;
     double y = 0.0;
     std::string label{};  // written beside the point; may be empty
+    std::optional<PlotBar> x_bar{}, y_bar{};
 };
 
 enum class PlotStyle { lines_and_points, points };
@@ -24,7 +32,8 @@ struct PlotSeries {
 
 struct Plot {
     std::string title;
-    std::string x_label;  // with its unit
+    std::string caption{};  // below the plot: scene, device, resolution
+    std::string x_label;    // with its unit
     std::string y_label;
     bool log_x = false;
     bool log_y = false;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "host/measure/bench/plot_labels.h"
 #include "host/measure/metrics/pareto.h"
 
 namespace kilolux {
@@ -53,11 +54,19 @@ PlotSeries front_of(const Plot& plot) {
     return out;
 }
 
-bool has_labels(const PlotSeries& series) {
-    for (const PlotPoint& p : series.points) {
-        if (!p.label.empty()) return true;
-    }
-    return false;
+template <class Condition>
+bool any_point(const PlotSeries& series, const Condition& condition) {
+    return std::any_of(series.points.begin(), series.points.end(), condition);
+}
+
+bool has_bars(const PlotSeries& series) {
+    return any_point(series, [](const PlotPoint& p) { return p.x_bar || p.y_bar; });
+}
+
+bool has_labels(const Plot& plot) {
+    return std::any_of(plot.series.begin(), plot.series.end(), [](const PlotSeries& series) {
+        return any_point(series, [](const PlotPoint& p) { return !p.label.empty(); });
+    });
 }
 
 // One element of the plot command; the front is a thick line of steps behind the points: between
@@ -68,12 +77,12 @@ std::string series_command(const PlotSeries& series, std::size_t index, bool fro
     if (front) return block + " using 1:2 with steps lc rgb '#b0b0b0' lw 4" + title;
     const std::string color = " lt " + std::to_string(index + 1);
     const char* style = series.style == PlotStyle::points ? "points" : "linespoints";
-    std::string out = block + " using 1:2 with " + style + color + " pt 7 ps 0.8 lw 1.5" + title;
-    if (has_labels(series)) {
-        out += ", \\\n     " + block +
-               " using 1:2:3 with labels left offset 0.7,0.5 font ',9' notitle";
+    std::string out;
+    if (has_bars(series)) {
+        out =
+            block + " using 1:2:4:5:6:7 with xyerrorbars" + color + " pt 0 lw 1 notitle, \\\n     ";
     }
-    return out;
+    return out + block + " using 1:2 with " + style + color + " pt 7 ps 0.8 lw 1.5" + title;
 }
 
 std::string plot_command(const Plot& plot) {
@@ -89,10 +98,15 @@ std::string plot_command(const Plot& plot) {
     return out + "\n";
 }
 
-std::vector<double> values(const Plot& plot, double PlotPoint::*coordinate) {
+// All values of a coordinate, with the ends of the bars.
+std::vector<double> values(const Plot& plot, double PlotPoint::*coordinate,
+                           std::optional<PlotBar> PlotPoint::*bar) {
     std::vector<double> out;
     for (const PlotSeries& series : plot.series) {
-        for (const PlotPoint& p : series.points) out.push_back(p.*coordinate);
+        for (const PlotPoint& p : series.points) {
+            out.push_back(p.*coordinate);
+            if (p.*bar) out.insert(out.end(), {(p.*bar)->low, (p.*bar)->high});
+        }
     }
     return out;
 }
@@ -119,23 +133,61 @@ std::string log_tics(const std::string& axis, double low, double high) {
     return "set " + axis + "tics (" + out + ")\n";
 }
 
-// Range and marks of an axis, with room for points and labels at its ends.
-std::string axis_commands(const std::string& axis, bool logarithmic,
-                          const std::vector<double>& shown) {
-    const auto [min, max] = std::minmax_element(shown.begin(), shown.end());
-    double low = *min, high = *max;
-    if (logarithmic) {
-        const double room = std::max(1.5, std::pow(high / low, 0.06));
-        low /= room;
-        high *= room;
-    } else {
-        const double room = high > low ? 0.06 * (high - low) : std::max(1.0, std::abs(high)) * 0.1;
-        low -= room;
-        high += room;
+struct Axis {
+    bool logarithmic = false;
+    double low = 0.0;
+    double high = 1.0;
+    // 0..1 along the axis.
+    double share(double value) const {
+        if (logarithmic) return std::log(value / low) / std::log(high / low);
+        return (value - low) / (high - low);
     }
-    std::string out = "set " + axis + "range [" + number(low) + ':' + number(high) + "]\n";
-    if (!logarithmic) return out;
-    return "set logscale " + axis + "\n" + out + log_tics(axis, low, high);
+};
+
+// The range of an axis, with room for points and labels at its ends.
+Axis axis_of(bool logarithmic, const std::vector<double>& shown) {
+    const auto [min, max] = std::minmax_element(shown.begin(), shown.end());
+    if (logarithmic) {
+        const double room = std::max(1.5, std::pow(*max / *min, 0.06));
+        return {true, *min / room, *max * room};
+    }
+    const double room = *max > *min ? 0.06 * (*max - *min) : std::max(1.0, std::abs(*max)) * 0.1;
+    return {false, *min - room, *max + room};
+}
+
+std::string axis_commands(const std::string& name, const Axis& axis) {
+    std::string out =
+        "set " + name + "range [" + number(axis.low) + ':' + number(axis.high) + "]\n";
+    if (!axis.logarithmic) return out;
+    return "set logscale " + name + "\n" + out + log_tics(name, axis.low, axis.high);
+}
+
+// The labels and the lines to their points, in fixed margins.
+std::string label_commands(const Plot& plot, const Axis& x, const Axis& y) {
+    const PlotArea area;
+    std::vector<PlotLabel> points, labels;
+    for (const PlotSeries& series : plot.series) {
+        for (const PlotPoint& p : series.points) {
+            points.push_back({p.label, kPlotWidth * std::lerp(area.left, area.right, x.share(p.x)),
+                              kPlotHeight * std::lerp(area.bottom, area.top, y.share(p.y))});
+            if (!p.label.empty()) labels.push_back(points.back());
+        }
+    }
+    const auto at = [](double px, double py) {
+        return "screen " + number(px / kPlotWidth) + ',' + number(py / kPlotHeight);
+    };
+    std::string out = "set lmargin at screen " + number(area.left) + "\nset rmargin at screen " +
+                      number(area.right) + "\nset bmargin at screen " + number(area.bottom) +
+                      "\nset tmargin at screen " + number(area.top) + '\n';
+    for (const PlotLabel& l : placed_labels(labels, points, area)) {
+        out += "set label " + quoted(l.text) + " at " + at(l.x, l.y) + " left font ',9'\n";
+        if (!l.far) continue;
+        const double width = 6.0 * static_cast<double>(l.text.size());
+        out += "set arrow from " + at(l.point_x, l.point_y) + " to " +
+               at(std::clamp(l.point_x, l.x, l.x + width), l.y) +
+               " nohead lw 0.5 lc rgb '#909090'\n";
+    }
+    return out;
 }
 
 }  // namespace
@@ -161,7 +213,13 @@ std::string plot_data(const Plot& plot) {
         if (!out.empty()) out += "\n\n";
         out += "# " + data_text(series.name) + "\n";
         for (const PlotPoint& p : series.points) {
-            out += number(p.x) + ' ' + number(p.y) + ' ' + data_text(p.label) + '\n';
+            out += number(p.x) + ' ' + number(p.y) + ' ' + data_text(p.label);
+            if (has_bars(series)) {
+                const PlotBar x = p.x_bar.value_or(PlotBar{p.x, p.x});
+                const PlotBar y = p.y_bar.value_or(PlotBar{p.y, p.y});
+                for (const double end : {x.low, x.high, y.low, y.high}) out += ' ' + number(end);
+            }
+            out += '\n';
         }
     }
     return out;
@@ -172,8 +230,14 @@ std::string plot_script(const Plot& plot, const std::string& stem) {
     out += "set title " + quoted(plot.title) + " noenhanced\n";
     out += "set xlabel " + quoted(plot.x_label) + " noenhanced\n";
     out += "set ylabel " + quoted(plot.y_label) + " noenhanced\n";
-    out += axis_commands("x", plot.log_x, values(plot, &PlotPoint::x));
-    out += axis_commands("y", plot.log_y, values(plot, &PlotPoint::y));
+    const Axis x = axis_of(plot.log_x, values(plot, &PlotPoint::x, &PlotPoint::x_bar));
+    const Axis y = axis_of(plot.log_y, values(plot, &PlotPoint::y, &PlotPoint::y_bar));
+    out += axis_commands("x", x) + axis_commands("y", y);
+    if (has_labels(plot)) out += label_commands(plot, x, y);
+    if (!plot.caption.empty()) {
+        out += "set label " + quoted(plot.caption) + " at screen 0.01,0.025 left font ',10'\n";
+        if (!has_labels(plot)) out += "set bmargin 5\n";
+    }
     out += "set grid xtics ytics lt 1 lw 0.5 lc rgb '#cccccc'\n";
     out += "set key outside right top noenhanced\n";
     out += "set terminal pngcairo size 1200,750 font 'Sans,11' noenhanced\n";
