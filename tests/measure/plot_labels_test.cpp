@@ -34,11 +34,19 @@ std::vector<PlotLabel> points(int count, double spread, unsigned seed) {
     return out;
 }
 
+std::vector<PlotBox> boxes(const std::vector<PlotLabel>& points) {
+    std::vector<PlotBox> out;
+    for (const PlotLabel& p : points) {
+        out.push_back({p.point_x - 4, p.point_y - 4, p.point_x + 4, p.point_y + 4});
+    }
+    return out;
+}
+
 TEST(PlotLabels, CoverNeitherEachOtherNorPointsNorTheFrame) {
     const PlotArea area;
     for (const double spread : {250.0, 60.0, 5.0}) {
         const auto labels = points(20, spread, 7);
-        const auto placed = placed_labels(labels, labels, area);
+        const auto placed = placed_labels(labels, boxes(labels), area);
         EXPECT_GE(placed.size(), 19u) << spread;
         for (std::size_t i = 0; i < placed.size(); ++i) {
             const Text text(placed[i]);
@@ -57,7 +65,7 @@ TEST(PlotLabels, CoverNeitherEachOtherNorPointsNorTheFrame) {
 
 TEST(PlotLabels, StandBesideTheirPointsWhereThereIsRoom) {
     const std::vector<PlotLabel> one = {{.text = "alone", .point_x = 300.0, .point_y = 300.0}};
-    const auto placed = placed_labels(one, one, {});
+    const auto placed = placed_labels(one, boxes(one), {});
     ASSERT_EQ(placed.size(), 1u);
     EXPECT_FALSE(placed[0].far);
     EXPECT_EQ(placed[0].y, 300.0);
@@ -65,7 +73,7 @@ TEST(PlotLabels, StandBesideTheirPointsWhereThereIsRoom) {
     EXPECT_LT(placed[0].x, 315.0);
     const std::vector<PlotLabel> corner = {
         {.text = "at the edge", .point_x = 0.82 * kPlotWidth - 2, .point_y = 300.0}};
-    EXPECT_LT(placed_labels(corner, corner, {}).at(0).x, 0.82 * kPlotWidth - 60);
+    EXPECT_LT(placed_labels(corner, boxes(corner), {}).at(0).x, 0.82 * kPlotWidth - 60);
 }
 
 }  // namespace

@@ -74,8 +74,11 @@ TEST(PlotScript, DataIsOneBlockASeries) {
 }
 
 TEST(PlotScript, BarsAndCaptionAreDrawn) {
-    Plot plot{.title = "t", .caption = "atrium, 5 lights", .x_label = "", .y_label = ""};
-    plot.series = {{"a", {{2, 1, "", PlotBar{1.5, 4}}, {3, 1}}}};
+    const Plot plot{.title = "t",
+                    .caption = "atrium, 5 lights",
+                    .x_label = "",
+                    .y_label = "",
+                    .series = {{"a", {{2, 1, "", PlotBar{1.5, 4}}, {3, 1}}}}};
     EXPECT_EQ(plot_data(plot), "# \"a\"\n2 1 \"\" 1.5 4 1 1\n3 1 \"\" 3 3 1 1\n");
     const std::string script = plot_script(plot, "p");
     EXPECT_NE(script.find("xyerrorbars"), std::string::npos);

@@ -16,6 +16,14 @@ struct PlotArea {
     double left = 0.08, right = 0.82, bottom = 0.14, top = 0.92;
 };
 
+/// A rectangle of the picture, [pixel] from the lower left corner.
+struct PlotBox {
+    double left, bottom, right, top;
+    bool overlaps(const PlotBox& o) const {
+        return left < o.right && o.left < right && bottom < o.top && o.bottom < top;
+    }
+};
+
 /// A point with its label on the picture, [pixel] from the lower left corner.
 struct PlotLabel {
     std::string text;
@@ -24,10 +32,10 @@ struct PlotLabel {
     bool far = false;         // away from its point: needs a line to it
 };
 
-/// Places the labels so that none covers another, a point or the frame: beside its point, else on
-/// circles around it. `labels`: text and point; `points`: every point of the plot. Labels that do
-/// not fit are left out.
+/// Places the labels so that none covers another, an obstacle or the frame: beside its point, else
+/// on circles around it. `labels`: text and point. `obstacles`: points, bars and lines. Labels that
+/// do not fit are left out.
 std::vector<PlotLabel> placed_labels(const std::vector<PlotLabel>& labels,
-                                     const std::vector<PlotLabel>& points, const PlotArea& area);
+                                     const std::vector<PlotBox>& obstacles, const PlotArea& area);
 
 }  // namespace kilolux

@@ -162,15 +162,54 @@ std::string axis_commands(const std::string& name, const Axis& axis) {
     return "set logscale " + name + "\n" + out + log_tics(name, axis.low, axis.high);
 }
 
+// Places on the picture.
+struct PlotFrame {
+    Axis x, y;
+    PlotArea area;
+    double left(double value) const {
+        return kPlotWidth * std::lerp(area.left, area.right, x.share(value));
+    }
+    double bottom(double value) const {
+        return kPlotHeight * std::lerp(area.bottom, area.top, y.share(value));
+    }
+    // Around the line between two corners.
+    PlotBox box(double x0, double y0, double x1, double y1) const {
+        constexpr double kRoom = 4.0;  // [pixel]
+        return {left(std::min(x0, x1)) - kRoom, bottom(std::min(y0, y1)) - kRoom,
+                left(std::max(x0, x1)) + kRoom, bottom(std::max(y0, y1)) + kRoom};
+    }
+};
+
+// What labels must not cover: points with their bars, and the steps of the Pareto front.
+std::vector<PlotBox> obstacles(const Plot& plot, const PlotFrame& frame) {
+    std::vector<PlotBox> out;
+    for (const PlotSeries& series : plot.series) {
+        const bool front = plot.pareto_front && &series == &plot.series.back();
+        for (std::size_t i = 0; i < series.points.size(); ++i) {
+            const PlotPoint& p = series.points[i];
+            const PlotBar x = p.x_bar.value_or(PlotBar{p.x, p.x});
+            const PlotBar y = p.y_bar.value_or(PlotBar{p.y, p.y});
+            out.push_back(frame.box(x.low, p.y, x.high, p.y));
+            out.push_back(frame.box(p.x, y.low, p.x, y.high));
+            if (!front || i + 1 == series.points.size()) continue;
+            const PlotPoint& next = series.points[i + 1];
+            out.push_back(frame.box(p.x, p.y, next.x, p.y));
+            out.push_back(frame.box(next.x, p.y, next.x, next.y));
+        }
+    }
+    return out;
+}
+
 // The labels and the lines to their points, in fixed margins.
 std::string label_commands(const Plot& plot, const Axis& x, const Axis& y) {
-    const PlotArea area;
-    std::vector<PlotLabel> points, labels;
+    const PlotFrame frame{x, y, {}};
+    const PlotArea& area = frame.area;
+    std::vector<PlotLabel> labels;
     for (const PlotSeries& series : plot.series) {
         for (const PlotPoint& p : series.points) {
-            points.push_back({p.label, kPlotWidth * std::lerp(area.left, area.right, x.share(p.x)),
-                              kPlotHeight * std::lerp(area.bottom, area.top, y.share(p.y))});
-            if (!p.label.empty()) labels.push_back(points.back());
+            if (p.label.empty()) continue;
+            labels.push_back(
+                {.text = p.label, .point_x = frame.left(p.x), .point_y = frame.bottom(p.y)});
         }
     }
     const auto at = [](double px, double py) {
@@ -179,7 +218,7 @@ std::string label_commands(const Plot& plot, const Axis& x, const Axis& y) {
     std::string out = "set lmargin at screen " + number(area.left) + "\nset rmargin at screen " +
                       number(area.right) + "\nset bmargin at screen " + number(area.bottom) +
                       "\nset tmargin at screen " + number(area.top) + '\n';
-    for (const PlotLabel& l : placed_labels(labels, points, area)) {
+    for (const PlotLabel& l : placed_labels(labels, obstacles(plot, frame), area)) {
         out += "set label " + quoted(l.text) + " at " + at(l.x, l.y) + " left font ',9'\n";
         if (!l.far) continue;
         const double width = 6.0 * static_cast<double>(l.text.size());

@@ -148,7 +148,7 @@ std::vector<double> pixel_errors(const RgbImage& picture, const RgbImage& refere
         const double unit = scale ? std::max(std::abs(r), scale->rgb[i]) : 1.0;
         const double error = x == r ? 0.0 : std::abs(x - r) / unit;
         double& worst = out[i / 3];
-        if (!(error <= worst)) worst = error;  // NaN stays
+        if (std::isnan(error) || error > worst) worst = error;  // NaN stays
     }
     return out;
 }

@@ -112,12 +112,10 @@ void add_point(Plot& plot, const ReportRow& row, double standard_ms, double erro
         plot.series.push_back({name, {}, PlotStyle::points});
         found = plot.series.end() - 1;
     }
-    const std::string& label = row.setting.name;
-    const std::size_t space = label.find(' ');
     const ReportSpeed& s = row.speed;
-    found->points.push_back({s.relative * standard_ms, error,
-                             space == std::string::npos ? label : label.substr(space + 1),
-                             PlotBar{s.relative_p5 * standard_ms, s.relative_p95 * standard_ms}});
+    found->points.push_back({s.relative * standard_ms, error, row.setting.name,
+                             PlotBar{s.relative_p5 * standard_ms, s.relative_p95 * standard_ms},
+                             std::nullopt});
 }
 
 }  // namespace
