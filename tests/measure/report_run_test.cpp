@@ -137,7 +137,7 @@ void expect_whole_tables() {
     for (const Plot& plot : {surfaces_plot(rows, "here"), unbounded_plot(rows, "here")}) {
         for (const PlotSeries& series : plot.series) points += series.points.size();
         EXPECT_TRUE(plot.pareto_front);
-        EXPECT_EQ(plot.caption, "here");
+        EXPECT_EQ(plot.subtitle, "here");
     }
     EXPECT_EQ(points, rows.size() + 1) << "the default is in both";
     EXPECT_NE(report_notes(rows).find("on pictures of 64x36 pixels"), std::string::npos);

@@ -13,7 +13,7 @@ constexpr int kPlotHeight = 750;  // [pixel]
 
 /// The area between the axes, as shares of the picture from its lower left corner.
 struct PlotArea {
-    double left = 0.08, right = 0.82, bottom = 0.14, top = 0.92;
+    double left = 0.08, right = 0.82, bottom = 0.1, top = 0.9;
 };
 
 /// A rectangle of the picture, [pixel] from the lower left corner.

@@ -96,7 +96,7 @@ std::string front_text(const ReportRow& row) {
 Plot time_plot(const char* title, const char* y_label, const std::string& caption) {
     Plot plot;
     plot.title = title;
-    plot.caption = caption;
+    plot.subtitle = caption;
     plot.x_label = "frame [ms] (ratio to the default's in pairs of frames; bars: 5 % to 95 %)";
     plot.y_label = y_label;
     plot.log_x = plot.log_y = true;
@@ -113,9 +113,10 @@ void add_point(Plot& plot, const ReportRow& row, double standard_ms, double erro
         found = plot.series.end() - 1;
     }
     const ReportSpeed& s = row.speed;
-    found->points.push_back({s.relative * standard_ms, error, row.setting.name,
-                             PlotBar{s.relative_p5 * standard_ms, s.relative_p95 * standard_ms},
-                             std::nullopt});
+    PlotPoint point{s.relative * standard_ms, error, row.setting.name};
+    point.x_low = s.relative_p5 * standard_ms;
+    point.x_high = s.relative_p95 * standard_ms;
+    found->points.push_back(std::move(point));
 }
 
 }  // namespace
