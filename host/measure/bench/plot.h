@@ -31,7 +31,7 @@ struct Plot {
     std::string y_label;
     bool log_x = false;
     bool log_y = false;
-    std::vector<PlotSeries> series;
+    std::vector<PlotSeries> series{};
     bool pareto_front = false;  // draws the Pareto set of all points, x as cost and y as error
 };
 
