@@ -93,6 +93,18 @@ double position_on(const HeatScale& scale, double value) {
     return (value - scale.low) / (scale.high - scale.low);
 }
 
+Canvas heat_map(std::span<const double> values, int width, int height, const HeatScale& scale) {
+    constexpr DisplayColor kNan = {0, 255, 0};
+    Canvas out = make_canvas(width, height);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const DisplayColor color =
+            std::isnan(values[i]) ? kNan : heat_color(position_on(scale, values[i]));
+        std::copy(color.begin(), color.end(),
+                  out.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    }
+    return out;
+}
+
 void draw_text(Canvas& canvas, int x, int y, int zoom, std::string_view text) {
     for (const char character : text) {
         for (int v = 0; v < kGlyphHeight * zoom; ++v) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -44,7 +45,10 @@ double position_on(const HeatScale& scale, double value);
 /// Bar with numbers in the lower left corner; pictures under 128 x 48 pixels get none.
 void draw_legend(Canvas& canvas, const HeatScale& scale);
 
-/// Text in a 5 x 7 font, upper left corner at (x, y). Other characters than the legend's are blank.
+/// `values`, one per pixel, in the heat map's colours; NaN is green.
+Canvas heat_map(std::span<const double> values, int width, int height, const HeatScale& scale);
+
+/// Text in a 5 x 7 font, upper left corner at (x, y). Lower case shows as capitals.
 void draw_text(Canvas& canvas, int x, int y, int zoom, std::string_view text);
 
 }  // namespace kilolux

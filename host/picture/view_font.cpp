@@ -48,11 +48,23 @@ constexpr std::array kGlyphs = {Glyph{'0', " ### #   ##  ### # ###  ##   # ### "
                                 Glyph{'U', "#   ##   ##   ##   ##   ##   # ### "},
                                 Glyph{'V', "#   ##   ##   ##   ##   # # #   #  "},
                                 Glyph{'W', "#   ##   ##   ## # ## # ### ###   #"},
-                                Glyph{'X', "#   ##   # # #   #   # # #   ##   #"}};
+                                Glyph{'X', "#   ##   # # #   #   # # #   ##   #"},
+                                Glyph{',', "                     ##    #   #   "},
+                                Glyph{':', "      ##   ##        ##   ##       "},
+                                Glyph{'(', "   #   #   #    #    #     #     # "},
+                                Glyph{')', " #     #     #    #    #   #   #   "},
+                                Glyph{'=', "          #####     #####          "},
+                                Glyph{'_', "                              #####"},
+                                Glyph{'B', "#### #   ##   ##### #   ##   ##### "},
+                                Glyph{'J', "  ###   #    #    #    # #  #  ##  "},
+                                Glyph{'Q', " ### #   ##   ##   ## # ##  #  ## #"},
+                                Glyph{'Y', "#   ##   # # #   #    #    #    #  "},
+                                Glyph{'Z', "#####    #   #   #   #   #    #####"}};
 
 }  // namespace
 
 bool has_ink(char character, int x, int y) {
+    if (character >= 'a' && character <= 'z') character = static_cast<char>(character - 'a' + 'A');
     for (const Glyph& glyph : kGlyphs) {
         if (glyph.character != character) continue;
         return glyph.rows[static_cast<std::size_t>(y * kGlyphWidth + x)] == '#';

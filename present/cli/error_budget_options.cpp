@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
 
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
@@ -46,19 +47,23 @@ std::string settings_text(const RenderSettings& s) {
                        light_color_names().at(static_cast<std::size_t>(k.light_colors)));
 }
 
-BudgetKey key_of(const SharedOptions& shared, const ErrorBudget& budget, const ReportView& view) {
+BudgetKey key_of(const SharedOptions& shared, const BudgetOptions& options,
+                 const ErrorBudget& budget, const ReportView& view) {
     const Camera& c = view.camera;
-    return fmt::format("{}\n{}\ncamera {} {} {} {} {} time {}\n{} {}", scene_text(shared.scene),
+    return fmt::format("{}\n{}\ncamera {} {} {} {} {} time {}\n{} {} {}", scene_text(shared.scene),
                        settings_text(shared.settings), vector_text(c.position),
                        vector_text(c.world_from_view[1]), vector_text(c.world_from_view[2]),
                        c.y_fov, c.orthographic ? c.y_extent : 0.0, view.time, budget.metric,
-                       budget.max_error);
+                       budget.max_error, options.error_width.value_or(0));
 }
 
 void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when) {
-    note(fmt::format(
-        "chose   {}: {} {:.3g} is within {:g}, {:.3g} times the default's frame time; {}",
-        choice.name, budget.metric, choice.error, budget.max_error, choice.relative, when));
+    const auto [width, height] = choice.error_size;
+    note(
+        fmt::format("chose   {}: {} {:.3g}, measured at {}x{} pixels, is within {:g}; {:.3g} times "
+                    "the default's frame time; {}",
+                    choice.name, budget.metric, choice.error, width, height, budget.max_error,
+                    choice.relative, when));
 }
 
 // Without grids and lanes, which `bench --tune` chooses.
@@ -70,9 +75,10 @@ std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const Repo
     return settings;
 }
 
-BudgetChoice measure_choice(const SharedOptions& shared, const ErrorBudget& budget,
-                            const ReportView& view, const std::vector<ReportSetting>& settings) {
-    ReportRun run(view, shared.settings);
+BudgetChoice measure_choice(const SharedOptions& shared, const BudgetOptions& options,
+                            const ErrorBudget& budget, const ReportView& view,
+                            const std::vector<ReportSetting>& settings) {
+    ReportRun run(view, shared.settings, error_limits(options));
     Progress progress("choosing", ReportRun::steps(settings.size()), !shared.quiet);
     run.on_step(check_interrupt);
     run.on_progress([&progress] { progress.advance(); });
@@ -94,8 +100,19 @@ void add_budget_options(CLI::App& command, BudgetOptions& options) {
                  "What E is: against the float64 picture asked for; r1-: the kernels' error alone; "
                  "r3-: lights without a range"},
                 options.metric, error_metric_names())
+        .value({"--error-width", "W", "auto",
+                "Width of the pictures that errors are measured on; auto: at most 320 pixels, and "
+                "so few that the float64 reference takes seconds"},
+               [&options](const std::string& name, const std::string& text) {
+                   options.error_width = static_cast<int>(parse_count(name, text, {1, 65536}));
+               })
         .flag("--choose-again", options.choose_again,
               "Measure even if a choice is kept from before");
+}
+
+ErrorSizeLimits error_limits(const BudgetOptions& options) {
+    if (!options.error_width) return {};
+    return {.width = *options.error_width, .evaluations = std::numeric_limits<double>::infinity()};
 }
 
 RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetOptions& options,
@@ -104,14 +121,14 @@ RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetO
     const ErrorBudget budget{*options.max_error, options.metric};
     const DeviceInfo device = describe(choose_device(shared.settings.device));
     const auto candidates = candidates_of(shared, view, budget, device);
-    const BudgetKey key = key_of(shared, budget, view);
+    const BudgetKey key = key_of(shared, options, budget, view);
     if (!options.choose_again) {
         if (const auto kept = stored_choice(device, key, candidates)) {
             say(*kept, budget, "kept from before");
             return kept->settings;
         }
     }
-    const BudgetChoice choice = measure_choice(shared, budget, view, candidates);
+    const BudgetChoice choice = measure_choice(shared, options, budget, view, candidates);
     store_choice(device, key, choice);
     say(choice, budget, "measured now, and kept");
     return choice.settings;
@@ -122,8 +139,8 @@ void choose_from_rows(const SharedOptions& shared, const BudgetOptions& options,
     if (!options.max_error) return;
     const ErrorBudget budget{*options.max_error, options.metric};
     const BudgetChoice choice = choose_within(rows, budget);
-    store_choice(describe(choose_device(shared.settings.device)), key_of(shared, budget, view),
-                 choice);
+    store_choice(describe(choose_device(shared.settings.device)),
+                 key_of(shared, options, budget, view), choice);
     say(choice, budget, "kept");
 }
 

@@ -13,11 +13,15 @@ namespace kilolux {
 struct BudgetOptions {
     std::optional<double> max_error;
     std::string metric = "flip";
+    std::optional<int> error_width;  // [pixel]; none: see ErrorSizeLimits
     bool choose_again = false;
 };
 
-/// Registers --max-error, --error-metric and --choose-again.
+/// Registers --max-error, --error-metric, --error-width and --choose-again.
 void add_budget_options(CLI::App& command, BudgetOptions& options);
+
+/// The limits that --error-width sets.
+ErrorSizeLimits error_limits(const BudgetOptions& options);
 
 /// The settings to render with: those asked for, or, with --max-error, the fastest whose measured
 /// error on this scene and device is within it; says which and why. A choice is kept beside the

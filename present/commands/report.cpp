@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/commands/report.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -29,13 +31,10 @@ std::vector<ReportSetting> chosen_settings(const ReportOptions& options, const S
     const RenderSettings& asked = options.shared.settings;
     auto settings =
         report_settings(scene, asked, describe(choose_device(asked.device)), options.quick);
-    if (options.trades.empty()) return settings;
-    const auto names = report_trade_names();
+    if (options.axes.empty()) return settings;
     std::erase_if(settings, [&](const ReportSetting& setting) {
-        if (setting.trade == Trade::none) return false;
-        const std::string& name = names[static_cast<std::size_t>(setting.trade) - 1];
-        return std::find(options.trades.begin(), options.trades.end(), name) ==
-               options.trades.end();
+        return setting.axis != SettingAxis::none &&
+               std::ranges::find(options.axes, axis_name(setting.axis)) == options.axes.end();
     });
     return settings;
 }
@@ -49,6 +48,14 @@ std::vector<ReportRow> measure(const ReportOptions& options, ReportRun& run,
     run.on_step([] {});
     run.on_progress([] {});
     return rows;
+}
+
+std::string caption_of(const SharedOptions& shared, const DeviceInfo& device,
+                       const ReportRun& run) {
+    const RenderSettings& s = shared.settings;
+    const auto [width, height] = run.error_size();
+    return fmt::format("{}, {} lights, {}x{} pixels, errors at {}x{}, {}", shared.scene,
+                       s.lights.count, s.width, s.height, width, height, device.name);
 }
 
 void run_report(const ReportOptions& options) {
@@ -66,19 +73,20 @@ void run_report(const ReportOptions& options) {
     report.context["lights"] = shared.settings.lights.count;
     report.context["resolution"] = {shared.settings.width, shared.settings.height};
     const ReportView view{scene, camera, shared.time};
-    ReportRun run(view, shared.settings);
+    ReportRun run(view, shared.settings, error_limits(options.budget));
     report.context["error_resolution"] = run.error_size();
+    report.caption = caption_of(shared, device, run);
     report.rows = measure(options, run, chosen_settings(options, scene));
     if (options.json) {
         write_json("-", report_json(report));
     } else {
-        std::fputs(to_markdown(report_summary(report.rows), 3).c_str(), stdout);
+        std::fputs(report_text(report).c_str(), stdout);
     }
     if (!options.output.empty()) write_report(options, report, run);
     choose_from_rows(shared, options.budget, view, report.rows);
 }
 
-// What --quick means, unless the command line says otherwise.
+// The values of --quick, unless the command line gives others.
 void apply_quick(const CLI::App& command, ReportOptions& options) {
     if (!options.quick) return;
     RenderSettings& s = options.shared.settings;
@@ -93,7 +101,7 @@ constexpr const char* kExamples =
     "  kilolux report -o results\n"
     "  kilolux report --quick\n"
     "  kilolux report town.glb --lights 0 -o results\n"
-    "  kilolux report --trades gbuffer,grid --resolution 1280,720 -o results";
+    "  kilolux report --axes gbuffer,grid --resolution 1280,720 -o results";
 
 }  // namespace
 

@@ -3,8 +3,8 @@
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/measure/bench/plot.h"
+#include "host/measure/report/error_sheets.h"
 #include "host/measure/report/tables.h"
-#include "host/measure/report/worst_pixel.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
 #include "present/commands/report.h"
@@ -23,18 +23,27 @@ std::string file_stem(std::string name) {
     return name;
 }
 
-void write_worst_pixels(const fs::path& folder, const ReportRow& row, ReportRun& run) {
-    const RenderSettings settings = run.at_error_size(row.setting.settings);
-    const ReportReferences::All references = run.references().all(settings);
+void write_canvas(const fs::path& file, Canvas canvas) {
     Frame frame;
-    const Canvas canvas = worst_pixel_sheet(row, references);
     frame.width = canvas.width;
     frame.height = canvas.height;
-    frame.display = canvas.rgba;
-    write_image(folder / (file_stem(row.setting.name) + ".png"), frame);
+    frame.display = std::move(canvas.rgba);
+    write_image(file, frame);
+}
+
+void write_errors(const fs::path& folder, const Report& report, const ReportRow& row,
+                  ReportRun& run) {
+    const auto references = run.references().all(run.at_error_size(row.setting.settings));
+    const std::string file = file_stem(row.setting.name) + ".png";
+    write_canvas(folder / "worst" / file, worst_pixel_sheet(row, references, report.caption));
+    write_canvas(folder / "errors" / file, error_map_sheet(row, references, report.caption));
 }
 
 }  // namespace
+
+std::string report_text(const Report& report) {
+    return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows);
+}
 
 nlohmann::ordered_json report_json(const Report& report) {
     return {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
@@ -43,14 +52,16 @@ nlohmann::ordered_json report_json(const Report& report) {
 void write_report(const ReportOptions& options, const Report& report, ReportRun& run) {
     const fs::path& folder = options.output;
     write_whole_file(folder / "report.csv", to_csv(report_table(report.rows)));
-    write_whole_file(folder / "report.md", to_markdown(report_summary(report.rows), 3));
+    write_whole_file(folder / "report.md", report_text(report));
     write_json((folder / "report.json").string(), report_json(report));
-    write_plot(surfaces_plot(report.rows), folder / "time_against_error");
-    write_plot(unbounded_plot(report.rows), folder / "time_against_unbounded_error");
+    write_plot(surfaces_plot(report.rows, report.caption), folder / "time_against_error");
+    write_plot(unbounded_plot(report.rows, report.caption),
+               folder / "time_against_unbounded_error");
     make_output_folder(folder / "worst");
+    make_output_folder(folder / "errors");
     for (const ReportRow& row : report.rows) {
         check_interrupt();
-        write_worst_pixels(folder / "worst", row, run);
+        write_errors(folder, report, row, run);
     }
     note("wrote   " + folder.string());
 }

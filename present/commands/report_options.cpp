@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/suggest.h"
+#include "host/base/text.h"
 #include "present/cli/option_builder.h"
 #include "present/commands/report.h"
 
 namespace kilolux {
-
-std::vector<std::string> report_trade_names() {
-    return {"gbuffer", "lanes", "math", "grid", "renderer", "shading", "cut-off"};
-}
 
 void add_report_options(CLI::App& command, ReportOptions& options) {
     using Text = const std::string&;
@@ -15,16 +11,16 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
     OptionBuilder(command, "Measuring and output")
         .flag("--quick", options.quick,
               "480x270 pixels, 1000 lights, fewer settings and frames: about a minute")
-        .value({"--trades", joined(report_trade_names(), "|") + ",...", "all",
-                "What the settings differ in"},
+        .value({"--axes", joined(setting_axis_names(), "|") + ",...", "all",
+                "What settings may differ in"},
                [&options](Text name, Text text) {
-                   options.trades = parse_name_list(name, text, report_trade_names());
+                   options.axes = parse_name_list(name, text, setting_axis_names());
                })
-        .value({"--warm-up", "N", "2", "Frames before those that count, in each of two rounds"},
+        .value({"--warm-up", "N", "2", "Frames before the measured ones, in each of two rounds"},
                [&options](Text name, Text text) {
                    options.warm_up = static_cast<int>(parse_count(name, text, {0, 1000000}));
                })
-        .value({"--frames", "N", "20", "Frames that count; fewer of settings that are slow"},
+        .value({"--frames", "N", "20", "Measured frames; fewer of slow settings"},
                [&options](Text name, Text text) {
                    options.frames = static_cast<int>(parse_count(name, text, {1, 1000000}));
                })

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
+#include "host/base/srgb.h"
 #include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/metrics/flip_ldr.h"
 #include "host/measure/metrics/metrics.h"
@@ -27,12 +28,12 @@ std::vector<float> display_colour(const Frame& frame) {
 }
 
 RgbImage linear_of_display(RgbImage image) {
-    for (double& value : image.rgb) value = linear_from_srgb(value);
+    for (double& value : image.rgb) value = srgb_to_linear(value);
     return image;
 }
 
 double flip_of(const RgbImage& picture, const RgbImage& reference, bool linear) {
-    if (linear) return flip_hdr(picture, reference).flip.error.mean;
+    if (linear) return flip_hdr(picture, reference).error.mean;
     return flip_ldr(linear_of_display(picture), linear_of_display(reference)).error.mean;
 }
 

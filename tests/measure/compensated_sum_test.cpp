@@ -23,9 +23,9 @@ struct FixedPoint {
     double value() const { return std::ldexp(static_cast<double>(units), -60); }
 };
 
-TEST(ExactSum, MatchesFixedPointForAMillionTermsOverManyMagnitudes) {
+TEST(CompensatedSum, MatchesFixedPointForAMillionTermsOverManyMagnitudes) {
     std::mt19937_64 random(7);
-    ExactSum sum;
+    CompensatedSum sum;
     FixedPoint exact;
     double naive = 0.0;
     for (int i = 0; i < 1'000'000; ++i) {
@@ -40,24 +40,24 @@ TEST(ExactSum, MatchesFixedPointForAMillionTermsOverManyMagnitudes) {
     EXPECT_GT(std::abs(naive - exact.value()), kExact * exact.value()) << "the case is too easy";
 }
 
-TEST(ExactSum, KeepsWhatCancels) {
-    ExactSum sum;
+TEST(CompensatedSum, KeepsWhatCancels) {
+    CompensatedSum sum;
     for (const double term : {1.0, 1e100, 1.0, -1e100}) sum.add(term);
     EXPECT_EQ(sum.value(), 2.0);
 }
 
-TEST(ExactSum, OrderDoesNotMatter) {
+TEST(CompensatedSum, OrderDoesNotMatter) {
     std::vector<double> terms(5000);
     std::mt19937_64 random(3);
     for (double& t : terms) t = std::exp(12.0 * static_cast<double>(random() >> 11) * 0x1p-53);
-    ExactSum forward, backward;
+    CompensatedSum forward, backward;
     for (const double t : terms) forward.add(t);
     for (auto t = terms.rbegin(); t != terms.rend(); ++t) backward.add(*t);
     EXPECT_NEAR(forward.value(), backward.value(), 2.3e-16 * forward.value());
 }
 
-TEST(ExactSum, InfinityAndNanShow) {
-    ExactSum infinite, nan;
+TEST(CompensatedSum, InfinityAndNanShow) {
+    CompensatedSum infinite, nan;
     infinite.add(std::numeric_limits<double>::infinity());
     infinite.add(1.0);
     nan.add(1.0);
@@ -66,7 +66,7 @@ TEST(ExactSum, InfinityAndNanShow) {
     EXPECT_TRUE(std::isnan(nan.value()));
 }
 
-TEST(ExactSum, OfNothingIsZero) { EXPECT_EQ(ExactSum{}.value(), 0.0); }
+TEST(CompensatedSum, OfNothingIsZero) { EXPECT_EQ(CompensatedSum{}.value(), 0.0); }
 
 }  // namespace
 }  // namespace kilolux

@@ -20,21 +20,24 @@ DeviceInfo device_named(const std::string& name) {
     return device;
 }
 
-ReportRow row(const std::string& name, double relative, double flip, Trade trade = Trade::gbuffer) {
+ReportRow row(const std::string& name, double relative, double flip,
+              SettingAxis axis = SettingAxis::gbuffer) {
     ReportRow out;
-    out.setting = {trade, name, "--" + name, {}};
+    out.setting = {axis, name, "--" + name, {}};
     out.speed.relative = relative;
     out.surfaces.flip.mean = flip;
     out.surfaces.hdr.rmse = 10.0 * flip;
     out.kernels.flip.mean = 0.0;
-    out.unbounded.flip.mean = trade == Trade::cut_off ? 0.1 : 0.9;
+    out.picture.width = 64;
+    out.picture.height = 36;
+    out.unbounded.flip.mean = axis == SettingAxis::cut_off ? 0.1 : 0.9;
     return out;
 }
 
 std::vector<ReportRow> some_rows() {
-    return {row("default", 1.0, 0.04, Trade::none), row("gbuffer full", 1.5, 0.01),
+    return {row("default", 1.0, 0.04, SettingAxis::none), row("gbuffer full", 1.5, 0.01),
             row("gbuffer half", 0.9, 0.05), row("shading lambert", 0.7, 0.2),
-            row("cut-off 1/256", 0.5, 0.0, Trade::cut_off)};
+            row("cut-off 1/256", 0.5, 0.0, SettingAxis::cut_off)};
 }
 
 TEST(ErrorBudget, TakesTheFastestWithin) {
@@ -48,6 +51,7 @@ TEST(ErrorBudget, TakesTheFastestWithin) {
     const BudgetChoice choice = choose_within(rows, {0.1, "flip"});
     EXPECT_EQ(choice.error, 0.05);
     EXPECT_EQ(choice.relative, 0.9);
+    EXPECT_EQ(choice.error_size, (std::array{64, 36}));
 }
 
 TEST(ErrorBudget, OtherRangesAreAnotherPictureUnlessTheBudgetIsAboutThem) {
@@ -62,11 +66,12 @@ TEST(ErrorBudget, NamesTheBestReachable) {
         choose_within(rows, {0.001, "flip"});
         FAIL() << "a choice within an impossible budget";
     } catch (const Error& error) {
-        EXPECT_STREQ(error.what(),
-                     "max error: no setting is within flip 0.001; the best reachable is 0.01 by "
-                     "'gbuffer full'");
+        EXPECT_STREQ(
+            error.what(),
+            "max error: no setting is within flip 0.001; the best reachable is 0.01 at 64x36 "
+            "pixels by 'gbuffer full'");
     }
-    std::vector<ReportRow> broken = {row("default", 1.0, std::nan(""), Trade::none)};
+    std::vector<ReportRow> broken = {row("default", 1.0, std::nan(""), SettingAxis::none)};
     EXPECT_THROW(choose_within(broken, {1.0, "flip"}), Error) << "NaN is within nothing";
     EXPECT_THROW(choose_within({}, {1.0, "flip"}), Error);
 }
@@ -101,7 +106,7 @@ class StoredChoice : public CacheSandbox {
         out[2].settings.gbuffer = GBUFFER_HALF;
         return out;
     }();
-    BudgetChoice choice_{"gbuffer half", candidates_[2].settings, 0.05, 0.9};
+    BudgetChoice choice_{"gbuffer half", candidates_[2].settings, 0.05, 0.9, {64, 36}};
 };
 
 TEST_F(StoredChoice, ComesBackForItsKeyAndDeviceOnly) {
@@ -113,6 +118,7 @@ TEST_F(StoredChoice, ComesBackForItsKeyAndDeviceOnly) {
     EXPECT_EQ(found->settings.gbuffer, uint{GBUFFER_HALF});
     EXPECT_EQ(found->error, 0.05);
     EXPECT_EQ(found->relative, 0.9);
+    EXPECT_EQ(found->error_size, (std::array{64, 36}));
     EXPECT_FALSE(stored_choice(device_, "scene 2", candidates_));
     EXPECT_FALSE(stored_choice(device_named("gpu"), "scene", candidates_));
     candidates_.erase(candidates_.begin() + 2);

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "host/base/error.h"
+#include "host/measure/metrics/error_size.h"
 
 namespace kilolux {
 namespace {
@@ -139,6 +140,29 @@ TEST(HdrMetrics, AgreesWithOpenImageIo) {
     EXPECT_EQ(m.absolute.y, 20);
 }
 
+TEST(PixelErrors, AreThoseOfTheWorstChannelAndKeepNan) {
+    const RgbImage r = image(3, 1, {1, 2, 0, 4, 1, 4, 1, 1, 1});
+    const RgbImage x = image(3, 1, {1, 2.5, 0.25, 4, 1, 3, 1, kNan, 3});
+    const RgbImage e = image(3, 1, std::vector<double>(9, 2.0));
+    const auto absolute = pixel_errors(x, r), relative = pixel_errors(x, r, &e);
+    EXPECT_EQ(absolute[0], 0.5);
+    EXPECT_EQ(absolute[1], 1.0);
+    EXPECT_EQ(relative[0], 0.25);
+    EXPECT_EQ(relative[1], 0.25);
+    EXPECT_TRUE(std::isnan(absolute[2]));
+    EXPECT_THROW(pixel_errors(x, image(1, 3, r.rgb)), Error);
+}
+
+TEST(ErrorSize, KeepsTheShapeWithinWidthAndEvaluations) {
+    using Size = std::array<int, 2>;
+    EXPECT_EQ(error_size({1920, 1080}, 10), (Size{320, 180}));
+    EXPECT_EQ(error_size({64, 36}, 10), (Size{64, 36}));
+    EXPECT_EQ(error_size({1920, 1080}, 1000000), (Size{23, 12}));
+    EXPECT_EQ(error_size({1920, 1080}, 1000000, {.width = 960, .evaluations = kInf}),
+              (Size{960, 540}));
+    EXPECT_EQ(error_size({8192, 1}, 0), (Size{320, 1}));
+}
+
 TEST(CodeDifferences, ValuesComputedByHand) {
     const std::vector<std::uint8_t> a = {0, 10, 20, 255, 30, 40, 50, 255, 7, 7, 7, 0};
     const std::vector<std::uint8_t> b = {0, 11, 20, 0, 30, 36, 51, 0, 7, 7, 7, 255};
@@ -149,7 +173,6 @@ TEST(CodeDifferences, ValuesComputedByHand) {
     EXPECT_DOUBLE_EQ(d.difference.mean, 6.0 / 9.0);
     EXPECT_EQ(d.pixels, 3u);
     EXPECT_EQ(d.different_pixels, 2u);
-    EXPECT_EQ(d.above_one_pixels, 1u);
 }
 
 }  // namespace

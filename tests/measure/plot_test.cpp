@@ -70,7 +70,21 @@ TEST(PlotScript, DataIsOneBlockASeries) {
                     .x_label = "",
                     .y_label = "",
                     .series = {{"a", {{1, 0.5, "x \"y\"\nz"}}}, {"b", {{2, 1e-9}}}}};
-    EXPECT_EQ(plot_data(plot), "# \"a\"\n1 0.5 \"x 'y' z\"\n\n\n# \"b\"\n2 1e-09 \"\"\n");
+    EXPECT_EQ(plot_data(plot),
+              "# \"a\"\n1 0.5 0.5 0.5 \"x 'y' z\"\n\n\n# \"b\"\n2 1e-09 1e-09 1e-09 \"\"\n");
+}
+
+TEST(PlotScript, DrawsErrorBarsAndTheSubtitle) {
+    Plot plot{.title = "t", .subtitle = "atrium on a device", .x_label = "x", .y_label = "y"};
+    plot.series = {{"s", {{1.0, 2.0, "", 1.5, 3.0}, {2.0, 2.0}}}};
+    const std::string script = plot_script(plot, "stem");
+    EXPECT_NE(script.find("yerrorlines"), std::string::npos) << script;
+    EXPECT_NE(script.find("atrium on a device"), std::string::npos) << script;
+    plot.series[0].points[0].low = plot.series[0].points[0].high = 2.0;
+    EXPECT_EQ(plot_script(plot, "stem").find("yerror"), std::string::npos) << "no spread, no bars";
+    plot.series[0].points[0].x_high = 1.5;
+    EXPECT_NE(plot_script(plot, "stem").find("1:2:6:7:3:4 with xyerrorlines"), std::string::npos);
+    EXPECT_EQ(plot_data(plot), "# \"s\"\n1 2 2 2 \"\" 1 1.5\n2 2 2 2 \"\" 2 2\n");
 }
 
 TEST_F(PlotFolder, WritesFourFilesAndNothingElse) {

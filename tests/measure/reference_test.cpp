@@ -187,7 +187,7 @@ TEST(ReferenceLights, RowsAndSceneLightsAgree) {
     sun.direction = {0, -1, 0};
     const ReferenceLights lights = reference_lights(std::vector<SceneLight>{spot, sun}, camera);
     ASSERT_EQ(lights.lights.size(), 1u);
-    ASSERT_EQ(lights.suns.size(), 1u);
+    ASSERT_EQ(lights.directional.size(), 1u);
     const ReferenceLight& light = lights.lights[0];
     const glm::dvec3 world = camera.position + camera.world_from_view * light.position;
     EXPECT_NEAR(glm::distance(world, spot.position), 0.0, 1e-14);
@@ -195,7 +195,7 @@ TEST(ReferenceLights, RowsAndSceneLightsAgree) {
     EXPECT_NEAR(glm::dot(camera.world_from_view * light.axis, spot.direction), 1.0, 1e-14);
     const double cos_in = std::cos(static_cast<double>(spot.inner_cone));
     EXPECT_NEAR((cos_in - light.cos_out) * light.cone_scale, 1.0, 1e-14);
-    const glm::dvec3 up = camera.world_from_view * lights.suns[0].to_light;
+    const glm::dvec3 up = camera.world_from_view * lights.directional[0].to_light;
     EXPECT_NEAR(up.y, 1.0, 1e-14);
 
     const ShadeLight row{{1, 2, 3, 0.25f}, {4, 5, 6, 7}, {0, 0, -1, 0.5f}};
@@ -207,8 +207,8 @@ TEST(ReferenceLights, RowsAndSceneLightsAgree) {
     EXPECT_EQ(rows.lights[0].cone_scale, 7.0);
     EXPECT_EQ(rows.lights[0].axis, glm::dvec3(0, 0, -1));
     EXPECT_EQ(rows.lights[0].cos_out, 0.5);
-    EXPECT_EQ(rows.suns[0].to_light, glm::dvec3(0, 1, 0));
-    EXPECT_EQ(rows.suns[0].illuminance, glm::dvec3(9, 8, 7));
+    EXPECT_EQ(rows.directional[0].to_light, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(rows.directional[0].illuminance, glm::dvec3(9, 8, 7));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small report: what each reference isolates, and that the default is on the Pareto set. Errors
-// are measured; times, which a machine's other work decides, are replaced by what must be moved.
+// A small report: what each reference isolates, and that the default is in the Pareto set. Errors
+// are measured; times, which depend on the machine's load, are replaced by the bytes moved.
 #include "host/measure/report/run.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "host/measure/report/display.h"
+#include "host/measure/report/error_sheets.h"
 #include "host/measure/report/tables.h"
-#include "host/measure/report/worst_pixel.h"
 #include "host/render/scene_plan.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/support/render_fixture.h"
@@ -17,14 +17,14 @@
 namespace kilolux {
 namespace {
 
-// What a frame must move for a pixel [byte]: its G-buffer, and each light that it evaluates. Lanes
-// and the ways to compute are alike in this.
+// Bytes that a frame moves per pixel: its G-buffer, and each light that it evaluates. Lanes and
+// math modes do not change it.
 double work_of(const Scene& scene, const ReportRow& row) {
     const ScenePlan plan = make_scene_plan(scene, row.setting.settings, 0);
     return plan.gbuffer_bytes_per_pixel + sizeof(ShadeLight) * std::max(row.speed.k, 0.0);
 }
 
-// What the tests look at; each setting costs building its kernels several times.
+// The settings that the tests check; each builds its kernels several times.
 bool is_looked_at(const ReportSetting& setting) {
     const std::set<std::string> names = {
         "default",      "gbuffer full",  "gbuffer half",      "gbuffer normal-xy",
@@ -63,7 +63,7 @@ SmallReport& report() {
 void expect_right_kernels() {
     for (const ReportRow& row : report().rows) {
         const bool forward = row.setting.name.find("forward") != std::string::npos;
-        const bool approximate = row.setting.trade == Trade::math;
+        const bool approximate = row.setting.axis == SettingAxis::math;
         const double bound = approximate ? 1e-3 : (forward ? 1e-2 : 3e-5);
         EXPECT_LE(row.kernels.hdr.relative.max, bound) << row.setting.name;
         EXPECT_EQ(row.kernels.hdr.nan_pixels, 0u) << row.setting.name;
@@ -117,7 +117,8 @@ void expect_default_on_front() {
     EXPECT_TRUE(rows.front().unbounded_front);
     for (const ReportRow& row : rows) {
         const bool as_exact = row.surfaces.hdr.rmse <= rows.front().surfaces.hdr.rmse;
-        if (row.setting.trade == Trade::math || row.setting.trade == Trade::cut_off) continue;
+        if (row.setting.axis == SettingAxis::math || row.setting.axis == SettingAxis::cut_off)
+            continue;
         if (as_exact) {
             EXPECT_GE(row.speed.relative, 1.0) << row.setting.name;
         }
@@ -133,25 +134,40 @@ void expect_whole_tables() {
               table.columns.size());
     EXPECT_EQ(report_summary(rows).rows.size(), rows.size());
     std::size_t points = 0;
-    for (const Plot& plot : {surfaces_plot(rows), unbounded_plot(rows)}) {
+    for (const Plot& plot : {surfaces_plot(rows, "here"), unbounded_plot(rows, "here")}) {
         for (const PlotSeries& series : plot.series) points += series.points.size();
         EXPECT_TRUE(plot.pareto_front);
+        EXPECT_EQ(plot.subtitle, "here");
     }
     EXPECT_EQ(points, rows.size() + 1) << "the default is in both";
+    EXPECT_NE(report_notes(rows).find("on pictures of 64x36 pixels"), std::string::npos);
 }
 
 void expect_worst_pixels_in_the_middle() {
     auto& r = report();
     const ReportRow& row = r.rows.front();
     const RenderSettings settings = r.run->at_error_size(row.setting.settings);
-    const Canvas sheet = worst_pixel_sheet(row, r.run->references().all(settings));
+    const auto references = r.run->references().all(settings);
+    const Canvas sheet = worst_pixel_sheet(row, references, "caption");
     ASSERT_EQ(sheet.rgba.size(), static_cast<std::size_t>(4 * sheet.width * sheet.height));
     const ErrorDistribution& worst = row.kernels.hdr.relative;
     // Left panel of R1: 6 sheet pixels a pixel, the 17th of 33 is the worst one.
     const std::size_t at =
-        static_cast<std::size_t>(4 * ((22 + 16 * 6 + 3) * sheet.width + 6 + 16 * 6 + 3));
+        static_cast<std::size_t>(4 * ((6 + 3 * 14 + 16 * 6 + 3) * sheet.width + 6 + 16 * 6 + 3));
     const auto code = static_cast<std::size_t>(4 * (worst.y * row.picture.width + worst.x));
     for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(sheet.rgba[at + c], row.display[code + c]);
+    // The error map of R1: the upper right panel, magnified 5 times, below title and panel's line.
+    const Canvas maps = error_map_sheet(row, references, "caption");
+    const auto errors = pixel_errors(row.picture, references.kernels.picture.radiance,
+                                     &references.kernels.picture.scale);
+    const HeatScale scale{1e-8, 1.0, true, ""};
+    for (int pixel = 0; pixel < 64 * 36; ++pixel) {
+        const int x = 6 + 320 + 6 + 5 * (pixel % 64) + 2, y = 6 + 3 * 14 + 5 * (pixel / 64) + 2;
+        const DisplayColor expected =
+            heat_color(position_on(scale, errors[static_cast<std::size_t>(pixel)]));
+        const auto i = static_cast<std::size_t>(4 * (y * maps.width + x));
+        for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(maps.rgba[i + c], expected[c]) << pixel;
+    }
 }
 
 // One test, as each test is a process of its own and would measure again.

@@ -21,19 +21,19 @@ DeviceInfo device() {
     return out;
 }
 
-std::set<Trade> trades(const std::vector<ReportSetting>& settings) {
-    std::set<Trade> out;
-    for (const ReportSetting& setting : settings) out.insert(setting.trade);
+std::set<SettingAxis> axes(const std::vector<ReportSetting>& settings) {
+    std::set<SettingAxis> out;
+    for (const ReportSetting& setting : settings) out.insert(setting.axis);
     return out;
 }
 
-TEST(ReportSettings, CoverEveryTradeOnceEach) {
+TEST(ReportSettings, CoverEveryAxisOnceEach) {
     const Scene scene = make_generated_scene("grid");
     for (const bool quick : {false, true}) {
         const auto settings = report_settings(scene, {}, device(), quick);
         EXPECT_EQ(settings.front().name, "default");
         EXPECT_EQ(settings.front().options, "");
-        EXPECT_EQ(trades(settings).size(), 8u);
+        EXPECT_EQ(axes(settings).size(), 8u);
         std::set<std::string> names;
         for (const ReportSetting& s : settings) EXPECT_TRUE(names.insert(s.name).second) << s.name;
         for (const char* name :
@@ -53,7 +53,7 @@ TEST(ReportSettings, CutOffsKeepTheLightsAndSetTheirRange) {
     base.lights.count = 300;
     const double intensity = automatic_light_scale(base.lights, scene).intensity;
     for (const ReportSetting& s : report_settings(scene, base, device(), false)) {
-        if (s.trade != Trade::cut_off) continue;
+        if (s.axis != SettingAxis::cut_off) continue;
         const LightScale scale = automatic_light_scale(s.settings.lights, scene);
         EXPECT_DOUBLE_EQ(scale.intensity, intensity) << s.name;
         const double budget = scale.intensity / (std::numbers::pi * scale.radius * scale.radius);
@@ -67,7 +67,7 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
     Scene scene = make_generated_scene("plain");
     RenderSettings base;
     base.lights.count = 0;
-    EXPECT_EQ(trades(report_settings(scene, base, device(), false)).count(Trade::cut_off), 0u)
+    EXPECT_EQ(axes(report_settings(scene, base, device(), false)).count(SettingAxis::cut_off), 0u)
         << "no light has a range to choose";
     SceneLight ranged, open;
     ranged.intensity = open.intensity = {10.0f, 5.0f, 1.0f};
@@ -75,7 +75,7 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
     scene.lights = {ranged, open};
     int cut_offs = 0;
     for (const ReportSetting& s : report_settings(scene, base, device(), false)) {
-        if (s.trade != Trade::cut_off) continue;
+        if (s.axis != SettingAxis::cut_off) continue;
         ++cut_offs;
         const auto lights = lights_at(scene, s.settings, 0.0);
         EXPECT_EQ(lights[0].range, 3.0f);
@@ -88,11 +88,11 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
 TEST(ReportSettings, ForwardRenderersHaveNoGBufferToVary) {
     RenderSettings base;
     base.renderer = RendererKind::forward_plus;
-    const auto found = trades(report_settings(make_generated_scene("plain"), base, device(), true));
-    EXPECT_FALSE(found.count(Trade::gbuffer));
-    EXPECT_FALSE(found.count(Trade::lanes));
-    EXPECT_FALSE(found.count(Trade::math));
-    EXPECT_TRUE(found.count(Trade::grid));
+    const auto found = axes(report_settings(make_generated_scene("plain"), base, device(), true));
+    EXPECT_FALSE(found.count(SettingAxis::gbuffer));
+    EXPECT_FALSE(found.count(SettingAxis::lanes));
+    EXPECT_FALSE(found.count(SettingAxis::math));
+    EXPECT_TRUE(found.count(SettingAxis::grid));
 }
 
 }  // namespace

@@ -35,12 +35,13 @@ class Report : public CacheSandbox {
 TEST_F(Report, WritesTablesPlotsAndPictures) {
     const TemporaryFolder folder;
     const fs::path out = folder / "out";
-    const ChildResult result = report({"--trades", "gbuffer,math,cut-off", "-o", out.string()});
+    const ChildResult result = report({"--axes", "gbuffer,math,cut-off", "-o", out.string()});
     ASSERT_EQ(result.code, 0) << result.err;
-    for (const char* name : {"report.csv", "report.md", "report.json", "time_against_error.png",
-                             "time_against_error.svg", "time_against_unbounded_error.png",
-                             "time_against_unbounded_error.svg", "worst/default.png",
-                             "worst/gbuffer_half.png", "worst/cut-off_1_16.png"}) {
+    for (const char* name :
+         {"report.csv", "report.md", "report.json", "time_against_error.png",
+          "time_against_error.svg", "time_against_unbounded_error.png",
+          "time_against_unbounded_error.svg", "worst/default.png", "worst/gbuffer_half.png",
+          "worst/cut-off_1_16.png", "errors/default.png"}) {
         EXPECT_TRUE(fs::exists(out / name)) << name;
     }
     EXPECT_EQ(text_of_file(out / "report.md"), result.out);
@@ -48,6 +49,7 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
     EXPECT_FALSE(document.at("context").at("device").at("name").get<std::string>().empty());
     EXPECT_EQ(document.at("context").at("error_resolution"), Json({64, 36}));
     EXPECT_EQ(document.at("context").at("lights"), 40);
+    EXPECT_TRUE(contains(result.out, "Errors are measured on pictures of 64x36 pixels"));
     std::set<std::string> names;
     for (const Json& row : document.at("rows")) {
         names.insert(row.at("setting"));
@@ -56,6 +58,7 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
         EXPECT_GT(row.at("k"), 0.0) << row;
         EXPECT_LE(row.at("k*/k"), 1.0) << row;
         EXPECT_EQ(row.at("missed lights"), 0) << row;
+        EXPECT_EQ(row.at("error size"), "64x36") << row;
         for (const char* of : {"R1", "R2", "R3"}) {
             for (const char* metric : {" max abs", " rmse", " psnr [dB]", " flip mean", " ssim"}) {
                 EXPECT_TRUE(row.at(std::string(of) + metric).is_number()) << of << metric;
@@ -66,7 +69,7 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
     for (const char* name : {"default", "gbuffer full", "math native", "light-colors half"}) {
         EXPECT_TRUE(names.count(name)) << name;
     }
-    EXPECT_FALSE(names.count("lanes 1")) << "not among --trades";
+    EXPECT_FALSE(names.count("lanes 1")) << "not among --axes";
     const std::string csv = text_of_file(out / "report.csv");
     const auto header = csv_fields(csv.substr(0, csv.find('\n')));
     EXPECT_EQ(header.size(), document.at("rows").front().size());
@@ -78,9 +81,9 @@ TEST_F(Report, RefusesWhatCannotBeObeyed) {
     const ChildResult blocked = report({"-o", (folder / "file").string()});
     EXPECT_EQ(blocked.code, 1);
     EXPECT_TRUE(contains(blocked.err, "cannot make this folder")) << blocked.err;
-    const ChildResult trade = report({"--trades", "gbufer"});
-    EXPECT_EQ(trade.code, 2);
-    EXPECT_TRUE(contains(trade.err, "gbuffer")) << trade.err;
+    const ChildResult axis = report({"--axes", "gbufer"});
+    EXPECT_EQ(axis.code, 2);
+    EXPECT_TRUE(contains(axis.err, "gbuffer")) << axis.err;
     const ChildResult metric = small({"render", "--max-error", "1", "--error-metric", "psnr"});
     EXPECT_EQ(metric.code, 2);
     EXPECT_TRUE(contains(metric.err, "r3-flip")) << metric.err;
@@ -99,6 +102,12 @@ TEST_F(Report, ABudgetIsChosenOnceAndKept) {
     const ChildResult second = small(command);
     ASSERT_EQ(second.code, 0) << second.err;
     EXPECT_TRUE(contains(second.err, "kept from before")) << second.err;
+    EXPECT_TRUE(contains(first.err, "measured at 64x36 pixels")) << first.err;
+    std::vector<std::string> smaller = command;
+    smaller.insert(smaller.end(), {"--error-width", "32"});
+    const ChildResult at_half = small(smaller);
+    EXPECT_TRUE(contains(at_half.err, "measured at 32x18 pixels")) << at_half.err;
+    EXPECT_TRUE(contains(at_half.err, "measured now, and kept")) << "another width, another choice";
     const std::string chosen = first.err.substr(first.err.find("chose"));
     EXPECT_TRUE(contains(second.err, chosen.substr(0, chosen.find(';')))) << second.err;
     const ChildResult other = small({"render", "-o", picture, "--max-error", "0.5",

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/bench/plot_script.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 
+#include "host/measure/bench/plot_labels.h"
 #include "host/measure/metrics/pareto.h"
 
 namespace kilolux {
@@ -35,12 +36,6 @@ std::string data_text(const std::string& text) {
     return out + "\"";
 }
 
-std::string number(double value) {
-    std::array<char, 32> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return {buffer.data(), result.ptr};
-}
-
 PlotSeries front_of(const Plot& plot) {
     std::vector<CostAndError> points;
     for (const PlotSeries& series : plot.series) {
@@ -53,32 +48,40 @@ PlotSeries front_of(const Plot& plot) {
     return out;
 }
 
-bool has_labels(const PlotSeries& series) {
-    for (const PlotPoint& p : series.points) {
-        if (!p.label.empty()) return true;
-    }
-    return false;
+bool has_error_bars(const PlotSeries& series) {
+    return std::any_of(series.points.begin(), series.points.end(),
+                       [](const PlotPoint& p) { return p.low < p.high; });
 }
 
-// One element of the plot command; the front is a thick line of steps behind the points: between
-// two settings only the cheaper one's error is to be had.
+bool has_x_bars(const PlotSeries& series) {
+    return std::any_of(series.points.begin(), series.points.end(),
+                       [](const PlotPoint& p) { return p.x_low < p.x_high; });
+}
+
+// One element of the plot command. The front is a thick line of steps: between two settings only
+// the cheaper one's error can be had.
 std::string series_command(const PlotSeries& series, std::size_t index, bool front) {
-    const std::string block = "DATA index " + std::to_string(index);
-    const std::string title = " title " + quoted(series.name);
-    if (front) return block + " using 1:2 with steps lc rgb '#b0b0b0' lw 4" + title;
-    const std::string color = " lt " + std::to_string(index + 1);
-    const char* style = series.style == PlotStyle::points ? "points" : "linespoints";
-    std::string out = block + " using 1:2 with " + style + color + " pt 7 ps 0.8 lw 1.5" + title;
-    if (has_labels(series)) {
-        out += ", \\\n     " + block +
-               " using 1:2:3 with labels left offset 0.7,0.5 font ',9' notitle";
+    const std::string title = quoted(series.name);
+    if (front) {
+        return fmt::format("DATA index {} using 1:2 with steps lc rgb '#b0b0b0' lw 4 title {}",
+                           index, title);
     }
-    return out;
+    const bool lines = series.style != PlotStyle::points;
+    std::string columns = "1:2", style = lines ? "linespoints" : "points";
+    if (has_x_bars(series)) {
+        columns = "1:2:6:7:3:4";
+        style = lines ? "xyerrorlines" : "xyerrorbars";
+    } else if (has_error_bars(series)) {
+        columns = "1:2:3:4";
+        style = lines ? "yerrorlines" : "yerrorbars";
+    }
+    return fmt::format("DATA index {} using {} with {} lt {} pt 7 ps 0.8 lw 1.5 title {}", index,
+                       columns, style, index + 1, title);
 }
 
 std::string plot_command(const Plot& plot) {
     std::string out = "plot ";
-    // The front is the last series, drawn first, so that the points stay on top.
+    // The front is the last series; it is drawn first, below the points.
     const std::size_t count = plot.series.size();
     const std::size_t shift = plot.pareto_front ? count - 1 : 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -89,53 +92,134 @@ std::string plot_command(const Plot& plot) {
     return out + "\n";
 }
 
-std::vector<double> values(const Plot& plot, double PlotPoint::*coordinate) {
-    std::vector<double> out;
-    for (const PlotSeries& series : plot.series) {
-        for (const PlotPoint& p : series.points) out.push_back(p.*coordinate);
-    }
-    return out;
-}
-
-// Marks at 1, 2 and 5 times powers of ten over a few decades, else at powers of ten.
-std::string log_tics(const std::string& axis, double low, double high) {
+// Marks at 1, 2 and 5 times powers of ten over up to three decades, else at powers of ten.
+std::string log_tics(char axis, double low, double high) {
     const bool narrow = std::log10(high / low) <= 3.0;
     std::string out;
     const int last = static_cast<int>(std::ceil(std::log10(high)));
     for (int decade = static_cast<int>(std::floor(std::log10(low))); decade <= last; ++decade) {
-        for (const char* factor : {"1", "2", "5"}) {
-            if (!narrow && *factor != '1') continue;
-            std::string tic = factor;
-            tic += 'e';
-            tic += std::to_string(decade);
-            const double value = std::strtod(tic.c_str(), nullptr);
-            if (value < low || value > high) continue;
-            if (!out.empty()) out += ", ";
-            out += quoted(number(value));
-            out += ' ';
-            out += tic;
+        for (const int factor : {1, 2, 5}) {
+            const double value = factor * std::pow(10.0, decade);
+            if ((factor > 1 && !narrow) || value < low || value > high) continue;
+            out += fmt::format("{}'{:.6g}' {:.6g}", out.empty() ? "" : ", ", value, value);
         }
     }
-    return "set " + axis + "tics (" + out + ")\n";
+    return fmt::format("set {}tics ({})\n", axis, out);
 }
 
-// Range and marks of an axis, with room for points and labels at its ends.
-std::string axis_commands(const std::string& axis, bool logarithmic,
-                          const std::vector<double>& shown) {
-    const auto [min, max] = std::minmax_element(shown.begin(), shown.end());
-    double low = *min, high = *max;
-    if (logarithmic) {
-        const double room = std::max(1.5, std::pow(high / low, 0.06));
-        low /= room;
-        high *= room;
-    } else {
-        const double room = high > low ? 0.06 * (high - low) : std::max(1.0, std::abs(high)) * 0.1;
-        low -= room;
-        high += room;
+// An axis' range, with room for points at its ends.
+struct Axis {
+    char name;
+    bool logarithmic;
+    double low, high;
+
+    Axis(char axis, bool log, const std::vector<double>& shown) : name(axis), logarithmic(log) {
+        const auto [min, max] = std::minmax_element(shown.begin(), shown.end());
+        low = *min;
+        high = *max;
+        if (log) {
+            const double room = std::max(1.5, std::pow(high / low, 0.06));
+            low /= room;
+            high *= room;
+        } else {
+            const double room =
+                high > low ? 0.06 * (high - low) : std::max(1.0, std::abs(high)) * 0.1;
+            low -= room;
+            high += room;
+        }
     }
-    std::string out = "set " + axis + "range [" + number(low) + ':' + number(high) + "]\n";
-    if (!logarithmic) return out;
-    return "set logscale " + axis + "\n" + out + log_tics(axis, low, high);
+
+    // From 0 to 1 within the range.
+    double place(double value) const {
+        return logarithmic ? std::log(value / low) / std::log(high / low)
+                           : (value - low) / (high - low);
+    }
+
+    std::string commands() const {
+        const std::string range = fmt::format("set {}range [{}:{}]\n", name, low, high);
+        if (!logarithmic) return range;
+        return fmt::format("set logscale {}\n{}{}", name, range, log_tics(name, low, high));
+    }
+};
+
+Axis axis_of(char name, const Plot& plot) {
+    const bool logarithmic = name == 'x' ? plot.log_x : plot.log_y;
+    std::vector<double> shown;
+    for (const PlotSeries& series : plot.series) {
+        for (const PlotPoint& p : series.points) {
+            const auto values =
+                name == 'x' ? std::array{p.x, p.x_low, p.x_high} : std::array{p.y, p.low, p.high};
+            for (const double value : values) {
+                if (drawable(value, logarithmic)) shown.push_back(value);
+            }
+        }
+    }
+    return Axis(name, logarithmic, shown);
+}
+
+// Places on a picture with fixed margins.
+struct PlotFrame {
+    const Axis &x_axis, &y_axis;
+    PlotArea area{};
+    double x(double value) const {
+        return kPlotWidth * std::lerp(area.left, area.right, x_axis.place(value));
+    }
+    double y(double value) const {
+        return kPlotHeight * std::lerp(area.bottom, area.top, y_axis.place(value));
+    }
+    // Around the line between two corners.
+    PlotBox box(double x0, double y0, double x1, double y1) const {
+        constexpr double kRoom = 4.0;  // [pixel]
+        return {x(std::min(x0, x1)) - kRoom, y(std::min(y0, y1)) - kRoom,
+                x(std::max(x0, x1)) + kRoom, y(std::max(y0, y1)) + kRoom};
+    }
+};
+
+// What labels must not cover: points with their bars, and the steps of the Pareto front.
+std::vector<PlotBox> obstacles(const Plot& plot, const PlotFrame& frame) {
+    std::vector<PlotBox> out;
+    for (const PlotSeries& series : plot.series) {
+        const bool front = plot.pareto_front && &series == &plot.series.back();
+        for (std::size_t i = 0; i < series.points.size(); ++i) {
+            const PlotPoint& p = series.points[i];
+            out.push_back(frame.box(p.x_low, p.y, p.x_high, p.y));
+            out.push_back(frame.box(p.x, p.low, p.x, p.high));
+            if (!front || i + 1 == series.points.size()) continue;
+            const PlotPoint& next = series.points[i + 1];
+            out.push_back(frame.box(p.x, p.y, next.x, p.y));
+            out.push_back(frame.box(next.x, p.y, next.x, next.y));
+        }
+    }
+    return out;
+}
+
+// The labels, in fixed margins, and lines to the points of those that are apart from theirs.
+std::string label_commands(const Plot& plot, const Axis& x, const Axis& y) {
+    const PlotFrame frame{x, y};
+    std::vector<PlotLabel> labels;
+    for (const PlotSeries& series : plot.series) {
+        for (const PlotPoint& p : series.points) {
+            if (p.label.empty()) continue;
+            labels.push_back({.text = p.label, .point_x = frame.x(p.x), .point_y = frame.y(p.y)});
+        }
+    }
+    if (labels.empty()) return {};
+    const PlotArea& area = frame.area;
+    std::string out = fmt::format(
+        "set lmargin at screen {}\nset rmargin at screen {}\n"
+        "set bmargin at screen {}\nset tmargin at screen {}\n",
+        area.left, area.right, area.bottom, area.top);
+    for (const PlotLabel& l : placed_labels(labels, obstacles(plot, frame), area)) {
+        out += fmt::format("set label {} at screen {},{} left font ',9' noenhanced\n",
+                           quoted(l.text), l.x / kPlotWidth, l.y / kPlotHeight);
+        if (!l.far) continue;
+        const double width = 6.0 * static_cast<double>(l.text.size());
+        out += fmt::format(
+            "set arrow from screen {},{} to screen {},{} nohead lw 0.5 lc rgb '#909090'\n",
+            l.point_x / kPlotWidth, l.point_y / kPlotHeight,
+            std::clamp(l.point_x, l.x, l.x + width) / kPlotWidth, l.y / kPlotHeight);
+    }
+    return out;
 }
 
 }  // namespace
@@ -161,19 +245,22 @@ std::string plot_data(const Plot& plot) {
         if (!out.empty()) out += "\n\n";
         out += "# " + data_text(series.name) + "\n";
         for (const PlotPoint& p : series.points) {
-            out += number(p.x) + ' ' + number(p.y) + ' ' + data_text(p.label) + '\n';
+            out += fmt::format("{} {} {} {} {}", p.x, p.y, p.low, p.high, data_text(p.label));
+            if (has_x_bars(series)) out += fmt::format(" {} {}", p.x_low, p.x_high);
+            out += '\n';
         }
     }
     return out;
 }
 
 std::string plot_script(const Plot& plot, const std::string& stem) {
+    const Axis x = axis_of('x', plot), y = axis_of('y', plot);
     std::string out = "# Run in this folder: gnuplot FILE\nDATA = " + quoted(stem + ".dat") + "\n";
-    out += "set title " + quoted(plot.title) + " noenhanced\n";
+    out += fmt::format("set title {}.\"\\n\".{} noenhanced\n", quoted(plot.title),
+                       quoted(plot.subtitle));
     out += "set xlabel " + quoted(plot.x_label) + " noenhanced\n";
     out += "set ylabel " + quoted(plot.y_label) + " noenhanced\n";
-    out += axis_commands("x", plot.log_x, values(plot, &PlotPoint::x));
-    out += axis_commands("y", plot.log_y, values(plot, &PlotPoint::y));
+    out += x.commands() + y.commands() + label_commands(plot, x, y);
     out += "set grid xtics ytics lt 1 lw 0.5 lc rgb '#cccccc'\n";
     out += "set key outside right top noenhanced\n";
     out += "set terminal pngcairo size 1200,750 font 'Sans,11' noenhanced\n";

@@ -9,8 +9,8 @@ namespace kilolux {
 ///
 /// Neumaier 1974, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen": for
 /// terms of one sign the relative error is at most 2^-53 + n^2 * 2^-106, that is 2.3e-16 for up to
-/// 1e7 terms. A sum that has met Inf or NaN stays so.
-class ExactSum {
+/// 1e7 terms. Inf and NaN propagate.
+class CompensatedSum {
  public:
     void add(double term) {
         const double sum = sum_ + term;

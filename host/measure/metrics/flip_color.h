@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <glm/glm.hpp>
 
 namespace kilolux {
 
-using Color3 = std::array<double, 3>;
+/// From linear Rec. 709 to the linear opponent space in which FLIP filters, and back: Y in
+/// [-16, 100], Cx red-green, Cz blue-yellow. Andersson et al. 2020, section 4.1.1, with the white
+/// of linear Rec. 709 as the illuminant.
+glm::dvec3 ycxcz_from_linear(const glm::dvec3& rgb);
+glm::dvec3 linear_from_ycxcz(const glm::dvec3& ycxcz);
 
-/// CIE XYZ of linear Rec. 709 under D65, and back. Y of (1, 1, 1) is 1.
-Color3 xyz_from_linear(const Color3& rgb);
-Color3 linear_from_xyz(const Color3& xyz);
-
-/// The linear opponent space in which FLIP filters: Y in [-16, 100], Cx red-green, Cz blue-yellow.
-/// Andersson et al. 2020, section 4.1.1, with the white of linear Rec. 709 as the illuminant.
-Color3 ycxcz_from_linear(const Color3& rgb);
-Color3 linear_from_ycxcz(const Color3& ycxcz);
-
-/// CIE L*a*b* with a* and b* scaled by 0.01 L*: colour fades in the dark (Hunt 1952; ibid. 4.1.2).
-Color3 hunt_lab_from_linear(const Color3& rgb);
+/// CIE L*a*b* with a* and b* scaled by 0.01 L*: colours fade in the dark (Hunt 1952; ibid. 4.1.2).
+glm::dvec3 hunt_lab_from_linear(const glm::dvec3& rgb);
 
 /// |dL| + sqrt(da^2 + db^2): Abasi et al. 2020, for large colour differences.
-double hyab_distance(const Color3& a, const Color3& b);
+double hyab_distance(const glm::dvec3& a, const glm::dvec3& b);
 
 }  // namespace kilolux

@@ -30,7 +30,7 @@ std::vector<double> csf_taps(double b, double pixels_per_degree) {
     return gaussian_taps(sigma, static_cast<int>(std::ceil(3.0 * widest)));
 }
 
-// A sum of Gaussians is not separable, but each of them is.
+// A sum of Gaussians is not separable, but each term is.
 Plane filter_csf(const Plane& in, std::span<const CsfTerm> terms, double pixels_per_degree) {
     Plane out = make_plane(in.width, in.height);
     double total = 0.0;

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// Blurs the three opponent planes as the eye does at this distance: the contrast sensitivity
+/// Blurs the three opponent planes as the eye does at this distance, by the contrast sensitivity
 /// functions of Andersson et al. 2020, section 4.1.1 and table 1, as Gaussians.
 std::array<Plane, 3> filter_contrast(const std::array<Plane, 3>& ycxcz, double pixels_per_degree);
 

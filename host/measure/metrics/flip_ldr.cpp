@@ -17,8 +17,7 @@ constexpr double kColorExponent = 0.7;  // q_c
 constexpr double kRemapBreak = 0.4;     // p_c
 constexpr double kRemapValue = 0.95;    // p_t
 
-// A picture as the eye sees it: blurred colours, and edges and points of the picture before the
-// blur.
+// A picture as FLIP compares it: blurred colours, and the edges and points before the blur.
 struct Perceived {
     std::array<Plane, 3> hunt_lab;
     FlipFeatures features;
@@ -27,7 +26,7 @@ struct Perceived {
 // NaN becomes 0, so that it does not spread through the filters.
 double clamped(double v) { return v > 0.0 ? std::min(v, 1.0) : 0.0; }
 
-Color3 color_at(const std::array<Plane, 3>& planes, std::size_t i) {
+glm::dvec3 color_at(const std::array<Plane, 3>& planes, std::size_t i) {
     return {planes[0].values[i], planes[1].values[i], planes[2].values[i]};
 }
 
@@ -38,8 +37,10 @@ void map_colors(std::array<Plane, 3>& planes, const Map& map) {
     parallel_rows(planes[0].height, [&](int y) {
         const std::size_t begin = static_cast<std::size_t>(y) * width;
         for (std::size_t i = begin; i < begin + width; ++i) {
-            const Color3 color = map(color_at(planes, i));
-            for (std::size_t c = 0; c < 3; ++c) planes[c].values[i] = color[c];
+            const glm::dvec3 color = map(color_at(planes, i));
+            planes[0].values[i] = color.x;
+            planes[1].values[i] = color.y;
+            planes[2].values[i] = color.z;
         }
     });
 }
@@ -62,21 +63,21 @@ Perceived perceive(const RgbImage& image, double pixels_per_degree) {
     for (double& y : luminance.values) y = (y + 16.0) / 116.0;
     FlipFeatures features = detect_features(luminance, pixels_per_degree);
     planes = filter_contrast(planes, pixels_per_degree);
-    map_colors(planes, [](const Color3& ycxcz) {
-        const Color3 rgb = linear_from_ycxcz(ycxcz);
+    map_colors(planes, [](const glm::dvec3& ycxcz) {
+        const glm::dvec3 rgb = linear_from_ycxcz(ycxcz);
         return hunt_lab_from_linear({clamped(rgb[0]), clamped(rgb[1]), clamped(rgb[2])});
     });
     return {std::move(planes), std::move(features)};
 }
 
-// The largest colour error there is: between green and blue.
+// The largest colour error within the gamut: between green and blue.
 double largest_color_error() {
-    const Color3 green = hunt_lab_from_linear({0.0, 1.0, 0.0});
-    const Color3 blue = hunt_lab_from_linear({0.0, 0.0, 1.0});
+    const glm::dvec3 green = hunt_lab_from_linear({0.0, 1.0, 0.0});
+    const glm::dvec3 blue = hunt_lab_from_linear({0.0, 0.0, 1.0});
     return std::pow(hyab_distance(green, blue), kColorExponent);
 }
 
-// Maps small colour errors to most of [0, 1]: beyond a certain size all differences look large.
+// Maps small colour errors to most of [0, 1]; large differences all look alike.
 double remapped(double color_error, double largest) {
     const double knee = kRemapBreak * largest;
     if (color_error < knee) return color_error * kRemapValue / knee;
@@ -99,10 +100,6 @@ bool nan_at(const RgbImage& image, std::size_t i) {
 }
 
 }  // namespace
-
-double flip_pixels_per_degree(double distance_m, double display_width_px, double display_width_m) {
-    return distance_m * (display_width_px / display_width_m) * (std::numbers::pi / 180.0);
-}
 
 FlipResult flip_ldr(const RgbImage& picture, const RgbImage& reference, double pixels_per_degree) {
     require_same_size("FLIP", picture.width, picture.height, reference.width, reference.height);

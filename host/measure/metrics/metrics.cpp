@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/metrics/metrics.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "host/measure/metrics/compensated_sum.h"
 
@@ -16,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-// A reference in double is rounded to what a float32 picture could hold at best.
+// In float32: the best that a picture can hold of a reference in double.
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint32_t>(static_cast<float>(a)) ==
            std::bit_cast<std::uint32_t>(static_cast<float>(b));
@@ -34,7 +35,7 @@ double relative_error(double absolute, double r, double scale) {
 }
 
 double mean(std::span<const double> values) {
-    ExactSum sum;
+    CompensatedSum sum;
     for (const double v : values) sum.add(v);
     return values.empty() ? 0.0 : sum.value() / static_cast<double>(values.size());
 }
@@ -72,11 +73,11 @@ void count_pixels(const RgbImage& picture, const RgbImage& reference, HdrMetrics
     }
 }
 
-// (x-r)^2 / (r^2 + eps): Rousselle et al. 2011 with the offset tied to the picture's mean.
+// (x-r)^2 / (r^2 + eps): Rousselle et al. 2011, with the offset relative to the picture's mean.
 double rel_mse(std::span<const double> absolute, const RgbImage& reference) {
     const double average = mean(reference.rgb);
     const double eps = 1e-2 * average * average;
-    ExactSum sum;
+    CompensatedSum sum;
     for (std::size_t i = 0; i < absolute.size(); ++i) {
         const double r = reference.rgb[i];
         const double e = absolute[i];
@@ -86,7 +87,7 @@ double rel_mse(std::span<const double> absolute, const RgbImage& reference) {
 }
 
 double root_mean_square(std::span<const double> errors) {
-    ExactSum sum;
+    CompensatedSum sum;
     for (const double e : errors) sum.add(e * e);
     return std::sqrt(sum.value() / static_cast<double>(errors.size()));
 }
@@ -106,6 +107,10 @@ ErrorDistribution error_distribution(std::span<const double> errors, int width, 
     out.y = static_cast<int>(pixel / width);
     out.channel = static_cast<int>(index % channels);
     return out;
+}
+
+std::string pixel_text(const ErrorDistribution& worst) {
+    return fmt::format("{},{}", worst.x, worst.y);
 }
 
 HdrMetrics compare_hdr(const RgbImage& picture, const RgbImage& reference,
@@ -134,6 +139,20 @@ HdrMetrics compare_hdr(const RgbImage& picture, const RgbImage& reference,
     return out;
 }
 
+std::vector<double> pixel_errors(const RgbImage& picture, const RgbImage& reference,
+                                 const RgbImage* scale) {
+    require_same_size("compare", picture.width, picture.height, reference.width, reference.height);
+    std::vector<double> out(picture.pixel_count(), 0.0);
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+        const double x = picture.rgb[i], r = reference.rgb[i];
+        const double unit = scale ? std::max(std::abs(r), scale->rgb[i]) : 1.0;
+        const double error = x == r ? 0.0 : std::abs(x - r) / unit;
+        double& worst = out[i / 3];
+        if (std::isnan(error) || error > worst) worst = error;  // NaN stays
+    }
+    return out;
+}
+
 CodeDifferences compare_codes(const DisplayView& picture, const DisplayView& reference) {
     require_same_size("compare", picture.width, picture.height, reference.width, reference.height);
     CodeDifferences out;
@@ -148,7 +167,6 @@ CodeDifferences compare_codes(const DisplayView& picture, const DisplayView& ref
             differences.push_back(difference);
         }
         out.different_pixels += worst >= 1;
-        out.above_one_pixels += worst > 1;
     }
     out.difference = error_distribution(differences, picture.width, 3);
     return out;

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "host/measure/metrics/rgb_image.h"
 
@@ -21,15 +23,18 @@ struct ErrorDistribution {
 /// Of `errors`: `channels` values a pixel, interleaved, `width` pixels a row. None may be NaN.
 ErrorDistribution error_distribution(std::span<const double> errors, int width, int channels);
 
+/// "59,126": the place of the worst value, column and row from the upper left pixel 0,0.
+std::string pixel_text(const ErrorDistribution& worst);
+
 /// Errors of a linear HDR picture against a reference, over all channels of all pixels.
 ///
-/// A value that is not finite and not the same as the reference's has the error infinity, so that
-/// no average, maximum or threshold can pass over it; the counts tell how many there are.
+/// A value that is not finite and differs from the reference's has the error infinity, so that it
+/// shows in every mean and maximum and fails every threshold.
 struct HdrMetrics {
     ErrorDistribution absolute;  // |x - r|
     ErrorDistribution relative;  // |x - r| / max(|r|, E); 0 where x = r
     double rmse = 0.0;
-    double psnr_peak = 0.0;  // the peak that psnr_db is stated for
+    double psnr_peak = 0.0;  // that psnr_db refers to
     double psnr_db = 0.0;    // 20 log10(peak / rmse); infinite when equal
     double rel_mse = 0.0;    // mean of (x-r)^2 / (r^2 + eps), eps = 1e-2 * mean(r)^2
     std::uint64_t pixels = 0;
@@ -48,12 +53,16 @@ struct HdrOptions {
 HdrMetrics compare_hdr(const RgbImage& picture, const RgbImage& reference,
                        const HdrOptions& options = {});
 
+/// The error of each pixel's worst channel: |x - r|, or with `scale` |x - r| / max(|r|, E). NaN
+/// stays NaN. For heat maps.
+std::vector<double> pixel_errors(const RgbImage& picture, const RgbImage& reference,
+                                 const RgbImage* scale = nullptr);
+
 /// Differences of 8-bit codes of two display-referred pictures.
 struct CodeDifferences {
     ErrorDistribution difference;  // |a - b| in codes
     std::uint64_t pixels = 0;
     std::uint64_t different_pixels = 0;  // by one code or more
-    std::uint64_t above_one_pixels = 0;  // by more than one code
 };
 
 /// Compares R, G and B of two display pictures. Throws Error when the sizes differ.

@@ -7,28 +7,28 @@
 
 namespace kilolux {
 
-/// A setting's price and its error; of both, less is better.
+/// Cost and error of a setting; less is better for both.
 struct CostAndError {
     double cost = 0.0;  // e.g. [ms]
     double error = 0.0;
 };
 
-/// Indices of the settings that no other beats: none is at least as good in both and better in one.
+/// Indices of the points that no other beats: that is, is as good in both and better in one.
 ///
-/// Ascending by cost, then by index. Equal points are all in the set or none; points with a NaN
-/// never are.
+/// Ascending by cost, then by index. Of equal points all are in the set or none; points with a NaN
+/// are not.
 std::vector<std::size_t> pareto_set(std::span<const CostAndError> points);
 
-/// The same, for costs that were measured: what cannot be told apart counts as equal.
+/// The same for measured costs: differences below the resolution count as equal.
 ///
-/// A setting beats another if it is not worse in either by more than the tolerance, and better in
-/// one by more. Costs a and b differ if they are further apart than the larger of kCostResolution
-/// and their two `noises` together (relative, one a point); errors, if by more than
-/// kErrorResolution. So of two that take the same time the more exact one is in the set.
+/// The resolution of costs is kCostResolution or the sum of the two points' `noises` (relative, one
+/// per point), whichever is larger; that of errors is kErrorResolution. Of two settings that take
+/// the same time, the more exact one is in the set.
 std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
                                     std::span<const double> noises);
 
-inline constexpr double kCostResolution = 0.03;   // relative; bench --tune calls less noise, too
+inline constexpr double kCostResolution =
+    0.03;  // relative; also the noise threshold of bench --tune
 inline constexpr double kErrorResolution = 0.06;  // relative: 0.5 dB of PSNR
 
 }  // namespace kilolux

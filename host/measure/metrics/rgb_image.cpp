@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/metrics/rgb_image.h"
 
+#include <fmt/core.h>
+
 #include <array>
-#include <cmath>
-#include <string>
 
 #include "host/base/error.h"
+#include "host/base/srgb.h"
 
 namespace kilolux {
 namespace {
 
-std::string size_text(int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
-
 void require_values(std::string_view what, const RgbImage& image, std::size_t channels,
                     std::size_t count) {
     if (count == channels * image.pixel_count()) return;
-    throw Error(std::string(what) + " of " + size_text(image.width, image.height) +
-                " pixels: " + std::to_string(count) + " values, must be " +
-                std::to_string(channels * image.pixel_count()));
+    throw Error(fmt::format("{} of {}x{} pixels: {} values, must be {}", what, image.width,
+                            image.height, count, channels * image.pixel_count()));
 }
 
 }  // namespace
@@ -37,14 +33,10 @@ RgbImage rgb_image_of(int width, int height, std::span<const float> rgb) {
     return image;
 }
 
-double linear_from_srgb(double encoded) {
-    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 RgbImage linear_from_display(const DisplayView& display) {
     std::array<double, 256> linear{};
     for (std::size_t code = 0; code < linear.size(); ++code) {
-        linear[code] = linear_from_srgb(static_cast<double>(code) / 255.0);
+        linear[code] = srgb_to_linear(static_cast<double>(code) / 255.0);
     }
     RgbImage image = make_rgb_image(display.width, display.height);
     require_values("display picture", image, 4, display.rgba.size());
@@ -57,8 +49,9 @@ RgbImage linear_from_display(const DisplayView& display) {
 void require_same_size(std::string_view what, int width, int height, int other_width,
                        int other_height) {
     if (width == other_width && height == other_height && width > 0 && height > 0) return;
-    throw Error(std::string(what) + ": the pictures are " + size_text(width, height) + " and " +
-                size_text(other_width, other_height) + " pixels, must be equal and not empty");
+    throw Error(
+        fmt::format("{}: the pictures are {}x{} and {}x{} pixels, must be equal and not empty",
+                    what, width, height, other_width, other_height));
 }
 
 }  // namespace kilolux

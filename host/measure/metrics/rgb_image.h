@@ -22,22 +22,19 @@ struct RgbImage {
 /// A black picture.
 RgbImage make_rgb_image(int width, int height);
 
-/// The picture of float32 values, 3 * width * height of them, as a Frame holds it: exact.
+/// From 3 * width * height float32 values, as in Frame::radiance; exact.
 /// Throws Error when the count does not fit the size.
 RgbImage rgb_image_of(int width, int height, std::span<const float> rgb);
 
-/// A display-referred picture: sRGB codes, row 0 on top, as a Frame holds it. Does not own them.
+/// A display-referred picture: sRGB codes, row 0 on top, as in Frame::display. Does not own them.
 struct DisplayView {
     int width = 0;                       // [pixel]
     int height = 0;                      // [pixel]
-    std::span<const std::uint8_t> rgba;  // 4 * width * height; alpha is not looked at
+    std::span<const std::uint8_t> rgba;  // 4 * width * height; alpha is ignored
 };
 
 /// Linear values in [0, 1] of sRGB codes (IEC 61966-2-1).
 RgbImage linear_from_display(const DisplayView& display);
-
-/// Linear value of an sRGB-encoded value in [0, 1] (IEC 61966-2-1).
-double linear_from_srgb(double encoded);
 
 /// Throws Error that names `what` and both sizes unless they are equal and not empty.
 void require_same_size(std::string_view what, int width, int height, int other_width,

@@ -57,7 +57,7 @@ std::optional<double> ssim(const DisplayView& picture, const DisplayView& refere
     const int inner_height = picture.height - 2 * kRadius;
     if (inner_width <= 0 || inner_height <= 0) return std::nullopt;
     const Moments m = moments(luma(picture), luma(reference));
-    ExactSum sum;
+    CompensatedSum sum;
     for (int y = kRadius; y < picture.height - kRadius; ++y) {
         for (int x = kRadius; x < picture.width - kRadius; ++x) {
             sum.add(

@@ -29,7 +29,7 @@ Statistics statistics(std::span<const double> values) {
     }
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());
-    ExactSum sum;
+    CompensatedSum sum;
     for (const double v : sorted) sum.add(v);
     out.min = sorted.front();
     out.p5 = quantile(sorted, 0.05);

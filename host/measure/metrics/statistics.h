@@ -6,7 +6,7 @@
 
 namespace kilolux {
 
-/// What repeated measurements say.
+/// Summary of repeated measurements.
 struct Statistics {
     std::size_t count = 0;
     double min = 0.0;
@@ -17,7 +17,7 @@ struct Statistics {
     double mean = 0.0;
 };
 
-/// Of any number of values in any order; all 0 of none. Percentiles between two values are
+/// Of any number of values in any order; all 0 without values. Percentiles between two values are
 /// interpolated linearly (Hyndman and Fan 1996, definition 7). A NaN makes all but the count NaN.
 Statistics statistics(std::span<const double> values);
 

@@ -8,7 +8,8 @@
 namespace kilolux {
 namespace {
 
-// A ray prepared for its tests: its longest axis becomes z, and a shear turns it into (0, 0, 1).
+// A ray prepared for intersection tests: its longest axis becomes z, and a shear maps it to
+// (0, 0, 1).
 struct PreparedRay {
     glm::dvec3 origin;
     glm::dvec3 inverse;  // 1 / direction
@@ -31,8 +32,8 @@ PreparedRay prepare(const Ray& ray) {
     return out;
 }
 
-// The three edge functions round the ray, all of one sign inside. Two triangles that share an edge
-// compute it from the same products, so that a ray on it cannot miss both.
+// Three edge functions, all of one sign inside. Two triangles that share an edge compute it from
+// the same products, so that a ray on the edge cannot miss both.
 std::optional<RayHit> intersect(const PreparedRay& ray, const BvhTriangle& triangle) {
     std::array<glm::dvec3, 3> p;  // sheared: the ray is the z axis
     for (std::size_t i = 0; i < 3; ++i) {
@@ -52,8 +53,8 @@ std::optional<RayHit> intersect(const PreparedRay& ray, const BvhTriangle& trian
     return hit;
 }
 
-// Where the ray enters the box, or infinity when it misses it between t_min and t_max. The far end
-// is moved out by the rounding of its operations (Ize 2013, "Robust BVH Ray Traversal").
+// The t at which the ray enters the box; infinity if it misses it between t_min and t_max. The far
+// end is moved out by the rounding error (Ize 2013, "Robust BVH Ray Traversal").
 double entry(const PreparedRay& ray, const Box& box, double t_min, double t_max) {
     constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
     double near = t_min;
@@ -63,7 +64,7 @@ double entry(const PreparedRay& ray, const Box& box, double t_min, double t_max)
         double t1 = (box.max[axis] - ray.origin[axis]) * ray.inverse[axis];
         if (t0 > t1) std::swap(t0, t1);
         t1 *= t1 > 0.0 ? 1.0 + kRounding : 1.0 - kRounding;
-        // A ray in the box's face gives 0 * inf = NaN, which these comparisons pass over.
+        // A ray in the box's face gives 0 * inf = NaN, for which both comparisons are false.
         if (t0 > near) near = t0;
         if (t1 < far) far = t1;
     }
@@ -74,7 +75,7 @@ bool drawn_before(const BvhTriangle& a, const BvhTriangle& b) {
     return a.instance != b.instance ? a.instance < b.instance : a.triangle < b.triangle;
 }
 
-// The nearest accepted hit so far, and what it leaves of the ray.
+// The nearest accepted hit so far; t_max is its t.
 struct Nearest {
     std::optional<RayHit> hit;
     double t_max;

@@ -12,7 +12,7 @@
 
 namespace kilolux {
 
-/// A triangle in world space, in double, and where it comes from.
+/// A triangle in world space, in double, and its place in the scene.
 struct BvhTriangle {
     std::array<glm::dvec3, 3> corners;  // [m]
     std::uint32_t instance = 0;
@@ -21,7 +21,7 @@ struct BvhTriangle {
 
 struct Ray {
     glm::dvec3 origin{0.0};
-    glm::dvec3 direction{0.0, 0.0, -1.0};  // any length: t counts in it
+    glm::dvec3 direction{0.0, 0.0, -1.0};  // any length, the unit of t
     double t_min = 0.0;
     double t_max = 0.0;
 };
@@ -32,16 +32,16 @@ struct RayHit {
     std::uint32_t index = 0;          // into Bvh::triangles()
 };
 
-/// A bounding volume hierarchy over triangles: finds what a ray meets first.
+/// A bounding volume hierarchy over triangles: finds the nearest hit of a ray.
 class Bvh {
  public:
-    /// Of any triangles; those without extent or with a coordinate that is not finite are left out.
-    /// Built top-down by the binned surface area heuristic (Wald 2007).
+    /// Leaves out triangles without area or with a coordinate that is not finite. Built top-down by
+    /// the binned surface area heuristic (Wald 2007).
     explicit Bvh(std::vector<BvhTriangle> triangles);
 
-    /// The nearest hit with t_min <= t <= t_max that `accept` agrees to, from either side. Of hits
-    /// at the same t the first in drawing order wins. Watertight: no ray slips between triangles
-    /// that share corners (Woop, Benthin and Wald 2013).
+    /// The nearest hit with t_min <= t <= t_max for which `accept` is true, on either side. Of hits
+    /// at the same t, the first in drawing order. Watertight: no ray passes between triangles that
+    /// share corners (Woop, Benthin and Wald 2013).
     std::optional<RayHit> nearest(const Ray& ray,
                                   const std::function<bool(const RayHit&)>& accept) const;
 
@@ -50,9 +50,9 @@ class Bvh {
  private:
     struct Node {
         Box box;
-        std::uint32_t first =
-            0;  // leaf: first triangle; else: left child, the right one follows it
-        std::uint32_t count = 0;  // of triangles; 0: not a leaf
+        // Leaf: first triangle. Else: left child; the right child follows it.
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;  // triangles; 0: not a leaf
     };
     struct Builder;
 

@@ -15,7 +15,7 @@ constexpr std::size_t kBins = 16;
 // Relative costs of testing a triangle and of visiting a node.
 constexpr double kTriangleCost = 1.0;
 constexpr double kNodeCost = 1.0;
-// Below this depth nodes are halved by count, which ends after at most 32 more levels.
+// Deeper nodes are split in half by count, which ends after at most 32 more levels.
 constexpr int kHeuristicDepth = 64;
 
 bool usable(const BvhTriangle& triangle) {
@@ -66,7 +66,7 @@ std::size_t bin_of(const Item& item, const Box& centers, int axis) {
     return std::min(kBins - 1, static_cast<std::size_t>(share * static_cast<double>(kBins)));
 }
 
-// Cost of cutting before each bin: items on each side times the chance that a ray meets their box.
+// Cost of a split before each bin: items on each side times the area of their box.
 Split best_split_along(std::span<const Item> items, const Box& centers, int axis) {
     std::array<Bin, kBins> bins;
     for (const Item& item : items) {

@@ -6,7 +6,6 @@
 namespace kilolux {
 
 PixelRay pixel_ray(const Camera& camera, int width, int height, int x, int y) {
-    // Where the sample lies on the image plane.
     const double half_height = camera.orthographic ? camera.y_extent : std::tan(camera.y_fov / 2.0);
     const double half_width = half_height * width / height;
     const double sample_x = x + 0.5 + camera.jitter.x;

@@ -9,13 +9,13 @@
 
 namespace kilolux {
 
-/// One decoded pixel, of which `value(SURFACE_*)` gives each plane. `specular`, `unlit`: as in
+/// One decoded pixel; `value(SURFACE_*)` returns a plane's value. `specular`, `unlit`: as in
 /// DecodedSurfaces.
 SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bool specular,
                              bool unlit);
 
-/// A decoded G-buffer as a reference shades it: float32 values as they are, normals not made unit
-/// again, since the kernels take them so too. Background where the depth is 0.
+/// A decoded G-buffer as input of a reference. Normals are not renormalised, as in the kernels.
+/// Depth 0 is background.
 SurfaceSamples surface_samples(const DecodedSurfaces& decoded);
 
 }  // namespace kilolux

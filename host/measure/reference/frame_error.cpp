@@ -2,8 +2,8 @@
 #include "host/measure/reference/frame_error.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "host/measure/metrics/error_size.h"
 #include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "host/measure/reference/reference.h"
@@ -11,43 +11,31 @@
 namespace kilolux {
 namespace {
 
-constexpr double kWidest = 320.0;     // [pixel]
-constexpr double kEvaluations = 2e8;  // of lights at pixels: some seconds of two cores
-constexpr int kSmallestEdge = 16;     // [pixel]
+constexpr ErrorSizeLimits kLimits = {.width = 320, .evaluations = 2e8};
+constexpr int kSmallestEdge = 16;  // [pixel]
 
 void make_small(RenderSettings& settings, std::uint64_t lights) {
-    const double pixels = static_cast<double>(settings.width) * settings.height;
-    const double all = pixels * static_cast<double>(std::max<std::uint64_t>(lights, 1));
-    const double scale = std::min({1.0, kWidest / settings.width, std::sqrt(kEvaluations / all)});
-    settings.width = std::max(kSmallestEdge, static_cast<int>(scale * settings.width));
-    settings.height = std::max(kSmallestEdge, static_cast<int>(scale * settings.height));
+    const auto [width, height] = error_size({settings.width, settings.height}, lights, kLimits);
+    settings.width = std::max(kSmallestEdge, width);
+    settings.height = std::max(kSmallestEdge, height);
 }
 
-bool stores_surfaces(RendererKind renderer) {
-    return renderer == RendererKind::deferred || renderer == RendererKind::deferred_all;
-}
-
-// By every light in float64, from the surfaces of the renderer's last picture.
+// The float64 reference of the surfaces of the renderer's last picture.
 ReferencePicture reference_of(Renderer& renderer, bool orthographic, const OnProgress& progress) {
     const LitSurfaces lit = renderer.lit_surfaces();
-    ReferenceOptions options;
-    options.shading = static_cast<Shading>(renderer.plan().kernels.shading + 1);
-    options.ambient = static_cast<double>(renderer.settings().ambient);
-    options.orthographic = orthographic;
-    options.progress = progress;
     return shade_reference(surface_samples(lit.surfaces),
-                           reference_lights(lit.lights, lit.directional), options);
+                           reference_lights(lit.lights, lit.directional),
+                           {.shading = static_cast<Shading>(renderer.plan().kernels.shading + 1),
+                            .ambient = static_cast<double>(renderer.settings().ambient),
+                            .orthographic = orthographic,
+                            .progress = progress});
 }
 
 ReferenceError error_of(const RgbImage& picture, const ReferencePicture& reference) {
-    ReferenceError out;
-    HdrOptions options;
-    options.scale = &reference.scale;
-    out.hdr = compare_hdr(picture, reference.radiance, options);
-    const FlipResult flip = flip_hdr(picture, reference.radiance).flip;
-    out.flip_mean = flip.error.mean;
-    out.flip_max = flip.error.max;
-    return out;
+    const ErrorDistribution flip = flip_hdr(picture, reference.radiance).error;
+    return {.hdr = compare_hdr(picture, reference.radiance, {.scale = &reference.scale}),
+            .flip_mean = flip.mean,
+            .flip_max = flip.max};
 }
 
 // |x - r| / max(|r|, E) of each pixel, the largest of its channels; 0 where x = r.
@@ -76,7 +64,7 @@ FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, cons
     FrameError out;
     out.width = frame.width;
     out.height = frame.height;
-    const bool stored = stores_surfaces(settings.renderer);
+    const bool stored = !is_forward(settings.renderer);
     const double first = stored ? 0.5 : 0.0;
     const auto part = [&](double from, double to) {
         if (!progress) return OnProgress{};

@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// How far a picture is from one reference.
+/// Errors of a picture against one reference.
 struct ReferenceError {
     HdrMetrics hdr;
     double flip_mean = 0.0;  // HDR-FLIP, 0 to 1
@@ -22,15 +22,15 @@ struct FrameError {
     int width = 0;   // at which it was measured [pixel]
     int height = 0;  // [pixel]
     // Of the kernels: the reference shades the same stored surfaces. None for the forward
-    // renderers, which store none.
+    // renderers, which do not store surfaces.
     std::optional<ReferenceError> kernels;
     ReferenceError whole;           // the reference shades surfaces stored in float32
     double lights_per_pixel = 0.0;  // k*, by the reference
     std::vector<double> relative;   // of `whole`: the largest of each pixel, row 0 on top
 };
 
-/// Renders with `settings` at a size so small that the float64 reference takes seconds, and
-/// compares. Leaves the renderer with other settings. What `progress` throws ends it.
+/// Renders with `settings`, at most 320 pixels wide so that the float64 reference takes seconds,
+/// and compares. Leaves the renderer with other settings. An exception of `progress` ends it.
 FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, const Camera& camera,
                                double time, const OnProgress& progress = {});
 

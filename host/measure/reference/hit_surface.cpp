@@ -37,7 +37,7 @@ Result interpolated(const SurfaceHit& hit, const std::vector<Attribute>& values,
     return sum;
 }
 
-// Change of the barycentric weights for a step of the hit point within the triangle's plane.
+// Change of the barycentric weights when the hit point moves by `step` in the triangle's plane.
 std::array<double, 3> weight_change(const BvhTriangle& triangle, const glm::dvec3& step) {
     const auto& [a, b, c] = triangle.corners;
     const glm::dvec3 n = corner_normal(triangle);
@@ -87,9 +87,8 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
     return length > 0.0 ? v / length : glm::dvec3(0.0);
 }
 
-// Sum of the corners' `values`, each taken to world space and made unit, by weight. Not unit: a
-// basis for normal maps is used as interpolated (MikkTSpace), and what stays alone is made unit
-// later.
+// Weighted sum of the corners' `values`, each transformed to world space and normalised. The sum is
+// not normalised: normal maps use the basis as interpolated (MikkTSpace).
 template <class Attribute>
 glm::dvec3 interpolated_direction(const SurfaceHit& hit, const std::vector<Attribute>& values,
                                   const glm::dmat3& world_from_object) {
@@ -103,8 +102,8 @@ glm::dvec3 interpolated_direction(const SurfaceHit& hit, const std::vector<Attri
     return sum;
 }
 
-// Cofactors are the inverse transpose without the division, so that a transform that flattens a
-// mesh still has one.
+// The cofactor matrix is the inverse transpose without the division by the determinant, so it also
+// exists for transforms that flatten a mesh.
 glm::dvec3 smooth_normal(const SurfaceHit& hit) {
     const auto& normals = mesh_of(hit).normals;
     if (normals.empty()) return unit_or_zero(corner_normal(hit.triangle) * orientation(hit));

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// A ray's meeting with a triangle of a scene. Refers to what it was made of.
+/// A ray's hit on a triangle of a scene. Holds references only.
 struct SurfaceHit {
     const Scene& scene;
     const TextureSampler& textures;
@@ -20,15 +20,14 @@ struct SurfaceHit {
 /// The material of the triangle's mesh, or glTF's default one.
 const Material& material_of(const SurfaceHit& hit);
 
-/// Whether the ray comes from the side on which the triangle's corners turn counter-clockwise, seen
-/// in object space.
+/// Whether the ray arrives on the front: the side from which the corners are counter-clockwise in
+/// object space.
 bool front_facing(const SurfaceHit& hit);
 
 /// Base colour and alpha: factor times texture times vertex colour.
 glm::dvec4 base_color_at(const SurfaceHit& hit);
 
-/// All attributes at the hit, the normal in world space and turned to the side the ray comes from,
-/// the position left 0.
+/// All attributes at the hit. The normal is in world space and faces the ray; the position stays 0.
 SurfaceSample surface_at(const SurfaceHit& hit);
 
 }  // namespace kilolux

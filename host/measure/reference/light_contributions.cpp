@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// Without what it would be in the dark: emission.
+// Without emission.
 SurfaceSample surface_of(const PixelProbe& probe) {
     SurfaceSample out = surface_sample([&](std::size_t plane) { return probe.surface[plane]; },
                                        probe.specular, probe.unlit);
@@ -19,29 +19,31 @@ SurfaceSample surface_of(const PixelProbe& probe) {
 
 }  // namespace
 
-std::vector<LightShare> light_shares(const PixelProbe& probe, Shading shading, bool orthographic) {
+std::vector<LightContribution> light_contributions(const PixelProbe& probe, Shading shading,
+                                                   bool orthographic) {
     SurfaceSamples surfaces = make_surface_samples(1, 1);
     surfaces.at(0, 0) = surface_of(probe);
     ReferenceOptions options;
     options.shading = shading;
     options.orthographic = orthographic;
-    std::vector<LightShare> out;
+    std::vector<LightContribution> out;
     for (const ProbedLight& light : probe.lights) {
         const ReferenceLights one = reference_lights(std::span(&light.shade, 1), {});
         const RgbImage lit = shade_reference(surfaces, one, options).radiance;
-        LightShare share;
+        LightContribution share;
         share.index = light.index;
         share.distance = glm::length(one.lights.front().position - surfaces.at(0, 0).position);
         share.range = static_cast<double>(light.light.position_range.w);
         share.radiance = {lit.rgb[0], lit.rgb[1], lit.rgb[2]};
         out.push_back(share);
     }
-    const auto brightness = [](const LightShare& s) {
+    const auto brightness = [](const LightContribution& s) {
         return std::max({s.radiance.x, s.radiance.y, s.radiance.z});
     };
-    std::stable_sort(out.begin(), out.end(), [&](const LightShare& a, const LightShare& b) {
-        return brightness(a) > brightness(b);
-    });
+    std::stable_sort(out.begin(), out.end(),
+                     [&](const LightContribution& a, const LightContribution& b) {
+                         return brightness(a) > brightness(b);
+                     });
     return out;
 }
 

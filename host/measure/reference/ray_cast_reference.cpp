@@ -17,7 +17,7 @@ PixelRay to_world(const PixelRay& view, const Camera& camera) {
             .direction_dy = m * view.direction_dy};
 }
 
-// Whether the ray ends there: a side that is drawn, opaque, and not cut out by alpha.
+// Whether the ray ends there: the side is drawn, and the surface is opaque there.
 bool stops(const SurfaceHit& hit) {
     const Material& material = material_of(hit);
     if (!material.double_sided && !front_facing(hit)) return false;

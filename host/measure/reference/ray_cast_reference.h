@@ -10,23 +10,20 @@
 
 namespace kilolux {
 
-/// What rays through the pixels of a camera hit of a scene, all in double: the unquantised
-/// G-buffer.
+/// Casts rays through the pixels of a camera, all in double: the G-buffer without quantisation.
 ///
-/// Written from the mathematics, apart from the rasteriser. Positions lie on the pixel's ray to a
-/// few 1e-16 relative; a scene of flat, untextured triangles is exact to rounding. Where it must
-/// choose:
-/// * Of a back face only what is double sided is seen, with its normal turned round. Mirroring
-///   transforms (negative determinant) swap front and back, as glTF says.
-/// * Normals: the corners', taken to the world by the inverse transpose, made unit, interpolated,
-///   made unit. Without normals: the triangle's. A zero normal is +Z of the view.
-/// * Normal maps: MikkTSpace's basis, interpolated and not made unit, bitangent = cross(normal,
+/// Independent of the rasteriser. Positions lie on the pixel's ray to a few 1e-16 relative; a scene
+/// of flat, untextured triangles is exact to rounding. Conventions:
+/// * Back faces are seen only of double-sided materials, with their normal flipped. Transforms with
+///   a negative determinant swap front and back (glTF 2.0, 3.7.4).
+/// * Normals: those of the corners, transformed by the inverse transpose, normalised, interpolated,
+///   normalised. Without normals: the triangle's. A zero normal becomes +Z of the view.
+/// * Normal maps: MikkTSpace's basis, interpolated and not normalised, bitangent = cross(normal,
 ///   tangent) * handedness, mirrored with the object. Without tangents the map is not applied.
 /// * Textures: see TextureSampler; derivatives are those at the pixel's centre (Igehy 1999).
-/// * Alpha masks take the same filtered sample. Surfaces of AlphaMode::blend are not seen: a
-///   G-buffer holds none. Nearer than z_near and farther than z_far is cut away.
-/// * KHR_materials_unlit: emissive is the base colour. The ior and specular extensions are not in
-///   the model.
+/// * Alpha masks use the same filtered sample. Surfaces of AlphaMode::blend are left out, as in a
+///   G-buffer. Hits nearer than z_near or farther than z_far are left out.
+/// * KHR_materials_unlit: emissive is the base colour.
 class RayCaster {
  public:
     /// Builds the hierarchy and the mip levels. Keeps a reference to the scene.

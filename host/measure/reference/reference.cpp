@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDistanceMin = 0.01;  // nearer than this the inverse square stops growing [m]
 
-class ExactSum3 {
+class CompensatedSum3 {
  public:
     void add(const glm::dvec3& term) {
         for (int c = 0; c < 3; ++c) sums_[static_cast<std::size_t>(c)].add(term[c]);
@@ -21,18 +21,18 @@ class ExactSum3 {
     glm::dvec3 value() const { return {sums_[0].value(), sums_[1].value(), sums_[2].value()}; }
 
  private:
-    std::array<ExactSum, 3> sums_;
+    std::array<CompensatedSum, 3> sums_;
 };
 
 // A pixel while its lights are summed.
 struct Pixel {
-    ExactSum3 radiance;
-    ExactSum3 scale;
+    CompensatedSum3 radiance;
+    CompensatedSum3 scale;
     double lights = 0.0;
     std::uint32_t reaching = 0;
 };
 
-// Where a light stands as seen from a surface.
+// A light as seen from a surface.
 struct Incidence {
     glm::dvec3 to_light{0.0};
     double attenuation = 0.0;
@@ -80,8 +80,8 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
     pixel.radiance.add(surface.emissive);
     if (surface.kind != SurfaceKind::lit) return pixel;
     pixel.radiance.add(options.ambient * surface.occlusion * surface.albedo);
-    for (const ReferenceSun& sun : lights.suns) {
-        add_incident(pixel, surface, sun.to_light, sun.illuminance, options);
+    for (const ReferenceDirectionalLight& light : lights.directional) {
+        add_incident(pixel, surface, light.to_light, light.illuminance, options);
     }
     for (const ReferenceLight& light : lights.lights) {
         const Incidence in = incidence(light, surface.position, options.windowed);
@@ -97,7 +97,7 @@ void store(RgbImage& image, std::size_t i, const glm::dvec3& value) {
     for (int c = 0; c < 3; ++c) image.rgb[3 * i + static_cast<std::size_t>(c)] = value[c];
 }
 
-// What one row counts for lights_per_pixel.
+// One row's part of lights_per_pixel.
 struct RowCount {
     double lights = 0.0;
     double pixels = 0.0;

@@ -12,14 +12,14 @@
 
 namespace kilolux {
 
-/// How far (d/range)^2 must be below 1 for a light to reach a pixel beyond doubt: 80 roundings of
-/// float32, of which the kernels make about ten on the way to it.
+/// How far (d/range)^2 must be below 1 for a light to reach a pixel in any rounding: 80 roundings
+/// of float32; the kernels make about ten.
 inline constexpr double kReachMargin = 1e-5;
 
 /// The model of a reference picture.
 struct ReferenceOptions {
     Shading shading = Shading::lambert;  // not automatic
-    double ambient = 0.0;                // radiance that falls in from everywhere
+    double ambient = 0.0;                // incident radiance, the same from every direction
     bool orthographic = false;           // rays to the eye are parallel to +Z
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     OnProgress progress{};
@@ -28,10 +28,10 @@ struct ReferenceOptions {
 struct ReferencePicture {
     RgbImage radiance;
     RgbImage
-        scale;  // E = sum |intensity * attenuation| over the lights: what errors are relative to
-    double lights_per_pixel = 0.0;  // k*: point and spot lights that reach it, mean over hit pixels
-    // Of each pixel, lights that no rounding takes out of reach: (d/range)^2 < 1 - kReachMargin,
-    // and within a spot's cone as clearly.
+        scale;  // E = sum |intensity * attenuation| over the lights: the unit of relative errors
+    double lights_per_pixel = 0.0;  // k*: point and spot lights in reach, mean over hit pixels
+    // Lights per pixel that are in reach in any rounding: (d/range)^2 < 1 - kReachMargin, and
+    // inside a spot's cone by the same margin.
     std::vector<std::uint32_t> reaching{};
 };
 
@@ -39,12 +39,12 @@ struct ReferencePicture {
 ///
 /// pixel = emissive + ambient * occlusion * albedo + sum brdf * intensity * attenuation * max(n.l,
 /// 0) attenuation = clamp(1 - (d/range)^4, 0, 1) / max(d, 1 cm)^2 * clamp((cos - cos_out) scale, 0,
-/// 1)^2 The direction to a light at distance d is v / max(d, 1 cm): one at the shading point adds
-/// 0. Relative error of the sums below 1e-14 for any number and order of lights.
+/// 1)^2 The direction to a light at distance d is v / max(d, 1 cm); a light at the shading point
+/// adds 0. Relative error of the sums below 1e-14 for any number and order of lights.
 ///
 /// R1, the kernels' error: `surfaces` decoded from the G-buffer, `lights` from its float32 rows.
-/// R2, the G-buffer's: `surfaces` from cast_rays(). R3, the range's price: `windowed` = false.
-/// Runs on all cores: 320x180 pixels with 1000 lights take about a second on two.
+/// R2, the G-buffer's: `surfaces` from RayCaster. R3, the error of limited ranges: `windowed` =
+/// false. Runs on all cores: 320x180 pixels with 1000 lights take about a second on two.
 ReferencePicture shade_reference(const SurfaceSamples& surfaces, const ReferenceLights& lights,
                                  const ReferenceOptions& options);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kRoughnessMin = 0.045;  // Filament: narrower lobes are beyond float32
 constexpr double kNDotVMin = 1e-4;       // Filament: seen edge on
-constexpr double kHalfMin = 1e-6;        // light straight behind the surface's view: no half vector
+constexpr double kHalfMin = 1e-6;        // opposite directions of view and light: no half vector
 
 double alpha2_of(const SurfaceSample& surface) {
     const double r = std::max(surface.roughness, kRoughnessMin);
@@ -27,12 +27,12 @@ glm::dvec3 f0_of(const SurfaceSample& surface) {
     return glm::mix(surface.specular, surface.albedo, surface.metallic);
 }
 
-// What diffuse light loses: with the strongest channel of the dielectric's reflectance for all
-// three.
+// Share that the Fresnel term takes from diffuse reflection: the dielectric's strongest channel
+// serves all three.
 glm::dvec3 diffuse_loss(const SurfaceSample& s, double schlick) {
     const double most = std::max({s.specular.x, s.specular.y, s.specular.z});
     const glm::dvec3 head_on = glm::mix(glm::dvec3(most), s.albedo, s.metallic);
-    // The dielectric's own 1 - F at grazing angles, relative to what it is head on.
+    // 1 - F of the dielectric at grazing angles, relative to that at normal incidence.
     const double grazing = std::min((1.0 - s.specular_f90) / std::max(1.0 - most, 1e-6), 1.0);
     return 1.0 - (1.0 - head_on) * (1.0 - schlick + schlick * grazing);
 }
@@ -42,8 +42,8 @@ glm::dvec3 half_vector(const glm::dvec3& to_eye, const glm::dvec3& to_light) {
     return sum / std::max(glm::length(sum), kHalfMin);
 }
 
-// sin^2 of the angle between n and h. The cross product keeps what 1 - (n.h)^2 cancels at the peak
-// of a narrow lobe, also when a decoded normal is not quite unit.
+// sin^2 of the angle between n and h. At the peak of a narrow lobe 1 - (n.h)^2 would cancel; the
+// cross product does not, also for a decoded normal that is not quite unit.
 double sin2(const glm::dvec3& n, const glm::dvec3& h) {
     const glm::dvec3 c = glm::cross(n, h);
     return std::min(glm::dot(c, c), 1.0);
@@ -81,8 +81,8 @@ glm::dvec3 pbr(const SurfaceSample& s, const glm::dvec3& v, const glm::dvec3& l)
     const double f90 = 1.0 - (1.0 - s.metallic) * (1.0 - s.specular_f90);
     const glm::dvec3 fresnel = f0 + (f90 - f0) * schlick;
     const double lobe = ggx(sin2(s.normal, h), alpha2) * smith_visibility(n_dot_l, n_dot_v, alpha2);
-    // Appendix B mixes whole BRDFs by metallic: the dielectric's diffuse part loses what its own
-    // surface reflects. With F0 mixed first, as here and in the kernels, both share one F.
+    // glTF's appendix B mixes whole BRDFs by metallic. Here, as in the kernels, F0 is mixed first
+    // and both lobes share one F.
     return diffuse_of(s) * (1.0 - diffuse_loss(s, schlick)) + fresnel * lobe;
 }
 

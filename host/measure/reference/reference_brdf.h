@@ -8,9 +8,9 @@
 
 namespace kilolux {
 
-/// The BRDF [1/sr] of a surface, in double: written from the formulas, apart from the kernels.
+/// The BRDF [1/sr] of a surface, in double, independent of the kernels.
 ///
-/// `to_eye` is unit; `to_light` is unit, or shorter for a light nearer than it can be.
+/// `to_eye` is unit; `to_light` is unit, or shorter for a light nearer than 1 cm.
 /// lambert:     albedo / pi.
 /// blinn_phong: (1 - metallic) albedo / pi + F0 (n + 2) / (8 pi) (n.h)^n, n = 2 / alpha^2 - 2.
 /// pbr:         glTF 2.0 appendix B: (1 - metallic) albedo / pi (1 - F) + F D V with GGX, the

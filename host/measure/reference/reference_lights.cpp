@@ -41,7 +41,7 @@ ReferenceLights reference_lights(std::span<const ShadeLight> lights,
     ReferenceLights out;
     for (const ShadeLight& row : lights) out.lights.push_back(of_row(row));
     for (const DirectionalLight& row : directional) {
-        out.suns.push_back({.to_light = xyz(row.to_light), .illuminance = xyz(row.color)});
+        out.directional.push_back({.to_light = xyz(row.to_light), .illuminance = xyz(row.color)});
     }
     return out;
 }
@@ -51,8 +51,9 @@ ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camer
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     for (const SceneLight& light : lights) {
         if (light.type == LightType::directional) {
-            out.suns.push_back({.to_light = view_from_world * -glm::normalize(light.direction),
-                                .illuminance = glm::dvec3(light.intensity)});
+            out.directional.push_back(
+                {.to_light = view_from_world * -glm::normalize(light.direction),
+                 .illuminance = glm::dvec3(light.intensity)});
         } else {
             out.lights.push_back(of_scene(light, camera));
         }

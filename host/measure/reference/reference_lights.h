@@ -16,28 +16,28 @@ struct ReferenceLight {
     glm::dvec3 position{0.0};   // [m]
     double inv_range2 = 0.0;    // 1/range^2 [1/m^2]; 0: no range
     glm::dvec3 intensity{0.0};  // linear Rec. 709 [cd]
-    glm::dvec3 axis{0.0};       // unit, the way the light travels; 0 for a point light
+    glm::dvec3 axis{0.0};       // unit, direction of the light's travel; 0 for a point light
     double cos_out = -1.0;      // of the outer cone's half angle
     double cone_scale = 1.0;    // 1/(cos_in - cos_out)
 };
 
 /// A directional light in view space, in double.
-struct ReferenceSun {
+struct ReferenceDirectionalLight {
     glm::dvec3 to_light{0.0, 0.0, 1.0};  // unit
     glm::dvec3 illuminance{0.0};         // linear Rec. 709 [lx]
 };
 
 struct ReferenceLights {
     std::vector<ReferenceLight> lights;
-    std::vector<ReferenceSun> suns;
+    std::vector<ReferenceDirectionalLight> directional;
 };
 
-/// The float32 rows that kernels shade with: what R1 sums over.
+/// From the float32 rows that the kernels shade with: for R1.
 ReferenceLights reference_lights(std::span<const ShadeLight> lights,
                                  std::span<const DirectionalLight> directional);
 
-/// A scene's lights as they are, never rounded to float32. Lights without a range have none here.
-/// The cone's smallest width is that of KHR_lights_punctual: cos_in - cos_out >= 0.001.
+/// From a scene's lights, without rounding to float32: for R2 and R3. Lights without a range keep
+/// none. The cone's smallest width is that of KHR_lights_punctual: cos_in - cos_out >= 0.001.
 ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camera& camera);
 
 }  // namespace kilolux

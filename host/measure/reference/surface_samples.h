@@ -14,7 +14,7 @@ enum class SurfaceKind : std::uint8_t {
     unlit,  // the pixel is its emissive radiance
 };
 
-/// What a pixel shows of the scene, in double: a decoded G-buffer pixel or the hit of a cast ray.
+/// A pixel's surface, in double: a decoded G-buffer pixel or the hit of a cast ray.
 struct SurfaceSample {
     glm::dvec3 position{0.0};          // [m], view space
     glm::dvec3 normal{0.0, 0.0, 1.0};  // unit, view space
@@ -23,12 +23,12 @@ struct SurfaceSample {
     double roughness = 1.0;            // perceptual
     double metallic = 0.0;
     double occlusion = 1.0;
-    glm::dvec3 specular{0.04};  // reflectance of the dielectric part head on
+    glm::dvec3 specular{0.04};  // reflectance of the dielectric part at normal incidence
     double specular_f90 = 1.0;  // and at grazing angles
     SurfaceKind kind = SurfaceKind::background;
 };
 
-/// A picture of them, row 0 on top.
+/// Row 0 on top.
 struct SurfaceSamples {
     int width = 0;                      // [pixel]
     int height = 0;                     // [pixel]

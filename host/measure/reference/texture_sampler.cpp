@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/srgb.h"
 #include "host/measure/metrics/parallel_rows.h"
-#include "host/measure/metrics/rgb_image.h"
 
 namespace kilolux {
 namespace {
@@ -15,7 +15,7 @@ int floor_mod(int a, int n) {
     return r < 0 ? r + n : r;
 }
 
-// A texel coordinate beyond the edge, brought back (OpenGL 4.5, 8.14.2, table 8.20).
+// A texel index wrapped into the image (OpenGL 4.5, 8.14.2, table 8.20).
 int wrapped(int i, int size, Wrap wrap) {
     switch (wrap) {
         case Wrap::repeat:
@@ -30,8 +30,7 @@ int wrapped(int i, int size, Wrap wrap) {
     return std::clamp(i, 0, size - 1);
 }
 
-// A coordinate in texels as a texel's index and the rest; far outside any texture it stops to
-// count.
+// A coordinate in texels as index and fraction; clamped, so that the index fits.
 struct TexelCoordinate {
     int index;
     double fraction;
@@ -60,7 +59,7 @@ TextureFootprint transformed(const TextureUse& use, const TextureFootprint& in) 
 
 TextureSampler::TextureSampler(const Scene& scene) : scene_(scene) {
     for (std::size_t code = 0; code < linear_from_code_.size(); ++code) {
-        linear_from_code_[code] = linear_from_srgb(static_cast<double>(code) / 255.0);
+        linear_from_code_[code] = srgb_to_linear(static_cast<double>(code) / 255.0);
     }
     for (auto& by_image : levels_) by_image.resize(scene.images.size());
     for (const Material& material : scene.materials) {

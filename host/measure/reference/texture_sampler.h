@@ -21,10 +21,9 @@ struct TextureFootprint {
 /// Reads a scene's textures as OpenGL 4.5 does (8.14), in double, without its approximations.
 ///
 /// The mip level is log2 of the longer side of the pixel's footprint in texels, without anisotropy;
-/// at level 0 or nearer the magnifying filter reads. Mip levels are linear averages of the level
-/// before: of 2x2 texels, or for an odd size of what a linear filter reads at the new texel's
-/// centre. sRGB is decoded before any filter. Level 0 is exact, coarser ones are kept in float32
-/// (relative 6e-8).
+/// levels up to 0 use the magnifying filter. A mip level averages the level before it: 2x2 texels,
+/// or for odd sizes the linear filter's value at the new texel's centre. sRGB is decoded before any
+/// filter. Level 0 is exact, the others are kept in float32 (relative 6e-8).
 class TextureSampler {
  public:
     /// Prepares the mip levels of every texture that a material of the scene uses. Keeps a

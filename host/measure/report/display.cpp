@@ -4,15 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/srgb.h"
 #include "kernels/shared/tone_curve.h"
 
 namespace kilolux {
 namespace {
-
-// As kernels/tonemap.cl: NaN and negative light are black, infinite light is white.
-float displayable(double value) {
-    return value > 0.0 ? static_cast<float>(std::min(value, 1e9)) : 0.0f;
-}
 
 FV3 toned(FV3 color, ToneCurve curve) {
     switch (curve) {
@@ -27,9 +23,8 @@ FV3 toned(FV3 color, ToneCurve curve) {
 }
 
 std::uint8_t srgb_code(double linear) {
-    const double v = std::clamp(linear, 0.0, 1.0);
-    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(encoded * 255.0));
+    return static_cast<std::uint8_t>(
+        std::lround(linear_to_srgb(std::clamp(linear, 0.0, 1.0)) * 255.0));
 }
 
 }  // namespace

@@ -9,9 +9,8 @@
 
 namespace kilolux {
 
-/// sRGB codes, 4 a pixel, opaque, of a linear picture as the renderer shows it without bloom:
-/// exposure, tone curve, and IEC 61966-2-1 rounded to the nearest code. NaN and negative light are
-/// black.
+/// The sRGB codes, 4 per pixel, opaque, that the renderer would show for a linear picture without
+/// bloom: exposure, tone curve, IEC 61966-2-1 rounded to the nearest code.
 std::vector<std::uint8_t> display_codes(const RgbImage& image, float exposure_ev, ToneCurve curve);
 
 }  // namespace kilolux

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/report/error_budget.h"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "host/base/error.h"
@@ -35,30 +34,20 @@ struct Against {
 constexpr Against kReferences[] = {
     {"", &ReportRow::surfaces}, {"r1-", &ReportRow::kernels}, {"r3-", &ReportRow::unbounded}};
 
-std::string number(double value) {
-    std::array<char, 32> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                      std::chars_format::general, 4);
-    return {buffer.data(), result.ptr};
-}
-
-// Kinds of cache entries are names of files: a hash of the key (FNV-1a) that the name holds.
-std::string kind_name(const BudgetKey& key) {
+// FNV-1a.
+std::uint64_t hash_of(const std::string& text) {
     std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : key) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    std::array<char, 17> text{};
-    const auto end = std::to_chars(text.data(), text.data() + 16, hash, 16);
-    return "choice-" + std::string(text.data(), end.ptr);
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return hash;
 }
 
-// The settings that a choice changes, as numbers; 48 bits of the setting's name tell it again.
-double name_number(const std::string& name) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return static_cast<double>(hash >> 16);
-}
+constexpr int kVersion = 2;
 
-constexpr int kVersion = 1;
+// The kind of a cache entry is part of its file's name.
+std::string kind_name(const BudgetKey& key) { return fmt::format("choice-{:x}", hash_of(key)); }
+
+// Cache values are numbers: 48 bits of the hash of a setting's name identify it.
+double name_number(const std::string& name) { return static_cast<double>(hash_of(name) >> 16); }
 
 }  // namespace
 
@@ -80,11 +69,11 @@ double error_of(const ReportRow& row, const std::string& metric) {
             }
         }
     }
-    throw UsageError("'" + metric + "' is no error metric");
+    throw UsageError("unknown error metric '" + metric + "'");
 }
 
 bool is_candidate(const ReportSetting& setting, const ErrorBudget& budget) {
-    return setting.trade != Trade::cut_off || budget.metric.starts_with("r3-");
+    return setting.axis != SettingAxis::cut_off || budget.metric.starts_with("r3-");
 }
 
 BudgetChoice choose_within(std::span<const ReportRow> rows, const ErrorBudget& budget) {
@@ -99,12 +88,17 @@ BudgetChoice choose_within(std::span<const ReportRow> rows, const ErrorBudget& b
     }
     if (!best) throw Error("max error: no setting to choose from");
     if (!fastest) {
-        throw Error("max error: no setting is within " + budget.metric + " " +
-                    number(budget.max_error) + "; the best reachable is " +
-                    number(error_of(*best, budget.metric)) + " by '" + best->setting.name + "'");
+        throw Error(
+            fmt::format("max error: no setting is within {} {:.4g}; the best reachable is {:.4g} "
+                        "at {}x{} pixels by '{}'",
+                        budget.metric, budget.max_error, error_of(*best, budget.metric),
+                        best->picture.width, best->picture.height, best->setting.name));
     }
-    return {fastest->setting.name, fastest->setting.settings, error_of(*fastest, budget.metric),
-            fastest->speed.relative};
+    return {fastest->setting.name,
+            fastest->setting.settings,
+            error_of(*fastest, budget.metric),
+            fastest->speed.relative,
+            {fastest->picture.width, fastest->picture.height}};
 }
 
 std::optional<BudgetChoice> stored_choice(const DeviceInfo& device, const BudgetKey& key,
@@ -118,9 +112,13 @@ std::optional<BudgetChoice> stored_choice(const DeviceInfo& device, const Budget
     };
     for (const ReportSetting& setting : candidates) {
         if (value("setting") != name_number(setting.name)) continue;
-        const BudgetChoice choice{setting.name, setting.settings, value("error"),
-                                  value("relative")};
-        if (choice.error >= 0.0 && choice.relative > 0.0) return choice;
+        const double width = value("error_width"), height = value("error_height");
+        BudgetChoice choice{setting.name, setting.settings, value("error"), value("relative"), {}};
+        if (!(choice.error >= 0.0 && choice.relative > 0.0 && width >= 1.0 && height >= 1.0)) {
+            return std::nullopt;
+        }
+        choice.error_size = {static_cast<int>(width), static_cast<int>(height)};
+        return choice;
     }
     return std::nullopt;
 }
@@ -130,7 +128,9 @@ void store_choice(const DeviceInfo& device, const BudgetKey& key, const BudgetCh
     write_device_cache(device, {kind, kVersion},
                        {{"setting", name_number(choice.name)},
                         {"error", choice.error},
-                        {"relative", choice.relative}});
+                        {"relative", choice.relative},
+                        {"error_width", choice.error_size[0]},
+                        {"error_height", choice.error_size[1]}});
 }
 
 }  // namespace kilolux

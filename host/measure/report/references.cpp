@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/report/references.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "host/measure/reference/decoded_samples.h"
@@ -13,23 +15,17 @@
 namespace kilolux {
 namespace {
 
-Shading shading_of_plan(int shading) {
-    switch (shading) {
-        case SHADING_BLINN_PHONG:
-            return Shading::blinn_phong;
-        case SHADING_PBR:
-            return Shading::pbr;
-        default:
-            return Shading::lambert;
-    }
-}
+// A plan's SHADING_* as the setting's enumerator, which has `automatic` before them.
+Shading shading_of_plan(int shading) { return static_cast<Shading>(shading + 1); }
+static_assert(static_cast<int>(Shading::lambert) == SHADING_LAMBERT + 1 &&
+              static_cast<int>(Shading::blinn_phong) == SHADING_BLINN_PHONG + 1 &&
+              static_cast<int>(Shading::pbr) == SHADING_PBR + 1);
 
 std::string ranges_key(const RenderSettings& s) {
-    return std::to_string(s.range_budget) + " " + std::to_string(s.lights.radius) + " " +
-           std::to_string(s.lights.intensity);
+    return fmt::format("{} {} {}", s.range_budget, s.lights.radius, s.lights.intensity);
 }
 
-// What the kernels' reference starts from: forward shading keeps all of float32, as `full` does.
+// The settings whose G-buffer R1 shades: forward shading quantises nothing, like the layout `full`.
 RenderSettings decoded_settings(RenderSettings settings) {
     if (is_forward(settings.renderer)) settings.gbuffer = GBUFFER_FULL;
     settings.renderer = RendererKind::deferred;
@@ -37,11 +33,7 @@ RenderSettings decoded_settings(RenderSettings settings) {
 }
 
 std::string kernels_key(const RenderSettings& s) {
-    std::string key = std::to_string(s.gbuffer);
-    key += ' ';
-    key += std::to_string(static_cast<int>(s.shading));
-    key += ' ';
-    return key + ranges_key(s);
+    return fmt::format("{} {} {}", s.gbuffer, static_cast<int>(s.shading), ranges_key(s));
 }
 
 ReferenceLights usable_lights(const ReportView& view, const RenderSettings& settings) {
@@ -82,6 +74,12 @@ const ComparedReference& ReportReferences::kernels(const RenderSettings& setting
     return found->second;
 }
 
+ComparedReference ReportReferences::cast_reference(const RenderSettings& lights, bool windowed) {
+    return compared_reference(
+        shade_reference(cast(), usable_lights(view_, lights), options_of(asked_, windowed)),
+        asked_);
+}
+
 const SurfaceSamples& ReportReferences::cast() {
     if (!cast_) {
         cast_ =
@@ -94,11 +92,7 @@ const SurfaceSamples& ReportReferences::cast() {
 
 const ComparedReference& ReportReferences::surfaces(const RenderSettings& settings) {
     const auto [found, is_new] = surfaces_.try_emplace(ranges_key(settings));
-    if (is_new) {
-        found->second = compared_reference(
-            shade_reference(cast(), usable_lights(view_, settings), options_of(asked_, true)),
-            asked_);
-    }
+    if (is_new) found->second = cast_reference(settings, true);
     return found->second;
 }
 
@@ -110,11 +104,7 @@ const ComparedReference& ReportReferences::drawn(const RenderSettings& settings)
 }
 
 const ComparedReference& ReportReferences::unbounded() {
-    if (!unbounded_) {
-        unbounded_ = compared_reference(
-            shade_reference(cast(), usable_lights(view_, asked_), options_of(asked_, false)),
-            asked_);
-    }
+    if (!unbounded_) unbounded_ = cast_reference(asked_, false);
     return *unbounded_;
 }
 

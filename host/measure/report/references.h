@@ -21,27 +21,27 @@ struct ReportView {
     double time = 0.0;  // [s]
 };
 
-/// The float64 pictures that a report's settings are compared with, each made once.
+/// The float64 pictures that a report's settings are compared with; each is made once.
 ///
-/// R1 isolates the kernels' arithmetic and culling: the same decoded G-buffer, the same float32
-/// lights, the same shading model, every light at every pixel. R2 isolates the G-buffer: rays cast
-/// at the pixels' centres, nothing quantised, and the shading model asked for, so that it also has
-/// the price of a simpler model. R3 adds the price of the lights' ranges: unbounded inverse square.
+/// R1 isolates the kernels' arithmetic and culling: the same decoded G-buffer, float32 lights and
+/// shading model, every light at every pixel. R2 isolates the G-buffer and the shading model: rays
+/// cast at the pixels' centres, nothing quantised, the model asked for. R3 adds the error of the
+/// lights' ranges: unbounded inverse square.
 class ReportReferences {
  public:
     /// `asked`: the settings asked for, at the size of the comparison. `view.scene` must outlive
     /// this.
     ReportReferences(const ReportView& view, const RenderSettings& asked);
 
-    /// Told before each long computation and, from worker threads, while it runs; may throw.
+    /// Called before each long computation and, from worker threads, while it runs; may throw.
     void on_step(std::function<void()> call) { on_step_ = std::move(call); }
 
     const ComparedReference& kernels(const RenderSettings& settings);   // R1
     const ComparedReference& surfaces(const RenderSettings& settings);  // R2, for its ranges
     const ComparedReference& unbounded();                               // R3
 
-    /// The picture asked for, from what the rasteriser drew: R1 of the layout `full` and the
-    /// shading model asked for. What is off from it but not R2 is the rasteriser's own.
+    /// The picture asked for, from the rasteriser's surfaces: R1 of the layout `full` and the
+    /// shading model asked for. It differs from R2 by the rasteriser's error.
     const ComparedReference& drawn(const RenderSettings& settings);
 
     struct All {
@@ -54,6 +54,8 @@ class ReportReferences {
  private:
     ReferenceOptions options_of(const RenderSettings& settings, bool windowed) const;
     const SurfaceSamples& cast();
+    // Of the scene by ray casting, with `lights'` ranges.
+    ComparedReference cast_reference(const RenderSettings& lights, bool windowed);
 
     ReportView view_;
     RenderSettings asked_;
@@ -63,8 +65,8 @@ class ReportReferences {
     std::optional<ComparedReference> unbounded_;
 };
 
-/// Lights that reach pixels of the reference beyond doubt and are not among those that the device
-/// found in the pixels' lists; the sum over all pixels. None when it did not count.
+/// Lights that reach a pixel of the reference in any rounding but are not in the pixel's list on
+/// the device; the sum over all pixels. None when the device did not count.
 std::optional<std::uint64_t> missed_lights(const DecodedSurfaces& found,
                                            const ReferencePicture& reference);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/report/run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,25 +13,10 @@
 namespace kilolux {
 namespace {
 
-constexpr double kErrorWidth = 320.0;      // [pixel]
-constexpr double kErrorEvaluations = 3e8;  // of float64: seconds of a small CPU for a reference
-constexpr double kSettingMs = 10000.0;     // that the frames of a setting may take in a round
-constexpr double kSlowFrameMs = 20000.0;   // beyond which a frame is not timed at full size
+constexpr double kSettingMs = 10000.0;    // for the frames of a setting in a round
+constexpr double kSlowFrameMs = 20000.0;  // slower frames are not timed at full size
 
 double pixels(const RenderSettings& s) { return static_cast<double>(s.width) * s.height; }
-
-std::array<int, 2> size_for_errors(const RenderSettings& s, std::size_t own_lights) {
-    const double lights = static_cast<double>(s.lights.count + own_lights);
-    const double evaluations = pixels(s) * std::max(lights, 1.0);
-    const double scale =
-        std::min({1.0, kErrorWidth / s.width, std::sqrt(kErrorEvaluations / evaluations)});
-    return {std::max(1, static_cast<int>(scale * s.width)),
-            std::max(1, static_cast<int>(scale * s.height))};
-}
-
-void append(std::vector<StageTime>& all, const std::vector<StageTime>& stages) {
-    all.insert(all.end(), stages.begin(), stages.end());
-}
 
 std::vector<ReportStage> stages_of(const std::vector<StageTime>& times, double scale) {
     std::vector<ReportStage> out;
@@ -48,8 +35,8 @@ std::vector<ReportStage> stages_of(const std::vector<StageTime>& times, double s
     return out;
 }
 
-// Half the width of a notch of McGill, Tukey and Larsen 1978, "Variations of Box Plots", relative:
-// medians whose notches are apart differ with 95 % confidence.
+// Relative half width of a notch by McGill, Tukey and Larsen 1978, "Variations of Box Plots":
+// medians whose notches do not overlap differ with 95 % confidence.
 double noise_of(std::vector<double> times) {
     std::sort(times.begin(), times.end());
     const double spread = quantile(times, 0.75) - quantile(times, 0.25);
@@ -68,8 +55,7 @@ double shading_ms(const ReportSpeed& speed) {
 }
 
 std::string coverage_key(const RenderSettings& s) {
-    return std::to_string(s.width) + " " + std::to_string(s.gbuffer) + " " +
-           std::to_string(s.range_budget) + " " + std::to_string(s.lights.radius);
+    return fmt::format("{} {} {} {}", s.width, s.gbuffer, s.range_budget, s.lights.radius);
 }
 
 std::vector<std::size_t> front(const std::vector<const ReportRow*>& rows,
@@ -85,20 +71,21 @@ std::vector<std::size_t> front(const std::vector<const ReportRow*>& rows,
 
 }  // namespace
 
-// What is known of a setting's frames before they are statistics.
+// A setting's frames before they are summarised.
 struct ReportRun::Timing {
     double expected_ms = 0.0;  // of a frame at full size
     bool scaled = false;
     FrameStats stats;  // of the last frame
     std::vector<StageTime> stages;
     std::vector<double> frames;
-    std::vector<double> relative;  // to the default's frames beside them
+    std::vector<double> relative;  // to the default's frame before or after
 };
 
-ReportRun::ReportRun(const ReportView& view, const RenderSettings& base)
+ReportRun::ReportRun(const ReportView& view, const RenderSettings& base,
+                     const ErrorSizeLimits& limits)
     : view_(view),
-      base_(base),
-      error_size_(size_for_errors(base, view.scene.lights.size())),
+      error_size_(kilolux::error_size({base.width, base.height},
+                                      base.lights.count + view.scene.lights.size(), limits)),
       references_(view, at_error_size(base)) {}
 
 void ReportRun::on_step(std::function<void()> call) {
@@ -109,7 +96,7 @@ void ReportRun::on_step(std::function<void()> call) {
 RenderSettings ReportRun::at_error_size(RenderSettings settings) const {
     settings.width = error_size_[0];
     settings.height = error_size_[1];
-    settings.bloom = 0.0f;  // of the display only: no error of a setting
+    settings.bloom = 0.0f;  // changes the display only
     return settings;
 }
 
@@ -132,14 +119,15 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
     }
     standard_.reset();
     for (std::size_t i = 0; i < settings.size(); ++i) {
-        rows[i].speed = speed_of(rows[i], timings[i]);
+        ReportSpeed& speed = rows[i].speed;
+        speed = speed_of(rows[i], timings[i]);
         if (timings[i].frames.empty()) {
-            rows[i].speed.relative = std::numeric_limits<double>::infinity();
+            speed.relative = std::numeric_limits<double>::infinity();
             continue;
         }
         if (timings[i].relative.empty()) {
-            rows[i].speed.relative =
-                rows[i].speed.frame_ms.median / rows.front().speed.frame_ms.median;
+            speed.relative = speed.frame_ms.median / rows.front().speed.frame_ms.median;
+            speed.relative_p5 = speed.relative_p95 = speed.relative;
         }
         count(rows[i], timings[i]);
     }
@@ -181,11 +169,11 @@ void ReportRun::render_into(Renderer& renderer, Timing& timing) {
     const Frame frame = renderer.render(view_.camera, view_.time);
     timing.stats = frame.stats;
     timing.frames.push_back(frame.stats.frame_ms);
-    append(timing.stages, frame.stats.stages);
+    timing.stages.insert(timing.stages.end(), frame.stats.stages.begin(), frame.stats.stages.end());
 }
 
-// A round's frames of a setting, each beside one of the default's, which goes first every other
-// time.
+// A round's frames of a setting, each paired with one of the default's, which is rendered first in
+// every other pair.
 void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
                             Timing* standard) {
     if (timing.scaled) return;
@@ -218,7 +206,10 @@ ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) cons
     for (double& ms : times) ms *= scale;
     out.frame_ms = statistics(times);
     if (!timing.relative.empty()) {
-        out.relative = statistics(timing.relative).median;
+        const Statistics relative = statistics(timing.relative);
+        out.relative = relative.median;
+        out.relative_p5 = relative.p5;
+        out.relative_p95 = relative.p95;
         out.noise = noise_of(timing.relative);
     }
     out.stages = stages_of(timing.stages, scale);
@@ -255,8 +246,8 @@ void mark_fronts(std::vector<ReportRow>& rows) {
     std::vector<const ReportRow*> alike, cut_offs;
     for (const ReportRow& row : rows) {
         const bool is_default = &row == &rows.front();
-        if (is_default || row.setting.trade == Trade::cut_off) cut_offs.push_back(&row);
-        if (row.setting.trade != Trade::cut_off) alike.push_back(&row);
+        if (is_default || row.setting.axis == SettingAxis::cut_off) cut_offs.push_back(&row);
+        if (row.setting.axis != SettingAxis::cut_off) alike.push_back(&row);
     }
     const auto row_at = [&](const ReportRow* row) -> ReportRow& {
         return rows[static_cast<std::size_t>(row - rows.data())];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/measure/bench/run.h"
+#include "host/measure/metrics/error_size.h"
 #include "host/measure/metrics/statistics.h"
 #include "host/measure/report/references.h"
 #include "host/measure/report/setting.h"
@@ -25,20 +26,21 @@ struct ReportStage {
 
 /// A setting's speed. Times are medians over frames, the whole frame's by the host's clock.
 struct ReportSpeed {
-    bool scaled = false;  // too slow to time at full size: by the pixels, from the comparison's
+    bool scaled = false;  // too slow at full size: timed at the size of the comparison, per pixel
     std::vector<ReportStage> stages;  // in the frame's order
     Statistics frame_ms;
-    double relative = 1.0;   // to the default's frame: the median over frames rendered in turn
-    double noise = 0.0;      // of that median, relative, as the pairs scatter
-    double k = -1.0;         // lights evaluated a drawn pixel; < 0: not counted
-    double useful_k = -1.0;  // k*: of them in range
+    // Ratio to the default's frame time, of frames rendered in pairs: median, 5 % and 95 %.
+    double relative = 1.0, relative_p5 = 1.0, relative_p95 = 1.0;
+    double noise = 0.0;              // of that median, relative, from the scatter of the pairs
+    double k = -1.0;                 // lights evaluated per drawn pixel; < 0: not counted
+    double useful_k = -1.0;          // k*: those of them in range
     double evaluations_per_s = 0.0;  // of the stage that shades
 };
 
-/// A row of a report: what a setting costs and how wrong its picture is.
+/// A row of a report: a setting's cost and errors.
 struct ReportRow {
     ReportSetting setting;
-    double cut_off = 0.0;  // radiance that its lights' ranges take; 0: no generated lights
+    double cut_off = 0.0;  // see cut_off_of()
     ReportSpeed speed;
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
@@ -52,29 +54,29 @@ struct ReportRow {
 /// Measures the settings of a report over one view of a scene.
 class ReportRun {
  public:
-    /// `base`: the settings asked for, at full size.
-    ReportRun(const ReportView& view, const RenderSettings& base);
+    /// `base`: the settings asked for, at full size. `limits`: of the size of the comparison.
+    ReportRun(const ReportView& view, const RenderSettings& base,
+              const ErrorSizeLimits& limits = {});
 
     /// Called often, also from worker threads while a reference is made; may throw to stop.
     void on_step(std::function<void()> call);
     /// Called when another of steps() is done.
     void on_progress(std::function<void()> call) { on_progress_ = std::move(call); }
-    /// Only rows of which `wanted` is true get times; the others' are 0, with `relative` infinite.
-    /// The first is always timed.
+    /// Only rows for which `wanted` is true and the first are timed; the others' times are 0, and
+    /// `relative` infinite.
     void time_only(std::function<bool(const ReportRow&)> wanted) { time_only_ = std::move(wanted); }
     static std::size_t steps(std::size_t settings) { return settings * (kRounds + 1); }
 
-    /// Errors of all settings, then their times, then the Pareto sets. The first setting is the
-    /// default. Each frame of another is timed together with one of the default's, in two rounds
-    /// over all settings, so that what slows the machine slows both.
+    /// Measures errors, then times, then finds the Pareto sets. The first setting is the default.
+    /// Each frame of another setting is paired with one of the default's, in two rounds over all
+    /// settings, so that other load on the machine affects both.
     std::vector<ReportRow> measure(const std::vector<ReportSetting>& settings,
                                    const BenchFrames& frames);
 
-    /// The references, as far as measure() needed them.
     ReportReferences& references() { return references_; }
-    /// Size of the comparison: at most 320 pixels wide, a few seconds of float64 [pixel].
+    /// Size of the comparison [pixel].
     std::array<int, 2> error_size() const { return error_size_; }
-    /// The settings as they are compared: at that size and without bloom, which is display's.
+    /// The settings of the comparison: at that size and without bloom.
     RenderSettings at_error_size(RenderSettings settings) const;
 
  private:
@@ -89,7 +91,6 @@ class ReportRun {
     ReportSpeed speed_of(const ReportRow& row, const Timing& timing) const;
 
     ReportView view_;
-    RenderSettings base_;
     std::array<int, 2> error_size_;
     ReportReferences references_;
     std::function<void()> on_step_ = [] {};

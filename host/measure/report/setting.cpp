@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/report/setting.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <numbers>
 
 #include "host/base/gbuffer_layout.h"
@@ -15,29 +16,26 @@
 namespace kilolux {
 namespace {
 
-std::string number(double value) {
-    std::array<char, 32> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-    return {buffer.data(), result.ptr};
-}
+constexpr const char* kAxisNames[] = {"default", "gbuffer",  "lanes",   "math",
+                                      "grid",    "renderer", "shading", "cut-off"};
 
 // Collects settings that differ from a base.
 class Variants {
  public:
     Variants(const RenderSettings& base, bool quick) : base_(base), quick_(quick) {
-        out_.push_back({Trade::none, "default", "", base});
+        out_.push_back({SettingAxis::none, "default", "", base});
     }
 
     // Adds what `change` makes of the base; `name` is also the option without its dashes.
     template <typename Change>
-    void add(Trade trade, const std::string& name, Change&& change) {
-        add(trade, name, "--" + name, change);
+    void add(SettingAxis axis, const std::string& name, Change&& change) {
+        add(axis, name, "--" + name, change);
     }
     template <typename Change>
-    void add(Trade trade, const std::string& name, const std::string& options, Change&& change) {
-        ReportSetting setting{trade, name, options, base_};
-        change(setting.settings);
-        out_.push_back(std::move(setting));
+    void add(SettingAxis axis, const std::string& name, const std::string& options,
+             Change&& change) {
+        out_.push_back({axis, name, options, base_});
+        change(out_.back().settings);
     }
     const RenderSettings& base() const { return base_; }
     bool quick() const { return quick_; }
@@ -53,7 +51,7 @@ void add_gbuffers(Variants& v) {
     for (const uint layout : std::initializer_list<uint>{GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF,
                                                          GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
         if (layout == v.base().gbuffer) continue;
-        v.add(Trade::gbuffer, std::string("gbuffer ") + gbuffer_layout_name(layout),
+        v.add(SettingAxis::gbuffer, std::string("gbuffer ") + gbuffer_layout_name(layout),
               [&](RenderSettings& s) { s.gbuffer = layout; });
     }
 }
@@ -62,7 +60,7 @@ void add_lanes(Variants& v, const DeviceInfo& device) {
     const int chosen = choose_tuning(device, v.base().kernels).lanes;
     for (const int lanes : {1, 2, 4, 8, 16}) {
         if (lanes == chosen || (v.quick() && lanes != 1 && lanes != 16)) continue;
-        v.add(Trade::lanes, "lanes " + std::to_string(lanes),
+        v.add(SettingAxis::lanes, fmt::format("lanes {}", lanes),
               [&](RenderSettings& s) { s.kernels.lanes = lanes; });
     }
 }
@@ -74,12 +72,13 @@ void add_math(Variants& v) {
         {MathMode::native, "math native"}};
     for (const auto& [math, name] : kModes) {
         if (math == v.base().kernels.math) continue;
-        v.add(Trade::math, name, [mode = math](RenderSettings& s) { s.kernels.math = mode; });
+        v.add(SettingAxis::math, name, [mode = math](RenderSettings& s) { s.kernels.math = mode; });
     }
     const bool half = v.base().kernels.light_colors == LightColors::half;
-    v.add(Trade::math, half ? "light-colors float" : "light-colors half", [&](RenderSettings& s) {
-        s.kernels.light_colors = half ? LightColors::single : LightColors::half;
-    });
+    v.add(SettingAxis::math, half ? "light-colors float" : "light-colors half",
+          [&](RenderSettings& s) {
+              s.kernels.light_colors = half ? LightColors::single : LightColors::half;
+          });
 }
 
 void add_grids(Variants& v) {
@@ -90,13 +89,12 @@ void add_grids(Variants& v) {
     for (std::size_t i = 0; i < count; ++i) {
         const auto& [x, y, slices] = kGrids[i];
         if (x == g.tiles_x && y == g.tiles_y && slices == g.slices_per_octave) continue;
-        const std::string name =
-            "grid " + std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(slices);
-        v.add(Trade::grid, name, [&, fine = slices](RenderSettings& s) {
-            s.grid.tiles_x = kGrids[i][0];
-            s.grid.tiles_y = kGrids[i][1];
-            s.grid.slices_per_octave = fine;
-        });
+        v.add(SettingAxis::grid, fmt::format("grid {},{},{}", x, y, slices),
+              [&grid = kGrids[i]](RenderSettings& s) {
+                  s.grid.tiles_x = grid[0];
+                  s.grid.tiles_y = grid[1];
+                  s.grid.slices_per_octave = grid[2];
+              });
     }
 }
 
@@ -105,7 +103,7 @@ void add_renderers(Variants& v) {
                                         RendererKind::forward_plus, RendererKind::forward}) {
         const bool too_slow = v.quick() && renderer == RendererKind::forward;
         if (renderer == v.base().renderer || too_slow) continue;
-        v.add(Trade::renderer, "renderer " + renderer_name(renderer),
+        v.add(SettingAxis::renderer, "renderer " + renderer_name(renderer),
               [&](RenderSettings& s) { s.renderer = renderer; });
     }
 }
@@ -122,7 +120,7 @@ void add_shadings(Variants& v, const Scene& scene) {
     const int chosen = make_scene_plan(scene, v.base(), 0).kernels.shading;
     for (const Model& model : kModels) {
         if (model.value == chosen) continue;
-        v.add(Trade::shading, std::string("shading ") + model.name,
+        v.add(SettingAxis::shading, std::string("shading ") + model.name,
               [&](RenderSettings& s) { s.shading = model.shading; });
     }
 }
@@ -142,12 +140,11 @@ void add_cut_offs(Variants& v, const Scene& scene) {
         const double budget = 1.0 / divisor;
         if (!generated && budget == v.base().range_budget) continue;
         const double radius = range_of_light(intensity, budget);
-        std::string options = "--range-budget " + number(budget);
+        std::string options = fmt::format("--range-budget {}", budget);
         if (generated) {
-            options +=
-                " --light-radius " + number(radius) + " --light-intensity " + number(intensity);
+            options += fmt::format(" --light-radius {} --light-intensity {}", radius, intensity);
         }
-        v.add(Trade::cut_off, "cut-off 1/" + std::to_string(divisor), options,
+        v.add(SettingAxis::cut_off, fmt::format("cut-off 1/{}", divisor), options,
               [&](RenderSettings& s) {
                   s.range_budget = budget;
                   if (!generated) return;
@@ -159,20 +156,20 @@ void add_cut_offs(Variants& v, const Scene& scene) {
 
 }  // namespace
 
-const char* trade_name(Trade trade) {
-    constexpr const char* kNames[] = {"default", "G-buffer", "lanes",   "math",
-                                      "grid",    "renderer", "shading", "cut-off"};
-    return kNames[static_cast<std::size_t>(trade)];
+const char* axis_name(SettingAxis axis) { return kAxisNames[static_cast<std::size_t>(axis)]; }
+
+std::vector<std::string> setting_axis_names() {
+    return {std::begin(kAxisNames) + 1, std::end(kAxisNames)};
 }
 
 std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSettings& base,
                                            const DeviceInfo& device, bool quick) {
     Variants variants(base, quick);
-    const bool deferred =
-        base.renderer == RendererKind::deferred || base.renderer == RendererKind::deferred_all;
-    if (deferred) add_gbuffers(variants);
-    if (deferred) add_lanes(variants, device);
-    if (deferred) add_math(variants);
+    if (!is_forward(base.renderer)) {
+        add_gbuffers(variants);
+        add_lanes(variants, device);
+        add_math(variants);
+    }
     if (base.renderer != RendererKind::forward) add_grids(variants);
     add_renderers(variants);
     add_shadings(variants, scene);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/report/tables.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace kilolux {
 namespace {
 
-// Columns and the cells of one row, grown together so that they cannot differ.
+// Appends cells to the last row, and to the columns if it is the first one.
 class Line {
  public:
-    explicit Line(Table& table, bool first) : table_(table), first_(first) {
+    explicit Line(Table& table) : table_(table), first_(table.rows.empty()) {
         table_.rows.emplace_back();
     }
     Line& add(const std::string& column, Cell cell) {
@@ -20,14 +22,16 @@ class Line {
     Line& counted(const std::string& column, double value) {
         return add(column, value < 0.0 ? Cell() : Cell(value));
     }
-    Line& whole(const std::string& column, std::uint64_t value) {
-        return add(column, static_cast<std::int64_t>(value));
+    Line& whole(const std::string& column, std::optional<std::uint64_t> value) {
+        return add(column, value ? Cell(static_cast<std::int64_t>(*value)) : Cell());
     }
 
  private:
     Table& table_;
     bool first_;
 };
+
+std::string size_text(int width, int height) { return fmt::format("{}x{}", width, height); }
 
 std::vector<std::string> stage_names(const std::vector<ReportRow>& rows) {
     std::vector<std::string> names;
@@ -41,14 +45,7 @@ std::vector<std::string> stage_names(const std::vector<ReportRow>& rows) {
     return names;
 }
 
-Cell stage_cell(const ReportSpeed& speed, const std::string& name) {
-    for (const ReportStage& stage : speed.stages) {
-        if (stage.name == name) return stage.ms.median;
-    }
-    return {};
-}
-
-// Sum of the stages that draw, find lights, or shade.
+// Sum of the named stages' medians; empty if none of them ran.
 Cell sum_of(const ReportSpeed& speed, const std::vector<std::string>& names) {
     double sum = 0.0;
     bool any = false;
@@ -62,8 +59,8 @@ Cell sum_of(const ReportSpeed& speed, const std::vector<std::string>& names) {
 
 Cell optional_cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 
-std::string text_of(const ErrorDistribution& worst) {
-    return std::to_string(worst.x) + "," + std::to_string(worst.y);
+Cell useful_share(const ReportSpeed& s) {
+    return s.k > 0.0 && s.useful_k >= 0.0 ? Cell(s.useful_k / s.k) : Cell();
 }
 
 void add_errors(Line& line, const std::string& of, const PictureErrors& e) {
@@ -71,10 +68,10 @@ void add_errors(Line& line, const std::string& of, const PictureErrors& e) {
     line.add(of + " max abs", h.absolute.max)
         .add(of + " mean abs", h.absolute.mean)
         .add(of + " 99.9 % abs", h.absolute.percentile_99_9)
-        .add(of + " worst pixel", text_of(h.absolute))
+        .add(of + " worst pixel", pixel_text(h.absolute))
         .add(of + " max rel", h.relative.max)
         .add(of + " 99.9 % rel", h.relative.percentile_99_9)
-        .add(of + " worst rel pixel", text_of(h.relative))
+        .add(of + " worst rel pixel", pixel_text(h.relative))
         .add(of + " rmse", h.rmse)
         .add(of + " psnr [dB]", h.psnr_db)
         .add(of + " psnr peak", h.psnr_peak)
@@ -96,10 +93,11 @@ std::string front_text(const ReportRow& row) {
     return row.surfaces_front ? "R2" : (row.unbounded_front ? "R3" : "");
 }
 
-Plot time_plot(const char* title, const char* y_label) {
+Plot time_plot(const char* title, const char* y_label, const std::string& caption) {
     Plot plot;
     plot.title = title;
-    plot.x_label = "frame [ms]: median of pairs with the default's, times its median";
+    plot.subtitle = caption;
+    plot.x_label = "frame [ms] (ratio to the default's in pairs of frames; bars: 5 % to 95 %)";
     plot.y_label = y_label;
     plot.log_x = plot.log_y = true;
     plot.pareto_front = true;
@@ -107,17 +105,18 @@ Plot time_plot(const char* title, const char* y_label) {
 }
 
 void add_point(Plot& plot, const ReportRow& row, double standard_ms, double error) {
-    const std::string name = trade_name(row.setting.trade);
+    const std::string name = axis_name(row.setting.axis);
     auto found = std::find_if(plot.series.begin(), plot.series.end(),
                               [&](const PlotSeries& s) { return s.name == name; });
     if (found == plot.series.end()) {
         plot.series.push_back({name, {}, PlotStyle::points});
         found = plot.series.end() - 1;
     }
-    const std::string& label = row.setting.name;
-    const std::size_t space = label.find(' ');
-    found->points.push_back({row.speed.relative * standard_ms, error,
-                             space == std::string::npos ? label : label.substr(space + 1)});
+    const ReportSpeed& s = row.speed;
+    PlotPoint point{s.relative * standard_ms, error, row.setting.name};
+    point.x_low = s.relative_p5 * standard_ms;
+    point.x_high = s.relative_p95 * standard_ms;
+    found->points.push_back(std::move(point));
 }
 
 }  // namespace
@@ -127,24 +126,26 @@ Table report_table(const std::vector<ReportRow>& rows) {
     const std::vector<std::string> stages = stage_names(rows);
     for (const ReportRow& row : rows) {
         const ReportSpeed& s = row.speed;
-        Line line(table, table.rows.empty());
+        Line line(table);
         line.add("setting", row.setting.name)
-            .add("trade", std::string(trade_name(row.setting.trade)))
+            .add("axis", std::string(axis_name(row.setting.axis)))
             .add("options", row.setting.options)
             .add("pareto", front_text(row))
             .add("frame [ms]", s.frame_ms.median)
             .add("times default", s.relative)
+            .add("times default 5 %", s.relative_p5)
+            .add("times default 95 %", s.relative_p95)
             .add("noise", s.noise)
             .whole("frames", s.frame_ms.count)
             .add("scaled", std::string(s.scaled ? "by pixels" : ""));
-        for (const std::string& stage : stages) line.add(stage + " [ms]", stage_cell(s, stage));
+        for (const std::string& stage : stages) line.add(stage + " [ms]", sum_of(s, {stage}));
         line.counted("k", s.k)
             .counted("k*", s.useful_k)
-            .add("k*/k", s.k > 0.0 && s.useful_k >= 0.0 ? Cell(s.useful_k / s.k) : Cell())
+            .add("k*/k", useful_share(s))
             .add("G evaluations/s", 1e-9 * s.evaluations_per_s)
             .add("cut-off", row.cut_off)
-            .add("missed lights",
-                 row.missed_lights ? Cell(static_cast<std::int64_t>(*row.missed_lights)) : Cell());
+            .whole("missed lights", row.missed_lights)
+            .add("error size", size_text(row.picture.width, row.picture.height));
         add_errors(line, "R1", row.kernels);
         add_errors(line, "R2", row.surfaces);
         add_errors(line, "R3", row.unbounded);
@@ -160,7 +161,7 @@ Table report_summary(const std::vector<ReportRow>& rows) {
     for (const ReportRow& row : rows) {
         const ReportSpeed& s = row.speed;
         const PictureErrors& e = row.surfaces;
-        Line line(table, table.rows.empty());
+        Line line(table);
         line.add("setting", row.setting.name)
             .add("Pareto", front_text(row))
             .add("frame [ms]", s.frame_ms.median)
@@ -170,7 +171,7 @@ Table report_summary(const std::vector<ReportRow>& rows) {
                                      "bin_pixels", "refine_lights"}))
             .add("shade", sum_of(s, {"shade", "forward", "forward_plus"}))
             .counted("k", s.k)
-            .add("k*/k", s.k > 0.0 && s.useful_k >= 0.0 ? Cell(s.useful_k / s.k) : Cell())
+            .add("k*/k", useful_share(s))
             .add("G eval/s", 1e-9 * s.evaluations_per_s)
             .add("R1 max rel", row.kernels.hdr.relative.max)
             .add("R1 RMSE", row.kernels.hdr.rmse)
@@ -185,21 +186,35 @@ Table report_summary(const std::vector<ReportRow>& rows) {
     return table;
 }
 
-Plot surfaces_plot(const std::vector<ReportRow>& rows) {
+std::string report_notes(const std::vector<ReportRow>& rows) {
+    const RenderSettings& s = rows.front().setting.settings;
+    const RgbImage& picture = rows.front().picture;
+    return fmt::format(
+        "Errors are measured on pictures of {} pixels (--error-width sets this), times on {}.\n"
+        "x default: frame time relative to the default's, median over pairs of frames.\n"
+        "k: lights evaluated per drawn pixel. k*: those of them in range. k*/k: the useful share.\n"
+        "R1: against float64 shading of the stored surfaces, the kernels' error. drawn: of the "
+        "unquantised surfaces.\n"
+        "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
+        "of unlimited range.\n",
+        size_text(picture.width, picture.height), size_text(s.width, s.height));
+}
+
+Plot surfaces_plot(const std::vector<ReportRow>& rows, const std::string& caption) {
     Plot plot = time_plot("Speed against error: the picture asked for, in float64 (R2)",
-                          "RMSE against R2 [radiance]");
+                          "RMSE against R2 [radiance]", caption);
     for (const ReportRow& row : rows) {
-        if (row.setting.trade == Trade::cut_off) continue;
+        if (row.setting.axis == SettingAxis::cut_off) continue;
         add_point(plot, row, rows.front().speed.frame_ms.median, row.surfaces.hdr.rmse);
     }
     return plot;
 }
 
-Plot unbounded_plot(const std::vector<ReportRow>& rows) {
+Plot unbounded_plot(const std::vector<ReportRow>& rows, const std::string& caption) {
     Plot plot = time_plot("Speed against error: lights without a range, in float64 (R3)",
-                          "RMSE against R3 [radiance]");
+                          "RMSE against R3 [radiance]", caption);
     for (const ReportRow& row : rows) {
-        if (row.setting.trade != Trade::cut_off && &row != &rows.front()) continue;
+        if (row.setting.axis != SettingAxis::cut_off && &row != &rows.front()) continue;
         add_point(plot, row, rows.front().speed.frame_ms.median, row.unbounded.hdr.rmse);
     }
     return plot;

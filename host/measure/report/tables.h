@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "host/measure/bench/plot.h"
@@ -9,15 +10,18 @@
 
 namespace kilolux {
 
-/// All that rows hold: times of every stage, counts, and every error against each reference.
+/// Everything that is measured: times of every stage, counts, every error against each reference.
 Table report_table(const std::vector<ReportRow>& rows);
 
-/// For reading: one line a setting with the columns that matter.
+/// The columns that matter, for reading.
 Table report_summary(const std::vector<ReportRow>& rows);
 
-/// Frame time against an error's RMSE with the Pareto front of the points: against R2 for the
-/// settings with the lights' ranges asked for; against R3 for the cut-offs.
-Plot surfaces_plot(const std::vector<ReportRow>& rows);
-Plot unbounded_plot(const std::vector<ReportRow>& rows);
+/// Explains the summary's columns and says at which sizes they were measured; some lines.
+std::string report_notes(const std::vector<ReportRow>& rows);
+
+/// Frame time against RMSE, with the Pareto front: against R2 for the settings that keep the
+/// lights' ranges; against R3 for the cut-offs. `caption`: what was measured.
+Plot surfaces_plot(const std::vector<ReportRow>& rows, const std::string& caption);
+Plot unbounded_plot(const std::vector<ReportRow>& rows, const std::string& caption);
 
 }  // namespace kilolux

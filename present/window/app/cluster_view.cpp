@@ -40,7 +40,7 @@ glm::dvec4 to_clip(const glm::dvec3& world, const Camera& camera, const ScreenPl
 void draw_lights(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
                  const ScreenPlace& place) {
     const double most = pixel.shares.empty() ? 0.0 : brightness(pixel.shares.front().radiance);
-    for (const LightShare& share : pixel.shares) {
+    for (const LightContribution& share : pixel.shares) {
         const auto found =
             std::find_if(pixel.probe.lights.begin(), pixel.probe.lights.end(),
                          [&](const ProbedLight& light) { return light.index == share.index; });
@@ -57,7 +57,7 @@ void draw_lights(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camer
     }
 }
 
-void share_row(const LightShare& share, double total) {
+void share_row(const LightContribution& share, double total) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::Text("%u", share.index);
@@ -75,7 +75,7 @@ void share_row(const LightShare& share, double total) {
 void describe_lights(const ProbedPixel& pixel) {
     double total = 0.0;
     std::size_t reaching = 0;
-    for (const LightShare& share : pixel.shares) {
+    for (const LightContribution& share : pixel.shares) {
         total += brightness(share.radiance);
         reaching += share.distance < share.range ? 1 : 0;
     }

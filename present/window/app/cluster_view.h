@@ -19,7 +19,7 @@ struct ProbedPixel {
     int width = 0, height = 0;  // of the picture [pixel]
     Camera camera;              // the picture's
     PixelProbe probe;
-    std::vector<LightShare> shares;
+    std::vector<LightContribution> shares;
 };
 
 /// The active clusters of one picture.

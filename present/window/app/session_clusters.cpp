@@ -41,7 +41,7 @@ void ViewSession::ask_probe() {
         if (s.width != drawn.settings.width || s.height != drawn.settings.height) return out;
         out = ProbedPixel{x, y, s.width, s.height, drawn.camera, renderer.probe(x, y), {}};
         const auto shading = static_cast<Shading>(renderer.plan().kernels.shading + 1);
-        out->shares = light_shares(out->probe, shading, drawn.camera.orthographic);
+        out->shares = light_contributions(out->probe, shading, drawn.camera.orthographic);
         return out;
     });
 }

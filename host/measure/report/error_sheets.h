@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/measure/report/run.h"
+#include "host/picture/view_canvas.h"
+
+namespace kilolux {
+
+/// Pictures of a setting's relative errors against R1, R2 and R3, |x-r| / max(|r|, E) of the worst
+/// channel, in the heat map's colours, logarithmic from 1e-8 to 1; a legend below. `caption`: what
+/// was measured; it stands below the setting's name.
+
+/// The worst pixel against each reference with its neighbours, 33 pixels square, magnified:
+/// picture, reference and error side by side. The worst pixel is framed.
+Canvas worst_pixel_sheet(const ReportRow& row, const ReportReferences::All& references,
+                         const std::string& caption);
+
+/// The whole picture and its errors against each reference.
+Canvas error_map_sheet(const ReportRow& row, const ReportReferences::All& references,
+                       const std::string& caption);
+
+}  // namespace kilolux
