@@ -70,7 +70,33 @@ TEST(PlotScript, DataIsOneBlockASeries) {
                     .x_label = "",
                     .y_label = "",
                     .series = {{"a", {{1, 0.5, "x \"y\"\nz"}}}, {"b", {{2, 1e-9}}}}};
-    EXPECT_EQ(plot_data(plot), "# \"a\"\n1 0.5 \"x 'y' z\"\n\n\n# \"b\"\n2 1e-09 \"\"\n");
+    EXPECT_EQ(plot_data(plot),
+              "# \"a\"\n1 0.5 0.5 0.5 \"x 'y' z\"\n\n\n# \"b\"\n2 1e-09 1e-09 1e-09 \"\"\n");
+}
+
+TEST(PlotLabels, StayInTheAreaAndApart) {
+    const std::string text = "a rather long label";
+    const auto corners = place_labels({{0.01, 0.01, text}, {0.99, 0.99, text}, {0.5, 0.5, ""}});
+    ASSERT_EQ(corners.size(), 2u);
+    EXPECT_FALSE(corners[0].left || corners[0].below);
+    EXPECT_TRUE(corners[1].left && corners[1].below);
+    const auto crowd = place_labels(std::vector<PlotPoint>(9, {0.5, 0.5, text}));
+    EXPECT_EQ(crowd.size(), 4u) << "one on each side, the others are left out";
+    EXPECT_TRUE(place_labels({{0.5, 0.5, std::string(200, 'x')}}).empty())
+        << "longer than the area";
+}
+
+TEST(PlotScript, DrawsErrorBarsAndTheSubtitle) {
+    Plot plot{.title = "t",
+              .subtitle = "atrium on a device",
+              .x_label = "x",
+              .y_label = "y",
+              .series = {{"s", {{1.0, 2.0, "", 1.5, 3.0}, {2.0, 2.0}}}}};
+    const std::string script = plot_script(plot, "stem");
+    EXPECT_NE(script.find("yerrorlines"), std::string::npos) << script;
+    EXPECT_NE(script.find("atrium on a device"), std::string::npos) << script;
+    plot.series[0].points[0].low = plot.series[0].points[0].high = 2.0;
+    EXPECT_EQ(plot_script(plot, "stem").find("yerror"), std::string::npos) << "no spread, no bars";
 }
 
 TEST_F(PlotFolder, WritesFourFilesAndNothingElse) {

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder beside the results, gone with what is left in it.
+// A temporary folder beside the results.
 class WorkFolder {
  public:
     explicit WorkFolder(const fs::path& parent) {
@@ -50,7 +50,7 @@ void write_text(const fs::path& file, const std::string& text) {
 std::string first_line(const fs::path& file) {
     std::ifstream in(file);
     std::string line;
-    // gnuplot repeats the script's line and marks the place before it says what is wrong.
+    // gnuplot first repeats the script's line and marks the place.
     while (std::getline(in, line)) {
         if (line.find("line ") != std::string::npos || line.find("rror") != std::string::npos)
             break;
@@ -58,7 +58,7 @@ std::string first_line(const fs::path& file) {
     return line;
 }
 
-// What a child process starts with: folder, no input, messages into a file.
+// A child process' folder, its empty input and the file for its messages.
 class SpawnActions {
  public:
     SpawnActions(const fs::path& folder, const fs::path& messages) {

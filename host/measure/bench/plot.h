@@ -10,7 +10,8 @@ namespace kilolux {
 struct PlotPoint {
     double x = 0.0;
     double y = 0.0;
-    std::string label{};  // written beside the point; may be empty
+    std::string label{};       // written beside the point where there is room; may be empty
+    double low = y, high = y;  // ends of the error bar; equal: none
 };
 
 enum class PlotStyle { lines_and_points, points };
@@ -24,7 +25,8 @@ struct PlotSeries {
 
 struct Plot {
     std::string title;
-    std::string x_label;  // with its unit
+    std::string subtitle{};  // what was measured, on which device
+    std::string x_label;     // with its unit
     std::string y_label;
     bool log_x = false;
     bool log_y = false;
@@ -40,11 +42,11 @@ struct PlotFiles {
     std::filesystem::path svg;     // STEM.svg
 };
 
-/// Writes a plot's data and gnuplot script beside each other and runs gnuplot, without a shell.
+/// Writes a plot's data and gnuplot script and runs gnuplot, without a shell.
 ///
 /// `stem`: path without an extension, in a folder that exists. Points that are not finite, or not
-/// above 0 on a logarithmic axis, are left out. The four files appear together, finished, or not at
-/// all. Throws Error when no point is left, when a file cannot be written, when gnuplot is missing
+/// above 0 on a logarithmic axis, are left out. The four files appear together or not at all.
+/// Throws Error when no point is left, when a file cannot be written, when gnuplot is missing
 /// (package gnuplot-nox) or fails, with its message.
 PlotFiles write_plot(const Plot& plot, const std::filesystem::path& stem);
 
