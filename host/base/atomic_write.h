@@ -45,12 +45,6 @@ void write_atomically(const std::filesystem::path& file, std::string_view text,
                       FileAccess access = FileAccess::by_umask);
 void write_atomically(const std::filesystem::path& file, std::span<const unsigned char> bytes);
 
-/// The former name, until every room calls write_atomically().
-template <typename Bytes>
-void write_whole_file(const std::filesystem::path& file, const Bytes& bytes) {
-    write_atomically(file, bytes);
-}
-
 /// Throws Error if write_atomically() would certainly fail: no such folder, a folder of that name,
 /// or no permission. Asked before work whose result would be lost.
 void check_can_write(const std::filesystem::path& file);

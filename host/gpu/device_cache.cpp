@@ -16,13 +16,14 @@
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/log.h"
+#include "host/base/version.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
 
-// An entry is lines of text: the first names format, kind and version, the next ones the device,
+// An entry is lines of text: format, kind and version; the program; the device;
 // then a "key value" line for each number, and last the checksum of all before it.
 constexpr std::string_view kFormat = "kilolux-cache 1";
 constexpr std::string_view kChecksum = "checksum ";
@@ -50,7 +51,7 @@ std::string device_lines(const DeviceInfo& device) {
 
 std::string head_lines(const DeviceInfo& device, CacheKind kind) {
     return std::string(kFormat) + " " + std::string(kind.name) + " " +
-           std::to_string(kind.version) + "\n" + device_lines(device);
+           std::to_string(kind.version) + "\nprogram " + version() + "\n" + device_lines(device);
 }
 
 // A file that only this user could have written: nobody else's numbers decide how kernels are

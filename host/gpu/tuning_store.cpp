@@ -11,12 +11,7 @@ namespace {
 
 constexpr CacheKind kKind = {"tuning", 3};  // 3: with shade_prefetch
 
-struct Field {
-    const char* name;
-    int Tuning::*value;
-};
-
-constexpr Field kFields[] = {
+constexpr TuningParameter kParameters[] = {
     {"shade_rows", &Tuning::shade_rows},           {"shade_stage", &Tuning::shade_stage},
     {"cull_group", &Tuning::cull_group},           {"cull_chunks", &Tuning::cull_chunks},
     {"refine_group", &Tuning::refine_group},       {"prefix_group", &Tuning::prefix_group},
@@ -41,6 +36,8 @@ int int_of(const CacheValues& values, std::string_view key) {
 }
 
 }  // namespace
+
+std::span<const TuningParameter> tuning_parameters() { return kParameters; }
 
 bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
     const Tuning& t = stored.tuning;
@@ -69,14 +66,16 @@ std::optional<StoredTuning> stored_tuning(const DeviceInfo& device) {
     if (!values) return std::nullopt;
     StoredTuning stored;
     stored.lanes = int_of(*values, "lanes");
-    for (const Field& field : kFields) stored.tuning.*field.value = int_of(*values, field.name);
+    for (const TuningParameter& field : kParameters)
+        stored.tuning.*field.value = int_of(*values, field.name);
     if (!is_valid(stored, device)) return std::nullopt;
     return stored;
 }
 
 void store_tuning(const DeviceInfo& device, const StoredTuning& stored) {
     CacheValues values = {{"lanes", stored.lanes}};
-    for (const Field& field : kFields) values.emplace(field.name, stored.tuning.*field.value);
+    for (const TuningParameter& field : kParameters)
+        values.emplace(field.name, stored.tuning.*field.value);
     write_device_cache(device, kKind, values);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "host/gpu/device.h"
 #include "host/gpu/features.h"
@@ -14,6 +15,13 @@ struct StoredTuning {
     Tuning tuning;
     bool operator==(const StoredTuning&) const = default;
 };
+
+/// The values of a Tuning by name.
+struct TuningParameter {
+    const char* name;
+    int Tuning::*value;
+};
+std::span<const TuningParameter> tuning_parameters();
 
 /// Whether every value is one that the kernels accept on the device: powers of two where they must
 /// be, groups that the device launches.

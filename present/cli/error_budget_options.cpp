@@ -3,35 +3,25 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <limits>
 
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "present/cli/commit.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
+#include "present/cli/scene_fingerprint.h"
 
 namespace kilolux {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Few frames: they are paired with the default's, and a choice is kept.
 constexpr BenchFrames kFrames = {1, 6};
 
 std::string vector_text(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
-
-// A scene file counts as the same while its size and time of change are.
-std::string scene_text(const std::string& scene) {
-    std::error_code error;
-    const fs::path file = fs::weakly_canonical(scene, error);
-    if (error || !fs::is_regular_file(file, error)) return scene;
-    return fmt::format("{} {} {}", file.string(), fs::file_size(file, error),
-                       fs::last_write_time(file, error).time_since_epoch().count());
-}
 
 std::string settings_text(const RenderSettings& s) {
     const LightOptions& l = s.lights;
@@ -50,10 +40,11 @@ std::string settings_text(const RenderSettings& s) {
 BudgetKey key_of(const SharedOptions& shared, const BudgetOptions& options,
                  const ErrorBudget& budget, const ReportView& view) {
     const Camera& c = view.camera;
-    return fmt::format("{}\n{}\ncamera {} {} {} {} {} time {}\n{} {} {}", scene_text(shared.scene),
-                       settings_text(shared.settings), vector_text(c.position),
-                       vector_text(c.world_from_view[1]), vector_text(c.world_from_view[2]),
-                       c.y_fov, c.orthographic ? c.y_extent : 0.0, view.time, budget.metric,
+    return fmt::format("{}\n{}\n{}\ncamera {} {} {} {} {} time {}\n{} {} {}", commit(),
+                       scene_fingerprint(shared.scene), settings_text(shared.settings),
+                       vector_text(c.position), vector_text(c.world_from_view[1]),
+                       vector_text(c.world_from_view[2]), c.y_fov,
+                       c.orthographic ? c.y_extent : 0.0, view.time, budget.metric,
                        budget.max_error, options.error_width.value_or(0));
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "host/base/version.h"
+#include "host/measure/roofline/stage_report.h"
 #include "present/cli/names.h"
 
 namespace kilolux {
@@ -24,7 +25,7 @@ std::string stage_lines(const FrameStats& stats) {
         if (stage.limit_ms > 0.0) out += fmt::format("  (limit {:.2f} ms)", stage.limit_ms);
         out += "\n";
     }
-    return out;
+    return out + time_line(kOtherStage, other_ms(stats)) + "\n";
 }
 
 std::string light_line(const FrameStats& s) {

@@ -5,6 +5,7 @@
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
+#include "host/measure/roofline/stage_report.h"
 #include "present/cli/device_list.h"
 
 namespace kilolux {
@@ -41,6 +42,7 @@ void add_frame(Json& out, const FrameRecord& record) {
         const Json limit = stage.limit_ms > 0.0 ? Json(stage.limit_ms) : Json(nullptr);
         out["stages"].push_back({{"name", stage.name}, {"ms", stage.ms}, {"limit_ms", limit}});
     }
+    out["stages"].push_back({{"name", kOtherStage}, {"ms", other_ms(s)}, {"limit_ms", nullptr}});
     out["frame_ms"] = s.frame_ms;
     if (record.comparison) out["error"] = comparison_json(*record.comparison);
 }
@@ -60,6 +62,7 @@ Json cost_json(const FeatureCost& cost) {
         out["why"] = cost.why;
         return out;
     }
+    out["measurable"] = cost.measurable;
     out["ms"] = cost.ms;
     out["noise_ms"] = cost.noise_ms;
     out["percent"] = cost.percent;
@@ -71,9 +74,8 @@ Json stats_json(const DeviceInfo& device, const ScenePlan& plan, const FrameReco
     out["device"] = device_json(device);
     out["plan"] = plan.features;
     out["left_out"] = Json::array();
-    for (const std::string& feature : absent_features(plan)) {
-        out["left_out"].push_back(cost_json(unmeasured_cost(plan, feature)));
-    }
+    for (const FeatureCost& cost : left_out_features(plan))
+        out["left_out"].push_back(cost_json(cost));
     out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
     add_frame(out, last);
     return out;

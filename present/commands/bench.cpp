@@ -17,6 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void check(const BenchOptions& o) {
+    if (!o.tables.empty() && (o.culling || o.shading || o.tune || o.quick || !o.output.empty())) {
+        throw UsageError("--table: prints what was measured; it goes with no other mode and no -o");
+    }
     if (o.culling + o.shading + o.tune + o.quick > 1) {
         throw UsageError("--quick, --culling, --shade and --tune exclude each other");
     }
@@ -31,6 +34,10 @@ void check(const BenchOptions& o) {
 
 void run_bench(const BenchOptions& options) {
     check(options);
+    if (!options.tables.empty()) {
+        std::fputs(results_text(options.tables).c_str(), stdout);
+        return;
+    }
     set_verbosity(verbosity_of(options.shared));
     make_output_folder(options.output);
     if (options.culling) return run_culling(options);
@@ -47,7 +54,8 @@ constexpr const char* kExamples =
     "  kilolux bench --grid '4,4,1;16,9,4;64,36,64' --lanes 1,8 -o results --resume\n"
     "  kilolux bench --culling\n"
     "  kilolux bench --shade\n"
-    "  kilolux bench --tune";
+    "  kilolux bench --tune\n"
+    "  kilolux bench --table results/bench.csv";
 
 }  // namespace
 
@@ -83,15 +91,18 @@ void make_output_folder(const std::filesystem::path& folder) {
 
 void put_table(const BenchOptions& options, const std::string& name, const Table& table,
                const Json& context) {
-    const Json document = {{"context", context}, {"rows", table_json(table)}};
+    const Json document = {
+        {"command", command_line()}, {"context", context}, {"rows", table_json(table)}};
     if (options.json) {
         write_json("-", document);
     } else {
         std::fputs(to_markdown(table).c_str(), stdout);
     }
     if (options.output.empty()) return;
-    write_whole_file(options.output / (name + ".csv"), to_csv(table));
+    const std::filesystem::path csv = options.output / (name + ".csv");
+    write_atomically(csv, to_csv(table));
     write_json((options.output / (name + ".json")).string(), document);
+    write_json(context_file(csv).string(), {{"command", command_line()}, {"context", context}});
 }
 
 void add_bench_command(Program& program) {

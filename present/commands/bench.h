@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/device.h"
+#include "host/gpu/tuning_store.h"
 #include "host/measure/bench/run.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/bench/table.h"
@@ -17,7 +17,7 @@
 
 namespace kilolux {
 
-/// Values of an axis that the command line gave; none: the mode's own.
+/// Values of an axis on the command line; without any, the mode chooses.
 struct BenchAxes {
     std::optional<std::vector<RendererKind>> renderers;
     std::optional<std::vector<std::array<int, 2>>> resolutions;
@@ -33,7 +33,8 @@ struct BenchOptions {
     BenchAxes axes;
     std::optional<int> warm_up;
     std::optional<int> frames;
-    std::filesystem::path output;  // folder; empty: the table on standard output only
+    std::filesystem::path output;     // folder; empty: the table on standard output only
+    std::vector<std::string> tables;  // --table: CSV files to print instead of measuring
     bool resume = false;
     bool json = false;
     bool quick = false;
@@ -43,8 +44,7 @@ struct BenchOptions {
     BudgetOptions budget;
 };
 
-/// Registers the shared options, of which those that a sweep varies take lists, and the bench's
-/// own.
+/// Registers the shared options, which take lists where a sweep varies them, and the bench's own.
 void add_bench_options(CLI::App& command, BenchOptions& options);
 
 /// Resolutions "W,H;W,H" and grids "X,Y,S;X,Y,S"; 1920x1080 is 1920,1080. Throw UsageError.
@@ -52,21 +52,30 @@ std::vector<std::array<int, 2>> parse_resolutions(const std::string& option,
                                                   const std::string& text);
 std::vector<std::array<int, 3>> parse_grids(const std::string& option, const std::string& text);
 
-/// The points that the options ask for, each once.
+/// The points of the sweeps, each once.
 std::vector<SweepPoint> bench_points(const BenchOptions& options);
 BenchFrames bench_frames(const BenchOptions& options);
 
-/// {"version", "commit"}
-nlohmann::ordered_json program_json();
+/// The command line of this process as a shell would take it.
+std::string command_line();
 
-/// What results were measured with: program, device, scene, camera and everything else that stays
-/// the same over a run.
+nlohmann::ordered_json program_json();
+nlohmann::ordered_json tuning_json(const StoredTuning& tuning);
+
+/// What results were measured with: program, device, tuning in force, scene, camera and everything
+/// else that stays the same over a run.
 nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFrames& frames,
                                      const Scene& scene, const Camera& camera,
                                      const DeviceInfo& device);
 
-/// A short hash of a context, to tell rows of one from another's.
-std::string context_key(const nlohmann::ordered_json& context);
+/// The first entry in which a context differs from an earlier one, with both values; empty: none.
+std::string context_difference(const nlohmann::ordered_json& was, const nlohmann::ordered_json& is);
+
+/// Throws Error unless the context file was written with the same context.
+void require_same_context(const std::filesystem::path& file, const nlohmann::ordered_json& context);
+
+/// Where the context of a CSV's measurements lies: X.context.json beside X.csv.
+std::filesystem::path context_file(std::filesystem::path csv);
 
 nlohmann::ordered_json limits_json(const DeviceLimits& limits);
 
@@ -76,9 +85,14 @@ nlohmann::ordered_json table_json(const Table& table);
 /// Creates the folder of -o, unless it is empty; throws Error.
 void make_output_folder(const std::filesystem::path& folder);
 
-/// Prints a table, or JSON with --json, and writes <name>.csv and <name>.json to the folder of -o.
+/// Prints a table, or JSON with --json, and writes <name>.csv, <name>.json and <name>.context.json
+/// to the folder of -o.
 void put_table(const BenchOptions& options, const std::string& name, const Table& table,
                const nlohmann::ordered_json& context);
+
+/// The tables of CSV files that a bench wrote, in Markdown, each with the command and the context
+/// that it was measured with. Throws Error for a file that is none or that lacks its context.
+std::string results_text(const std::vector<std::string>& csv_files);
 
 /// The modes.
 void run_sweep(const BenchOptions& options);

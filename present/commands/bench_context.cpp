@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
+#include <fmt/format.h>
 
+#include <fstream>
+
+#include "host/base/error.h"
 #include "host/base/version.h"
+#include "host/render/kernel_choice.h"
+#include "present/cli/commit.h"
 #include "present/cli/device_list.h"
 #include "present/cli/names.h"
+#include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
 
 namespace kilolux {
@@ -45,12 +51,31 @@ Json settings_json(const SharedOptions& shared) {
 
 }  // namespace
 
-Json program_json() { return {{"version", version()}, {"commit", KILOLUX_COMMIT}}; }
+std::string command_line() {
+    std::ifstream in("/proc/self/cmdline", std::ios::binary);
+    std::string out = "kilolux", word;
+    std::getline(in, word, '\0');  // the program's path
+    while (std::getline(in, word, '\0')) {
+        const bool plain = !word.empty() && word.find_first_of(" ;*'\"$") == std::string::npos;
+        out += plain ? " " + word : " '" + word + "'";
+    }
+    return out;
+}
+
+Json program_json() { return {{"version", version()}, {"commit", commit()}}; }
+
+Json tuning_json(const StoredTuning& stored) {
+    Json out = {{"lanes", stored.lanes}};
+    for (const TuningParameter& parameter : tuning_parameters())
+        out[parameter.name] = stored.tuning.*parameter.value;
+    return out;
+}
 
 Json bench_context(const SharedOptions& shared, const BenchFrames& frames, const Scene& scene,
                    const Camera& camera, const DeviceInfo& device) {
     return {{"program", program_json()},
             {"device", device_json(device)},
+            {"tuning", tuning_json(choose_tuning(device, shared.settings.kernels))},
             {"scene",
              {{"name", shared.scene},
               {"triangles", triangle_count(scene)},
@@ -60,37 +85,34 @@ Json bench_context(const SharedOptions& shared, const BenchFrames& frames, const
             {"frames", {{"warm_up", frames.warm_up}, {"measured", frames.measured}}}};
 }
 
-std::string context_key(const Json& context) {
-    // FNV-1a, 64 bits.
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : context.dump()) {
-        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+std::string context_difference(const Json& was, const Json& is) {
+    const Json before = was.flatten(), now = is.flatten();
+    for (const auto& [path, value] : now.items()) {
+        if (before.contains(path) && before[path] == value) continue;
+        return fmt::format("{} was {}, is {}", path.substr(1),
+                           before.contains(path) ? before[path].dump() : "missing", value.dump());
     }
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-    return text;
+    return "";
 }
 
-Json limits_json(const DeviceLimits& l) {
-    return {{"lanes", l.lanes},
-            {"fma_flops", l.fma_flops},
-            {"one_lane_fma_flops", l.one_lane_fma_flops},
-            {"effective_lanes", l.effective_lanes()},
-            {"lane_instructions_per_s", l.lane_instructions_per_s},
-            {"rsqrt_per_s", l.rsqrt_per_s},
-            {"sqrt_per_s", l.sqrt_per_s},
-            {"divisions_per_s", l.divisions_per_s},
-            {"read_bytes_per_s", l.read_bandwidth},
-            {"write_bytes_per_s", l.write_bandwidth},
-            {"copy_bytes_per_s", l.copy_bandwidth},
-            {"cached_read_bytes_per_s", l.cached_read_bandwidth},
-            {"cached_write_bytes_per_s", l.cached_write_bandwidth},
-            {"cached_copy_bytes_per_s", l.cached_copy_bandwidth},
-            {"cache_bytes", l.cache_bytes},
-            {"upload_bytes_per_s", l.upload_bandwidth},
-            {"download_bytes_per_s", l.download_bandwidth},
-            {"launch_latency_ms", l.launch_latency_ms},
-            {"launch_event_ms", l.launch_event_ms}};
+void require_same_context(const std::filesystem::path& file, const Json& context) {
+    std::ifstream in(file);
+    const Json found = Json::parse(in, nullptr, false);
+    if (!in || !found.contains("context"))
+        throw Error(fmt::format("{}: missing or damaged; --resume needs it", file.string()));
+    const std::string difference = context_difference(found["context"], context);
+    if (!difference.empty()) {
+        throw Error(
+            fmt::format("{}: measured under other conditions: {}; choose another folder "
+                        "or leave --resume out",
+                        file.string(), difference));
+    }
+}
+
+Json limits_json(const DeviceLimits& limits) {
+    Json out = {{"lanes", limits.lanes}, {"effective_lanes", limits.effective_lanes()}};
+    for (const LimitField& field : limit_fields()) out[field.name] = limits.*field.value;
+    return out;
 }
 
 }  // namespace kilolux

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bench's modes that time kernels without pictures, and the search for the fastest work sizes.
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
@@ -9,7 +9,6 @@
 #include "host/measure/bench/shading.h"
 #include "host/measure/bench/tune.h"
 #include "host/measure/roofline/limit_watch.h"
-#include "present/cli/frame_summary.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/commands/bench.h"
@@ -19,13 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The only value of each axis, where a mode does not sweep it.
+// The first value of each axis, as these modes do not sweep them.
 RenderSettings single_settings(const BenchOptions& options) {
     const std::vector<SweepPoint> points = bench_points(options);
     return settings_at(options.shared.settings, points.front());
 }
 
-// What the modes begin with.
+// What all modes need.
 struct Bench {
     explicit Bench(const BenchOptions& options)
         : scene(open_scene(options.shared)),
@@ -61,25 +60,10 @@ Table tuning_table(const TuningResult& result) {
 }
 
 std::string tuning_text(const StoredTuning& stored) {
-    const Tuning& t = stored.tuning;
-    return "lanes " + std::to_string(stored.lanes) + ", shade_rows " +
-           std::to_string(t.shade_rows) + ", shade_stage " + std::to_string(t.shade_stage) +
-           ", cull_chunks " + std::to_string(t.cull_chunks) + ", cull_group " +
-           std::to_string(t.cull_group) + ", refine_group " + std::to_string(t.refine_group) +
-           ", tile_group " + std::to_string(t.tile_group) + ", light_group " +
-           std::to_string(t.light_group);
-}
-
-TuningResult search(LightingBench& bench, int runs) {
-    LightingRequest request = bench.request();
-    request.runs = runs;
-    return tune(built_in_tuning(bench.device()), bench.device(), [&](const StoredTuning& tuning) {
-        check_interrupt();
-        request.tuning = tuning;
-        const LightingRun run = bench.run(request);
-        detail(number_text(run.ms) + " ms: " + tuning_text(tuning));
-        return TuningMeasurement{run.ms, run.picture};
-    });
+    std::string text = fmt::format("lanes {}", stored.lanes);
+    for (const TuningParameter& parameter : tuning_parameters())
+        text += fmt::format(", {} {}", parameter.name, stored.tuning.*parameter.value);
+    return text;
 }
 
 }  // namespace
@@ -104,13 +88,13 @@ void run_culling(const BenchOptions& options) {
     }
     put_table(options, "culling", culling_table(measured), bench.context);
     if (foreign > 0) {
-        throw Error("culling: " + std::to_string(foreign) +
-                    " entries of the lists are not in brute force's");
+        throw Error(
+            fmt::format("culling: {} entries of the lists are not in brute force's", foreign));
     }
     for (const CullingMeasurement& m : measured) {
         if (m.pairs != m.brute_force_pairs) {
-            throw Error("culling: " + std::to_string(m.pairs) + " pairs, but brute force finds " +
-                        std::to_string(m.brute_force_pairs));
+            throw Error(fmt::format("culling: {} pairs, but brute force finds {}", m.pairs,
+                                    m.brute_force_pairs));
         }
     }
     note("the lists equal brute force's, entry by entry");
@@ -123,7 +107,7 @@ void run_shading(const BenchOptions& options) {
     std::vector<ShadingMeasurement> measured;
     {
         Progress progress("shading", total, !options.shared.quiet);
-        // Measured now: limits and kernels meet the same machine, and what else it does.
+        // Measured now, so that limits and kernels meet the same load.
         const DeviceLimits limits =
             measure_device_limits(Gpu(choose_device(bench.settings.device)));
         measured = measure_shading(bench.settings, limits, runs, [&] {
@@ -137,11 +121,15 @@ void run_shading(const BenchOptions& options) {
 void run_tuning(const BenchOptions& options) {
     const Bench bench(options);
     LightingBench lighting(bench.scene, bench.settings, bench.camera, options.shared.time);
-    const TuningResult result = search(lighting, options.frames.value_or(5));
+    const TuningResult result =
+        tune(lighting, options.frames.value_or(5), [](const StoredTuning& tuning, double ms) {
+            check_interrupt();
+            detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning)));
+        });
     put_table(options, "tuning", tuning_table(result), bench.context);
     store_tuning(lighting.device(), result.best);
-    note("kept    " + tuning_text(result.best) + ": " + number_text(result.best_ms) +
-         " ms, built-in " + number_text(result.start_ms) + " ms");
+    note(fmt::format("kept    {}: {:.4g} ms, built-in {:.4g} ms", tuning_text(result.best),
+                     result.best_ms, result.start_ms));
 }
 
 }  // namespace kilolux

@@ -15,24 +15,13 @@ constexpr std::uint64_t kMostLights = std::uint64_t{1} << 31;
 // The largest coarse grid: more clusters than pixels say nothing.
 constexpr std::uint64_t kMostTiles = 4096;
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == separator) {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
-}
-
 // Lists of tuples; "1920x1080" is as good as "1920,1080".
 template <std::size_t N>
 std::vector<std::array<int, N>> parse_tuples(const std::string& option, const std::string& text,
                                              const std::string& form, const CountRange& range) {
     std::vector<std::array<int, N>> out;
-    for (std::string part : split(text, ';')) {
+    for (const std::string_view piece : split(text, ';')) {
+        std::string part(piece);
         std::replace(part.begin(), part.end(), 'x', ',');
         const auto values = parse_counts(option, part, form, range);
         std::array<int, N> tuple{};
@@ -46,8 +35,8 @@ template <typename Enum>
 std::vector<Enum> parse_enums(const std::string& option, const std::string& text,
                               const std::vector<std::string>& names) {
     std::vector<Enum> out;
-    for (const std::string& name : split(text, ',')) {
-        const auto value = static_cast<Enum>(parse_name(option, name, names));
+    for (const std::string_view name : split(text, ',')) {
+        const auto value = static_cast<Enum>(parse_name(option, std::string(name), names));
         if (std::find(out.begin(), out.end(), value) == out.end()) out.push_back(value);
     }
     return out;
@@ -56,8 +45,9 @@ std::vector<Enum> parse_enums(const std::string& option, const std::string& text
 // Powers of two, 0 for "auto".
 std::vector<int> parse_powers(const std::string& option, const std::string& text) {
     std::vector<int> out;
-    for (const std::string& name : split(text, ',')) {
-        const std::size_t place = parse_name(option, name, {"auto", "1", "2", "4", "8", "16"});
+    for (const std::string_view name : split(text, ',')) {
+        const std::size_t place =
+            parse_name(option, std::string(name), {"auto", "1", "2", "4", "8", "16"});
         const int value = place == 0 ? 0 : 1 << (place - 1);
         if (std::find(out.begin(), out.end(), value) == out.end()) out.push_back(value);
     }
@@ -99,13 +89,18 @@ void add_sweep_options(CLI::App& command, BenchAxes& a) {
 
 void add_mode_options(CLI::App& command, BenchOptions& o) {
     OptionBuilder(command, "What is measured, instead of the frames of a sweep")
-        .flag("--quick", o.quick, "A small sweep of lights, grid and groups: about two minutes")
+        .flag("--quick", o.quick, "A small sweep of lights, grid and groups")
         .flag("--culling", o.culling,
               "Light lists for 1000 to a million lights, against brute force")
         .flag("--shade", o.shading,
               "The shading kernel alone, by model and lanes, against the device's limits")
         .flag("--tune", o.tune,
-              "Search the fastest work sizes of this device and keep them for all commands");
+              "Search the fastest work sizes of this device and keep them for all commands")
+        .value({"--table", "FILE,...", "",
+                "Print the tables of CSV files that a bench wrote, with what made them"},
+               [&o](const std::string&, const std::string& text) {
+                   for (const std::string_view file : split(text, ',')) o.tables.emplace_back(file);
+               });
 }
 
 }  // namespace
@@ -140,7 +135,8 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
         .value({"--output,-o", "DIR", "", "Folder for CSV, JSON and plots"},
                [&options](Text, Text text) { options.output = text; })
         .flag("--resume", options.resume,
-              "Go on with the CSV in the folder: leave out points measured in the same context")
+              "Go on with the CSV in the folder, which the same program, device, tuning, scene and "
+              "settings must have written")
         .flag("--json", options.json, "JSON instead of a table on standard output");
     add_budget_options(command, options.budget);
 }

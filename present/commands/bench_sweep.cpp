@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cstdio>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <span>
+
+#include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/measure/bench/plots.h"
+#include "host/measure/bench/renderer_names.h"
 #include "host/measure/bench/row_log.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
@@ -44,26 +51,38 @@ std::vector<SweepAxes> quick_sweeps(const BenchAxes& given) {
     return sweeps;
 }
 
-// The points of a run and what is known of them.
+// The points of a run and their rows.
 struct Sweep {
     std::vector<SweepPoint> points;
-    std::string key;
     std::vector<BenchRow> rows;
 };
 
-// Rows of an earlier run first; returns the points that are left to do.
+// Takes the rows of an earlier run; returns the points that are left to measure.
 std::vector<SweepPoint> take_found(Sweep& sweep, const std::optional<BenchLog>& log) {
     std::vector<SweepPoint> left;
     for (const SweepPoint& point : sweep.points) {
-        const auto found = log ? log->rows_of(point, sweep.key) : std::vector<BenchRow>{};
+        const auto found = log ? log->rows_of(point) : std::vector<BenchRow>{};
         if (found.empty()) left.push_back(point);
         sweep.rows.insert(sweep.rows.end(), found.begin(), found.end());
     }
     if (left.size() < sweep.points.size()) {
-        note(std::to_string(sweep.points.size() - left.size()) + " of " +
-             std::to_string(sweep.points.size()) + " points were measured before");
+        note(fmt::format("{} of {} points were measured before", sweep.points.size() - left.size(),
+                         sweep.points.size()));
     }
     return left;
+}
+
+// How long the timed frames of the points will take.
+std::string estimate_of(const BenchRun& run, std::span<const SweepPoint> left,
+                        const BenchFrames& frames) {
+    double ms = 0.0;
+    for (const SweepPoint& point : left)
+        ms += run.expected_frame_ms(point) * (frames.warm_up + frames.measured);
+    const auto seconds = static_cast<long long>(std::ceil(1e-3 * ms));
+    const std::string time = seconds < 60 ? fmt::format("{} s", seconds)
+                                          : fmt::format("{}:{:02} min", seconds / 60, seconds % 60);
+    return fmt::format("about {} for the frames of {} more points, by a measured frame", time,
+                       left.size());
 }
 
 void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
@@ -75,11 +94,15 @@ void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
         check_interrupt();
         progress.advance();
     });
-    for (const SweepPoint& point : left) {
-        std::vector<BenchRow> rows = run.measure(point, frames);
-        for (BenchRow& row : rows) row.context = sweep.key;
+    std::set<std::string> explained;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        const std::vector<BenchRow> rows = run.measure(left[i], frames);
         if (log) log->append(rows);
         sweep.rows.insert(sweep.rows.end(), rows.begin(), rows.end());
+        progress.erase();
+        const std::string grid = grid_explanation(left[i], run.grid());
+        if (!grid.empty() && explained.insert(grid).second) note(grid);
+        if (i == 0 && left.size() > 1) note(estimate_of(run, std::span(left).subspan(1), frames));
     }
     run.on_frame([] {});
 }
@@ -93,22 +116,38 @@ void sort_rows(Sweep& sweep) {
                      [&](const BenchRow& a, const BenchRow& b) { return place(a) < place(b); });
 }
 
-// Every stage of a few points; of many, the frames and their shading. The files have all.
+// Every stage of a few points; of many, only frames, shading and rows that beat their limit.
 std::vector<BenchRow> shown_rows(const BenchOptions& options, const Sweep& sweep) {
     constexpr std::size_t kFewPoints = 4;
     std::vector<BenchRow> rows = sweep.rows;
     if (options.shared.verbose || sweep.points.size() <= kFewPoints) return rows;
-    std::erase_if(
-        rows, [](const BenchRow& row) { return row.stage != kFrameStage && row.stage != "shade"; });
+    std::erase_if(rows, [](const BenchRow& row) {
+        return row.stage != kFrameStage && row.stage != "shade" && !row.beats_limit();
+    });
     return rows;
 }
 
 void write_results(const BenchOptions& options, const Sweep& sweep, const Json& document) {
+    const Json& context = document["context"];
     write_json((options.output / "bench.json").string(), document);
-    for (const NamedPlot& plot : bench_plots(sweep.rows)) {
+    const std::string subtitle =
+        fmt::format("{} on {}", options.shared.scene, context["device"]["name"].get<std::string>());
+    for (const NamedPlot& plot : bench_plots(sweep.rows, subtitle)) {
         write_plot(plot.plot, options.output / plot.stem);
     }
     note("wrote   " + options.output.string());
+}
+
+// A row that beats its limit shows that the limit or the model is wrong.
+void require_limits_hold(const std::vector<BenchRow>& rows) {
+    for (const BenchRow& row : rows) {
+        if (!row.beats_limit()) continue;
+        throw ComparisonFailed(fmt::format(
+            "{} of {} with {} lights takes {:.4g} ms, less than its limit of {:.4g} ms: measure "
+            "the limits again (kilolux info --measure-limits) or report the model as wrong",
+            row.stage, renderer_name(row.point.renderer), row.point.lights, row.ms.median,
+            row.limit_ms));
+    }
 }
 
 }  // namespace
@@ -133,8 +172,8 @@ BenchFrames bench_frames(const BenchOptions& options) {
     return {options.warm_up.value_or(standard.warm_up), options.frames.value_or(standard.measured)};
 }
 
-// With --max-error the chosen setting takes the place of the one asked for, on every axis of which
-// the command line gives no values. It is chosen for the first point.
+// With --max-error: the setting that is within the budget for the first point, on every axis for
+// which the command line gives no values.
 BenchOptions with_budget(BenchOptions options, const Scene& scene, const Camera& camera) {
     if (!options.budget.max_error) return options;
     SharedOptions& shared = options.shared;
@@ -156,24 +195,31 @@ void run_sweep(const BenchOptions& asked) {
     const BenchOptions options = with_budget(asked, scene, camera);
     Sweep sweep;
     sweep.points = bench_points(options);
-    std::optional<BenchLog> log;
-    if (!options.output.empty()) log.emplace(options.output / "bench.csv", options.resume);
     const DeviceInfo device = describe(choose_device(options.shared.settings.device));
-    const Json context =
-        bench_context(options.shared, bench_frames(options), scene, camera, device);
-    sweep.key = context_key(context);
+    Json document = {
+        {"command", command_line()},
+        {"context", bench_context(options.shared, bench_frames(options), scene, camera, device)}};
+    std::optional<BenchLog> log;
+    if (!options.output.empty()) {
+        const fs::path csv = options.output / "bench.csv";
+        log.emplace(csv, options.resume);
+        if (!log->rows().empty()) require_same_context(context_file(csv), document["context"]);
+        write_json(context_file(csv).string(), document);
+    }
     BenchRun run(scene, options.shared.settings, camera, options.shared.time);
     measure_points(options, run, sweep, log);
     sort_rows(sweep);
-    const Json document = {{"context", context},
-                           {"limits", limits_json(run.limits())},
-                           {"rows", table_json(bench_table(sweep.rows))}};
+    document["limits"] = limits_json(run.limits());
+    if (log) write_json(context_file(options.output / "bench.csv").string(), document);
+    document["rows"] = table_json(bench_table(sweep.rows));
     if (options.json) {
         write_json("-", document);
     } else {
         std::fputs(to_markdown(bench_summary(shown_rows(options, sweep))).c_str(), stdout);
+        std::fputs(("\n" + bench_legend()).c_str(), stdout);
     }
     if (!options.output.empty()) write_results(options, sweep, document);
+    require_limits_hold(sweep.rows);
 }
 
 }  // namespace kilolux

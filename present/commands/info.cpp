@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <memory>
 
+#include "host/base/error.h"
 #include "host/base/log.h"
-#include "host/base/suggest.h"
-#include "host/measure/bench/known_costs.h"
-#include "host/measure/roofline/device_limits.h"
+#include "host/measure/bench/feature_cost.h"
+#include "host/measure/roofline/independent_limits.h"
+#include "host/render/kernel_choice.h"
 #include "host/render/renderer.h"
 #include "present/cli/device_list.h"
 #include "present/cli/frame_summary.h"
@@ -25,6 +28,8 @@ struct InfoOptions {
     SharedOptions shared;
     bool json = false;
     bool costs = false;
+    bool measure_limits = false;
+    bool check_limits = false;
     std::string stats;
 };
 
@@ -62,12 +67,17 @@ Json scene_json(const Scene& scene, const LightOptions& generated) {
         {"light_box", box_json(scene.light_box.empty() ? resting_bounds(scene) : scene.light_box)}};
 }
 
-// Measures what each feature that the scene does without would cost on this picture, and keeps it.
-void measure_costs(const InfoOptions& options, const Scene& scene, const DeviceInfo& device) {
-    const RenderSettings& settings = options.shared.settings;
-    const Camera camera = choose_camera(options.shared.camera, scene);
-    LightingBench bench(scene, settings, camera, options.shared.time);
-    keep_feature_costs(device, scene, settings, measure_feature_costs(bench));
+// The features that the scene does without, and with --costs what they would cost on this picture.
+Json left_out_json(const InfoOptions& options, const Scene& scene, const ScenePlan& plan) {
+    Json out = Json::array();
+    std::vector<FeatureCost> costs = left_out_features(plan);
+    if (options.costs) {
+        const Camera camera = choose_camera(options.shared.camera, scene);
+        LightingBench bench(scene, options.shared.settings, camera, options.shared.time);
+        costs = measure_feature_costs(bench);
+    }
+    for (const FeatureCost& cost : costs) out.push_back(cost_json(cost));
+    return out;
 }
 
 Json info_json(const InfoOptions& options) {
@@ -80,35 +90,38 @@ Json info_json(const InfoOptions& options) {
     for (const DeviceInfo& device : list_devices()) out["devices"].push_back(device_json(device));
     out["scene"] = scene_json(scene, options.shared.settings.lights);
     out["plan"] = plan.features;
-    if (options.costs) measure_costs(options, scene, renderer.device());
-    out["left_out"] = Json::array();
-    for (const FeatureCost& cost :
-         known_feature_costs(renderer.device(), scene, options.shared.settings)) {
-        out["left_out"].push_back(cost_json(cost));
-    }
+    out["left_out"] = left_out_json(options, scene, plan);
     out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
-    out["limits"] =
-        limits_json(cached_device_limits(Gpu(choose_device(options.shared.settings.device))));
+    out["tuning"] = tuning_json(choose_tuning(renderer.device(), options.shared.settings.kernels));
+    const Gpu gpu(choose_device(options.shared.settings.device));
+    out["limits"] = limits_json(cached_device_limits(gpu, options.measure_limits));
     return out;
 }
 
+// Short for people; --json has all digits.
 std::string text_of(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_array()) {
+        std::string out;
+        for (const Json& entry : value) out += (out.empty() ? "" : ", ") + text_of(entry);
+        return out;
+    }
+    if (!value.is_number_float()) return value.dump();
+    const double number = value;
+    return number >= 1e9 ? fmt::format("{:.4g} G", 1e-9 * number) : fmt::format("{:.6g}", number);
 }
 
 // A feature's cost or a device in one line.
 std::string object_line(const Json& entry) {
     std::string line = text_of(entry["name"]);
     if (!entry.contains("ms")) return line;
-    char text[128];
-    std::snprintf(text, sizeof text, ": %+d bytes per pixel, ",
-                  entry["bytes_per_pixel"].get<int>());
-    line += text;
+    line += fmt::format(": {:+} bytes per pixel, ", entry["bytes_per_pixel"].get<int>());
     if (entry["ms"].is_null()) return line + text_of(entry["why"]);
-    std::snprintf(text, sizeof text, "%+.3f ms (%+.1f %%, noise %.3f ms)",
-                  entry["ms"].get<double>(), entry["percent"].get<double>(),
-                  entry["noise_ms"].get<double>());
-    return line + text;
+    const double ms = entry["ms"], noise_ms = entry["noise_ms"];
+    if (!entry["measurable"].get<bool>())
+        return line + fmt::format("no measurable cost (noise {:.3f} ms)", noise_ms);
+    return line + fmt::format("{:+.3f} ms ({:+.1f} %, noise {:.3f} ms)", ms,
+                              entry["percent"].get<double>(), noise_ms);
 }
 
 // "name: value" lines, objects indented below their name, lists of texts with a dash each.
@@ -131,8 +144,34 @@ void add_lines(std::string& out, const Json& value, const std::string& indent) {
     }
 }
 
+// Measures the limits again and compares them with independent ones.
+void run_check(const InfoOptions& options) {
+    const Gpu gpu(choose_device(options.shared.settings.device));
+    const DeviceLimits limits = cached_device_limits(gpu, true);
+    Table table{{"limit", "measured [1/s]", "independent [1/s]", "ratio", "result"}, {}};
+    std::string failed;
+    for (const LimitCheck& check : check_limits(gpu.info, limits)) {
+        const bool agrees = check.agrees(kLimitFactor);
+        if (!agrees) failed += " " + check.name;
+        table.rows.push_back({check.name, check.measured, check.independent, check.ratio(),
+                              std::string(agrees ? "agrees" : "differs")});
+    }
+    if (options.json) {
+        write_json("-", table_json(table));
+    } else {
+        std::fputs(to_markdown(table).c_str(), stdout);
+    }
+    if (!failed.empty()) {
+        throw ComparisonFailed(fmt::format(
+            "limits differ from the independent ones by more than a factor of {}:{}; other work on "
+            "the machine may be why",
+            kLimitFactor, failed));
+    }
+}
+
 void run_info(const InfoOptions& options) {
     set_verbosity(verbosity_of(options.shared));
+    if (options.check_limits) return run_check(options);
     const Json document = info_json(options);
     if (!options.stats.empty()) write_json(options.stats, document);
     if (options.json) return write_json("-", document);
@@ -146,6 +185,7 @@ constexpr const char* kExamples =
     "  kilolux info\n"
     "  kilolux info town.glb --json\n"
     "  kilolux info atrium --costs\n"
+    "  kilolux info --check-limits\n"
     "  kilolux info --list-devices\n"
     "  kilolux info --device 1 --gbuffer full";
 
@@ -160,8 +200,12 @@ void add_info_command(Program& program) {
     OptionBuilder(command, "Output")
         .flag("--json", options->json, "JSON instead of text")
         .flag("--costs", options->costs,
-              "Measure what each feature that the scene does without would cost on this picture, "
-              "and keep it for the next time")
+              "Measure what each feature that the scene does without would cost on this picture")
+        .flag("--measure-limits", options->measure_limits,
+              "Measure the device's limits again, and keep them")
+        .flag("--check-limits", options->check_limits,
+              "Measure the device's limits again and compare them with C++ loops on a CPU or with "
+              "published peaks of a GPU; exit 3 if they differ by more than a factor of 1.6")
         .text({"--stats", "FILE", "", "Write the JSON to a file; - for standard output"},
               options->stats);
 }

@@ -9,6 +9,7 @@
 #include "host/base/log.h"
 #include "host/measure/roofline/device_limits.h"
 #include "host/measure/roofline/roofline.h"
+#include "host/render/kernel_choice.h"
 #include "host/render/renderer.h"
 #include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
@@ -16,6 +17,7 @@
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
+#include "present/commands/bench.h"
 #include "present/commands/commands.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
@@ -230,8 +232,11 @@ void run_render(const RenderOptions& options) {
     check_interrupt();
     const Made made = render_tasks(options, tasks, scene, renderer);
     if (!out.stats.empty()) {
-        write_json(out.stats, stats_json(renderer.device(), renderer.plan(), made.last),
-                   made.log ? &*made.log : nullptr);
+        auto document = stats_json(renderer.device(), renderer.plan(), made.last);
+        document["program"] = program_json();
+        document["tuning"] =
+            tuning_json(choose_tuning(renderer.device(), renderer.settings().kernels));
+        write_json(out.stats, document, made.log ? &*made.log : nullptr);
     }
     note(frame_summary(scene.scene(), renderer.device(), made.last, made.count));
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);

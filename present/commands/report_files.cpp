@@ -51,8 +51,8 @@ nlohmann::ordered_json report_json(const Report& report) {
 
 void write_report(const ReportOptions& options, const Report& report, ReportRun& run) {
     const fs::path& folder = options.output;
-    write_whole_file(folder / "report.csv", to_csv(report_table(report.rows)));
-    write_whole_file(folder / "report.md", report_text(report));
+    write_atomically(folder / "report.csv", to_csv(report_table(report.rows)));
+    write_atomically(folder / "report.md", report_text(report));
     write_json((folder / "report.json").string(), report_json(report));
     write_plot(surfaces_plot(report.rows, report.caption), folder / "time_against_error");
     write_plot(unbounded_plot(report.rows, report.caption),

@@ -14,7 +14,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"limits", 3};
+constexpr CacheKind kKind = {"limits", 4};
 
 class DeviceLimitsTest : public CacheSandbox {
  protected:
@@ -23,25 +23,10 @@ class DeviceLimitsTest : public CacheSandbox {
 };
 
 void expect_plausible(const DeviceLimits& l) {
-    const double all[] = {l.fma_flops,
-                          l.one_lane_fma_flops,
-                          l.lane_instructions_per_s,
-                          l.rsqrt_per_s,
-                          l.sqrt_per_s,
-                          l.divisions_per_s,
-                          l.read_bandwidth,
-                          l.write_bandwidth,
-                          l.copy_bandwidth,
-                          l.cached_read_bandwidth,
-                          l.cached_write_bandwidth,
-                          l.cached_copy_bandwidth,
-                          l.cache_bytes,
-                          l.upload_bandwidth,
-                          l.download_bandwidth,
-                          l.launch_latency_ms,
-                          l.launch_event_ms};
-    for (const double value : all)
-        EXPECT_TRUE(std::isfinite(value) && value > 0.0) << &value - all << ": " << value;
+    for (const LimitField& field : limit_fields()) {
+        const double value = l.*field.value;
+        EXPECT_TRUE(std::isfinite(value) && value > 0.0) << field.name << ": " << value;
+    }
     EXPECT_GE(l.lane_instructions_per_s, l.fma_flops / 2.0);
     EXPECT_GE(l.cached_read_bandwidth, l.read_bandwidth);
     EXPECT_GE(l.cached_write_bandwidth, l.write_bandwidth);
@@ -88,7 +73,7 @@ TEST_F(DeviceLimitsTest, AreMeasuredAgainWhenAnEntryCannotBeTrue) {
     write_device_cache(gpu_.info, kKind, values);  // incomplete
     expect_plausible(cached_device_limits(gpu_));
     values = *read_device_cache(gpu_.info, kKind);
-    values["read_bandwidth"] = 0.0;  // would make every limit infinite
+    values["read_bytes_per_s"] = 0.0;  // would make every limit infinite
     write_device_cache(gpu_.info, kKind, values);
     expect_plausible(cached_device_limits(gpu_));
     std::ofstream(device_cache_file(gpu_.info, kKind)) << "damaged";

@@ -52,86 +52,21 @@ StageCounts some_counts() {
     c.refine_tests = 250000.0;
     c.refined_pairs = 40000.0;
     c.evaluations = 8e6;
+    c.full_evaluations = 4e6;
     return c;
 }
 
-KernelFeatures features_of(int shading, bool metallic = false, bool spots = false) {
-    KernelFeatures features;
-    features.shading = shading;
-    features.metallic = metallic;
-    features.spot_lights = spots;
-    return features;
-}
-
-// By hand from kernels/shared/evaluate.h; special functions are among the instructions.
-TEST(LaneWork, OfAnEvaluationIsAsCountedByHand) {
-    // v 3, d2 3, x 1, window 2, n.v 3, max 1; max 1, root 1, cube 1, product 1, division 1; sum 3.
-    EXPECT_EQ(work_of_evaluation(features_of(SHADING_LAMBERT)), (LaneWork{21.0, 0.0, 1.0, 1.0}));
-    // along 3, inverse distance 1, cos 1, cone 1 + 1 + 2, square 1, window 1.
-    EXPECT_EQ(work_of_evaluation(features_of(SHADING_LAMBERT, false, true)),
-              (LaneWork{32.0, 0.0, 1.0, 2.0}));
-    // 13; max 1, root 1, cube 1, product 1, division 1; h 3, h2 3, max 1; n.h 3, square 1, cross 6,
-    // square 3, none from behind 2, pow 36 with a division, weight 1; sums 6.
-    EXPECT_EQ(work_of_evaluation(features_of(SHADING_BLINN_PHONG)),
-              (LaneWork{83.0, 0.0, 1.0, 2.0}));
-    // 19; half vector 7; cross 6, square 3, ggx 2; smith_l 2 + sqrt 1, smith 2; h4 1, lobe 3 +
-    // division 1; schlick 3 + rsqrt 1 + 2, powers 3, g 1; diffuse 1 + 3; specular 2 + 3.
-    EXPECT_EQ(work_of_evaluation(features_of(SHADING_PBR)), (LaneWork{66.0, 2.0, 1.0, 1.0}));
-    // specular 3 * (2 + 1) instead.
-    EXPECT_EQ(work_of_evaluation(features_of(SHADING_PBR, true)), (LaneWork{70.0, 2.0, 1.0, 1.0}));
-}
-
-TEST(LaneWork, OfAPixelGrowsWithWhatItHolds) {
-    KernelFeatures features = features_of(SHADING_LAMBERT);
-    const double lambert = work_of_pixel(features).instructions;
-    EXPECT_DOUBLE_EQ(lambert, 31.0 + 3.0 + 6.0 + 19.0 + 5.0);
-    EXPECT_EQ(work_of_pixel(features).divisions, 2.0);
-    features.material = true;
-    const double material = work_of_pixel(features).instructions;
-    features.occlusion = true;
-    const double occlusion = work_of_pixel(features).instructions;
-    features.shading = SHADING_PBR;
-    const double pbr = work_of_pixel(features).instructions;
-    features.metallic = true;
-    const double metallic = work_of_pixel(features).instructions;
-    EXPECT_LT(lambert, material);
-    EXPECT_LT(material, occlusion);
-    EXPECT_LT(occlusion, pbr);
-    EXPECT_LT(pbr, metallic);
-}
-
-TEST(StageModel, ShadeBytesAreThePlanesTheListsAndTheImage) {
-    const StageCounts c = some_counts();
-    const StageWork work = *stage_work("shade", c);
-    EXPECT_DOUBLE_EQ(work.bytes_read, (12.0 + 1.0) * 2e6 + 48.0 * 10000.0 + 2.0 * 40000.0);
-    EXPECT_DOUBLE_EQ(work.bytes_written, 12.0 * c.pixels);
-    EXPECT_DOUBLE_EQ(work.lanes.instructions, 2e6 * 64.0 + 8e6 * 21.0);
-    EXPECT_DOUBLE_EQ(work.lanes.rsqrts, 0.0);
-    EXPECT_DOUBLE_EQ(work.lanes.divisions, 4e6 + 8e6);
-    EXPECT_EQ(work.launches, 1);
-}
-
-TEST(StageModel, LightStagesMoveEachLightOnce) {
-    const StageWork work = *stage_work("prepare_lights", some_counts());
-    EXPECT_DOUBLE_EQ(work.bytes_read, 48.0 * 5000.0);
-    EXPECT_DOUBLE_EQ(work.bytes_written, (48.0 + 16.0 + 16.0) * 5000.0);
-    StageCounts wide = some_counts();
-    wide.kernels.light_index_bits = 32;
-    const double narrow = stage_work("cull_lights", some_counts())->bytes_written;
-    EXPECT_DOUBLE_EQ(stage_work("cull_lights", wide)->bytes_written - narrow, 2.0 * 60000.0);
-}
-
-TEST(StageModel, LimitIsTheGreatestBoundAndTheLaunches) {
+TEST(Roofline, LimitIsTheGreatestBoundAndTheLaunches) {
     const DeviceLimits limits = round_limits();
     StageWork work;
     work.launches = 2;
     EXPECT_NEAR(stage_limit(work, limits).ms, 0.002, 1e-12);
     EXPECT_EQ(stage_limit(work, limits).bound, Bound::launches);
-    work.lanes.instructions = 1e9;
+    work.instructions.total = 1e9;
     EXPECT_NEAR(stage_limit(work, limits).ms, 10.002, 1e-9);
     EXPECT_EQ(stage_limit(work, limits).bound, Bound::instructions);
-    work.lanes.rsqrts = 8e7;
-    work.lanes.divisions = 8e7;  // 20 + 10 ms
+    work.instructions.rsqrts = 8e7;
+    work.instructions.divisions = 8e7;  // 20 + 10 ms
     EXPECT_NEAR(stage_limit(work, limits).ms, 30.002, 1e-9);
     EXPECT_EQ(stage_limit(work, limits).bound, Bound::special_functions);
     work.bytes_written = 1e9;  // 50 ms
@@ -141,7 +76,7 @@ TEST(StageModel, LimitIsTheGreatestBoundAndTheLaunches) {
     EXPECT_NEAR(stage_limit(work, limits).ms, 125.002, 1e-9);
 }
 
-TEST(StageModel, WhatFitsTheCacheMovesAtItsRate) {
+TEST(Roofline, WhatFitsTheCacheMovesAtItsRate) {
     StageWork work;
     work.bytes_read = 1e6;
     EXPECT_NEAR(stage_limit(work, round_limits()).ms, 0.01, 1e-12);
@@ -149,7 +84,7 @@ TEST(StageModel, WhatFitsTheCacheMovesAtItsRate) {
     EXPECT_NEAR(stage_limit(work, round_limits()).ms, 0.0275, 1e-12);
 }
 
-TEST(StageModel, IsMonotoneInEveryCount) {
+TEST(Roofline, IsMonotoneInEveryCount) {
     double StageCounts::*const fields[] = {&StageCounts::pixels,
                                            &StageCounts::drawn_pixels,
                                            &StageCounts::lights,
@@ -162,10 +97,10 @@ TEST(StageModel, IsMonotoneInEveryCount) {
                                            &StageCounts::refine_tests,
                                            &StageCounts::refined_pairs,
                                            &StageCounts::evaluations,
+                                           &StageCounts::full_evaluations,
                                            &StageCounts::gbuffer_bytes_per_pixel};
-    for (const char* stage :
-         {"geometry", "gbuffer_bridge", "prepare_lights", "build_clusters", "cull_lights",
-          "bin_pixels", "refine_lights", "shade", "bloom", "tonemap"}) {
+    for (const char* stage : {"gbuffer_bridge", "prepare_lights", "build_clusters", "cull_lights",
+                              "bin_pixels", "refine_lights", "shade", "bloom", "tonemap"}) {
         bool grew = false;
         for (double StageCounts::*const field : fields) {
             // More tiles leave fewer further clusters: a tile's first cluster costs less than its
@@ -182,7 +117,7 @@ TEST(StageModel, IsMonotoneInEveryCount) {
     }
 }
 
-TEST(StageModel, HasALimitForEveryDeviceStageEvenWithoutWork) {
+TEST(Roofline, HasALimitForEveryDeviceStageEvenWithoutWork) {
     for (const char* stage : kDeviceStages) {
         const auto work = stage_work(stage, StageCounts{});
         ASSERT_TRUE(work) << stage;
@@ -190,7 +125,23 @@ TEST(StageModel, HasALimitForEveryDeviceStageEvenWithoutWork) {
         EXPECT_TRUE(std::isfinite(ms) && ms >= 0.0) << stage << ": " << ms;
     }
     EXPECT_FALSE(stage_work("light_input", some_counts()));
+    EXPECT_FALSE(stage_work("geometry", some_counts())) << "OpenGL's";
     EXPECT_FALSE(stage_work("no such stage", some_counts()));
+}
+
+// As deferred-all of 5000 lights: most are out of range, and leave evaluate() at its range test.
+TEST(Roofline, CountsLightsThatLeaveEarlyAsRangeTests) {
+    StageCounts all = some_counts();
+    all.kernels.shading = SHADING_PBR;
+    all.evaluations = all.full_evaluations = 1e9;
+    StageCounts few = all;
+    few.full_evaluations = 1e6;
+    const double all_ms = stage_limit(*stage_work("shade", all), round_limits()).ms;
+    const double few_ms = stage_limit(*stage_work("shade", few), round_limits()).ms;
+    EXPECT_LT(few_ms, all_ms / 4.0);
+    const double instructions_ms = 1e3 * 1e9 * range_test_instructions().total / 1e11;
+    EXPECT_GE(few_ms, instructions_ms);
+    EXPECT_LE(few_ms, 1.1 * instructions_ms);
 }
 
 FrameSetup some_setup() {
@@ -228,6 +179,12 @@ TEST(StageCountsTest, ComeFromTheFrame) {
     FrameSetup all = some_setup();
     all.renderer = RendererKind::deferred_all;
     EXPECT_EQ(stage_counts(some_stats(), all).evaluations, 100.0 * 1000.0);
+    EXPECT_EQ(stage_counts(some_stats(), all).full_evaluations, 100.0 * 1000.0) << "lambert";
+    all.kernels.shading = SHADING_PBR;
+    FrameStats stats = some_stats();
+    EXPECT_EQ(stage_counts(stats, all).full_evaluations, 4000.0) << "k* a pixel";
+    stats.useful_evaluations_per_pixel = -1.0;
+    EXPECT_EQ(stage_counts(stats, all).full_evaluations, 0.0) << "not counted";
 }
 
 TEST(StageReports, HoldTimesAgainstLimits) {
@@ -248,6 +205,12 @@ TEST(StageReports, HoldTimesAgainstLimits) {
     EXPECT_DOUBLE_EQ(efficiency.algorithm, 0.8);
     stats.useful_evaluations_per_pixel = -1.0;
     EXPECT_LT(efficiency_of(reports, stats).algorithm, 0.0) << "not counted";
+}
+
+TEST(StageReports, OtherIsWhatTheStagesLeaveOfTheFrame) {
+    FrameStats stats = some_stats();
+    stats.frame_ms = 5.5;
+    EXPECT_DOUBLE_EQ(other_ms(stats), 1.5);
 }
 
 }  // namespace

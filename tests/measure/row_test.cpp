@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 
 BenchRow row_of(std::uint64_t lights, const std::string& stage, double ms) {
     BenchRow row;
-    row.context = "0123456789abcdef";
     row.point.lights = lights;
     row.stage = stage;
     const std::vector<double> times = {ms, 1.5 * ms, 3.0 * ms};
@@ -37,7 +36,6 @@ BenchRow row_of(std::uint64_t lights, const std::string& stage, double ms) {
 }
 
 void expect_same(const BenchRow& a, const BenchRow& b) {
-    EXPECT_EQ(a.context, b.context);
     EXPECT_EQ(a.point, b.point);
     EXPECT_EQ(a.stage, b.stage);
     EXPECT_EQ(a.ms.count, b.ms.count);
@@ -89,10 +87,10 @@ TEST(BenchRow, ComesBackFromCsv) {
                  GBUFFER_OCT_2X4};
     odd.error.max_relative = std::numeric_limits<double>::infinity();
     const std::vector<BenchRow> rows = {row_of(500, "shade", 0.1), odd};
-    const auto back = parse_bench_csv(to_csv(bench_table(rows)));
+    const auto back = bench_rows(parse_csv(to_csv(bench_table(rows))));
     ASSERT_EQ(back.size(), rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) expect_same(back[i], rows[i]);
-    EXPECT_TRUE(parse_bench_csv(to_csv(bench_table({}))).empty());
+    EXPECT_TRUE(bench_rows(parse_csv(to_csv(bench_table({})))).empty());
 }
 
 TEST(BenchRow, RatesAndRatios) {
@@ -120,22 +118,20 @@ TEST(BenchRow, RefusesOtherCsvWithTheLine) {
         const char* message;
     } cases[] = {
         {"a,b\n1,2\n", "line 1: is not this version's header"},
-        {header + "1,2\n", "line 2: has 2 fields, must have 32"},
+        {header + "1,2\n", "line 2: has 2 fields, must have 31"},
         {csv + "x" + line.substr(0, line.size() / 2) + "\n", "line 3: has "},
-        {header + "c,backward" + line.substr(line.find(",1920")), "'backward' is no renderer"},
-        {header + "c,deferred,12a" + line.substr(line.find(",1080")),
+        {header + "backward" + line.substr(line.find(",1920")), "'backward' is no renderer"},
+        {header + "deferred,12a" + line.substr(line.find(",1080")),
          "line 2: width is '12a', must be a number"},
     };
     for (const auto& c : cases) {
         try {
-            parse_bench_csv(c.text);
+            bench_rows(parse_csv(c.text));
             ADD_FAILURE() << c.text;
         } catch (const Error& error) {
             EXPECT_NE(std::string(error.what()).find(c.message), std::string::npos) << error.what();
         }
     }
-    EXPECT_EQ(csv_fields("a,\"b,\"\"c\",,d"), (std::vector<std::string>{"a", "b,\"c", "", "d"}));
-    EXPECT_EQ(csv_fields(""), (std::vector<std::string>{""}));
 }
 
 TEST_F(BenchLogFile, GoesOnAfterTheLastWholePoint) {
@@ -156,21 +152,12 @@ TEST_F(BenchLogFile, GoesOnAfterTheLastWholePoint) {
         write(whole.substr(0, length));
         BenchLog log(file_, true);
         const std::size_t points = length == whole.size() ? 2 : length >= after_first ? 1 : 0;
-        ASSERT_EQ(log.found().size(), 2 * points) << "cut at " << length;
-        EXPECT_EQ(log.rows_of(first[0].point, first[0].context).size(), points > 0 ? 2u : 0u);
+        ASSERT_EQ(log.rows().size(), 2 * points) << "cut at " << length;
+        EXPECT_EQ(log.rows_of(first[0].point).size(), points > 0 ? 2u : 0u);
         if (points < 1) log.append(first);
         if (points < 2) log.append(second);
         ASSERT_EQ(text(), whole) << "cut at " << length << ", header ends at " << header;
     }
-}
-
-TEST_F(BenchLogFile, KnowsContextsApart) {
-    BenchLog(file_, false).append({row_of(1, "frame", 1)});
-    const BenchLog log(file_, true);
-    const SweepPoint point = row_of(1, "frame", 1).point;
-    EXPECT_EQ(log.rows_of(point, "0123456789abcdef").size(), 1u);
-    EXPECT_TRUE(log.rows_of(point, "another").empty());
-    EXPECT_TRUE(log.rows_of(SweepPoint{}, "0123456789abcdef").empty());
 }
 
 TEST_F(BenchLogFile, ReplacesWithoutResumeAndRefusesForeignFiles) {
@@ -193,6 +180,28 @@ TEST(BenchSummary, ShowsWhatVaries) {
     EXPECT_NO_THROW(to_markdown(table));
 }
 
+// A row of 10 or more frames between `fastest` and `slowest`.
+BenchRow timed_row(double fastest, double slowest, double limit_ms) {
+    BenchRow row = row_of(1, "shade", 1.0);
+    std::vector<double> times;
+    for (int i = 0; i < 20; ++i) times.push_back(fastest + (slowest - fastest) * i / 19.0);
+    row.ms = statistics(times);
+    row.limit_ms = limit_ms;
+    return row;
+}
+
+TEST(BenchRow, BeatsItsLimitByMoreThanTheNoise) {
+    EXPECT_TRUE(timed_row(60.0, 62.0, 256.0).beats_limit());
+    EXPECT_FALSE(timed_row(60.0, 62.0, 59.0).beats_limit());
+    EXPECT_FALSE(timed_row(60.0, 62.0, 62.5).beats_limit()) << "limits are measured to 5 %";
+    EXPECT_FALSE(timed_row(60.0, 300.0, 256.0).beats_limit()) << "within the noise";
+    BenchRow few = timed_row(60.0, 62.0, 256.0);
+    few.ms.count = 9;
+    EXPECT_FALSE(few.beats_limit()) << "noise unknown";
+    const Table table = bench_summary({timed_row(60.0, 62.0, 256.0)});
+    EXPECT_EQ(std::get<std::string>(table.rows[0][6]), "beaten: special functions");
+}
+
 TEST(BenchPlots, DrawTimesAndSpeedUp) {
     std::vector<BenchRow> rows;
     for (const std::uint64_t lights : {2000, 500}) {
@@ -203,20 +212,25 @@ TEST(BenchPlots, DrawTimesAndSpeedUp) {
     }
     rows.push_back(row_of(2000, "frame", 12.0));
     rows.back().point.grid = {4, 4, 1};
-    const auto plots = bench_plots(rows);
+    const auto plots = bench_plots(rows, "atrium on a device");
     ASSERT_EQ(plots.size(), 3u);
     EXPECT_EQ(plots[0].stem, "time_against_lights");
     ASSERT_EQ(plots[0].plot.series.size(), 2u) << "the other grid is a point, not a curve";
     EXPECT_EQ(plots[0].plot.series[0].name, "frame, deferred");
     EXPECT_EQ(plots[0].plot.series[0].points[0].x, 500.0) << "left to right";
     EXPECT_TRUE(plots[0].plot.log_x && plots[0].plot.log_y);
+    EXPECT_EQ(plots[0].plot.subtitle,
+              "atrium on a device, resolution 1920x1080, grid 16x9x4, gbuffer packed");
+    const PlotPoint& point = plots[0].plot.series[0].points[0];
+    EXPECT_LT(point.low, point.y);
+    EXPECT_GT(point.high, point.y);
     EXPECT_EQ(plots[1].stem, "time_against_grid");
     EXPECT_EQ(plots[1].plot.series[0].points[0].label, "4x4x1");
     EXPECT_EQ(plots[2].stem, "speed_up_against_lights");
     ASSERT_EQ(plots[2].plot.series.size(), 1u);
     EXPECT_DOUBLE_EQ(plots[2].plot.series[0].points[1].y, 200.0);
-    EXPECT_TRUE(bench_plots({row_of(1, "frame", 1)}).empty());
-    EXPECT_TRUE(bench_plots({}).empty());
+    EXPECT_TRUE(bench_plots({row_of(1, "frame", 1)}, "").empty());
+    EXPECT_TRUE(bench_plots({}, "").empty());
 }
 
 TEST(BenchRun, ComparesSmallPicturesOfTheSameShape) {

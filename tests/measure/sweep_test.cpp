@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "host/base/error.h"
+#include "host/measure/bench/renderer_names.h"
 
 namespace kilolux {
 namespace {
@@ -112,6 +113,14 @@ TEST(Sweep, NamesRenderersBothWays) {
         EXPECT_EQ(renderer_of_name(renderer_name(renderer)), renderer);
     }
     EXPECT_THROW(renderer_of_name("backward"), Error);
+}
+
+TEST(Sweep, ExplainsAGridThatIsNotWhatItSays) {
+    SweepPoint point;
+    EXPECT_EQ(grid_explanation(point, {0, 0, 0}), "") << "no clusters";
+    EXPECT_EQ(grid_explanation(point, {15, 9, 33}),
+              "grid 16,9,4 of 1920x1080 pixels is 15x9x33 clusters: tile edges are multiples of 16 "
+              "pixels, and the depth has 33 slices at 4 for each doubling");
 }
 
 }  // namespace

@@ -53,5 +53,16 @@ TEST(Table, RowsMustFit) {
     EXPECT_EQ(to_csv({{"a", "b"}, {}}), "a,b\n");
 }
 
+TEST(Table, CsvComesBack) {
+    const TextTable texts = parse_csv(to_csv(sample()));
+    EXPECT_EQ(texts.columns, sample().columns);
+    ASSERT_EQ(texts.rows.size(), 3u);
+    EXPECT_EQ(texts.rows[1], (std::vector<std::string>{"a|b, \"c\"\nd", "1e-09", ""}));
+    EXPECT_EQ(to_csv(table_of(texts)), to_csv(sample()));
+    EXPECT_EQ(to_markdown(table_of(texts)), to_markdown(sample()));
+    EXPECT_TRUE(parse_csv("").columns.empty());
+    EXPECT_THROW(parse_csv("a,b\n1\n"), Error);
+}
+
 }  // namespace
 }  // namespace kilolux

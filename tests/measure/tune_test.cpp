@@ -95,6 +95,17 @@ TEST(Tune, GoesOnWhereTheDeviceRefuses) {
     EXPECT_TRUE(told);
 }
 
+TEST(Tune, EndsAtAnInterruption) {
+    int runs = 0;
+    EXPECT_THROW(tune(eight_lanes(), two_cores(),
+                      [&](const StoredTuning&) {
+                          if (++runs == 3) throw Interrupted();
+                          return TuningMeasurement{1.0, 1};
+                      }),
+                 Interrupted);
+    EXPECT_EQ(runs, 3);
+}
+
 TEST(Tune, TriesOnlyWhatIsValidAndNothingTwice) {
     for (const bool is_cpu : {true, false}) {
         DeviceInfo device = two_cores();
@@ -154,12 +165,22 @@ TEST(LightingBenchTest, CountsAsTheRendererDoes) {
     EXPECT_EQ(stats.stages.size(), 7u);
 }
 
+TEST(FeatureCosts, AreMeasurableAboveTheirNoiseOnly) {
+    EXPECT_FALSE(estimate_cost({-24.0, 10.0, 3.0, -8.0, 1.0}).measurable());
+    EXPECT_FALSE(estimate_cost({-3.0, -3.1, -2.9, -3.0, -3.0}).measurable())
+        << "no cost is below 0";
+    const CostEstimate cost = estimate_cost({3.0, 3.2, 2.9, 3.1, 9.0});
+    EXPECT_TRUE(cost.measurable());
+    EXPECT_DOUBLE_EQ(cost.ms, 3.1);
+    EXPECT_GT(cost.noise_ms, 0.0);
+}
+
 TEST(FeatureCosts, NameEveryLeftOutFeature) {
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_frame();
     settings.shading = Shading::lambert;
     LightingBench bench(scene, settings, camera_for(scene));
-    const std::vector<FeatureCost> costs = measure_feature_costs(bench, 2);
+    const std::vector<FeatureCost> costs = measure_feature_costs(bench, 1);
     const ScenePlan plan = bench.request().plan;
     ASSERT_EQ(costs.size(), plan.left_out.size() + 2) << "two shading models beside";
     for (std::size_t i = 0; i < plan.left_out.size(); ++i)

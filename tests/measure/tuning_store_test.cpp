@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "host/base/error.h"
+#include "host/base/version.h"
 #include "host/gpu/device_cache.h"
 #include "tests/support/cache_sandbox.h"
 
@@ -103,6 +104,13 @@ TEST_F(DeviceCache, TellsDevicesDriversKindsAndVersionsApart) {
     // it.
     fs::copy_file(device_cache_file(device, kKind), device_cache_file(device_named("b"), kKind));
     EXPECT_FALSE(read_device_cache(device_named("b"), kKind));
+}
+
+TEST_F(DeviceCache, NamesTheProgramThatWroteIt) {
+    const DeviceInfo device = device_named("a");
+    write_device_cache(device, kKind, kValues);
+    const std::string text = text_of(device_cache_file(device, kKind));
+    EXPECT_NE(text.find("\nprogram " + version() + "\n"), std::string::npos) << text;
 }
 
 TEST_F(DeviceCache, IgnoresEveryTruncation) {

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "host/measure/bench/row.h"
-#include "present/cli/names.h"
 #include "present/commands/bench.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
@@ -32,7 +31,7 @@ TEST(Bench, QuickMeasuresLightsGridsAndGroups) {
     const ChildResult result =
         run_kilolux(small_bench({"--quick", "--lights", "20,40", "-o", (folder / "out").string()}));
     ASSERT_EQ(result.code, 0) << result.err;
-    const auto rows = parse_bench_csv(text_of_file(folder / "out/bench.csv"));
+    const auto rows = bench_rows(parse_csv(text_of_file(folder / "out/bench.csv")));
     ASSERT_FALSE(rows.empty());
     std::set<std::string> stages;
     for (const BenchRow& row : rows) {
@@ -49,7 +48,7 @@ TEST(Bench, QuickMeasuresLightsGridsAndGroups) {
             EXPECT_EQ(row.k, static_cast<double>(row.point.lights));
         }
     }
-    for (const char* stage : {"geometry", "cull_lights", "shade", "tonemap", "frame"}) {
+    for (const char* stage : {"geometry", "cull_lights", "shade", "tonemap", "other", "frame"}) {
         EXPECT_TRUE(stages.count(stage)) << stage;
     }
     const Json document = Json::parse(text_of_file(folder / "out/bench.json"));
@@ -58,39 +57,127 @@ TEST(Bench, QuickMeasuresLightsGridsAndGroups) {
     EXPECT_EQ(document.at("context").at("settings").at("light_seed"), 1);
     EXPECT_FALSE(document.at("context").at("device").at("driver").get<std::string>().empty());
     EXPECT_FALSE(document.at("context").at("program").at("commit").get<std::string>().empty());
+    EXPECT_GT(document.at("context").at("tuning").at("lanes"), 0);
+    EXPECT_TRUE(contains(document.at("command"), "kilolux bench grid")) << document.at("command");
     EXPECT_GT(document.at("limits").at("lane_instructions_per_s"), 0.0);
     for (const char* plot : {"time_against_lights", "speed_up_against_lights", "time_against_grid",
                              "time_against_work_group"}) {
         EXPECT_TRUE(fs::exists(folder / "out" / (std::string(plot) + ".png"))) << plot;
         EXPECT_TRUE(fs::exists(folder / "out" / (std::string(plot) + ".svg"))) << plot;
     }
+    EXPECT_TRUE(contains(result.err, "more points, by a measured frame")) << result.err;
+    EXPECT_TRUE(contains(result.err, "is 4x3x")) << "the grid is explained: " << result.err;
     for (const char* column : {"median [ms]", "limit [ms]", "ratio", "Geval/s", "GB/s", "k*/k",
                                "max rel. error", "bits differ"}) {
         EXPECT_TRUE(contains(result.out, column)) << column;
     }
 }
 
-TEST(Bench, ResumesPointsOfTheSameContextOnly) {
+TEST(Bench, StageTimesSumToTheFrame) {
+    const ChildResult result =
+        run_kilolux(small_bench({"--lights", "10", "--frames", "1", "--json"}));
+    ASSERT_EQ(result.code, 0) << result.err;
+    double sum = 0.0, frame = 0.0;
+    for (const Json& row : Json::parse(result.out).at("rows")) {
+        (row.at("stage") == "frame" ? frame : sum) += row.at("median_ms").get<double>();
+    }
+    EXPECT_NEAR(sum, frame, 1e-6 * frame);
+}
+
+TEST(Bench, ResumesPointsOfTheSameContext) {
     const TemporaryFolder folder;
     const auto bench = [&](std::vector<std::string> more) {
         more.insert(more.end(), {"-o", folder.path().string(), "--resume"});
         return run_kilolux(small_bench(more));
     };
+    const auto rows = [&] { return bench_rows(parse_csv(text_of_file(folder / "bench.csv"))); };
     ASSERT_EQ(bench({"--lights", "10"}).code, 0);
     const std::string first = text_of_file(folder / "bench.csv");
+    const std::size_t first_rows = rows().size();
     const ChildResult more = bench({"--lights", "10,20"});
     ASSERT_EQ(more.code, 0) << more.err;
     EXPECT_TRUE(contains(more.err, "1 of 2 points were measured before")) << more.err;
-    const std::string second = text_of_file(folder / "bench.csv");
-    EXPECT_TRUE(second.starts_with(first));
-    EXPECT_EQ(parse_bench_csv(second).size(), 2 * parse_bench_csv(first).size());
-    // Another seed is another context: measured again, and only that is told.
-    const ChildResult other = bench({"--lights", "10", "--light-seed", "2", "--json"});
-    ASSERT_EQ(other.code, 0) << other.err;
-    EXPECT_FALSE(contains(other.err, "measured before")) << other.err;
-    EXPECT_EQ(Json::parse(other.out).at("rows").size(), parse_bench_csv(first).size());
-    EXPECT_EQ(parse_bench_csv(text_of_file(folder / "bench.csv")).size(),
-              3 * parse_bench_csv(first).size());
+    EXPECT_TRUE(text_of_file(folder / "bench.csv").starts_with(first));
+    EXPECT_EQ(rows().size(), 2 * first_rows);
+}
+
+TEST(Bench, RefusesToResumeAnotherContext) {
+    const TemporaryFolder folder;
+    const auto bench = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--lights", "10", "-o", folder.path().string()});
+        return run_kilolux(small_bench(more));
+    };
+    ASSERT_EQ(bench({}).code, 0);
+    const std::string csv = text_of_file(folder / "bench.csv");
+    const fs::path file = folder / "bench.context.json";
+    const std::string context = text_of_file(file);
+    const auto expect_refused = [&](std::vector<std::string> more, const char* message) {
+        more.push_back("--resume");
+        const ChildResult result = bench(more);
+        EXPECT_EQ(result.code, 1) << message;
+        EXPECT_TRUE(contains(result.err, message)) << message << " / " << result.err;
+        EXPECT_EQ(text_of_file(folder / "bench.csv"), csv) << "nothing is lost";
+    };
+    expect_refused({"--light-seed", "2"}, "settings/light_seed was 1, is 2");
+    const struct {
+        const char* path;
+        const char* message;
+    } changes[] = {{"/context/program/commit", "program/commit was \"another\""},
+                   {"/context/device/name", "device/name was \"another\""},
+                   {"/context/tuning/lanes", "tuning/lanes was \"another\""}};
+    for (const auto& change : changes) {
+        Json document = Json::parse(context);
+        document[Json::json_pointer(change.path)] = "another";
+        write_text(file, document.dump());
+        expect_refused({}, change.message);
+    }
+    fs::remove(file);
+    expect_refused({}, "missing or damaged; --resume needs it");
+}
+
+TEST(Bench, PrintsTheTableOfItsCsv) {
+    const TemporaryFolder folder;
+    const ChildResult measured =
+        run_kilolux(small_bench({"--lights", "10,20", "-o", folder.path().string()}));
+    ASSERT_EQ(measured.code, 0) << measured.err;
+    const std::string csv = (folder / "bench.csv").string();
+    const ChildResult printed = run_kilolux({"bench", "--table", csv});
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    EXPECT_TRUE(contains(printed.out, measured.out)) << "the same table and legend";
+    EXPECT_TRUE(contains(printed.out, "    kilolux bench grid --resolution 64,36 ")) << printed.out;
+    for (const char* part : {"Device ", "commit ", "scene grid", "resolution 64x36", "Tuning: "})
+        EXPECT_TRUE(contains(printed.out, part)) << part << " / " << printed.out;
+    ASSERT_EQ(
+        run_kilolux(small_bench({"--culling", "--lights", "9", "-o", folder.path().string()})).code,
+        0);
+    const ChildResult both =
+        run_kilolux({"bench", "--table", csv + "," + (folder / "culling.csv").string(), "--quiet"});
+    ASSERT_EQ(both.code, 0) << both.err;
+    EXPECT_TRUE(contains(both.out, "## culling")) << both.out;
+    EXPECT_TRUE(contains(both.out, "ns/light")) << both.out;
+    fs::remove(folder / "bench.context.json");
+    EXPECT_EQ(run_kilolux({"bench", "--table", csv}).code, 1) << "no figure without its command";
+    EXPECT_EQ(run_kilolux({"bench", "--table", "no.csv"}).code, 1);
+    EXPECT_EQ(run_kilolux({"bench", "--table", csv, "--quick"}).code, 2);
+}
+
+// The committed tables are what the program prints of the committed measurements.
+TEST(BenchResults, TablesAreThoseOfTheirCsv) {
+    const TemporaryFolder folder;
+    const fs::path results = fs::path(source_root()) / "host/measure/results";
+    const ChildResult made =
+        run_child({(results / "make_tables").string(), program_file(), folder.path().string()});
+    ASSERT_EQ(made.code, 0) << made.err;
+    std::size_t tables = 0;
+    for (const auto& entry : fs::directory_iterator(results)) {
+        if (entry.path().extension() != ".md" || entry.path().filename() == "README.md") continue;
+        EXPECT_EQ(text_of_file(entry.path()),
+                  text_of_file(folder / entry.path().filename().string()))
+            << entry.path() << ": run host/measure/results/make_tables";
+        ++tables;
+    }
+    EXPECT_EQ(tables, folder.names().size());
+    EXPECT_GT(tables, 0u);
 }
 
 TEST(Bench, ASignalLeavesWholePoints) {
@@ -103,7 +190,10 @@ TEST(Bench, ASignalLeavesWholePoints) {
             kill(child, SIGINT);
         });
     EXPECT_EQ(result.code, 130) << result.err;
-    const auto rows = parse_bench_csv(text_of_file(csv));
+    EXPECT_TRUE(result.err.ends_with("kilolux: interrupted\n")) << result.err;
+    for (const char* noise : {"pocl", "clang", "LLVM", "No such file", "rror"})
+        EXPECT_FALSE(contains(result.err, noise)) << noise << " / " << result.err;
+    const auto rows = bench_rows(parse_csv(text_of_file(csv)));
     ASSERT_FALSE(rows.empty());
     EXPECT_EQ(rows.back().stage, kFrameStage);
 }
@@ -181,10 +271,45 @@ TEST(BenchOptions, ParsesListsOfTuples) {
     EXPECT_EQ(parse_grids("--g", "3x3x1;64,36,64"), (Grids{{3, 3, 1}, {64, 36, 64}}));
 }
 
-TEST(BenchOptions, NamesRenderersAsTheSharedOptionsDo) {
-    for (std::size_t i = 0; i < renderer_names().size(); ++i) {
-        EXPECT_EQ(renderer_name(static_cast<RendererKind>(i)), renderer_names()[i]);
-    }
+TEST(BenchContext, NamesTheFirstDifference) {
+    const nlohmann::ordered_json was = {{"a", {{"b", 1}, {"c", "x"}}}};
+    EXPECT_EQ(context_difference(was, was), "");
+    nlohmann::ordered_json is = was;
+    is["a"]["c"] = "y";
+    EXPECT_EQ(context_difference(was, is), "a/c was \"x\", is \"y\"");
+    is = was;
+    is["d"] = 2;
+    EXPECT_EQ(context_difference(was, is), "d was missing, is 2");
+}
+
+// Runs the script that the build runs every time.
+std::string commit_cpp(const fs::path& root, const fs::path& output) {
+    const ChildResult result = run_child({"/usr/bin/env", "cmake", "-DROOT=" + root.string(),
+                                          "-DOUTPUT=" + output.string(), "-P",
+                                          source_root() + "/present/cli/commit.cmake"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return text_of_file(output);
+}
+
+TEST(BuildCommit, IsReadAtEveryBuildAndWrittenOnChange) {
+    const TemporaryFolder folder;
+    const fs::path output = folder / "commit.cpp";
+    EXPECT_TRUE(contains(commit_cpp(folder.path(), output), "\"unknown\""));
+    const auto git = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"/usr/bin/env", "git", "-C", folder.path().string(), "-c",
+                                     "user.name=t", "-c", "user.email=t@t"});
+        ASSERT_EQ(run_child(words).code, 0);
+    };
+    git({"init", "-q"});
+    git({"commit", "-q", "--allow-empty", "-m", "first"});
+    const std::string first = commit_cpp(folder.path(), output);
+    EXPECT_FALSE(contains(first, "unknown")) << first;
+    const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
+    fs::last_write_time(output, old);
+    EXPECT_EQ(commit_cpp(folder.path(), output), first);
+    EXPECT_EQ(fs::last_write_time(output), old) << "unchanged: nothing is compiled again";
+    git({"commit", "-q", "--allow-empty", "-m", "second"});
+    EXPECT_NE(commit_cpp(folder.path(), output), first);
 }
 
 }  // namespace

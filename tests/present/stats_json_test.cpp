@@ -56,10 +56,12 @@ TEST(StatsJson, HasTheKeysToolsRelyOn) {
     EXPECT_EQ(json.at("clusters").at("refined_pairs"), 34);
     EXPECT_EQ(json.at("evaluations").at("per_pixel"), 5.5);
     EXPECT_EQ(json.at("evaluations").at("useful_per_pixel"), 4.25);
-    ASSERT_EQ(json.at("stages").size(), 2u);
+    ASSERT_EQ(json.at("stages").size(), 3u);
     EXPECT_EQ(json.at("stages")[0],
               Json({{"name", "cull_lights"}, {"ms", 1.5}, {"limit_ms", 0.25}}));
     EXPECT_TRUE(json.at("stages")[1].at("limit_ms").is_null());
+    EXPECT_EQ(json.at("stages")[2], Json({{"name", "other"}, {"ms", 96.0}, {"limit_ms", nullptr}}))
+        << "stages sum to the frame";
     EXPECT_EQ(json.at("frame_ms"), 100.0);
     EXPECT_FALSE(json.contains("error"));
     EXPECT_FALSE(json.contains("frames"));

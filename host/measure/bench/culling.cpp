@@ -16,7 +16,6 @@
 namespace kilolux {
 namespace {
 
-// Brute force of a million lights takes seconds.
 constexpr double kLongBruteForceMs = 1000.0;
 
 // Lists on the host.
@@ -132,7 +131,7 @@ void set_limits(CullingMeasurement& m, const ClusterGrid& grid, const KernelFeat
     StageWork work = stage_work("cull_lights", counts).value();
     m.limit_ms = stage_limit(work, limits).ms;
     m.bytes = work.bytes_read + work.bytes_written;
-    work.lanes = {};
+    work.instructions = {};
     work.launches = 0;
     m.bytes_limit_ms = stage_limit(work, limits).ms;
 }

@@ -20,15 +20,12 @@ struct CullingMeasurement {
     std::uint64_t pairs = 0;  // entries of the lists
     Statistics prepare_ms;
     Statistics cull_ms;
-    Statistics brute_force_ms;    // every light against every cluster's box
-    double limit_ms = 0.0;        // of cull, by the device's limits
-    double bytes_limit_ms = 0.0;  // of cull, by bandwidth alone
-    double bytes = 0.0;           // that cull must move
-    // Brute force tests boxes, so it has all entries of the lists, and lights more that touch only
-    // the part of a box outside its cluster's part of the frustum.
-    std::uint64_t brute_force_pairs = 0;
-    std::uint64_t foreign_pairs =
-        0;  // entries that brute force does not have: 0, or there is a bug
+    Statistics brute_force_ms;            // every light against every cluster's box
+    double limit_ms = 0.0;                // of cull, by the device's limits
+    double bytes_limit_ms = 0.0;          // of cull, by bandwidth alone
+    double bytes = 0.0;                   // that cull must move
+    std::uint64_t brute_force_pairs = 0;  // equal to `pairs`, or there is a bug
+    std::uint64_t foreign_pairs = 0;      // entries that brute force lacks: 0, or there is a bug
 
     double nanoseconds_per_light() const;
     double nanoseconds_per_pair() const;
@@ -36,8 +33,8 @@ struct CullingMeasurement {
 };
 
 /// Measures the lists of `light_count` generated lights (settings.lights, but for the count) for
-/// the camera's view of the scene at `time`: medians of `runs` after a warm-up; brute force runs so
-/// often too, but once where that takes longer than a second. No picture is drawn.
+/// the camera's view of the scene at `time`: medians of `runs` after a warm-up. Brute force runs as
+/// often, but only once where it takes longer than a second. No picture is drawn.
 CullingMeasurement measure_culling(const Scene& scene, const RenderSettings& settings,
                                    const Camera& camera, double time, std::uint64_t light_count,
                                    const DeviceLimits& limits, int runs);

@@ -2,7 +2,9 @@
 #include "host/measure/bench/feature_cost.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/measure/metrics/statistics.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -15,68 +17,65 @@ ScenePlan plan_with(const LightingBench& bench, const std::string& feature) {
                            settings.lights.count + bench.scene().lights.size());
 }
 
-// The least of a few turns each: what else the machine does then hits both alike.
-FeatureCost measure_cost(LightingBench& bench, const std::string& feature, int runs) {
-    constexpr int kTurns = 3;
-    LightingRequest without = bench.request();
-    without.runs = std::max(1, (runs + kTurns - 1) / kTurns);
-    LightingRequest with = without;
-    with.plan = plan_with(bench, feature);
-    FeatureCost cost;
-    cost.feature = feature;
-    cost.measured = true;
-    cost.bytes_per_pixel = with.plan.gbuffer_bytes_per_pixel - without.plan.gbuffer_bytes_per_pixel;
-    // Geometry takes longer than all kernels on a CPU: its noise would drown what does not concern
-    // it.
-    without.geometry = with.geometry = cost.bytes_per_pixel != 0;
-    std::vector<double> ms_without, ms_with;
-    for (int turn = 0; turn < kTurns; ++turn) {
-        ms_without.push_back(bench.run(without).ms);
-        ms_with.push_back(bench.run(with).ms);
-    }
-    const auto [least, most] = std::minmax_element(ms_without.begin(), ms_without.end());
-    cost.ms = *std::min_element(ms_with.begin(), ms_with.end()) - *least;
-    cost.noise_ms = *most - *least;
-    cost.percent = *least > 0.0 ? 100.0 * cost.ms / *least : 0.0;
-    return cost;
-}
-
-}  // namespace
-
-std::vector<std::string> absent_features(const ScenePlan& plan) {
-    std::vector<std::string> names = plan.left_out;
-    if (plan.kernels.shading < SHADING_BLINN_PHONG) names.emplace_back("blinn-phong");
-    if (plan.kernels.shading < SHADING_PBR) names.emplace_back("pbr");
-    return names;
-}
-
 bool is_forceable(const std::string& feature) {
     const std::vector<std::string>& names = forceable_features();
     return std::find(names.begin(), names.end(), feature) != names.end();
 }
 
-FeatureCost unmeasured_cost(const ScenePlan& plan, const std::string& feature) {
-    FeatureCost cost;
-    cost.feature = feature;
-    cost.bytes_per_pixel = added_bytes_per_pixel(plan, feature);
-    if (is_forceable(feature)) {
-        cost.why = "not measured yet: kilolux info --costs does";
-    } else if (feature == "point-lights") {
-        cost.why = "without lights the list stages run on empty lists";
-    } else {
-        cost.why = "compiled into the shaders of materials that use it only";
+void measure_cost(LightingBench& bench, int runs, FeatureCost& cost) {
+    constexpr std::size_t kFewestTurns = 5, kMostTurns = 15;
+    LightingRequest without = bench.request();
+    without.runs = runs;
+    LightingRequest with = without;
+    with.plan = plan_with(bench, cost.feature);
+    // On a CPU, geometry takes longer than all kernels: it is only timed where the G-buffer grows.
+    without.geometry = with.geometry = cost.bytes_per_pixel != 0;
+    std::vector<double> differences_ms, base_ms;
+    CostEstimate estimate;
+    while (differences_ms.size() < kMostTurns) {
+        base_ms.push_back(bench.run(without).ms);
+        differences_ms.push_back(bench.run(with).ms - base_ms.back());
+        estimate = estimate_cost(differences_ms);
+        if (differences_ms.size() >= kFewestTurns && estimate.measurable()) break;
     }
-    return cost;
+    cost.measured = true;
+    cost.measurable = estimate.measurable();
+    cost.ms = estimate.ms;
+    cost.noise_ms = estimate.noise_ms;
+    cost.percent = 100.0 * estimate.ms / statistics(base_ms).median;
+}
+
+}  // namespace
+
+CostEstimate estimate_cost(std::vector<double> differences_ms) {
+    std::sort(differences_ms.begin(), differences_ms.end());
+    const double spread = quantile(differences_ms, 0.75) - quantile(differences_ms, 0.25);
+    const double turns = static_cast<double>(differences_ms.size());
+    return {quantile(differences_ms, 0.5), 1.57 * spread / std::sqrt(turns)};
+}
+
+std::vector<FeatureCost> left_out_features(const ScenePlan& plan) {
+    std::vector<std::string> names = plan.left_out;
+    if (plan.kernels.shading < SHADING_BLINN_PHONG) names.emplace_back("blinn-phong");
+    if (plan.kernels.shading < SHADING_PBR) names.emplace_back("pbr");
+    std::vector<FeatureCost> costs;
+    for (const std::string& name : names) {
+        FeatureCost& cost = costs.emplace_back();
+        cost.feature = name;
+        cost.bytes_per_pixel = added_bytes_per_pixel(plan, name);
+        cost.why = is_forceable(name)       ? "not measured: kilolux info --costs does"
+                   : name == "point-lights" ? "without lights the list stages run on empty lists"
+                                            : "compiled into shaders of materials that use it only";
+    }
+    return costs;
 }
 
 std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs) {
-    std::vector<FeatureCost> costs;
-    for (const std::string& feature : absent_features(bench.request().plan)) {
-        if (is_forceable(feature)) {
-            costs.push_back(measure_cost(bench, feature, runs));
-        } else {
-            costs.push_back(unmeasured_cost(bench.request().plan, feature));
-        }
+    std::vector<FeatureCost> costs = left_out_features(bench.request().plan);
+    for (FeatureCost& cost : costs) {
+        if (!is_forceable(cost.feature)) continue;
+        cost.why.clear();
+        measure_cost(bench, runs, cost);
     }
     return costs;
 }

@@ -8,29 +8,33 @@
 
 namespace kilolux {
 
-/// What a feature that the scene plan left out would have cost on the bench's frame.
+/// What a feature that the scene plan left out would cost on the bench's frame.
 struct FeatureCost {
     std::string feature;
-    bool measured = false;    // false: it costs nothing where it is absent, as `why` says
-    double ms = 0.0;          // more time a frame with it; negative only by noise
-    double noise_ms = 0.0;    // how far the turns without it differ: what `ms` is uncertain by
-    double percent = 0.0;     // of the frame's kernels (and its geometry, where the G-buffer grows)
-    int bytes_per_pixel = 0;  // more G-buffer
+    bool measured = false;    // false: there is no time, for the reason in `why`
+    bool measurable = false;  // whether `ms` is above the noise
+    double ms = 0.0;          // additional time of a frame with it
+    double noise_ms = 0.0;    // half the width of the 95 % interval of `ms`
+    double percent = 0.0;     // of the frame's kernels (and geometry, where the G-buffer grows)
+    int bytes_per_pixel = 0;  // additional G-buffer
     std::string why;
 };
 
-/// The features that a plan leaves out, then the costlier shading models.
-std::vector<std::string> absent_features(const ScenePlan& plan);
+/// The cost by paired measurements with and without the feature [ms], one difference a turn: their
+/// median, and whether it is above its noise (McGill, Tukey and Larsen 1978, notches).
+struct CostEstimate {
+    double ms = 0.0;
+    double noise_ms = 0.0;
+    bool measurable() const { return ms > noise_ms; }
+};
+CostEstimate estimate_cost(std::vector<double> differences_ms);
 
-/// Whether a feature can be compiled in where the scene lacks it, and so measured.
-bool is_forceable(const std::string& feature);
+/// What is known without measuring of each feature that the plan leaves out, then of the costlier
+/// shading models: the bytes, and why there is no time.
+std::vector<FeatureCost> left_out_features(const ScenePlan& plan);
 
-/// What is known of a left-out feature's cost without measuring: the bytes, and why there is no
-/// time.
-FeatureCost unmeasured_cost(const ScenePlan& plan, const std::string& feature);
-
-/// Compiles each left-out feature in, and each costlier shading model, and times the same frame
-/// with and without, in turns. The picture stays the same but for shading models.
-std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs = 5);
+/// Compiles each of them in that can be, and times the same frame with and without, in turns, until
+/// the difference exceeds its noise or 15 turns have passed. `runs` frames a turn.
+std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs = 2);
 
 }  // namespace kilolux

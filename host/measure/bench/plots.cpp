@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/bench/plots.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace kilolux {
@@ -40,7 +42,7 @@ std::vector<SweepPoint> points_of(const std::vector<BenchRow>& rows) {
     return points;
 }
 
-// The texts of the varying fields but one: what tells a curve from the others.
+// The texts of the varying fields but one.
 std::string curve_name(const SweepPoint& point, const std::vector<std::string>& varying,
                        const std::string& but) {
     std::string name;
@@ -72,7 +74,7 @@ void add_point(Plot& plot, const std::string& curve, PlotPoint point) {
     }
 }
 
-// Curves that say something, each from left to right.
+// Keeps curves of two points or more, sorted by x; whether there is one.
 bool finish(Plot& plot) {
     std::erase_if(plot.series, [](const PlotSeries& s) { return s.points.size() < 2; });
     for (PlotSeries& series : plot.series) {
@@ -80,6 +82,17 @@ bool finish(Plot& plot) {
                          [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
     }
     return !plot.series.empty();
+}
+
+// Scene, device, and the fields that all points share: resolution, lights, renderer.
+std::string full_subtitle(const std::string& subtitle, const std::vector<BenchRow>& rows) {
+    const std::vector<std::string> varying = varying_fields(points_of(rows));
+    std::string out = subtitle;
+    for (const auto& [field, text] : fields_of(rows.front().point)) {
+        const bool varies = std::find(varying.begin(), varying.end(), field) != varying.end();
+        if (!varies && text != "auto") out += fmt::format(", {} {}", field, text);
+    }
+    return out;
 }
 
 // The rows that lie on curves along a field, and the fields in which those curves differ.
@@ -110,14 +123,14 @@ Plot time_plot(const Axis& axis, const Curves& curves) {
     plot.log_x = axis.log_x;
     plot.log_y = true;
     for (const BenchRow& row : curves.rows) {
-        // Automatic values have no place on the axis.
+        // Automatic values are not on the axis.
         if ((row.stage != kFrameStage && row.stage != "shade") || axis.x(row.point) <= 0.0)
             continue;
         const std::string name = curve_name(row.point, curves.varying, axis.field);
-        add_point(
-            plot, row.stage + (name.empty() ? "" : ", " + name),
-            {axis.x(row.point), row.ms.median,
-             axis.labelled && row.stage == kFrameStage ? field_text(row.point, axis.field) : ""});
+        const bool labelled = axis.labelled && row.stage == kFrameStage;
+        add_point(plot, row.stage + (name.empty() ? "" : ", " + name),
+                  {axis.x(row.point), row.ms.median,
+                   labelled ? field_text(row.point, axis.field) : "", row.ms.p5, row.ms.p95});
     }
     return plot;
 }
@@ -151,14 +164,18 @@ Plot speed_up_plot(const Curves& curves) {
 
 }  // namespace
 
-std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows) {
+std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows, const std::string& subtitle) {
     std::vector<NamedPlot> plots;
+    if (rows.empty()) return plots;
     for (const Axis& axis : kAxes) {
-        NamedPlot named{axis.stem, time_plot(axis, curves_along(axis.field, rows))};
-        if (finish(named.plot)) plots.push_back(std::move(named));
+        const Curves curves = curves_along(axis.field, rows);
+        plots.push_back({axis.stem, time_plot(axis, curves)});
+        if (!curves.rows.empty()) plots.back().plot.subtitle = full_subtitle(subtitle, curves.rows);
     }
-    NamedPlot speed_up{"speed_up_against_lights", speed_up_plot(curves_along("lights", rows))};
-    if (finish(speed_up.plot)) plots.push_back(std::move(speed_up));
+    const Curves curves = curves_along("lights", rows);
+    plots.push_back({"speed_up_against_lights", speed_up_plot(curves)});
+    if (!curves.rows.empty()) plots.back().plot.subtitle = full_subtitle(subtitle, curves.rows);
+    std::erase_if(plots, [](NamedPlot& named) { return !finish(named.plot); });
     return plots;
 }
 

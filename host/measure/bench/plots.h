@@ -15,9 +15,10 @@ struct NamedPlot {
     Plot plot;
 };
 
-/// What a sweep's rows show: frame time against lights, speed-up over deferred-all against lights
-/// (where it was measured too), and frame and shading time against grid, work-group height, lanes
-/// and pixels. An axis with one value makes no plot; what else varies becomes curves.
-std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows);
+/// Frame and shading time against lights, grid, work-group height, lanes and pixels, and the
+/// speed-up over deferred-all against lights where that was measured. An axis with one value makes
+/// no plot; what else varies becomes curves.
+/// `subtitle`: scene and device; what the points share is added. Bars reach from p5 to p95.
+std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows, const std::string& subtitle);
 
 }  // namespace kilolux

@@ -12,23 +12,22 @@
 
 namespace kilolux {
 
-/// How far a configuration's picture is from the all-lights reference of the same G-buffer layout.
+/// A configuration's picture against the all-lights reference of the same G-buffer layout.
 struct PictureError {
-    double max_relative = 0.0;  // over all channels of all pixels; below the picture's mean to that
+    double max_relative = 0.0;  // over all channels; where the reference is below its mean, to that
     std::uint64_t different_pixels = 0;  // whose float32 bits differ
     std::uint64_t pixels = 0;            // compared
     bool operator==(const PictureError&) const = default;
 };
 
-/// One stage of one point of a sweep, or its whole frame: a row of the long form.
+/// One stage of one point of a sweep, the time outside of the stages, or the whole frame.
 struct BenchRow {
-    std::string context;  // which device, scene, version ... it was measured with
     SweepPoint point;
-    std::string stage;  // a stage of FrameStats, or kFrameStage
+    std::string stage;  // a stage of FrameStats, kOtherStage or kFrameStage
     Statistics ms;
-    double limit_ms = 0.0;  // by the device's measured limits; 0: no model
-    std::string bound;      // what limits it; empty: no model, or the frame
-    double evaluations = 0.0;
+    double limit_ms = 0.0;     // by the device's measured limits; 0: no model
+    std::string bound;         // what limits it; empty: no model
+    double evaluations = 0.0;  // see StageReport
     double bytes = 0.0;
     double k = 0.0;         // lights evaluated a drawn pixel
     double useful_k = 0.0;  // k*: of those in range
@@ -39,6 +38,10 @@ struct BenchRow {
     double gigabytes_per_s() const { return giga_rate(bytes); }
     double useful_share() const { return k > 0.0 ? useful_k / k : 1.0; }
 
+    /// Whether the stage was faster than its limit by more than the noise: the limit or the model
+    /// is wrong. False for fewer than 10 frames, as their noise is unknown.
+    bool beats_limit() const;
+
  private:
     double giga_rate(double amount) const {
         return ms.median > 0.0 ? 1e-6 * amount / ms.median : 0.0;
@@ -48,17 +51,20 @@ struct BenchRow {
 /// The stage name of the row that ends every point: the frame as the host's clock sees it.
 inline constexpr std::string_view kFrameStage = "frame";
 
-/// All that rows hold, with rates and ratios beside.
+/// All that rows hold, with rates and ratios.
 Table bench_table(const std::vector<BenchRow>& rows);
 
 /// For reading: what varies between the points, and the columns that matter.
 Table bench_summary(const std::vector<BenchRow>& rows);
 
-/// The rows of to_csv(bench_table(...)), header included. Throws Error with the line's number for
-/// anything else.
-std::vector<BenchRow> parse_bench_csv(std::string_view csv);
+/// What the columns of bench_summary() mean, in a few lines.
+std::string bench_legend();
 
-/// The fields of one line of CSV without its end (RFC 4180).
-std::vector<std::string> csv_fields(std::string_view line);
+/// Whether a table has bench_table()'s columns.
+bool is_bench_table(const TextTable& csv);
+
+/// The rows of bench_table() as parse_csv() reads them. Throws Error with the line's number for
+/// anything else.
+std::vector<BenchRow> bench_rows(const TextTable& csv);
 
 }  // namespace kilolux

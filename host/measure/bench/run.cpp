@@ -28,20 +28,21 @@ std::vector<double> times_of(const std::vector<FrameStats>& frames, const std::s
     return times;
 }
 
-BenchRow frame_row(BenchRow row, const std::vector<FrameStats>& frames,
-                   const std::vector<BenchRow>& stages) {
+// A row of a time of each frame that is no stage's. It has no limit: some stages have none.
+template <typename Ms>
+BenchRow timed_row(BenchRow row, std::string_view stage, const std::vector<FrameStats>& frames,
+                   Ms ms) {
     std::vector<double> times;
-    times.reserve(frames.size());
-    for (const FrameStats& frame : frames) times.push_back(frame.frame_ms);
-    row.stage = kFrameStage;
+    for (const FrameStats& frame : frames) times.push_back(ms(frame));
+    row.stage = stage;
     row.ms = statistics(times);
-    for (const BenchRow& stage : stages) {
-        row.limit_ms += stage.limit_ms;
-        row.bytes += stage.bytes;
-        if (stage.stage == "shade" || stage.stage == "forward")
-            row.evaluations += stage.evaluations;
-    }
     return row;
+}
+
+// How the time of a frame grows between points of the same renderer, roughly.
+double relative_work(const SweepPoint& p) {
+    const double pixels = static_cast<double>(p.resolution[0]) * p.resolution[1];
+    return has_clusters(p.renderer) ? pixels : pixels * static_cast<double>(p.lights + 1);
 }
 
 RgbImage picture_of(const Frame& frame) {
@@ -87,7 +88,7 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
     {
         Renderer renderer(scene_, settings, gl_);
         setup = frame_setup(settings, renderer.plan(), renderer.device());
-        // What a window waits for: a file's float radiance is not fetched.
+        // As in a window: the float radiance stays on the device.
         std::vector<uint> picture(display_stride(settings.width) *
                                   static_cast<std::size_t>(settings.height));
         for (int i = 0; i < frames.warm_up + frames.measured; ++i) {
@@ -95,6 +96,8 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
             if (i >= frames.warm_up) measured.push_back(std::move(frame.stats));
             on_frame_();
         }
+        frame_ms_.emplace_back(point, measured.back().frame_ms);
+        std::copy_n(measured.back().grid, 3, grid_.begin());
         if (is_forward(point.renderer)) {
             // Counted by a pass that the frames in the sweep do not pay for.
             RenderSettings counted = settings;
@@ -115,6 +118,7 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     const auto local = static_cast<double>(stats.lights_used - stats.directional_lights);
     if (stats.drawn_pixels == 0) stats.drawn_pixels = covered.drawn_pixels;
     if (point.renderer == RendererKind::deferred_all) stats.evaluations_per_pixel = local;
+    stats.useful_evaluations_per_pixel = covered.useful_k;
     BenchRow row;
     row.point = point;
     row.k = stats.evaluations_per_pixel;
@@ -131,8 +135,22 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
         stage.evaluations = report.evaluations;
         rows.push_back(std::move(stage));
     }
-    rows.push_back(frame_row(row, frames, rows));
+    rows.push_back(timed_row(row, kOtherStage, frames, other_ms));
+    rows.push_back(timed_row(row, kFrameStage, frames,
+                             [](const FrameStats& frame) { return frame.frame_ms; }));
     return rows;
+}
+
+double BenchRun::expected_frame_ms(const SweepPoint& point) const {
+    double ms = 0.0;
+    bool same_renderer = false;
+    for (const auto& [measured, measured_ms] : frame_ms_) {
+        const bool same = measured.renderer == point.renderer;
+        if (same_renderer && !same) continue;
+        same_renderer = same;
+        ms = measured_ms * relative_work(point) / relative_work(measured);
+    }
+    return ms;
 }
 
 std::size_t BenchRun::frame_count(const std::vector<SweepPoint>& points,

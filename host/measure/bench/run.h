@@ -25,8 +25,8 @@ struct BenchFrames {
     int measured = 120;
 };
 
-/// Size at which pictures are compared: of the same shape, at most 480 pixels wide, and so small
-/// that evaluating every light at every pixel stays within two billion evaluations.
+/// The size at which pictures are compared: of the same shape, at most 480 pixels wide, and small
+/// enough that deferred-all takes at most 2e9 evaluations.
 std::array<int, 2> error_resolution(std::array<int, 2> resolution, std::uint64_t lights);
 
 /// Measures points of a sweep over one scene from one camera at one time.
@@ -37,21 +37,27 @@ class BenchRun {
     BenchRun(const Scene& scene, RenderSettings base, const Camera& camera, double time,
              GlSource gl = GlSource::headless);
 
-    /// What is called after every frame that is rendered; it may throw to stop.
+    /// Called after every rendered frame; it may throw to stop.
     void on_frame(std::function<void()> call) { on_frame_ = std::move(call); }
 
-    /// One row a stage and the frame's last. Beside the timed frames, others find out k* and the
-    /// error against the all-lights reference, so that speed never stands without its error.
+    /// A row for each stage, then kOtherStage and kFrameStage. Further frames, not timed, count k*
+    /// and measure the error against the all-lights reference.
     std::vector<BenchRow> measure(const SweepPoint& point, const BenchFrames& frames);
 
-    /// Frames that measure() of these points renders in all.
+    /// How many frames measure() renders for these points.
     std::size_t frame_count(const std::vector<SweepPoint>& points, const BenchFrames& frames) const;
 
-    /// As high as they were seen so far.
+    /// Time of a frame at `point` [ms], from the nearest point measured so far; 0: none was.
+    double expected_frame_ms(const SweepPoint& point) const;
+
+    /// The coarse grid of the last point; zeros without one.
+    const std::array<std::uint32_t, 3>& grid() const { return grid_; }
+
+    /// The highest rates measured so far.
     const DeviceLimits& limits() const { return watch_.limits(); }
 
  private:
-    // What does not depend on how the lights are found.
+    // What does not depend on the renderer.
     struct Coverage {
         double useful_k = 0.0;
         std::uint64_t drawn_pixels = 0;
@@ -72,6 +78,8 @@ class BenchRun {
     GlSource gl_;
     LimitWatch watch_;
     std::function<void()> on_frame_ = [] {};
+    std::vector<std::pair<SweepPoint, double>> frame_ms_;
+    std::array<std::uint32_t, 3> grid_{};
     std::map<SceneKey, Coverage> coverages_;
     std::map<SceneKey, RgbImage> references_;
 };

@@ -37,7 +37,7 @@ class Noise {
     std::mt19937 engine_{1};
 };
 
-// Planes of noise, no pixel of which is background.
+// Planes of noise without background pixels.
 GBuffer make_gbuffer(const Gpu& gpu, const View& view) {
     GBuffer out;
     out.view = view;
@@ -111,7 +111,7 @@ void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) 
     StageCounts counts;
     counts.pixels = counts.drawn_pixels = static_cast<double>(view.width) * view.height;
     counts.lights = kShadingLights;
-    counts.evaluations = counts.pixels * kShadingLights;
+    counts.evaluations = counts.full_evaluations = counts.pixels * kShadingLights;
     counts.kernels = variant.features;
     StageWork work = stage_work("shade", counts).value();
     const StageLimit limit = stage_limit(work, limits);
@@ -119,7 +119,7 @@ void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) 
     m.bound = bound_name(limit.bound);
     m.evaluations = counts.evaluations;
     m.bytes = work.bytes_read + work.bytes_written;
-    m.instruction_ms = 1e3 * work.lanes.instructions / (0.5 * limits.fma_flops);
+    m.instruction_ms = 1e3 * work.instructions.total / (0.5 * limits.fma_flops);
 }
 
 // The least time of the same model with one lane.

@@ -24,21 +24,21 @@ struct ShadingMeasurement {
     double bytes = 0.0;
     double speed_up = 0.0;  // least time with one lane / least time with these lanes
 
-    /// Limits are the best of several runs, so the least time stands against them.
+    /// Of the least time, as limits are the best of several runs.
     double ratio() const { return ms.min > 0.0 ? limit_ms / ms.min : 0.0; }
-    /// As rooflines are drawn: instructions at half of the multiply-add FLOP/s. A device that adds
-    /// beside its multiply-adds can pass 1; limit_ms counts that in.
+    /// Instructions at half of the multiply-add FLOP/s, as rooflines are drawn. It exceeds 1 on
+    /// devices with separate adders, which limit_ms includes.
     double instruction_ratio() const { return ms.min > 0.0 ? instruction_ms / ms.min : 0.0; }
 };
 
 /// Lights per pixel of measure_shading().
 inline constexpr int kShadingLights = 64;
 
-/// Times the all-lights shading kernel on a synthetic full-screen G-buffer (packed, without
-/// optional planes; settings' size) whose every pixel is in range of kShadingLights point lights:
-/// each model with 1, 4, 8 and 16 lanes (and the device's own), in turns, so that what else the
-/// machine does hits all alike; between the runs the arithmetic limits are measured again, the best
-/// of all counts. `on_run` is called after every run and may throw to stop.
+/// Times the all-lights shading kernel on a synthetic full-screen G-buffer (packed, settings' size)
+/// with every pixel in range of kShadingLights point lights: each model with 1, 2, 4, 8, 16 and the
+/// device's own lanes, in turns, so that other load affects all alike. The arithmetic limits are
+/// measured again between the runs; the best counts. `on_run` is called after every run and may
+/// throw to stop.
 std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, DeviceLimits limits,
                                                 int runs, const std::function<void()>& on_run);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/bench/sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -8,28 +10,19 @@
 
 #include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
+#include "host/measure/bench/renderer_names.h"
+#include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::size_t kMostValues = 10000;
-constexpr const char* kRendererNames[] = {"deferred", "forward-plus", "forward", "deferred-all"};
 
 std::optional<std::uint64_t> count_of(std::string_view text) {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    while (true) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        if (end == std::string_view::npos) return parts;
-        text.remove_prefix(end + 1);
-    }
 }
 
 // A range's step: added, or multiplied by.
@@ -75,9 +68,19 @@ std::vector<std::uint64_t> piece_values(std::string_view piece) {
 
 }  // namespace
 
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t end = text.find(separator);
+        parts.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) return parts;
+        text.remove_prefix(end + 1);
+    }
+}
+
 std::vector<std::uint64_t> parse_count_sweep(const std::string& option, std::string_view text,
                                              std::uint64_t min, std::uint64_t max) {
-    const std::string seen = option + ": '" + std::string(text) + "' ";
+    const std::string seen = fmt::format("{}: '{}' ", option, text);
     std::vector<std::uint64_t> values;
     for (const std::string_view piece : split(text, ',')) {
         const auto found = piece_values(piece);
@@ -88,15 +91,15 @@ std::vector<std::uint64_t> parse_count_sweep(const std::string& option, std::str
         }
         for (const std::uint64_t value : found) {
             if (value < min || value > max) {
-                throw UsageError(seen + "has " + std::to_string(value) + ", must be from " +
-                                 std::to_string(min) + " to " + std::to_string(max));
+                throw UsageError(
+                    fmt::format("{}has {}, must be from {} to {}", seen, value, min, max));
             }
             if (std::find(values.begin(), values.end(), value) == values.end()) {
                 values.push_back(value);
             }
         }
         if (values.size() > kMostValues) {
-            throw UsageError(seen + "has more than " + std::to_string(kMostValues) + " values");
+            throw UsageError(fmt::format("{}has more than {} values", seen, kMostValues));
         }
     }
     return values;
@@ -142,31 +145,16 @@ RenderSettings settings_at(RenderSettings base, const SweepPoint& point) {
     return base;
 }
 
-std::string renderer_name(RendererKind renderer) {
-    return kRendererNames[static_cast<std::size_t>(renderer)];
-}
-
-RendererKind renderer_of_name(std::string_view name) {
-    const auto* found = std::find(std::begin(kRendererNames), std::end(kRendererNames), name);
-    if (found == std::end(kRendererNames)) {
-        throw Error("'" + std::string(name) + "' is no renderer");
-    }
-    return static_cast<RendererKind>(found - std::begin(kRendererNames));
-}
-
 bool has_clusters(RendererKind renderer) {
     return renderer == RendererKind::deferred || renderer == RendererKind::forward_plus;
 }
 
 std::vector<std::pair<std::string, std::string>> fields_of(const SweepPoint& p) {
-    const auto text = [](int value) {
-        return value == 0 ? std::string("auto") : std::to_string(value);
-    };
+    const auto text = [](int value) { return value == 0 ? "auto" : fmt::to_string(value); };
     return {{"renderer", renderer_name(p.renderer)},
-            {"resolution", std::to_string(p.resolution[0]) + "x" + std::to_string(p.resolution[1])},
-            {"lights", std::to_string(p.lights)},
-            {"grid", std::to_string(p.grid[0]) + "x" + std::to_string(p.grid[1]) + "x" +
-                         std::to_string(p.grid[2])},
+            {"resolution", fmt::format("{}x{}", p.resolution[0], p.resolution[1])},
+            {"lights", fmt::to_string(p.lights)},
+            {"grid", fmt::format("{}x{}x{}", p.grid[0], p.grid[1], p.grid[2])},
             {"lanes", text(p.lanes)},
             {"group height", text(p.group_height)},
             {"gbuffer", gbuffer_layout_name(p.gbuffer)}};
@@ -184,6 +172,16 @@ std::vector<std::string> varying_fields(const std::vector<SweepPoint>& points) {
         if (seen[i].size() > 1) names.push_back(fields[i].first);
     }
     return names;
+}
+
+std::string grid_explanation(const SweepPoint& asked, const std::array<std::uint32_t, 3>& grid) {
+    const auto& [tiles_x, tiles_y, slices] = asked.grid;
+    if (grid[0] == 0) return "";
+    return fmt::format(
+        "grid {},{},{} of {}x{} pixels is {}x{}x{} clusters: tile edges are multiples of {} "
+        "pixels, and the depth has {} slices at {} for each doubling",
+        tiles_x, tiles_y, slices, asked.resolution[0], asked.resolution[1], grid[0], grid[1],
+        grid[2], FINE_TILE, grid[2], slices);
 }
 
 }  // namespace kilolux

@@ -8,16 +8,20 @@
 #include <utility>
 #include <vector>
 
+#include "host/measure/bench/renderer_names.h"
 #include "host/render/settings.h"
 
 namespace kilolux {
 
-/// Whole numbers of a sweep, in the order written, each once: pieces separated by commas, each a
-/// number "500", a range "500:5000:500" (from, to, step) or a geometric one "256:8192:*2". The last
-/// value of a range belongs to it if a step meets it. Throws UsageError with `option` and the text
-/// for what is none of these, for more than 10000 values, or for a number outside [min, max].
+/// Whole numbers of a sweep, in the order written, each once: a list of numbers "500", ranges
+/// "500:5000:500" (from, to, step) and geometric ranges "256:8192:*2". `to` is included if a step
+/// reaches it. Throws UsageError with `option` and the text for anything else, for more than 10000
+/// values, or for a number outside [min, max].
 std::vector<std::uint64_t> parse_count_sweep(const std::string& option, std::string_view text,
                                              std::uint64_t min, std::uint64_t max);
+
+/// The pieces of a text between separators; at least one.
+std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// What one measurement of a sweep varies.
 struct SweepPoint {
@@ -48,10 +52,6 @@ std::vector<SweepPoint> sweep_points(const SweepAxes& axes);
 /// `base` with what the point says.
 RenderSettings settings_at(RenderSettings base, const SweepPoint& point);
 
-/// A renderer's name on the command line and in files, and back; throws Error for none.
-std::string renderer_name(RendererKind renderer);
-RendererKind renderer_of_name(std::string_view name);
-
 /// Whether a renderer finds each pixel's lights by clusters; else it evaluates all of them.
 bool has_clusters(RendererKind renderer);
 
@@ -61,5 +61,8 @@ std::vector<std::pair<std::string, std::string>> fields_of(const SweepPoint& poi
 
 /// Names of the fields in which the points differ, in fields_of()'s order.
 std::vector<std::string> varying_fields(const std::vector<SweepPoint>& points);
+
+/// Why the grid of a frame is not the one asked for; empty if it is what it says.
+std::string grid_explanation(const SweepPoint& asked, const std::array<std::uint32_t, 3>& grid);
 
 }  // namespace kilolux

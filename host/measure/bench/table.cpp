@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/bench/table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 
@@ -11,32 +12,20 @@
 namespace kilolux {
 namespace {
 
-// Independent of the locale. Without digits: the shortest text that reads back as the same double.
-std::string number_text(double value, std::optional<int> significant_digits) {
-    std::array<char, 64> buffer{};
-    char* const end = buffer.data() + buffer.size();
-    const std::to_chars_result result =
-        significant_digits ? std::to_chars(buffer.data(), end, value, std::chars_format::general,
-                                           *significant_digits)
-                           : std::to_chars(buffer.data(), end, value);
-    return {buffer.data(), result.ptr};
-}
-
 std::string cell_text(const Cell& cell, std::optional<int> significant_digits) {
     if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-    if (const auto* value = std::get_if<double>(&cell)) {
-        return number_text(*value, significant_digits);
-    }
-    if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
-    return {};
+    if (const auto* count = std::get_if<std::int64_t>(&cell)) return fmt::to_string(*count);
+    const auto* value = std::get_if<double>(&cell);
+    if (!value) return {};
+    return significant_digits ? fmt::format("{:.{}g}", *value, *significant_digits)
+                              : fmt::format("{}", *value);
 }
 
 void check(const Table& table) {
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         if (table.rows[i].size() == table.columns.size()) continue;
-        throw Error("table: row " + std::to_string(i) + " has " +
-                    std::to_string(table.rows[i].size()) + " cells, must have " +
-                    std::to_string(table.columns.size()));
+        throw Error(fmt::format("table: row {} has {} cells, must have {}", i, table.rows[i].size(),
+                                table.columns.size()));
     }
 }
 
@@ -87,6 +76,49 @@ MarkdownColumn markdown_column(const Table& table, std::size_t index, int signif
     }
     for (const std::string& field : out.fields) out.width = std::max(out.width, width_of(field));
     return out;
+}
+
+// Splits a text at commas and line ends outside of quotes.
+class CsvReader {
+ public:
+    explicit CsvReader(std::string_view text) : text_(text) {}
+
+    bool at_end() const { return text_.empty(); }
+
+    std::vector<std::string> next_line() {
+        std::vector<std::string> fields(1);
+        bool quoted = false;
+        while (!text_.empty()) {
+            const char c = text_.front();
+            text_.remove_prefix(1);
+            if (c == '"' && quoted && text_.starts_with('"')) {
+                fields.back() += c;
+                text_.remove_prefix(1);
+            } else if (c == '"') {
+                quoted = !quoted;
+            } else if (c == ',' && !quoted) {
+                fields.emplace_back();
+            } else if (c == '\n' && !quoted) {
+                break;
+            } else {
+                fields.back() += c;
+            }
+        }
+        return fields;
+    }
+
+ private:
+    std::string_view text_;
+};
+
+Cell cell_of_text(const std::string& text) {
+    const char* const end = text.data() + text.size();
+    std::int64_t integer = 0;
+    double number = 0.0;
+    if (text.empty()) return {};
+    if (std::from_chars(text.data(), end, integer).ptr == end) return integer;
+    if (std::from_chars(text.data(), end, number).ptr == end) return number;
+    return text;
 }
 
 std::string markdown_line(const std::vector<MarkdownColumn>& columns, std::size_t line) {
@@ -143,6 +175,30 @@ std::string to_markdown(const Table& table, int significant_digits) {
     std::string out = markdown_line(columns, 0) + markdown_rule(columns);
     for (std::size_t i = 0; i < table.rows.size(); ++i) out += markdown_line(columns, i + 1);
     return out;
+}
+
+TextTable parse_csv(std::string_view csv) {
+    TextTable table;
+    CsvReader reader(csv);
+    if (!reader.at_end()) table.columns = reader.next_line();
+    while (!reader.at_end()) {
+        std::vector<std::string> fields = reader.next_line();
+        if (fields.size() != table.columns.size()) {
+            throw Error(fmt::format("line {}: has {} fields, must have {}", table.rows.size() + 2,
+                                    fields.size(), table.columns.size()));
+        }
+        table.rows.push_back(std::move(fields));
+    }
+    return table;
+}
+
+Table table_of(const TextTable& texts) {
+    Table table{texts.columns, {}};
+    for (const auto& row : texts.rows) {
+        std::vector<Cell>& cells = table.rows.emplace_back();
+        for (const std::string& text : row) cells.push_back(cell_of_text(text));
+    }
+    return table;
 }
 
 }  // namespace kilolux

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/error.h"
+#include "host/base/interrupt.h"
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
@@ -29,8 +30,8 @@ StoredTuning with_value(StoredTuning tuning, const Dimension& dimension, int val
     return tuning;
 }
 
-// CPUs gain from wide lanes and lose with groups, as their barriers split loops; GPUs the other
-// way.
+// CPUs gain from wide lanes and lose with groups, as barriers split their loops; GPUs gain from
+// groups.
 std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
     const int units = device.compute_units;
     const std::vector<int> rows = {1, 2, 4, 8, 16};
@@ -74,7 +75,7 @@ struct Search {
 
     bool beats(double ms) const { return ms < (1.0 - kTuningGain) * result.best_ms; }
 
-    // A quiet moment may have favoured the alternative, or noise hurt the incumbent.
+    // Measures both again: one of them may have met other load.
     bool confirmed(TuningTrial& trial) {
         result.best_ms = std::min(result.best_ms, measure(result.best).ms);
         trial.ms = std::min(trial.ms, measure(trial.tuning).ms);
@@ -90,7 +91,11 @@ struct Search {
             trial.ms = measured.ms;
             trial.same_picture = measured.picture == picture;
             trial.accepted = trial.same_picture && beats(trial.ms) && confirmed(trial);
+        } catch (const Interrupted&) {
+            throw;
         } catch (const Error& error) {
+            // The OpenCL compiler fails after a signal, too.
+            check_interrupt();
             trial.error = error.what();
         }
         if (trial.accepted) {
@@ -125,12 +130,14 @@ TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
     return std::move(search.result);
 }
 
-TuningResult tune(LightingBench& bench, int runs) {
+TuningResult tune(LightingBench& bench, int runs,
+                  const std::function<void(const StoredTuning&, double ms)>& on_trial) {
     LightingRequest request = bench.request();
     request.runs = runs;
     return tune(built_in_tuning(bench.device()), bench.device(), [&](const StoredTuning& tuning) {
         request.tuning = tuning;
         const LightingRun run = bench.run(request);
+        if (on_trial) on_trial(tuning, run.ms);
         return TuningMeasurement{run.ms, run.picture};
     });
 }

@@ -11,7 +11,7 @@
 
 namespace kilolux {
 
-/// What a tuning does: how long a frame takes, and which picture.
+/// A frame's time and picture with a tuning.
 struct TuningMeasurement {
     double ms = 0.0;
     std::uint64_t picture = 0;  // hash of its bits
@@ -28,31 +28,31 @@ struct TuningTrial {
     double ms = 0.0;
     bool same_picture = true;
     bool accepted = false;
-    std::string error;  // why the device refused it; empty if it ran
+    std::string error;  // why the device refused it; empty: it ran
 };
 
 struct TuningResult {
     StoredTuning start, best;
     double start_ms = 0.0;
     double best_ms = 0.0;
-    std::vector<TuningTrial> trials;  // in the order of measurement, the start not among them
+    std::vector<TuningTrial> trials;  // in the order of measurement, without the start
 
     /// True if every alternative that ran gave the start's picture, bit for bit.
     bool same_pictures() const;
 };
 
-/// An improvement must exceed this share of the time: less is noise.
+/// An improvement of less than this share of the time is noise.
 inline constexpr double kTuningGain = 0.03;
 
-/// Coordinate descent from `start`, two rounds over lanes, shade_rows, shade_stage, shade_prefetch,
-/// cull_chunks, cull_group, refine_group, tile_group and light_group: each is set to the fastest of
-/// its values while the others stand. An alternative is taken if it beats the incumbent by more
-/// than kTuningGain, does so once more when both are measured again, and its picture has the
-/// start's bits.
+/// Coordinate descent from `start`: two rounds over all parameters, each of which is set to the
+/// fastest of its values while the others stay. An alternative is taken if it is faster by more
+/// than kTuningGain, also when both are measured again, and its picture has the start's bits.
 TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
                   const MeasureTuning& measure);
 
-/// The same on a bench's frame from the built-in table, each time the least of `runs`.
-TuningResult tune(LightingBench& bench, int runs = 5);
+/// The same on a bench's frame from the built-in table, each time the least of `runs`. `on_trial`
+/// is called after every measurement and may throw to stop.
+TuningResult tune(LightingBench& bench, int runs,
+                  const std::function<void(const StoredTuning&, double ms)>& on_trial = {});
 
 }  // namespace kilolux

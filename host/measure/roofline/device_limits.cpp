@@ -13,36 +13,31 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"limits", 3};
+constexpr CacheKind kKind = {"limits", 4};
 
-struct Field {
-    const char* name;
-    double DeviceLimits::*value;
-};
-
-constexpr Field kFields[] = {
+constexpr LimitField kFields[] = {
     {"fma_flops", &DeviceLimits::fma_flops},
     {"one_lane_fma_flops", &DeviceLimits::one_lane_fma_flops},
     {"lane_instructions_per_s", &DeviceLimits::lane_instructions_per_s},
     {"rsqrt_per_s", &DeviceLimits::rsqrt_per_s},
     {"sqrt_per_s", &DeviceLimits::sqrt_per_s},
     {"divisions_per_s", &DeviceLimits::divisions_per_s},
-    {"read_bandwidth", &DeviceLimits::read_bandwidth},
-    {"write_bandwidth", &DeviceLimits::write_bandwidth},
-    {"copy_bandwidth", &DeviceLimits::copy_bandwidth},
-    {"cached_read_bandwidth", &DeviceLimits::cached_read_bandwidth},
-    {"cached_write_bandwidth", &DeviceLimits::cached_write_bandwidth},
-    {"cached_copy_bandwidth", &DeviceLimits::cached_copy_bandwidth},
+    {"read_bytes_per_s", &DeviceLimits::read_bandwidth},
+    {"write_bytes_per_s", &DeviceLimits::write_bandwidth},
+    {"copy_bytes_per_s", &DeviceLimits::copy_bandwidth},
+    {"cached_read_bytes_per_s", &DeviceLimits::cached_read_bandwidth},
+    {"cached_write_bytes_per_s", &DeviceLimits::cached_write_bandwidth},
+    {"cached_copy_bytes_per_s", &DeviceLimits::cached_copy_bandwidth},
     {"cache_bytes", &DeviceLimits::cache_bytes},
-    {"upload_bandwidth", &DeviceLimits::upload_bandwidth},
-    {"download_bandwidth", &DeviceLimits::download_bandwidth},
+    {"upload_bytes_per_s", &DeviceLimits::upload_bandwidth},
+    {"download_bytes_per_s", &DeviceLimits::download_bandwidth},
     {"launch_latency_ms", &DeviceLimits::launch_latency_ms},
     {"launch_event_ms", &DeviceLimits::launch_event_ms},
 };
 
 CacheValues values_of(const DeviceLimits& limits) {
     CacheValues values = {{"lanes", limits.lanes}};
-    for (const Field& field : kFields) values.emplace(field.name, limits.*field.value);
+    for (const LimitField& field : kFields) values.emplace(field.name, limits.*field.value);
     return values;
 }
 
@@ -52,7 +47,7 @@ std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
     if (kept_lanes == values.end() || kept_lanes->second != lanes) return std::nullopt;
     DeviceLimits limits;
     limits.lanes = lanes;
-    for (const Field& field : kFields) {
+    for (const LimitField& field : kFields) {
         const auto found = values.find(field.name);
         if (found == values.end() || !(found->second > 0.0)) return std::nullopt;
         limits.*field.value = found->second;
@@ -60,7 +55,7 @@ std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
     return limits;
 }
 
-// Keeps the better one; whether that is better by more than a hundredth.
+// Keeps the higher rate; returns whether it rose by more than 1 %.
 bool raise(double& limit, double measured) {
     const bool better = measured > 1.01 * limit;
     limit = std::max(limit, measured);
@@ -68,6 +63,8 @@ bool raise(double& limit, double measured) {
 }
 
 }  // namespace
+
+std::span<const LimitField> limit_fields() { return kFields; }
 
 bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
     const auto rate = [&](const char* kernel, int operations) {
@@ -112,15 +109,14 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         limits.write_bandwidth = large.write;
         limits.copy_bandwidth = large.copy;
         const MemoryRates small = kernels.memory_rates(cached_buffer_bytes(info));
-        // A cache is at least as fast as the memory behind it, whatever a disturbed run says.
+        // A cache is at least as fast as the memory behind it; a disturbed run may say otherwise.
         limits.cached_read_bandwidth = std::max(small.read, large.read);
         limits.cached_write_bandwidth = std::max(small.write, large.write);
         limits.cached_copy_bandwidth = std::max(small.copy, large.copy);
         const TransferRates transfer = kernels.transfer_rates();
         limits.upload_bandwidth = transfer.upload;
         limits.download_bandwidth = transfer.download;
-        // Other work on the machine, and clocks that have not yet risen, only ever make a rate too
-        // low.
+        // Once more, now that the clock rates have risen.
         raise_arithmetic_limits(limits, kernels);
         const LaunchTimes launch = kernels.launch_times();
         limits.launch_latency_ms = launch.finish_ms;

@@ -1,51 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/roofline/roofline.h"
+#include "host/measure/roofline/instruction_counts.h"
+
 #include "kernels/shared/evaluate_modes.h"
 
-/// The operations of kernels/shared/evaluate.h and kernels/device/gbuffer.h, counted by their
-/// source. Checked against PoCL 3.1's AVX2 code of shade's inner loop, where an inverse square root
-/// is two instructions: Lambert 21, Blinn-Phong 83, PBR 68 vector arithmetic instructions a light.
+// tests/measure/instruction_counts_test.cpp compiles evaluate.h with a type that counts. PoCL 3.1's
+// AVX2 code of shade's inner loop has 21, 83 and 68 vector instructions a light for Lambert,
+// Blinn-Phong and PBR (an inverse square root is two).
 namespace kilolux {
 namespace {
 
 // sum.x..z with one weight.
-constexpr LaneWork kAddScaled = {3.0};
+constexpr InstructionCounts kAddScaled = {3.0};
 // Half vector 3, its length's square 3, at least 1.
-constexpr LaneWork kHalfVector = {7.0};
+constexpr InstructionCounts kHalfVector = {7.0};
 // pow_of_cos2(): near the peak or not 2, quotient 1 and a division, exponent and mantissa 6,
 // logarithm 12, product 1, exponential 13.
-constexpr LaneWork kPowOfCos2 = {36.0, 0.0, 0.0, 1.0};
+constexpr InstructionCounts kPowOfCos2 = {36.0, 0.0, 0.0, 1.0};
 
-LaneWork blinn_phong_work() {
+InstructionCounts blinn_phong_instructions() {
     // n.h 3 and its square 1, n x h 6 and its square 3, none from behind 2; weight 1.
-    return kHalfVector + LaneWork{16.0} + kPowOfCos2 + 2.0 * kAddScaled;
+    return kHalfVector + InstructionCounts{16.0} + kPowOfCos2 + 2.0 * kAddScaled;
 }
 
-LaneWork pbr_work(const KernelFeatures& kernels) {
+InstructionCounts pbr_instructions(const KernelFeatures& kernels) {
     // n x h 6, its square 3, GGX 2; Smith 2 and a square root 1, both 2; h^4 1, lobe 3 and a
     // division 1; Schlick 3, inverse root 1, 2 + 3, 1 - f 1.
-    const LaneWork lobe = {31.0, 1.0, 1.0, 1.0};
+    const InstructionCounts lobe = {31.0, 1.0, 1.0, 1.0};
     // Diffuse weight 1; specular weight 2, or 2 a channel where reflectance varies; 2 more where it
     // does so at grazing angles.
     const bool varies = kernels.metallic || kernels.specular;
-    const LaneWork sums =
-        2.0 * kAddScaled + LaneWork{(varies ? 7.0 : 3.0) + (kernels.specular ? 2.0 : 0.0)};
+    const InstructionCounts sums =
+        2.0 * kAddScaled + InstructionCounts{(varies ? 7.0 : 3.0) + (kernels.specular ? 2.0 : 0.0)};
     return kHalfVector + lobe + sums;
 }
 
-LaneWork incident_work(const KernelFeatures& kernels) {
+InstructionCounts incident_instructions(const KernelFeatures& kernels) {
     switch (kernels.shading) {
         case SHADING_BLINN_PHONG:
-            return blinn_phong_work();
+            return blinn_phong_instructions();
         case SHADING_PBR:
-            return pbr_work(kernels);
+            return pbr_instructions(kernels);
         default:
             return kAddScaled;
     }
 }
 
 // From the distance's square and n.v to a unit direction's n.l and falloff.
-LaneWork falloff_work(const KernelFeatures& kernels) {
+InstructionCounts falloff_instructions(const KernelFeatures& kernels) {
     // At least d_min 1; root 1, cube 1, product 1, division 1.
     if (kernels.shading != SHADING_PBR) return {5.0, 0.0, 1.0, 1.0};
     // At least d_min 1, inverse root 1, n.l 1, products 3.
@@ -53,19 +54,19 @@ LaneWork falloff_work(const KernelFeatures& kernels) {
 }
 
 // Cone 3 + 1 + 4, its square 1, window 1; all but PBR divide for the inverse distance.
-LaneWork cone_work(const KernelFeatures& kernels) {
+InstructionCounts cone_instructions(const KernelFeatures& kernels) {
     if (kernels.shading != SHADING_PBR) return {11.0, 0.0, 0.0, 1.0};
     return {10.0};
 }
 
 // Position, normal and albedo from what the layout stores.
-LaneWork decode_work(uint gbuffer) {
+InstructionCounts decode_instructions(uint gbuffer) {
     // Codes 2, conversion 2, scale 2; octahedron: |x|, |y| 2, z 2, fold 1, signs 6, square 3, root,
     // inverse, scale 3.
-    const LaneWork unpack = {6.0};
-    const LaneWork octahedral = {19.0, 0.0, 1.0, 1.0};
-    const LaneWork position = {3.0};
-    const LaneWork albedo_codes = {5.0};
+    const InstructionCounts unpack = {6.0};
+    const InstructionCounts octahedral = {19.0, 0.0, 1.0, 1.0};
+    const InstructionCounts position = {3.0};
+    const InstructionCounts albedo_codes = {5.0};
     switch (gbuffer) {
         case GBUFFER_FULL:
             return {};
@@ -73,7 +74,7 @@ LaneWork decode_work(uint gbuffer) {
             // World positions 3 + 9; normals 9 + 4, inverse root, 3; albedo 5 + 6.
             return {39.0, 1.0};
         case GBUFFER_NORMAL_XY:
-            return position + unpack + LaneWork{4.0, 0.0, 1.0} + albedo_codes;
+            return position + unpack + InstructionCounts{4.0, 0.0, 1.0} + albedo_codes;
         case GBUFFER_OCT_2X4:
             return octahedral + albedo_codes;
         default:
@@ -82,57 +83,65 @@ LaneWork decode_work(uint gbuffer) {
 }
 
 // make_shading_point() and finish_shading() beyond Lambert's.
-LaneWork gloss_work(const KernelFeatures& kernels) {
+InstructionCounts gloss_instructions(const KernelFeatures& kernels) {
     if (kernels.shading == SHADING_LAMBERT) return {};
     // Roughness 3, its squares 3, distance to the eye 4 and an inverse root 1, direction 3; the
     // sums' three more components 6.
-    LaneWork work = {20.0, 1.0};
+    InstructionCounts work = {20.0, 1.0};
     if (kernels.shading == SHADING_BLINN_PHONG) {
         // Exponent: a division and 1; lobe: a division; specular 1 + 3, beside the diffuse term.
-        work = work + LaneWork{7.0, 0.0, 0.0, 2.0};
+        work = work + InstructionCounts{7.0, 0.0, 0.0, 2.0};
     } else {
         // n.v 4, Smith 3 and a root 1; lobe 1, channels 3 * 2 beside the diffuse term.
-        work = work + LaneWork{15.0, 0.0, 1.0};
+        work = work + InstructionCounts{15.0, 0.0, 1.0};
     }
     // Decoding 3, dielectric share 1, base 3, F0 4, by channel 3.
-    if (kernels.metallic) work = work + LaneWork{14.0};
+    if (kernels.metallic) work = work + InstructionCounts{14.0};
     // Codes 3 * 4 and 3, the strongest 2, grazing angles 3 and a division 1, their mean 2.
-    if (kernels.specular) work = work + LaneWork{22.0, 0.0, 0.0, 1.0};
+    if (kernels.specular) work = work + InstructionCounts{22.0, 0.0, 0.0, 1.0};
     return work;
 }
 
 }  // namespace
 
-LaneWork operator+(const LaneWork& a, const LaneWork& b) {
-    return {a.instructions + b.instructions, a.rsqrts + b.rsqrts, a.sqrts + b.sqrts,
-            a.divisions + b.divisions};
+InstructionCounts operator+(const InstructionCounts& a, const InstructionCounts& b) {
+    return {a.total + b.total, a.rsqrts + b.rsqrts, a.sqrts + b.sqrts, a.divisions + b.divisions};
 }
 
-LaneWork operator*(double times, const LaneWork& work) {
-    return {times * work.instructions, times * work.rsqrts, times * work.sqrts,
-            times * work.divisions};
+InstructionCounts operator*(double times, const InstructionCounts& counts) {
+    return {times * counts.total, times * counts.rsqrts, times * counts.sqrts,
+            times * counts.divisions};
 }
 
-LaneWork work_of_evaluation(const KernelFeatures& kernels) {
-    // v 3, d^2 3, in ranges 1, window 2, n.v 3 + 1.
-    LaneWork work = LaneWork{13.0} + falloff_work(kernels) + incident_work(kernels);
-    if (kernels.spot_lights) work = work + cone_work(kernels);
+bool leaves_early(const KernelFeatures& kernels) { return kernels.shading != SHADING_LAMBERT; }
+
+InstructionCounts range_test_instructions() {
+    // v 3, d^2 3, x 1, window 2, comparison 1.
+    return {10.0};
+}
+
+InstructionCounts evaluation_instructions(const KernelFeatures& kernels) {
+    // n.v 3 + 1; Lambert does not compare.
+    const InstructionCounts n_dot_v = {leaves_early(kernels) ? 4.0 : 3.0};
+    InstructionCounts work = range_test_instructions() + n_dot_v + falloff_instructions(kernels) +
+                             incident_instructions(kernels);
+    if (kernels.spot_lights) work = work + cone_instructions(kernels);
     return work;
 }
 
-LaneWork work_of_directional(const KernelFeatures& kernels) {
+InstructionCounts directional_instructions(const KernelFeatures& kernels) {
     // n.l 3 + 1.
-    return LaneWork{4.0} + incident_work(kernels);
+    return InstructionCounts{4.0} + incident_instructions(kernels);
 }
 
-LaneWork work_of_pixel(const KernelFeatures& kernels) {
+InstructionCounts pixel_instructions(const KernelFeatures& kernels) {
     // Pixel centre 2, depth 2 and a division 1, slice 4, mask 4; the list's sum joins 3 and is
     // selected 3; albedo / pi 6, ambient 3, background 3.
-    LaneWork work =
-        LaneWork{31.0, 0.0, 0.0, 1.0} + decode_work(kernels.gbuffer) + gloss_work(kernels);
+    InstructionCounts work = InstructionCounts{31.0, 0.0, 0.0, 1.0} +
+                             decode_instructions(kernels.gbuffer) + gloss_instructions(kernels);
     // Emissive: codes 5, scale 3, sum 3.
-    if (kernels.material) work = work + LaneWork{11.0};
-    if (kernels.occlusion) work = work + LaneWork{3.0};
+    if (kernels.material) work = work + InstructionCounts{11.0};
+    if (kernels.occlusion) work = work + InstructionCounts{3.0};
     return work;
 }
 

@@ -9,12 +9,14 @@
 namespace kilolux {
 namespace {
 
+constexpr int kMostLanes = 16;
+
 using Clock = std::chrono::steady_clock;
 
-// Long against an empty launch, short against a second in all.
+// Long against an empty launch.
 constexpr double kRunSeconds = 0.004;
 constexpr int kRuns = 5;
-// No rate may take much longer than this, however slow or busy the device.
+// A rate's measurement ends after this, also on slow devices.
 constexpr double kBudgetSeconds = 0.05;
 
 double seconds_since(Clock::time_point start) {
@@ -25,12 +27,12 @@ double event_seconds(const cl::Event& event) {
     event.wait();
     const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-    // A clock tick at least, so that a rate stays finite.
+    // At least one clock tick, so that a rate stays finite.
     return 1e-9 * static_cast<double>(std::max<cl_ulong>(end - start, 1));
 }
 
-// Work per second of run(n), which takes `work(n) = n * unit` and returns its seconds: n doubles
-// until a run is long enough, then the best of several counts.
+// Work per second of run(n), which does n * unit and returns its seconds. n grows until a run is
+// long enough; then the best of several counts.
 template <typename Run>
 double best_rate(double unit, uint most, Run run) {
     const Clock::time_point start = Clock::now();
@@ -52,7 +54,7 @@ double best_rate(double unit, uint most, Run run) {
 std::uint64_t large_buffer_bytes(const DeviceInfo& device) {
     constexpr std::uint64_t kSmallest = 64 << 20, kLargest = 512 << 20;
     const std::uint64_t wanted = std::clamp(4 * device.cache_bytes, kSmallest, kLargest);
-    // Two of them must not crowd out the rest of the machine.
+    // Two of them leave most of the memory to other programs.
     const std::uint64_t room = std::min(device.max_allocation_bytes, device.memory_bytes / 16);
     return std::max(std::min(wanted, room), kSmallestCache);
 }
@@ -68,24 +70,36 @@ LimitKernels::LimitKernels(const Gpu& gpu)
       group_(gpu.info.is_cpu
                  ? 1
                  : std::min<std::size_t>(256, static_cast<std::size_t>(gpu.info.max_work_group))),
-      // Some CPU threads start late: four pieces each let the others take over. GPUs hide latency.
+      // Four pieces a CPU thread balance late starts; GPUs need many to hide latency.
       items_(static_cast<std::size_t>(gpu.info.compute_units) *
              (gpu.info.is_cpu ? 4 : 16 * group_)),
       walkers_(gpu.info.is_cpu ? static_cast<std::size_t>(gpu.info.compute_units) : items_),
-      out_(gpu.context, CL_MEM_READ_WRITE,
-           items_ * static_cast<std::size_t>(gpu.info.lane_width) * sizeof(float)) {}
-
-double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
-    // Fixed point of x -> fma(x, a, b): b / (1 - a) = 1; a / x swings about sqrt(a).
-    constexpr float kA = 0.75f, kB = 0.25f;
-    cl::KernelFunctor<uint, float, float, cl::Buffer> run(program_, kernel);
-    const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(items_), cl::NDRange(group_));
-    const double unit = static_cast<double>(items_) * gpu_.info.lane_width * operations;
-    return best_rate(unit, 1u << 30,
-                     [&](uint n) { return event_seconds(run(items, n, kA, kB, out_)); });
+      out_(gpu.context, CL_MEM_READ_WRITE, items_ * kMostLanes * sizeof(float)) {
+    widths_.push_back({gpu.info.lane_width, program_});
+    const int twice = 2 * gpu.info.lane_width;
+    const bool is_own_width = gpu.info.lane_width == describe(gpu.device).lane_width;
+    if (gpu.info.is_cpu && is_own_width && twice <= kMostLanes)
+        widths_.push_back(
+            {twice, build_program(Gpu(gpu.context, gpu.queue, twice), "measure_limits")});
 }
 
-// How the work-items share the buffers: see kernels/measure_limits.cl.
+double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
+    // Numbers stay near 1: fma(x, a, b) converges to b / (1 - a) = 1; a / x alternates about
+    // sqrt(a).
+    constexpr float kA = 0.75f, kB = 0.25f;
+    const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(items_), cl::NDRange(group_));
+    double best = 0.0;
+    for (const Width& width : widths_) {
+        cl::KernelFunctor<uint, float, float, cl::Buffer> run(width.program, kernel);
+        const double unit = static_cast<double>(items_) * width.lanes * operations;
+        best = std::max(best, best_rate(unit, 1u << 30, [&](uint n) {
+                            return event_seconds(run(items, n, kA, kB, out_));
+                        }));
+    }
+    return best;
+}
+
+// How work-items share the buffers; see kernels/measure_limits.cl.
 struct LimitKernels::Walk {
     uint count, item_step, step;
     cl::Buffer to, from;

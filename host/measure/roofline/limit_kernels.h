@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "host/gpu/buffer.h"
 #include "host/gpu/program.h"
@@ -11,7 +12,7 @@ namespace kilolux {
 /// Independent chains of kernels/measure_limits.cl.
 inline constexpr int kFmaChains = 10;
 inline constexpr int kAddChains = 4;
-/// For devices that do not tell [byte].
+/// Of devices that do not report theirs [byte].
 inline constexpr std::uint64_t kSmallestCache = 1 << 20;
 
 /// [byte/s]; copy counts both ways.
@@ -33,18 +34,20 @@ struct LaunchTimes {
     double event_ms = 0.0;   // from start to end by its own event
 };
 
-/// Size of a buffer that no cache of the device holds, as far as its memory allows [byte].
+/// Size of a buffer larger than every cache, as far as the device's memory allows [byte].
 std::uint64_t large_buffer_bytes(const DeviceInfo& device);
 
-/// Size of one of two buffers that the last cache holds, and the caches before it do not [byte].
+/// Size of one of two buffers that fit the last cache but not the nearer ones [byte].
 std::uint64_t cached_buffer_bytes(const DeviceInfo& device);
 
-/// Runs kernels/measure_limits.cl at the Gpu's lane width. Each rate is the best of several runs.
+/// Runs kernels/measure_limits.cl; each rate is the best of several runs. Memory at the Gpu's lane
+/// width; arithmetic, where that is a CPU's own, also at twice the width, which shading uses and
+/// which AVX-512 needs for its full rate.
 class LimitKernels {
  public:
     explicit LimitKernels(const Gpu& gpu);
 
-    /// Lane operations of one of the *_rate kernels, which does `operations` a lane and iteration.
+    /// Of a *_rate kernel that does `operations` a lane and iteration.
     double lane_operations_per_s(const char* kernel, int operations);
 
     /// Of two filled buffers of `bytes` each.
@@ -59,9 +62,14 @@ class LimitKernels {
 
     Gpu gpu_;
     cl::Program program_;
-    std::size_t group_;    // work-items of a group
-    std::size_t items_;    // work-items that keep the arithmetic busy
-    std::size_t walkers_;  // work-items that share a buffer
+    struct Width {
+        int lanes;
+        cl::Program program;
+    };
+    std::vector<Width> widths_;  // of the *_rate kernels
+    std::size_t group_;          // work-items of a group
+    std::size_t items_;          // work-items of the *_rate kernels
+    std::size_t walkers_;        // work-items that share a buffer
     cl::Buffer out_;
 };
 

@@ -6,22 +6,21 @@
 
 namespace kilolux {
 
-/// A device's limits while a benchmark runs: those of the cache, measured again until they settle,
-/// and again whenever the benchmark says so. What rises is kept in the cache: the best that was
-/// ever seen counts, since other work on the machine only makes a rate too low, and a ratio to it
-/// too good.
+/// A device's limits during a benchmark: those kept from before, measured again until they converge
+/// and whenever the benchmark asks. Higher rates are kept for later runs, as other work on the
+/// machine only makes a rate too low.
 class LimitWatch {
  public:
-    /// Takes up to three seconds; a second more where nothing is kept yet.
+    /// Takes up to three seconds, and one more where no limits are kept.
     explicit LimitWatch(const cl::Device& device);
 
-    /// Measures the arithmetic once more; a tenth of a second or two.
+    /// Measures the arithmetic once more, in 0.1 to 0.4 s.
     void look_again();
 
     const DeviceLimits& limits() const { return limits_; }
 
  private:
-    Gpu gpu_;  // of the device's own lane width
+    Gpu gpu_;  // with the device's own lane width
     LimitKernels kernels_;
     DeviceLimits limits_;
 };

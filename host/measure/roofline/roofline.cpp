@@ -16,7 +16,7 @@ constexpr double kDisplayBytes = 4.0;
 constexpr double kOrderBytes = 1.0;  // of a pixel within its tile
 constexpr double kBoundBytes = sizeof(float4);
 constexpr double kCounterBytes = sizeof(uint);
-constexpr int kPrefixSumLaunches = 1;  // at least: more than one block takes three
+constexpr int kPrefixSumLaunches = 1;  // more than one block takes three
 
 double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8; }
 
@@ -31,7 +31,7 @@ StageWork prefix_sum_work(double counts) {
 
 // The part of cone_reaches() that every light pays, point lights too: q 9, radius 7 and a square
 // root, q^2 3, the guard 4.
-LaneWork work_of_cone_guard() { return {24.0, 0.0, 1.0, 0.0}; }
+InstructionCounts cone_guard_instructions() { return {24.0, 0.0, 1.0, 0.0}; }
 
 StageWork prepare_work(const StageCounts& c) {
     StageWork work;
@@ -41,7 +41,8 @@ StageWork prepare_work(const StageCounts& c) {
         c.lights * (sizeof(ShadeLight) + kBoundBytes + sizeof(LightExtent)) + directional;
     // Rotations 18, 1/range^2 2, radius 6, ends in depth 4, pixel intervals 2 * 12, tile intervals
     // 2 * 19, slices 10, behind the camera 2; and 9 divisions.
-    work.lanes = c.lights * LaneWork{113.0, 0.0, 0.0, 9.0} + c.directional_lights * LaneWork{9.0};
+    work.instructions = c.lights * InstructionCounts{113.0, 0.0, 0.0, 9.0} +
+                        c.directional_lights * InstructionCounts{9.0};
     work.launches = (c.lights > 0.0 ? 1 : 0) + (c.directional_lights > 0.0 ? 1 : 0);
     return work;
 }
@@ -50,7 +51,7 @@ StageWork build_work(const StageCounts& c) {
     StageWork work;
     work.bytes_written = c.box_intervals * 2.0 * sizeof(float);
     // Two edges 2, pad 3, ends 4, products with the depths 4 and their extremes 2, padding 2.
-    work.lanes = c.box_intervals * LaneWork{17.0};
+    work.instructions = c.box_intervals * InstructionCounts{17.0};
     work.launches = 1;
     return work;
 }
@@ -63,9 +64,10 @@ StageWork cull_work(const StageCounts& c) {
     work.bytes_read += 2.0 * light * c.lights + 3.0 * kCounterBytes * c.clusters;
     work.bytes_written += 3.0 * kCounterBytes * c.clusters + index_bytes(c) * c.coarse_pairs;
     // An extent's six ends, twice; a pair is counted (1) and placed (3).
-    work.lanes = c.lights * LaneWork{12.0} + c.coarse_pairs * LaneWork{4.0};
+    work.instructions =
+        c.lights * InstructionCounts{12.0} + c.coarse_pairs * InstructionCounts{4.0};
     if (c.kernels.spot_lights)
-        work.lanes = work.lanes + 2.0 * c.coarse_pairs * work_of_cone_guard();
+        work.instructions = work.instructions + 2.0 * c.coarse_pairs * cone_guard_instructions();
     work.launches += 3;
     return work;
 }
@@ -94,8 +96,9 @@ StageWork bin_work(const StageCounts& c) {
     // Each pixel is placed in order (2). A tile's further clusters each search the tile's slices, 3
     // a pixel, in both launches.
     const double further = std::max(c.active_clusters - c.tiles, 0.0);
-    work.lanes = (c.pixels + c.drawn_pixels) * LaneWork{17.0, 0.0, 0.0, 1.0} +
-                 c.drawn_pixels * LaneWork{21.0} + 2.0 * kTilePixels * further * LaneWork{3.0};
+    work.instructions = (c.pixels + c.drawn_pixels) * InstructionCounts{17.0, 0.0, 0.0, 1.0} +
+                        c.drawn_pixels * InstructionCounts{21.0} +
+                        2.0 * kTilePixels * further * InstructionCounts{3.0};
     work.launches += 3;
     return work;
 }
@@ -107,10 +110,20 @@ StageWork refine_work(const StageCounts& c) {
                           index_bytes(c) * c.refined_pairs;
     // Distances by axis 12, their squares' sum 3, range 1, test 1, end of the list 3, flag 1; a
     // light that stays is placed (2).
-    work.lanes = c.refine_tests * LaneWork{21.0} + c.refined_pairs * LaneWork{2.0};
-    if (c.kernels.spot_lights) work.lanes = work.lanes + c.refined_pairs * work_of_cone_guard();
+    work.instructions =
+        c.refine_tests * InstructionCounts{21.0} + c.refined_pairs * InstructionCounts{2.0};
+    if (c.kernels.spot_lights)
+        work.instructions = work.instructions + c.refined_pairs * cone_guard_instructions();
     work.launches += 2;
     return work;
+}
+
+// Drawn pixels, and the lights that are evaluated at them.
+InstructionCounts shading_instructions(const StageCounts& c) {
+    const double left_early = c.evaluations - c.full_evaluations;
+    return c.drawn_pixels * pixel_instructions(c.kernels) + left_early * range_test_instructions() +
+           c.full_evaluations * evaluation_instructions(c.kernels) +
+           c.drawn_pixels * c.directional_lights * directional_instructions(c.kernels);
 }
 
 StageWork shade_work(const StageCounts& c) {
@@ -118,9 +131,7 @@ StageWork shade_work(const StageCounts& c) {
     work.bytes_read = (c.gbuffer_bytes_per_pixel + kOrderBytes) * c.drawn_pixels +
                       sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
     work.bytes_written = kRadianceBytes * c.pixels;
-    work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) +
-                 c.evaluations * work_of_evaluation(c.kernels) +
-                 c.drawn_pixels * c.directional_lights * work_of_directional(c.kernels);
+    work.instructions = shading_instructions(c);
     work.launches = 1;
     return work;
 }
@@ -134,7 +145,8 @@ StageWork bloom_work(const StageCounts& c) {
     work.bytes_written = kLevels * (0.25 + 1.0) * kRadianceBytes * c.pixels;
     // A channel of a coarse pixel: 4 rows of 4 bounded taps 3 and filter 4, their filter 4; of a
     // fine one: 2 rows 2, wide 2, mix 2.
-    work.lanes = kLevels * 3.0 * c.pixels * (0.25 * LaneWork{68.0} + LaneWork{8.0});
+    work.instructions =
+        kLevels * 3.0 * c.pixels * (0.25 * InstructionCounts{68.0} + InstructionCounts{8.0});
     work.launches = 4;
     return work;
 }
@@ -145,25 +157,17 @@ StageWork tonemap_work(const StageCounts& c) {
     work.bytes_written = kDisplayBytes * c.pixels;
     // Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest
     // 6); packing 5. Tone curves differ: none is counted.
-    work.lanes = c.pixels * LaneWork{74.0, 0.0, 6.0};
+    work.instructions = c.pixels * InstructionCounts{74.0, 0.0, 6.0};
     work.launches = 1;
     return work;
 }
 
-// The fragments of the forward renderers: what they evaluate, and the picture. With `evaluations`
-// of all fragments, hidden ones too; the surfaces of hidden ones are not counted.
+// The fragments of the forward renderers. `evaluations` are of all fragments, hidden ones too; the
+// surfaces of hidden ones are not counted.
 StageWork forward_work(const StageCounts& c) {
     StageWork work;
     work.bytes_written = kRadianceBytes * c.pixels;
-    work.lanes = c.drawn_pixels * work_of_pixel(c.kernels) +
-                 c.evaluations * work_of_evaluation(c.kernels) +
-                 c.drawn_pixels * c.directional_lights * work_of_directional(c.kernels);
-    return work;
-}
-
-StageWork geometry_work(const StageCounts& c) {
-    StageWork work;
-    work.bytes_written = c.gbuffer_bytes_per_pixel * c.pixels;
+    work.instructions = shading_instructions(c);
     return work;
 }
 
@@ -185,21 +189,15 @@ struct Model {
 };
 
 constexpr Model kModels[] = {
-    {"geometry", geometry_work},
-    {"gbuffer_bridge", bridge_work},
-    {"prepare_lights", prepare_work},
-    {"build_clusters", build_work},
-    {"cull_lights", cull_work},
-    {"bin_pixels", bin_work},
-    {"refine_lights", refine_work},
-    {"shade", shade_work},
-    {"bloom", bloom_work},
-    {"tonemap", tonemap_work},
-    {"forward", forward_work},
+    {"gbuffer_bridge", bridge_work}, {"prepare_lights", prepare_work},
+    {"build_clusters", build_work},  {"cull_lights", cull_work},
+    {"bin_pixels", bin_work},        {"refine_lights", refine_work},
+    {"shade", shade_work},           {"bloom", bloom_work},
+    {"tonemap", tonemap_work},       {"forward", forward_work},
     {"forward_plus", forward_work},
 };
 
-// What fits the cache moves at the cache's rate, the rest at memory's.
+// Work that fits the cache moves at the cache's rates.
 double bytes_seconds(const StageWork& work, const DeviceLimits& limits) {
     const double bytes = work.bytes_read + work.bytes_written;
     const bool cached = bytes <= limits.cache_bytes;
@@ -211,9 +209,9 @@ double bytes_seconds(const StageWork& work, const DeviceLimits& limits) {
            work.bytes_uploaded / limits.upload_bandwidth;
 }
 
-double special_seconds(const LaneWork& lanes, const DeviceLimits& limits) {
-    return lanes.rsqrts / limits.rsqrt_per_s + lanes.sqrts / limits.sqrt_per_s +
-           lanes.divisions / limits.divisions_per_s;
+double special_seconds(const InstructionCounts& counts, const DeviceLimits& limits) {
+    return counts.rsqrts / limits.rsqrt_per_s + counts.sqrts / limits.sqrt_per_s +
+           counts.divisions / limits.divisions_per_s;
 }
 
 }  // namespace
@@ -233,8 +231,8 @@ std::optional<StageWork> stage_work(std::string_view stage, const StageCounts& c
 StageLimit stage_limit(const StageWork& work, const DeviceLimits& limits) {
     const double launches = 1e-3 * limits.launch_event_ms * work.launches;
     const double bytes = bytes_seconds(work, limits);
-    const double instructions = work.lanes.instructions / limits.lane_instructions_per_s;
-    const double special = special_seconds(work.lanes, limits);
+    const double instructions = work.instructions.total / limits.lane_instructions_per_s;
+    const double special = special_seconds(work.instructions, limits);
     const double most = std::max({bytes, instructions, special});
     StageLimit limit;
     limit.ms = 1e3 * (most + launches);
@@ -269,6 +267,10 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     c.refined_pairs = number(stats.refined_pairs);
     const bool all_lights = setup.renderer == RendererKind::deferred_all;
     c.evaluations = c.drawn_pixels * (all_lights ? c.lights : stats.evaluations_per_pixel);
+    // k* of them are in range at their pixel, and so are evaluated in full.
+    const double in_range = std::max(stats.useful_evaluations_per_pixel, 0.0) * c.drawn_pixels;
+    c.full_evaluations =
+        leaves_early(setup.kernels) ? std::min(in_range, c.evaluations) : c.evaluations;
     c.gbuffer_bytes_per_pixel = setup.gbuffer_bytes_per_pixel;
     c.device_is_host = setup.device_is_host;
     c.kernels = setup.kernels;

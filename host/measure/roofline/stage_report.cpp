@@ -4,13 +4,9 @@
 namespace kilolux {
 namespace {
 
-bool is_device_stage(const std::string& stage) {
-    return stage != "light_input" && stage != "geometry" && stage != "gbuffer_bridge";
-}
-
 double evaluations_of(const std::string& stage, const StageCounts& counts) {
     if (stage == "shade" || stage == "forward" || stage == "forward_plus")
-        return counts.evaluations + counts.drawn_pixels * counts.directional_lights;
+        return counts.full_evaluations + counts.drawn_pixels * counts.directional_lights;
     if (stage == "refine_lights") return counts.refine_tests;
     return 0.0;
 }
@@ -46,7 +42,7 @@ std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimi
 Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameStats& stats) {
     double ms = 0.0, limit_ms = 0.0;
     for (const StageReport& report : reports) {
-        if (report.limit_ms <= 0.0 || !is_device_stage(report.stage)) continue;
+        if (report.limit_ms <= 0.0 || report.stage == "gbuffer_bridge") continue;
         ms += report.ms;
         limit_ms += report.limit_ms;
     }
@@ -56,6 +52,12 @@ Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameSta
     efficiency.hardware = ms > 0.0 ? limit_ms / ms : 0.0;
     efficiency.algorithm = useful < 0.0 ? -1.0 : k > 0.0 ? useful / k : 1.0;
     return efficiency;
+}
+
+double other_ms(const FrameStats& stats) {
+    double ms = stats.frame_ms;
+    for (const StageTime& stage : stats.stages) ms -= stage.ms;
+    return ms;
 }
 
 }  // namespace kilolux

@@ -8,26 +8,25 @@
 
 namespace kilolux {
 
-/// A stage's row of a table: how long it took, how long it must take, and what it did.
+/// A stage's row of a table: its time, the lower bound of it, and its work.
 struct StageReport {
     std::string stage;
     double ms = 0.0;
     double limit_ms = 0.0;  // 0: no model
     double ratio = 0.0;     // limit_ms / ms: 1 is perfect; 0: no model
-    double bytes = 0.0;     // that it must move
+    double bytes = 0.0;     // that it must at least move
     double gigabytes_per_s = 0.0;
-    double evaluations = 0.0;  // lights at pixels (shade), lights against boxes (refine_lights)
+    // Of shading: lights evaluated in full at a pixel; of refine_lights: lights against boxes.
+    double evaluations = 0.0;
     double giga_evaluations_per_s = 0.0;
-    std::string bound;  // what limits it: "bytes", "instructions", "special functions", "launches";
-                        // empty: no model
+    std::string bound;  // as bound_name() says; empty: no model
 };
 
-/// How well a frame's device stages do, as two numbers that belong together: a kernel at the
-/// device's limit that evaluates lights in vain is as slow as a lazy one that does not.
+/// How well a frame's device stages do, as two factors: how near the kernels are to the device's
+/// limits, and how much of their work was needed.
 struct Efficiency {
-    double hardware = 0.0;  // limits / times of the stages that have both
-    double algorithm =
-        0.0;  // k* / k: lights that reach the pixel of those evaluated; < 0: k* not counted
+    double hardware = 0.0;   // limits / times of the stages that have both
+    double algorithm = 0.0;  // k* / k; < 0: k* not counted
     double overall() const { return algorithm < 0.0 ? -1.0 : hardware * algorithm; }
 };
 
@@ -35,8 +34,13 @@ struct Efficiency {
 std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimits& limits,
                                        const FrameSetup& setup);
 
-/// Of OpenCL's stages: those of OpenGL and of the host are not held against the device's
-/// arithmetic.
+/// Of the stages that have a model, without the copy from OpenGL.
 Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameStats& stats);
+
+/// The part of the frame's time that belongs to no stage [ms]: host work, waiting, driver.
+double other_ms(const FrameStats& stats);
+
+/// The name of a row for other_ms().
+inline constexpr const char* kOtherStage = "other";
 
 }  // namespace kilolux

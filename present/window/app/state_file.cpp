@@ -176,7 +176,7 @@ void StateFile::save(const ViewState& state) {
     if (now == written_) return;
     std::error_code error;
     fs::create_directories(file_.parent_path(), error);
-    write_whole_file(file_, now.dump(2) + "\n");
+    write_atomically(file_, now.dump(2) + "\n");
     written_ = now;
 }
 

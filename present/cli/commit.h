@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace kilolux {
+
+/// The commit that the program was built from, with "-dirty" after it for local changes; "unknown"
+/// without git. commit.cmake writes it at every build.
+std::string commit();
+
+}  // namespace kilolux

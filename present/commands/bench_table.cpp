@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "host/base/error.h"
+#include "present/commands/bench.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw Error(fmt::format("{}: cannot read", file.string()));
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// What the points of a table share, beside the context: "1920x1080, packed".
+std::string shared_fields(const std::vector<BenchRow>& rows) {
+    std::vector<SweepPoint> points;
+    for (const BenchRow& row : rows) points.push_back(row.point);
+    const std::vector<std::string> varying = varying_fields(points);
+    std::string out;
+    for (const auto& [field, text] : fields_of(points.front())) {
+        const bool varies = std::find(varying.begin(), varying.end(), field) != varying.end();
+        if (!varies && text != "auto") out += fmt::format(", {} {}", field, text);
+    }
+    return out;
+}
+
+std::string tuning_words(const Json& tuning) {
+    std::string out;
+    for (const auto& [name, value] : tuning.items())
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value.dump());
+    return out;
+}
+
+// The command in a line of its own, then what was measured with what.
+std::string context_text(const Json& document, const std::string& fields) {
+    const auto word = [&](const char* path) {
+        const Json& value = document.at(Json::json_pointer(path));
+        return value.is_string() ? value.get<std::string>() : value.dump();
+    };
+    const Json& context = document.at("context");
+    std::string size;
+    if (context.contains("resolution"))
+        size = fmt::format(", resolution {}x{}", word("/context/resolution/0"),
+                           word("/context/resolution/1"));
+    return fmt::format(
+        "    {}\n\nDevice {} (driver {}), commit {}, scene {}{}{}; {} frames after {}.\n"
+        "Tuning: {}.\n\n",
+        word("/command"), word("/context/device/name"), word("/context/device/driver"),
+        word("/context/program/commit"), word("/context/scene/name"), size, fields,
+        word("/context/frames/measured"), word("/context/frames/warm_up"),
+        tuning_words(context.at("tuning")));
+}
+
+std::string result_text(const fs::path& csv) {
+    try {
+        const TextTable texts = parse_csv(text_of(csv));
+        const Json document = Json::parse(text_of(context_file(csv)));
+        if (!is_bench_table(texts))
+            return context_text(document, "") + to_markdown(table_of(texts));
+        const std::vector<BenchRow> rows = bench_rows(texts);
+        if (rows.empty()) throw Error("no rows");
+        return context_text(document, shared_fields(rows)) + to_markdown(bench_summary(rows)) +
+               "\n" + bench_legend();
+    } catch (const Json::exception& error) {
+        throw Error(fmt::format("{}: {}", context_file(csv).string(), error.what()));
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", csv.string(), error.what()));
+    }
+}
+
+}  // namespace
+
+fs::path context_file(fs::path csv) { return csv.replace_extension(".context.json"); }
+
+std::string results_text(const std::vector<std::string>& csv_files) {
+    std::string out = "<!-- Written by host/measure/results/make_tables; do not edit. -->\n";
+    for (const std::string& csv : csv_files)
+        out += fmt::format("\n## {}\n\n{}", fs::path(csv).stem().string(), result_text(csv));
+    return out;
+}
+
+}  // namespace kilolux

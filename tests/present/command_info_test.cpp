@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// `kilolux info` as a whole. No time is judged.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
+
+namespace kilolux {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
+    std::vector<std::string> words = {"info",  "plain",    "--json", "--resolution",
+                                      "64,36", "--lights", "20"};
+    const auto left_out = [&words] {
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return Json::parse(result.out).at("left_out");
+    };
+    const auto entry_of = [](const Json& entries, const char* name) {
+        for (const Json& entry : entries) {
+            if (entry.at("name") == name) return entry;
+        }
+        ADD_FAILURE() << name;
+        return Json();
+    };
+    const Json unmeasured = entry_of(left_out(), "spot-lights");
+    EXPECT_TRUE(unmeasured.at("ms").is_null()) << unmeasured;
+    EXPECT_TRUE(contains(unmeasured.at("why"), "--costs")) << unmeasured;
+    words.push_back("--costs");
+    const Json costs = left_out();
+    const Json measured = entry_of(costs, "spot-lights");
+    EXPECT_EQ(measured.at("measurable"), measured.at("ms") > measured.at("noise_ms")) << measured;
+    EXPECT_EQ(entry_of(costs, "specular").at("bytes_per_pixel"), 4);
+}
+
+// Whether they agree depends on what else the machine does.
+TEST(Info, ComparesLimitsWithIndependentOnes) {
+    const ChildResult result = run_kilolux({"info", "--check-limits", "--json"});
+    EXPECT_TRUE(result.code == 0 || result.code == 3) << result.err;
+    const Json rows = Json::parse(result.out);
+    ASSERT_EQ(rows.size(), 3u);
+    bool agree = true;
+    for (const Json& row : rows) {
+        EXPECT_GT(row.at("measured [1/s]"), 0.0) << row;
+        EXPECT_GT(row.at("independent [1/s]"), 0.0) << row;
+        agree = agree && row.at("result") == "agrees";
+    }
+    EXPECT_EQ(agree, result.code == 0) << result.err;
+}
+
+TEST(Info, MeasuresLimitsAgainWhenAsked) {
+    const TemporaryFolder folder;
+    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const std::vector<std::string> words = {"info", "plain",        "--json", "--lights",
+                                            "1",    "--resolution", "64,36"};
+    std::vector<std::string> again = words;
+    again.push_back("--measure-limits");
+    const auto limits = [](const std::vector<std::string>& arguments) {
+        const ChildResult result = run_kilolux(arguments);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return Json::parse(result.out).at("limits");
+    };
+    const Json first = limits(words);
+    EXPECT_EQ(limits(words), first) << "kept";
+    const Json second = limits(again);
+    EXPECT_NE(second, first);
+    EXPECT_EQ(limits(words), second);
+    unsetenv("XDG_CACHE_HOME");
+}
+
+}  // namespace
+}  // namespace kilolux
