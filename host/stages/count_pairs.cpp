@@ -9,9 +9,9 @@ namespace {
 constexpr std::string_view kStage = "count_pairs";
 // Work-items that sum clusters: enough to fill a GPU, few enough for one work-group to join.
 constexpr uint kShares = 1024;
-// Sums of 24 bytes in local memory; divides kShares.
+// Sums of 32 bytes in local memory; divides kShares.
 constexpr int kLargestGroup = 64;
-constexpr std::size_t kSumsOfShare = 3;  // as in kernels/count_pairs.cl
+constexpr std::size_t kSumsOfShare = 4;  // a ulong4
 
 }  // namespace
 

@@ -105,8 +105,11 @@ void run_every_kernel(const Variant& v) {
     EXPECT_GT(host.refined.size(), 100u);
     const DeviceArray<std::uint64_t> active(
         new_buffer(gpu, std::vector<std::uint64_t>{host.clusters.size(), 0}));
+    // A copy: oclgrind loses track of what is initialised where a kernel copies whole structs.
+    ActiveClusters clusters = lists.clusters;
+    clusters.clusters = new_buffer(gpu, host.clusters);
     CountPairs count_pairs(gpu, tuning);
-    count_pairs.enqueue({oracle.total(), active, active}, lists.clusters, true, timer);
+    count_pairs.enqueue({oracle.total(), active, active}, clusters, true, timer);
     std::uint64_t pairs = 0;
     for (const ActiveCluster& c : host.clusters) pairs += c.list_count;
     EXPECT_EQ(count_pairs.read().refined_pairs, pairs);
