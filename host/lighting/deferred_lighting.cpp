@@ -10,6 +10,7 @@ DeferredLighting::DeferredLighting(const Gpu& gpu, const Tuning& tuning,
 Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer,
                                  const AfterShading& then) {
     Radiance radiance;
+    lists_ = {};  // arrays that grow must not be held twice
     lists_ = light_lists_.run(input.lights, input.gbuffer, input.grid, timer,
                               [&](const ListedLights& lists) {
                                   radiance = shade_.enqueue(input.gbuffer, lists.lights, input.grid,

@@ -2,6 +2,15 @@
 #include "host/lighting/light_lists.h"
 
 namespace kilolux {
+namespace {
+
+bool is_complete(const ListedLights& lists, const PairCounts& counts) {
+    return counts.coarse_pairs <= lists.coarse.capacity &&
+           counts.active_clusters <= lists.clusters.capacity &&
+           counts.refine_tests <= lists.refined.capacity;
+}
+
+}  // namespace
 
 LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
@@ -15,17 +24,24 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
                              const ClusterGrid& grid, StageTimer& timer,
                              const std::function<void(const ListedLights&)>& then) {
     for (;;) {
-        const ListedLights lists = enqueue(input, gbuffer, grid, timer);
-        if (then) then(lists);
-        count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, lists.clusters, true,
-                       timer);
-        counts_ = count_.read();  // the frame's one wait
-        const bool coarse = coarse_.fits(counts_.coarse_pairs);
-        const bool active = bin_.fits(counts_.active_clusters);
-        // Its need is known only once the others are complete.
-        if (coarse && active && refine_.fits(counts_.refine_tests)) return lists;
-        timer.take();  // of lists that had no room
+        {
+            const ListedLights lists = enqueue(input, gbuffer, grid, timer);
+            if (then) then(lists);
+            count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, lists.clusters, true,
+                           timer);
+            counts_ = count_.read();  // the frame's one wait
+            if (is_complete(lists, counts_)) return lists;
+        }  // the arrays that had no room go before those that have
+        grow();
+        timer.take();
     }
+}
+
+void LightLists::grow() {
+    const bool coarse = coarse_.fits(counts_.coarse_pairs);
+    const bool active = bin_.fits(counts_.active_clusters);
+    // Its need is known only once the others are complete.
+    if (coarse && active) refine_.fits(counts_.refine_tests);
 }
 
 ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,

@@ -62,6 +62,7 @@ class LightLists {
  private:
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer);
+    void grow();
 
     Gpu gpu_;
     int index_bits_;

@@ -3,7 +3,9 @@
 // defined. Included once for every set of switches, so there is no include guard.
 #undef KILOLUX_SHARED_EVALUATE_H
 #undef KILOLUX_SHARED_LIGHT_H
+#undef KILOLUX_SHARED_LIGHT_SUM_H
 #undef KILOLUX_SHARED_POWER_H
+#undef KILOLUX_SHARED_SURFACE_H
 #undef F0_VARIES
 #undef EARLY_OUT
 namespace COUNTED {

@@ -29,7 +29,7 @@ struct Counted {
 };
 using FV = Counted<float>;
 using MASK = Counted<bool>;
-using LANE_UINT = Counted<uint>;
+using UV = Counted<uint>;
 
 template <typename T, typename... Operands>
 Counted<T> counted(T value, const Operands&... operands) {
@@ -57,10 +57,10 @@ inline FV operator/(FV a, FV b) {
 inline FV operator-(FV a) { return {-a.value, a.varies}; }
 inline MASK operator<(FV a, FV b) { return counted(a.value < b.value, a, b); }
 inline MASK operator>(FV a, FV b) { return counted(a.value > b.value, a, b); }
-inline LANE_UINT operator-(LANE_UINT a, uint b) { return counted(a.value - b, a); }
-inline LANE_UINT operator-(uint a, LANE_UINT b) { return counted(a - b.value, b); }
-inline LANE_UINT operator&(LANE_UINT a, uint b) { return counted(a.value & b, a); }
-inline LANE_UINT operator<<(LANE_UINT a, uint b) { return counted(a.value << b, a); }
+inline UV operator-(UV a, uint b) { return counted(a.value - b, a); }
+inline UV operator-(uint a, UV b) { return counted(a - b.value, b); }
+inline UV operator&(UV a, uint b) { return counted(a.value & b, a); }
+inline UV operator<<(UV a, uint b) { return counted(a.value << b, a); }
 inline FV& operator+=(FV& a, FV b) { return a = a + b; }
 
 inline FV fv(float s) { return {s, false}; }
@@ -76,16 +76,17 @@ inline FV rsqrt(FV a) {
     counts.instructions.rsqrts += a.varies ? 1.0 : 0.0;
     return counted(1.0f / std::sqrt(a.value), a);
 }
+inline FV lane_divide(FV a, FV b) { return a / b; }
 inline FV lane_sqrt(FV a) { return sqrt(a); }
 inline FV lane_rsqrt(FV a) { return rsqrt(a); }
-inline FV select_fv(MASK m, FV a, FV b) { return counted(m.value ? a.value : b.value, m, a, b); }
-inline bool any_of(MASK mask) { return mask.value; }
+inline FV lane_select(MASK m, FV a, FV b) { return counted(m.value ? a.value : b.value, m, a, b); }
+inline bool lane_any(MASK mask) { return mask.value; }
 // Conversions count, reinterpretations do not.
-inline LANE_UINT lane_bits(FV a) { return {std::bit_cast<uint>(a.value), a.varies}; }
-inline FV lane_float(LANE_UINT a) { return {std::bit_cast<float>(a.value), a.varies}; }
-inline FV lane_float(uint a) { return {std::bit_cast<float>(a), false}; }
-inline LANE_UINT lane_uint_of(FV a) { return counted(uint(int(a.value)), a); }
-inline FV lane_float_of(LANE_UINT a) { return counted(float(int(a.value)), a); }
+inline UV lane_bits(FV a) { return {std::bit_cast<uint>(a.value), a.varies}; }
+inline FV lane_from_bits(UV a) { return {std::bit_cast<float>(a.value), a.varies}; }
+inline FV lane_from_bits(uint a) { return {std::bit_cast<float>(a), false}; }
+inline UV lane_truncate(FV a) { return counted(uint(int(a.value)), a); }
+inline FV lane_from_int(UV a) { return counted(float(int(a.value)), a); }
 
 struct FV3 {
     FV x, y, z;

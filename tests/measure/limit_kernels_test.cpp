@@ -17,10 +17,10 @@
 #define restrict
 #define VW 8
 #define lane_numbers 0u
-#define to_float_lanes(u) (counting::FV{float(u), true})
+#define lane_to_float(u) (counting::FV{float(u), true})
 #define get_global_id(dimension) 0u
-#define load_lanes(place) counted_load(place)
-#define store_lanes(value, place) counted_store(value, place)
+#define lane_load(place) counted_load(place)
+#define lane_store(value, place) counted_store(value, place)
 namespace limit_source {
 using namespace counting;
 inline FV operator+(FV a, float b) { return a + fv(b); }

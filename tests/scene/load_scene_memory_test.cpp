@@ -18,6 +18,9 @@ std::atomic<std::size_t> refused_from = kNever;  // [byte]; allocations of this 
 
 }  // namespace
 
+// The compiler inlines these and then takes malloc() and delete for a mismatched pair.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+
 // Every allocation of this test program, so that those of any thread can be made to fail.
 void* operator new(std::size_t bytes) {
     void* memory = bytes >= refused_from.load() ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
