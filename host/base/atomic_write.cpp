@@ -44,7 +44,7 @@ void refuse_folder(const fs::path& file) {
 
 AtomicFile::AtomicFile(const fs::path& file, FileAccess access)
     : file_(access == FileAccess::by_umask ? target_of(file) : file) {
-    if (is_special(file)) {
+    if (access == FileAccess::by_umask && is_special(file)) {
         out_.emplace(::open(file.c_str(), O_WRONLY | O_CLOEXEC), file);
         return;
     }

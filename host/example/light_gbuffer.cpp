@@ -72,7 +72,8 @@ int main(int argc, char** argv) try {
     const LightInput input{
         cl::Buffer(context, CL_MEM_COPY_HOST_PTR, kLights * sizeof(Light), rows.data()), kLights,
         cl::Buffer(context, CL_MEM_READ_ONLY, sizeof(DirectionalLight)), 0};
-    const KernelFeatures features{.shading = SHADING_PBR};
+    KernelFeatures features;
+    features.shading = SHADING_PBR;
     const Tuning tuning = default_tuning(gpu.info);
     const ClusterGrid grid = make_cluster_grid({.z_first = 1.0f, .z_last = 50.0f}, kWidth, kHeight);
     StageTimer timer;

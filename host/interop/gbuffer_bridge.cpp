@@ -89,7 +89,8 @@ void GBufferBridge::upload(const PlaneCopy& copy) {
 GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs,
                                 const View& view, int first_row) {
     return in_stage(kStage, [&] {
-        const auto start = std::chrono::steady_clock::now();
+        wait_for(Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)).get());
+        const auto start = std::chrono::steady_clock::now();  // what came before was drawing
         GBuffer out;
         out.layout = make_gbuffer_layout(needs, view.stride, view.height);
         out.view = view;

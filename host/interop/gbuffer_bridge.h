@@ -30,7 +30,7 @@ class GBufferBridge {
     GBuffer transfer(const GBufferTargets& targets, const GBufferNeeds& needs, const View& view,
                      int first_row = 0);
 
-    /// Host time of the last transfer, OpenGL's reading included [ms].
+    /// Host time of the last transfer after the drawing ended, OpenGL's reading included [ms].
     double last_ms() const { return last_ms_; }
 
  private:

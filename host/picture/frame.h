@@ -51,6 +51,12 @@ struct FrameStats : PairCounts {
     double frame_ms = 0.0;
 };
 
+/// Lights evaluated a drawn pixel; 0 without any.
+inline double mean_list_length(const PairCounts& counts) {
+    const auto pixels = static_cast<double>(counts.drawn_pixels);
+    return pixels > 0.0 ? static_cast<double>(counts.evaluations) / pixels : 0.0;
+}
+
 /// A rendered picture on the host.
 struct Frame {
     int width = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
+#include <exception>
 #include <vector>
 
 #include "host/gpu/device.h"
@@ -37,17 +37,20 @@ class FrameReader {
     std::vector<Light> lights_;
 };
 
-/// Waits for a queue when it goes out of scope: memory that the queue still writes must outlive
-/// this, also where an exception is thrown.
+/// Waits for a queue when an exception leaves its scope: memory that the queue still writes must
+/// outlive this.
 class QueueDrain {
  public:
     explicit QueueDrain(const cl::CommandQueue& queue) : queue_(queue) {}
-    ~QueueDrain() { clFinish(queue_()); }
+    ~QueueDrain() {
+        if (std::uncaught_exceptions() > exceptions_) clFinish(queue_());
+    }
     QueueDrain(const QueueDrain&) = delete;
     QueueDrain& operator=(const QueueDrain&) = delete;
 
  private:
     cl::CommandQueue queue_;
+    int exceptions_ = std::uncaught_exceptions();
 };
 
 }  // namespace kilolux

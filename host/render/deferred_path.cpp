@@ -37,9 +37,7 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
 
 void DeferredPath::set_counts(FrameStats& stats) {
     static_cast<PairCounts&>(stats) = lighting_.light_lists().counts();
-    const auto drawn = static_cast<double>(stats.drawn_pixels);
-    stats.evaluations_per_pixel =
-        drawn > 0.0 ? static_cast<double>(stats.evaluations) / drawn : 0.0;
+    stats.evaluations_per_pixel = mean_list_length(stats);
     stats.useful_evaluations_per_pixel = -1.0;
     if (!context_.settings.want.counts) return;
     const std::size_t size = std::size_t{gbuffer_.view.stride} * gbuffer_.view.height;
@@ -58,8 +56,7 @@ LightCounts DeferredPath::count_lights() {
 }
 
 LitSurfaces DeferredPath::lit_surfaces() {
-    return lit(context_.gpu, surfaces_.decode(gbuffer_, lighting_.lists().grid),
-               lighting_.lists().lights);
+    return lit(context_.gpu, pixels({}), lighting_.lists().lights);
 }
 
 PixelProbe DeferredPath::probe(const Camera&, int x, int y) {
@@ -111,7 +108,7 @@ Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterS
 }
 
 LitSurfaces DeferredAllPath::lit_surfaces() {
-    return lit(context_.gpu, surfaces_.decode(gbuffer_, grid_), lighting_.lights());
+    return lit(context_.gpu, pixels({}), lighting_.lights());
 }
 
 PixelProbe DeferredAllPath::probe(const Camera&, int x, int y) {

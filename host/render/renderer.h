@@ -59,8 +59,8 @@ class Renderer {
     Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
 
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
-    /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display and
-    /// Frame::radiance are empty. A device that shares the host's memory writes there itself.
+    /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display
+    /// and Frame::radiance are empty. A device that shares the host's memory writes there itself.
     Frame render_to(std::span<uint> pixels, const Camera& camera, double time);
 
     /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/bin_pixels.h"
 
+#include <algorithm>
+
 namespace kilolux {
 namespace {
 
@@ -12,6 +14,8 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeature
                              .define("GROUP", tuning.tile_group)
                              .define("GBUFFER", static_cast<int>(features.gbuffer)));
 }
+
+constexpr std::size_t kFewest = 1024;  // active clusters that there is room for from the start
 
 }  // namespace
 
@@ -30,8 +34,10 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
     const View& view = gbuffer.view;
     ActiveClusters out;
     out.tile_count = fine_tile_count(view);
-    // Most tiles have one or two.
-    if (clusters_.capacity() == 0) clusters_.reserve(std::size_t{2} * out.tile_count);
+    // Most tiles have one or two; a small picture's may all have many.
+    if (clusters_.capacity() == 0) {
+        clusters_.reserve(std::max<std::size_t>(std::size_t{2} * out.tile_count, kFewest));
+    }
     out.clusters = clusters_.entries<ActiveCluster>();
     out.capacity = clusters_.capacity();
     out.order = order_.reserve(std::size_t{FINE_TILE_PIXELS} * out.tile_count);

@@ -162,7 +162,7 @@ TEST(LightingBenchTest, CountsAsTheRendererDoes) {
     EXPECT_GT(stats.active_clusters, 0u);
     EXPECT_GE(stats.refine_tests, stats.refined_pairs);
     EXPECT_GT(stats.evaluations_per_pixel, 0.0);
-    EXPECT_EQ(stats.stages.size(), 7u);
+    EXPECT_EQ(stats.stages.size(), 8u);
 }
 
 TEST(FeatureCosts, AreMeasurableAboveTheirNoiseOnly) {

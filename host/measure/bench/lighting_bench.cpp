@@ -154,6 +154,7 @@ LightingRun LightingBench::Parts::run(const LightingRequest& request) {
     Radiance radiance = light(stages);
     timer.take();
     static_cast<PairCounts&>(out.stats) = stages.lighting.light_lists().counts();
+    out.stats.evaluations_per_pixel = mean_list_length(out.stats);
     const ClusterGrid& grid = stages.lighting.lists().grid;
     std::ranges::copy(std::array{grid.tiles_x, grid.tiles_y, grid.slices}, out.stats.grid);
     out.stats.useful_evaluations_per_pixel = -1.0;
