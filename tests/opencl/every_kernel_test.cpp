@@ -88,8 +88,11 @@ void run_every_kernel(const Variant& v) {
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.6, 8)));
     const LightInput lights =
         upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
-    const ListedLights lists = list_everywhere(gpu, tuning, features, {gbuffer, lights, grid});
+    // Lives as long as the test: oclgrind takes buffers that are reused for uninitialised.
+    LightLists stages(gpu, tuning, features);
+    stages.list_everywhere();
     StageTimer timer;
+    const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
     CullLights oracle(gpu, tuning, features);
     oracle.brute_force(lists.lights, lists.boxes, timer);
     oracle.enqueue(lists.lights, lists.boxes, timer, lists.clusters.occupied);
