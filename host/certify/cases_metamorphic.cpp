@@ -260,14 +260,13 @@ void try_lane_widths(const Gpu& gpu, Findings& findings) {
         const LightingCase input = usual_case(shading, 500);
         const DeviceResult expected = light_on_device(one, input);
         const DeviceResult found = light_on_device(gpu, input);
-        // A GPU's compiler contracts and divides by its own rules for each width: only its radiance
-        // by lists and by all lights must agree, which other cases ask at every width.
+        findings.require("the same lists", fingerprint(found.lists) == fingerprint(expected.lists));
+        // OpenCL allows division and roots some ulp, and a GPU's compiler rounds them differently
+        // for each width. The same bits at every width are promised on CPUs only.
         if (gpu.info.is_cpu) {
             findings.at_most("bits that differ from one lane's",
                              different_bits(found.listed, expected.listed), 0.0);
             findings.at_most("bits of all lights", different_bits(found.all, expected.all), 0.0);
-            findings.require("the same lists",
-                             fingerprint(found.lists) == fingerprint(expected.lists));
             findings.at_most("bits of surfaces",
                              different_bits(found.planes.values, expected.planes.values), 0.0);
         }
