@@ -158,8 +158,13 @@ TargetPlan plan_targets(const GBufferNeeds& needs) {
     return planner.take();
 }
 
+TargetPlan plan_id_targets() {
+    return {{GL_R32UI}, {{0, GL_COLOR_ATTACHMENT0, GL_RED_INTEGER, GL_UNSIGNED_INT}}, {}};
+}
+
 GBufferTargets::GBufferTargets(const TargetPlan& plan, int width, int height)
     : reads_(plan.reads),
+      formats_(plan.color_formats),
       depth_(make_target(GL_DEPTH_COMPONENT32F, width, height)),
       framebuffer_(make_framebuffer()),
       width_(width),
@@ -186,9 +191,14 @@ GBufferTargets::GBufferTargets(const TargetPlan& plan, int width, int height)
 
 void GBufferTargets::clear() const {
     constexpr std::array<GLfloat, 4> kZero = {};
+    constexpr std::array<GLuint, 4> kNone = {};
     for (std::size_t i = 0; i < colors_.size(); ++i) {
-        glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, static_cast<GLint>(i),
-                                  kZero.data());
+        const auto drawbuffer = static_cast<GLint>(i);
+        if (formats_[i] == GL_R32UI) {
+            glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, drawbuffer, kNone.data());
+        } else {
+            glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, drawbuffer, kZero.data());
+        }
     }
     glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, kZero.data());
 }

@@ -30,6 +30,9 @@ struct TargetPlan {
 /// What the geometry pass draws into for these needs. Depth is always DEPTH_COMPONENT32F.
 TargetPlan plan_targets(const GBufferNeeds& needs);
 
+/// What the ids pass draws into: a uint a pixel, 0 where nothing is drawn.
+TargetPlan plan_id_targets();
+
 /// The G-buffer's textures in one framebuffer.
 class GBufferTargets {
  public:
@@ -48,6 +51,7 @@ class GBufferTargets {
 
  private:
     std::vector<PlaneRead> reads_;
+    std::vector<GLenum> formats_;  // of colors_
     std::vector<GlTexture> colors_;
     GlTexture depth_;
     GlFramebuffer framebuffer_;

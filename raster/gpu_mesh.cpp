@@ -65,7 +65,7 @@ bool uses_texcoord(uint features, int set) {
 VertexRows rows_of(const Mesh& mesh, uint features) {
     VertexRows rows;
     rows.add(0, mesh.positions);
-    rows.add(1, mesh.normals);
+    if ((features & kFeatureNoSurface) == 0) rows.add(1, mesh.normals);
     if ((features & (kFeatureTexture << USE_NORMAL)) != 0) rows.add(2, mesh.tangents);
     if (uses_texcoord(features, 0)) rows.add(3, mesh.texcoords[0]);
     if (uses_texcoord(features, 1)) rows.add(4, mesh.texcoords[1]);

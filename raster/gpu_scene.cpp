@@ -17,22 +17,12 @@ float chosen_anisotropy(float anisotropy) {
     return is_software_renderer() ? 1.0f : kHardwareAnisotropy;
 }
 
-MaterialRow row_of(const Material& material) {
-    MaterialRow row{};
-    const glm::vec4& color = material.base_color;
-    row.base_color = {color.x, color.y, color.z, color.w};
-    const glm::vec3& emissive = material.emissive;
-    row.emissive_cutoff = {emissive.x, emissive.y, emissive.z, material.alpha_cutoff};
-    row.factors = {material.metallic, material.roughness, material.normal_scale,
-                   material.occlusion_strength};
-    const glm::vec3 f0 = dielectric_reflectance(material);
-    row.specular = {f0.x, f0.y, f0.z, material.specular};
-    for (int use = 0; use < USE_COUNT; ++use) {
-        const glm::mat3& m = texture_use(material, use).uv_from_texcoord;
-        row.uv_x[use] = {m[0].x, m[1].x, m[2].x, 0.0f};
-        row.uv_y[use] = {m[0].y, m[1].y, m[2].y, 0.0f};
-    }
-    return row;
+uint used_features(const Mesh& mesh, const Material& material, GpuSceneUse use) {
+    const uint features = features_of(mesh, material);
+    const bool shaded = use == GpuSceneUse::shaded || material.alpha_mode == AlphaMode::blend;
+    if (shaded) return features;
+    if (material.alpha_mode == AlphaMode::opaque) return kFeatureNoSurface;
+    return (features & coverage_features()) | kFeatureNoSurface;
 }
 
 std::size_t uniform_stride_bytes() {
@@ -44,13 +34,13 @@ std::size_t uniform_stride_bytes() {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, float anisotropy)
+GpuScene::GpuScene(const Scene& scene, float anisotropy, GpuSceneUse use)
     : scene_(scene), textures_(scene, chosen_anisotropy(anisotropy)) {
     const std::size_t row_count = scene.materials.size() + 1;
     const std::size_t stride = uniform_stride_bytes();
     std::vector<std::byte> rows(row_count * stride);
     for (std::size_t i = 0; i < row_count; ++i) {
-        const MaterialRow row = row_of(material(static_cast<int>(i)));
+        const MaterialRow row = material_row(material(static_cast<int>(i)));
         std::memcpy(rows.data() + i * stride, &row, sizeof(row));
     }
     material_stride_bytes_ = static_cast<GLintptr>(stride);
@@ -59,7 +49,8 @@ GpuScene::GpuScene(const Scene& scene, float anisotropy)
                          0);
     for (const Mesh& mesh : scene.meshes) {
         const int row = mesh.material < 0 ? static_cast<int>(row_count) - 1 : mesh.material;
-        const uint features = features_of(mesh, material(row));
+        const uint features = used_features(mesh, material(row), use);
+        textures_.upload(scene, material(row), features);
         GpuMesh& uploaded = meshes_.emplace_back(upload_mesh(mesh, features));
         uploaded.material = row;
         uploaded.features = features;

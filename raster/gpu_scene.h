@@ -21,14 +21,21 @@ struct GpuMesh {
     std::uint32_t revision = 0;  // of the vertices that were uploaded
 };
 
+/// What OpenGL draws of surfaces that do not blend.
+enum class GpuSceneUse {
+    shaded,   // all that materials read: G-buffer planes, forward shading
+    covered,  // where they are: positions, and what alpha masks read
+};
+
 /// A scene's meshes, materials and textures in the current context. Only the attributes and
-/// textures that the materials read are there.
+/// textures that the use reads are there; surfaces that blend have all of theirs.
 class GpuScene {
  public:
     /// The scene must outlive this; its materials and textures must stay as they are and its meshes
     /// as many, its instances may move, and vertices may change before a refresh(). `anisotropy`: 0
     /// chooses 8, or 1 where the CPU does the filtering.
-    explicit GpuScene(const Scene& scene, float anisotropy = 0.0f);
+    explicit GpuScene(const Scene& scene, float anisotropy = 0.0f,
+                      GpuSceneUse use = GpuSceneUse::shaded);
 
     /// Uploads meshes anew whose revision says that their vertices changed.
     void refresh();

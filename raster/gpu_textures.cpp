@@ -81,16 +81,16 @@ GpuTextures::GpuTextures(const Scene& scene, float anisotropy) {
     for (const Texture& texture : scene.textures) {
         samplers_.push_back(upload_sampler(texture.sampler, limited));
     }
-    for (const Material& material : scene.materials) {
-        for (int slot = 0; slot < USE_COUNT; ++slot) {
-            const TextureUse& use = texture_use(material, slot);
-            if (!use.present()) continue;
-            const int image = scene.textures[static_cast<std::size_t>(use.texture)].image;
-            GlTexture& texture = textures_[{image, is_srgb_use(slot)}];
-            if (texture) continue;
-            texture =
-                upload_image(scene.images[static_cast<std::size_t>(image)], is_srgb_use(slot));
-        }
+}
+
+void GpuTextures::upload(const Scene& scene, const Material& material, uint features) {
+    for (int slot = 0; slot < USE_COUNT; ++slot) {
+        if ((features & (kFeatureTexture << slot)) == 0) continue;
+        const TextureUse& use = texture_use(material, slot);
+        const int image = scene.textures[static_cast<std::size_t>(use.texture)].image;
+        GlTexture& texture = textures_[{image, is_srgb_use(slot)}];
+        if (texture) continue;
+        texture = upload_image(scene.images[static_cast<std::size_t>(image)], is_srgb_use(slot));
     }
 }
 

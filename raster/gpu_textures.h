@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/scene/scene.h"
+#include "kernels/shared/types.h"
 #include "raster/gl_object.h"
 
 namespace kilolux {
@@ -16,6 +17,9 @@ class GpuTextures {
  public:
     /// `anisotropy`: at most this many samples along a texture's longer footprint; 1 for none.
     GpuTextures(const Scene& scene, float anisotropy);
+
+    /// Uploads the textures of a material that `features` reads and that are not there.
+    void upload(const Scene& scene, const Material& material, uint features);
 
     /// Binds what a material's slot USE_* reads to the texture unit of that slot.
     void bind(const Scene& scene, const TextureUse& use, int slot) const;

@@ -2,7 +2,6 @@
 #include "raster/material_features.h"
 
 #include <array>
-#include <cassert>
 
 namespace kilolux {
 namespace {
@@ -25,30 +24,6 @@ std::string uv_expression(uint features, int use) {
 }
 
 }  // namespace
-
-const TextureUse& texture_use(const Material& material, int use) {
-    switch (use) {
-        case USE_BASE_COLOR:
-            return material.base_color_texture;
-        case USE_METALLIC_ROUGHNESS:
-            return material.metallic_roughness_texture;
-        case USE_NORMAL:
-            return material.normal_texture;
-        case USE_OCCLUSION:
-            return material.occlusion_texture;
-        case USE_EMISSIVE:
-            return material.emissive_texture;
-        case USE_SPECULAR:
-            return material.specular_texture;
-        default:
-            assert(use == USE_SPECULAR_COLOR);
-            return material.specular_color_texture;
-    }
-}
-
-bool is_srgb_use(int use) {
-    return use == USE_BASE_COLOR || use == USE_EMISSIVE || use == USE_SPECULAR_COLOR;
-}
 
 uint features_of(const Mesh& mesh, const Material& material) {
     uint features = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/scene/material_row.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
 #include "raster/gl_program.h"
@@ -20,13 +21,8 @@ enum Feature : uint {
     kFeatureUnlit = 8u << (3 * USE_COUNT),
     kFeatureSharedOcclusion =
         16u << (3 * USE_COUNT),  // occlusion is the red of the metallic-roughness texture
+    kFeatureNoSurface = 32u << (3 * USE_COUNT),  // the mesh has no normals: only coverage is drawn
 };
-
-/// The use of a material's texture slot USE_*.
-const TextureUse& texture_use(const Material& material, int use);
-
-/// Whether a slot's texture holds sRGB-encoded colours.
-bool is_srgb_use(int use);
 
 /// Feature bits of a mesh drawn with a material. A normal map needs the mesh's tangents.
 uint features_of(const Mesh& mesh, const Material& material);

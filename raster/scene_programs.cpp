@@ -10,10 +10,16 @@ namespace {
 constexpr GLint kViewFromObject = 0;
 constexpr GLint kNormalFromObject = 3;
 constexpr GLint kClipFromView = 6;
+constexpr GLint kFirstTriangle = 9;
+constexpr GLint kEyeHigh = 10;
+constexpr GLint kEyeLow = 11;
 
-void set_object(const ObjectRows& rows) {
-    glUniform4fv(kViewFromObject, 3, &rows.view_from_object[0].x);
-    glUniform4fv(kNormalFromObject, 3, &rows.normal_from_object[0].x);
+void set_object(const InstanceRow& row) {
+    glUniform4fv(kViewFromObject, 3, &row.view_from_object[0].x);
+    glUniform4fv(kNormalFromObject, 3, &row.normal_from_object[0].x);
+    glUniform1ui(kFirstTriangle, row.first_triangle);
+    glUniform3fv(kEyeHigh, 1, &row.eye_high.x);
+    glUniform3fv(kEyeLow, 1, &row.eye_low.x);
 }
 
 void draw_triangles(const GpuMesh& mesh) {
@@ -73,7 +79,7 @@ void ScenePrograms::draw(const GpuScene& scene, std::span<const Draw> draws,
         current = program;
         material = mesh.material;
         glFrontFace(draw.mirrored ? GL_CW : GL_CCW);
-        set_object(draw.rows);
+        set_object(draw.row);
         draw_faces(mesh, scene.material(mesh.material));
     }
 }

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "raster/draw_list.h"
+#include "host/scene/draw_list.h"
 #include "raster/gpu_scene.h"
 
 namespace kilolux {

@@ -62,57 +62,67 @@ void GBufferBridge::make_staging(std::size_t bytes) {
     staging_ = std::move(staging);
 }
 
-// OpenGL reads every plane into the pixel buffer.
-std::vector<GBufferBridge::PlaneCopy> GBufferBridge::start_reads(const GBufferTargets& targets,
-                                                                 const GBufferLayout& layout,
-                                                                 const View& view, int first_row) {
-    std::vector<PlaneCopy> copies;
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
-    for (const PlaneRead& read : targets.reads()) {
-        const std::size_t offset = layout.offset_bytes[read.plane];
-        read_plane(targets, read, view.stride, {first_row, static_cast<int>(view.height)},
-                   reinterpret_cast<void*>(offset));  // NOLINT(performance-no-int-to-ptr)
-        const std::size_t element = plane_element_bytes(layout.layout, read.plane);
-        copies.push_back({offset, element * view.stride * view.height,
-                          Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0))});
-    }
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    return copies;
-}
-
 // While OpenGL reads the next plane.
 void GBufferBridge::upload(const PlaneCopy& copy) {
     const auto* plane = static_cast<const std::byte*>(staging_->mapping) + copy.offset;
     gpu_.queue.enqueueWriteBuffer(staging_->device, CL_FALSE, copy.offset, copy.bytes, plane);
 }
 
+// OpenGL reads every plane into the pixel buffer; a GPU gets each when it is there.
+void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> planes,
+                          std::size_t bytes, const View& view, int first_row) {
+    wait_for(Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)).get());
+    const auto start = std::chrono::steady_clock::now();  // what came before was drawing
+    if (!staging_ || staging_->bytes < bytes) make_staging(bytes);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
+    for (PlaneCopy& plane : planes) {
+        read_plane(targets, plane.read, view.stride, {first_row, static_cast<int>(view.height)},
+                   reinterpret_cast<void*>(plane.offset));  // NOLINT(performance-no-int-to-ptr)
+        plane.done = Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+    }
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    for (const PlaneCopy& plane : planes) {
+        wait_for(plane.done.get());
+        if (!gpu_.info.is_cpu) upload(plane);
+    }
+    check_gl_errors(kStage);
+    if (gpu_.info.is_cpu) {
+        // Tells the device that the memory behind its buffer has changed.
+        void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE,
+                                                   CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
+        gpu_.queue.enqueueUnmapMemObject(staging_->device, mapped);
+    }
+    last_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+                   .count();
+}
+
 GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs,
                                 const View& view, int first_row) {
     return in_stage(kStage, [&] {
-        wait_for(Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)).get());
-        const auto start = std::chrono::steady_clock::now();  // what came before was drawing
         GBuffer out;
         out.layout = make_gbuffer_layout(needs, view.stride, view.height);
         out.view = view;
-        const std::size_t bytes = gbuffer_bytes(out.layout, view.stride, view.height);
-        if (!staging_ || staging_->bytes < bytes) make_staging(bytes);
-        const std::vector<PlaneCopy> copies = start_reads(targets, out.layout, view, first_row);
-        for (const PlaneCopy& copy : copies) {
-            wait_for(copy.read.get());
-            if (!gpu_.info.is_cpu) upload(copy);
+        std::vector<PlaneCopy> planes;
+        for (const PlaneRead& read : targets.reads()) {
+            const std::size_t element = plane_element_bytes(out.layout.layout, read.plane);
+            planes.push_back({read, out.layout.offset_bytes[read.plane],
+                              element * view.stride * view.height, Fence()});
         }
-        check_gl_errors(kStage);
-        if (gpu_.info.is_cpu) {
-            // Tells the device that the memory behind its buffer has changed.
-            void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE,
-                                                       CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
-            gpu_.queue.enqueueUnmapMemObject(staging_->device, mapped);
-        }
+        carry(targets, std::move(planes), gbuffer_bytes(out.layout, view.stride, view.height), view,
+              first_row);
         out.bytes = staging_->device;
-        last_ms_ =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                .count();
         return out;
+    });
+}
+
+DeviceArray<uint> GBufferBridge::transfer_ids(const GBufferTargets& targets, const View& view,
+                                              int first_row) {
+    return in_stage(kStage, [&] {
+        const std::size_t count = std::size_t{view.stride} * view.height;
+        std::vector<PlaneCopy> planes;
+        planes.push_back({targets.reads().front(), 0, count * sizeof(uint), Fence()});
+        carry(targets, std::move(planes), count * sizeof(uint), view, first_row);
+        return DeviceArray<uint>(staging_->device, count);
     });
 }
 

@@ -12,7 +12,7 @@
 
 namespace kilolux {
 
-/// Carries the G-buffer from OpenGL to OpenCL as planes in one buffer.
+/// Carries what OpenGL drew to OpenCL: a G-buffer's planes, or triangle ids, in one buffer.
 ///
 /// The staged copy works everywhere: OpenGL reads its attachments into a persistently mapped pixel
 /// buffer, whose memory a CPU device uses in place (no copy on the OpenCL side) and a GPU gets
@@ -30,6 +30,10 @@ class GBufferBridge {
     GBuffer transfer(const GBufferTargets& targets, const GBufferNeeds& needs, const View& view,
                      int first_row = 0);
 
+    /// As transfer(), of the ids pass: [view.height][view.stride], undefined past the width.
+    DeviceArray<uint> transfer_ids(const GBufferTargets& targets, const View& view,
+                                   int first_row = 0);
+
     /// Host time of the last transfer after the drawing ended, OpenGL's reading included [ms].
     double last_ms() const { return last_ms_; }
 
@@ -41,12 +45,13 @@ class GBufferBridge {
     };
     using Fence = std::unique_ptr<std::remove_pointer_t<GLsync>, DeleteFence>;
     struct PlaneCopy {
+        PlaneRead read;
         std::size_t offset, bytes;
-        Fence read;  // signalled once the plane is in the pixel buffer
+        Fence done;  // signalled once the plane is in the pixel buffer
     };
     void make_staging(std::size_t bytes);
-    std::vector<PlaneCopy> start_reads(const GBufferTargets& targets, const GBufferLayout& layout,
-                                       const View& view, int first_row);
+    void carry(const GBufferTargets& targets, std::vector<PlaneCopy> planes, std::size_t bytes,
+               const View& view, int first_row);
     void upload(const PlaneCopy& copy);
 
     Gpu gpu_;

@@ -13,9 +13,10 @@ CoarseLightLists::CoarseLightLists(const Gpu& gpu, const Tuning& tuning,
 
 CoarseLighting CoarseLightLists::run(const LightInput& input, const View& view,
                                      const ClusterGrid& grid, StageTimer& timer) {
+    const StageTimer before = timer;
     CoarseLighting out = enqueue(input, view, grid, timer);
     while (!fits(pairs())) {
-        timer.take();  // of lists that had no room
+        timer = before;  // without the lists that had no room
         out = enqueue(input, view, grid, timer);
     }
     return out;

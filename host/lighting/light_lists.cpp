@@ -23,6 +23,7 @@ LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
                              const ClusterGrid& grid, StageTimer& timer,
                              const std::function<void(const ListedLights&)>& then) {
+    const StageTimer before = timer;
     for (;;) {
         {
             const ListedLights lists = enqueue(input, gbuffer, grid, timer);
@@ -33,7 +34,7 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
             if (is_complete(lists, counts_)) return lists;
         }  // the arrays that had no room go before those that have
         grow();
-        timer.take();
+        timer = before;  // without the lists that had no room
     }
 }
 

@@ -27,7 +27,7 @@ ForwardLights forward_lights(const LightRows& rows, float ambient, const HostCoa
 
 BlendedPass::BlendedPass(const PathContext& context, bool clustered)
     : context_(context),
-      pass_(context.gpu_scene, forward_features(context.plan, clustered, false)) {}
+      pass_(context.meshes(), forward_features(context.plan, clustered, false)) {}
 
 void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
                        const GBufferTargets& targets, const HostCoarseLists* lists,

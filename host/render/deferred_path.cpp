@@ -15,14 +15,14 @@ DeferredPath::DeferredPath(const PathContext& context)
     : context_(context),
       surfaces_(context),
       lighting_(context.gpu, context.tuning, context.plan.kernels) {
-    if (!has_blended_surfaces(context.gpu_scene.scene())) return;
+    if (!has_blended_surfaces(context.scene.scene())) return;
     lighting_.light_lists().list_everywhere();
     blended_.emplace(context, true);
 }
 
 Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShading& then) {
     lighting_.set_ambient(context_.settings.ambient);
-    gbuffer_ = surfaces_.draw(sample, out.stats.stages);
+    gbuffer_ = surfaces_.draw(sample, out);
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
     const LightingInput input{gbuffer_, sample.lights, grid};
     const Radiance radiance = lighting_.light(input, out.timer, blended_ ? AfterShading() : then);
@@ -90,12 +90,12 @@ DeferredAllPath::DeferredAllPath(const PathContext& context)
     : context_(context),
       surfaces_(context),
       lighting_(context.gpu, context.tuning, context.plan.kernels) {
-    if (has_blended_surfaces(context.gpu_scene.scene())) blended_.emplace(context, false);
+    if (has_blended_surfaces(context.scene.scene())) blended_.emplace(context, false);
 }
 
 Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterShading& then) {
     lighting_.set_ambient(context_.settings.ambient);
-    gbuffer_ = surfaces_.draw(sample, out.stats.stages);
+    gbuffer_ = surfaces_.draw(sample, out);
     grid_ = coarse_grid(context_, sample.camera, out.stats);
     const Radiance radiance = lighting_.light({gbuffer_, sample.lights, grid_}, out.timer);
     out.stats.evaluations_per_pixel = sample.lights.count;

@@ -8,7 +8,7 @@ namespace kilolux {
 ForwardPath::ForwardPath(const PathContext& context)
     : context_(context),
       clustered_(context.settings.renderer == RendererKind::forward_plus),
-      forward_(context.gpu_scene, forward_features(context.plan, clustered_, true)),
+      forward_(context.meshes(), forward_features(context.plan, clustered_, true)),
       radiance_(context.gpu, "forward") {
     if (clustered_) coarse_.emplace(context.gpu, context.tuning, context.plan.kernels);
 }
@@ -42,9 +42,11 @@ Radiance ForwardPath::light(const Sample& sample, Measured out, const AfterShadi
 
 SurfacePass& ForwardPath::drawn_surfaces(const Camera& camera) {
     if (!surfaces_) surfaces_.emplace(context_);
-    std::vector<StageTime> untimed;
+    StageTimer timer;
+    FrameStats stats;
     const LightRows no_rows;
-    gbuffer_ = surfaces_->draw({camera, no_rows, {}, {0, context_.settings.height}, true}, untimed);
+    gbuffer_ = surfaces_->draw({camera, no_rows, {}, {0, context_.settings.height}, true},
+                               {timer, stats});
     return *surfaces_;
 }
 
@@ -53,7 +55,7 @@ std::vector<uint> ForwardPath::evaluated(const Camera& camera, const DecodedSurf
     std::vector<uint> out(std::size_t{view.stride} * view.height, kBackground);
     std::vector<float> fragments;
     if (!clustered_) {
-        if (!overdraw_) overdraw_.emplace(context_.gpu_scene);
+        if (!overdraw_) overdraw_.emplace(context_.meshes());
         fragments = overdraw_->count(camera, context_.settings.width, context_.settings.height,
                                      DrawOrder::scene);
     }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/lighting/deferred_lighting.h"
 #include "host/picture/bands.h"
 #include "host/picture/frame.h"
 #include "host/render/light_rows.h"
+#include "host/render/render_scene.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
-#include "raster/gpu_scene.h"
+#include "host/surfaces/surface_scene.h"
 
 namespace kilolux {
 
@@ -19,8 +22,18 @@ struct PathContext {
     const ScenePlan& plan;
     const Gpu& gpu;
     const Tuning& tuning;
-    const GpuScene& gpu_scene;
-    const Box& box;  // of the scene at the frame's time, world space [m]
+    const RenderScene& scene;
+    std::shared_ptr<SurfaceScene>& surfaces;  // the scene on the device, made when first asked for
+
+    /// Whether OpenCL makes the surfaces of OpenGL's ids: not for what OpenGL's fragments light.
+    bool resolves() const {
+        return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
+    }
+    /// The scene as this way's OpenGL passes need it.
+    const GpuScene& meshes() const {
+        return scene.meshes(resolves() ? GpuSceneUse::covered : GpuSceneUse::shaded,
+                            settings.anisotropy);
+    }
 };
 
 /// One sample of a band of a frame to light: the lights on the host and, uploaded, on the device.

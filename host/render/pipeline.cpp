@@ -43,7 +43,7 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings&
       memory(limit_buffers(gpu, plan_memory(scene->scene(), settings, plan, gpu.info))),
       tuning_(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       lights_(gpu, scene->scene(), settings),
-      context_{settings, plan, gpu, tuning_, scene->meshes(), scene->box()},
+      context_{settings, plan, gpu, tuning_, *scene, surface_scene_},
       sum_(gpu, tuning_),
       tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
       whole_light_(gpu, "bloom"),
@@ -67,13 +67,14 @@ void Pipeline::make_optional_parts() {
     }
     const ViewKind view = settings.want.view;
     if (settings.bloom > 0.0f && !bloom_) bloom_.emplace(gpu);
-    if (view == ViewKind::overdraw && !overdraw_) overdraw_.emplace(scene->meshes());
+    if (view == ViewKind::overdraw && !overdraw_) overdraw_.emplace(context_.meshes());
     if (view == ViewKind::difference) change(reference_, scene, reference_of(settings));
 }
 
 // Whether other settings need neither other kernels nor another device.
 bool Pipeline::is_built_for(const RenderSettings& other) const {
-    return other.device == settings.device && other.kernels == settings.kernels &&
+    return other.device == settings.device && other.geometry == settings.geometry &&
+           other.anisotropy == settings.anisotropy && other.kernels == settings.kernels &&
            other.range_budget == settings.range_budget && plan_of(scene->scene(), other) == plan;
 }
 

@@ -12,7 +12,6 @@ RenderScene::RenderScene(const Scene& scene, bool own_context)
       box_(bounds(scene)),
       zero_normals_(zero_normal_count(scene)) {
     if (own_context) context_.emplace(GlContext::headless());
-    meshes_.emplace(scene);
 }
 
 RenderScene::~RenderScene() { make_current_or_lost(); }
@@ -33,7 +32,12 @@ void RenderScene::take_up_changes() {
     if (revision_ == scene_.revision) return;
     revision_ = scene_.revision;
     box_ = bounds(scene_);
-    meshes_->refresh();
+    for (auto& [use, meshes] : meshes_) meshes.refresh();
+}
+
+const GpuScene& RenderScene::meshes(GpuSceneUse use, int anisotropy) const {
+    return meshes_.try_emplace({use, anisotropy}, scene_, static_cast<float>(anisotropy), use)
+        .first->second;
 }
 
 }  // namespace kilolux

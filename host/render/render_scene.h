@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "host/scene/scene.h"
 #include "raster/gl_context.h"
@@ -32,7 +34,8 @@ class RenderScene {
 
     const Scene& scene() const { return scene_; }
     const Box& box() const { return box_; }  // world space [m]
-    const GpuScene& meshes() const { return *meshes_; }
+    /// The meshes for this use, uploaded when first asked for. `anisotropy`: see GpuScene.
+    const GpuScene& meshes(GpuSceneUse use, int anisotropy = 0) const;
     std::size_t zero_normals() const { return zero_normals_; }  // vertices
 
  private:
@@ -41,7 +44,8 @@ class RenderScene {
     Box box_;
     std::size_t zero_normals_;
     std::optional<GlContext> context_;
-    std::optional<GpuScene> meshes_;  // gone before the context is
+    // Gone before the context is.
+    mutable std::map<std::pair<GpuSceneUse, int>, GpuScene> meshes_;
 };
 
 }  // namespace kilolux

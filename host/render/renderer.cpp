@@ -178,7 +178,7 @@ void Pipeline::show_view(double time, Frame& frame) {
         reference_light = reference_->render(camera_, time, {}, {}).radiance;
     }
     frame.display = make_view(
-        view, {surfaces_, camera_, context_.box, fragments, frame.radiance, reference_light});
+        view, {surfaces_, camera_, scene->box(), fragments, frame.radiance, reference_light});
     surfaces_ = {};
 }
 

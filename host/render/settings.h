@@ -20,6 +20,13 @@ constexpr bool is_forward(RendererKind renderer) {
     return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
 }
 
+/// How surfaces get into the G-buffer: OpenGL draws triangle ids and OpenCL makes the surfaces, or
+/// OpenGL's fragments write the planes. `automatic` is `ids`.
+enum class Geometry { automatic, ids, planes };
+
+/// Whether OpenCL makes the surfaces.
+constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::planes; }
+
 enum class Shading { automatic, lambert, blinn_phong, pbr };
 enum class ToneCurve { none, neutral, aces };
 
@@ -60,6 +67,9 @@ struct RenderSettings {
     double range_budget =
         kDefaultRangeBudget;  // for the scene's lights without a range, see range_of_light()
     uint gbuffer = GBUFFER_PACKED;
+    Geometry geometry = Geometry::automatic;
+    int anisotropy = 0;  // texture samples along a footprint's longer side at most, 1..16; 0: 1 on
+                         // CPUs, 8 on GPUs
     Shading shading = Shading::automatic;
     float ambient = 0.02f;  // radiance that falls in from everywhere
     float bloom = 0.0f;     // share of the light that blooms, 0..1

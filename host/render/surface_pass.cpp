@@ -5,25 +5,67 @@
 
 namespace kilolux {
 
+int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device) {
+    constexpr int kGpuAnisotropy = 8;
+    if (settings.anisotropy > 0) return settings.anisotropy;
+    return device.is_cpu ? 1 : kGpuAnisotropy;
+}
+
 SurfacePass::SurfacePass(const PathContext& context)
     : context_(context),
-      geometry_(context.gpu_scene, context.plan.gbuffer),
       bridge_(context.gpu),
-      decode_(context.gpu, context.tuning, context.plan.kernels) {}
+      decode_(context.gpu, context.tuning, context.plan.kernels) {
+    if (!context.resolves()) {
+        planes_.emplace(context.meshes(), context.plan.gbuffer);
+        return;
+    }
+    // A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
+    const Gpu gpu = context.gpu.info.is_cpu ? context.gpu : context.gpu.with_lanes(1);
+    const Scene& scene = context.scene.scene();
+    const SurfaceFeatures features = surface_features(
+        scene, context.plan.gbuffer, chosen_anisotropy(context.settings, context.gpu.info));
+    if (!context.surfaces) {
+        context.surfaces =
+            std::make_shared<SurfaceScene>(context.gpu, context.tuning, scene, features);
+    }
+    ids_.emplace(context.meshes());
+    resolve_.emplace(gpu, context.tuning, context.plan.kernels, features);
+}
 
-GBuffer SurfacePass::draw(const Sample& sample, std::vector<StageTime>& stages) {
+GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
+    return planes_ ? draw_planes(sample, out.stats.stages) : draw_ids(sample, out);
+}
+
+GBuffer SurfacePass::draw_planes(const Sample& sample, std::vector<StageTime>& stages) {
     const RenderSettings& settings = context_.settings;
-    const Camera& camera = sample.camera;
     const Band band = sample.band;
     const Band tile = raster_tile(settings.height, band.first_row);
-    if (sample.redraw)
-        geometry_.draw(crop(camera, settings.height, tile), settings.width, tile.rows);
-    GBuffer gbuffer = bridge_.transfer(geometry_.targets(), context_.plan.gbuffer,
-                                       view_of(camera, settings.width, settings.height, band),
+    if (sample.redraw) {
+        planes_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows);
+        add_stage_time(stages, "geometry", planes_->last_ms());
+    }
+    GBuffer gbuffer = bridge_.transfer(planes_->targets(), context_.plan.gbuffer,
+                                       view_of(sample.camera, settings.width, settings.height, band),
                                        band.first_row - tile.first_row);
-    if (sample.redraw) add_stage_time(stages, "geometry", geometry_.last_ms());
     add_stage_time(stages, "gbuffer_bridge", bridge_.last_ms());
     return gbuffer;
+}
+
+GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
+    const RenderSettings& settings = context_.settings;
+    const Band band = sample.band;
+    const Band tile = raster_tile(settings.height, band.first_row);
+    if (sample.redraw) {
+        ids_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows);
+        add_stage_time(out.stats.stages, "geometry", ids_->last_ms());
+    }
+    const View view = view_of(sample.camera, settings.width, settings.height, band);
+    const DeviceArray<uint> ids =
+        bridge_.transfer_ids(ids_->targets(), view, band.first_row - tile.first_row);
+    add_stage_time(out.stats.stages, "gbuffer_bridge", bridge_.last_ms());
+    return resolve_->enqueue(ids, context_.surfaces->at(ids_->draws()),
+                             make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height),
+                             view, out.timer);
 }
 
 DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& grid) {
@@ -65,7 +107,7 @@ ClusterGrid coarse_grid(const PathContext& context, const Camera& camera, FrameS
     const RenderSettings& settings = context.settings;
     const uint layout = is_forward(settings.renderer) ? GBUFFER_PACKED : settings.gbuffer;
     const GridRequest request =
-        grid_request(settings.grid, camera, context.box, position_pad(layout, context.box, camera));
+        grid_request(settings.grid, camera, context.scene.box(), position_pad(layout, context.scene.box(), camera));
     const ClusterGrid grid = make_cluster_grid(request, static_cast<uint>(settings.width),
                                                static_cast<uint>(settings.height));
     stats.grid[0] = grid.tiles_x;

@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "host/interop/gbuffer_bridge.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/pixel_probe.h"
 #include "host/render/path.h"
 #include "host/stages/decode_gbuffer.h"
 #include "raster/geometry_pass.h"
+#include "raster/ids_pass.h"
 
 namespace kilolux {
 
-/// The scene's surfaces: drawn by OpenGL, on the OpenCL device, and decoded.
+/// Texture samples along a footprint's longer side at most.
+int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device);
+
+/// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL draws triangle ids that OpenCL
+/// resolves, or the planes themselves (RenderSettings::geometry).
 class SurfacePass {
  public:
     explicit SurfacePass(const PathContext& context);
 
-    /// Draws the G-buffer of the band's raster tile, unless it is there from the last call, and
-    /// brings the band to the device, where it stays until the next call; lights are not read.
-    /// Waits for OpenGL. Adds the stages geometry and gbuffer_bridge to `stages`.
-    GBuffer draw(const Sample& sample, std::vector<StageTime>& stages);
+    /// Draws the band's raster tile, unless it is there from the last call, and makes the band's
+    /// G-buffer on the device, valid until the next call; lights are not read. Waits for OpenGL.
+    /// Adds the stages geometry and gbuffer_bridge; resolve_surfaces goes to the timer.
+    GBuffer draw(const Sample& sample, Measured out);
 
     /// The surfaces of the last draw() on the host. Blocks.
     DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);
@@ -26,11 +33,16 @@ class SurfacePass {
     /// The surface and the coarse cluster of one pixel of the last draw(). Blocks.
     PixelProbe probe(const GBuffer& gbuffer, const ClusterGrid& grid, int x, int y);
 
-    const GBufferTargets& targets() const { return geometry_.targets(); }
+    const GBufferTargets& targets() const { return planes_ ? planes_->targets() : ids_->targets(); }
 
  private:
+    GBuffer draw_planes(const Sample& sample, std::vector<StageTime>& stages);
+    GBuffer draw_ids(const Sample& sample, Measured out);
+
     PathContext context_;
-    GeometryPass geometry_;
+    std::optional<GeometryPass> planes_;
+    std::optional<IdsPass> ids_;               // else
+    std::optional<ResolveSurfaces> resolve_;  // of ids_
     GBufferBridge bridge_;
     DecodeGBuffer decode_;
 };

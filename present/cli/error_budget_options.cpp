@@ -29,7 +29,8 @@ std::string settings_text(const RenderSettings& s) {
     return fmt::format("{} {}x{} ", name_of(s.renderer), s.width, s.height) +
            fmt::format("lights {} {} {} {} {} {} {} ", l.count, l.seed, l.radius, l.intensity,
                        vector_text(l.box.min), vector_text(l.box.max), s.range_budget) +
-           fmt::format("gbuffer {} {} {} {} {} ", s.gbuffer, name_of(s.shading), s.ambient,
+           fmt::format("gbuffer {} {} {} {} {} {} {} ", s.gbuffer,
+                       static_cast<int>(s.geometry), s.anisotropy, name_of(s.shading), s.ambient,
                        s.exposure, name_of(s.tone_curve)) +
            fmt::format("grid {},{},{} ", s.grid.tiles_x, s.grid.tiles_y, s.grid.slices_per_octave) +
            fmt::format("kernels {} {} {} {}", k.lanes, k.group_height,

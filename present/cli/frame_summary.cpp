@@ -67,6 +67,8 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                      {"seed", fmt::format("{}", options.settings.lights.seed)},
                      {"renderer", name_of(options.settings.renderer)},
                      {"shading", name_of(options.settings.shading)},
+                     {"geometry", geometry_choices().names.at(
+                                      static_cast<std::size_t>(options.settings.geometry))},
                      {"gbuffer", gbuffer_names().at(options.settings.gbuffer)},
                      {"grid", grid_text(stats)},
                      {"device", device.name + ", " + device.version},

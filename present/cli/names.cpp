@@ -75,6 +75,12 @@ Choices gbuffer_choices() {
                            {"oct-2x4", "octahedral normal, two rows of four floats"}});
 }
 
+Choices geometry_choices() {
+    return {{"auto", "ids"},
+            {"ids", "OpenGL draws triangle ids, OpenCL makes the surfaces"},
+            {"planes", "OpenGL's fragments write the surfaces, filtered as its driver likes"}};
+}
+
 Choices aov_choices() {
     return ordered(aov_names(), {{"depth", "Z: distance along the view direction, in metres"},
                                  {"position", "P.X, P.Y, P.Z: in the world, in metres"},

@@ -25,6 +25,7 @@ Choices tone_curve_choices();
 Choices math_choices();
 Choices light_color_choices();
 Choices gbuffer_choices();
+Choices geometry_choices();
 Choices aov_choices();
 Choices metric_choices();
 

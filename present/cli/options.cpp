@@ -42,6 +42,10 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
         .rest()
         .choice({"--gbuffer", "", "packed", "How a pixel is stored between the passes"}, s.gbuffer,
                 gbuffer_choices())
+        .choice({"--geometry", "", "auto", "How surfaces get into the G-buffer"}, s.geometry,
+                geometry_choices())
+        .count({"--anisotropy", "N", "1 on CPUs, 8 on GPUs", "Texture samples along a footprint"},
+               s.anisotropy, kAnisotropyRange)
         .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading,
                 shading_choices())
         .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,

@@ -1,12 +1,15 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A scene vertex to view and clip space. What a variant needs is defined by name:
-// TEXCOORD0, TEXCOORD1, VERTEX_COLOR, TANGENT, POSITION, NO_SURFACE (depth alone).
+// TEXCOORD0, TEXCOORD1, VERTEX_COLOR, TANGENT, POSITION, NO_SURFACE (coverage alone), IDS.
 
-layout(location = 0) uniform vec4 view_from_object[3];    // rows
+layout(location = 0) uniform vec4 view_from_object[3];    // rows; w: offset
 // Rows; [0].w: -1 where the object is mirrored, else 1.
 layout(location = 3) uniform vec4 normal_from_object[3];
 layout(location = 6) uniform mat4 clip_from_view;
+layout(location = 9) uniform uint first_triangle;
+layout(location = 10) uniform vec3 eye_high;  // the camera in object space, a pair of floats
+layout(location = 11) uniform vec3 eye_low;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -34,15 +37,23 @@ layout(location = 4) out vec2 v_texcoord1;
 layout(location = 5) out vec4 v_color;
 #endif
 
+#ifdef IDS
+layout(location = 6) flat out uint v_first_triangle;
+#endif
+
 invariant gl_Position;
 
 #include "raster/shaders/normalize.glsl"
 
 void main() {
-    vec4 p = vec4(position, 1.0);
+    // As InstanceRow says.
+    precise vec4 p = vec4((position - eye_high) - eye_low, 1.0);
     vec3 p_view = vec3(dot(view_from_object[0], p), dot(view_from_object[1], p),
                        dot(view_from_object[2], p));
     gl_Position = clip_from_view * vec4(p_view, 1.0);
+#ifdef IDS
+    v_first_triangle = first_triangle;
+#endif
 #ifdef POSITION
     v_position = p_view;
 #endif

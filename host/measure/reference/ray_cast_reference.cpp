@@ -56,6 +56,8 @@ SurfaceSamples RayCaster::cast(const Camera& camera, int width, int height,
         if (!hit) return;
         SurfaceSample& sample = out.at(x, y);
         sample = surface_at(hit_of(*hit));
+        sample.instance = bvh_.triangles()[hit->index].instance;
+        sample.triangle = bvh_.triangles()[hit->index].triangle;
         sample.position = view_ray.origin + hit->t * view_ray.direction;
         const bool has_normal = sample.normal != glm::dvec3(0.0);
         sample.normal = has_normal ? view_from_world * sample.normal : glm::dvec3(0.0, 0.0, 1.0);

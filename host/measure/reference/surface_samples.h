@@ -26,6 +26,8 @@ struct SurfaceSample {
     glm::dvec3 specular{0.04};  // reflectance of the dielectric part at normal incidence
     double specular_f90 = 1.0;  // and at grazing angles
     SurfaceKind kind = SurfaceKind::background;
+    std::uint32_t instance = 0;  // of the scene, where a ray hit
+    std::uint32_t triangle = 0;  // of the instance's mesh
 };
 
 /// Row 0 on top.

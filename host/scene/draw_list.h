@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
-#include "kernels/shared/types.h"
+#include "kernels/shared/surface_scene.h"
 
 namespace kilolux {
-
-/// An object's transforms as the vertex shader takes them, composed in double.
-struct ObjectRows {
-    std::array<float4, 3> view_from_object;  // rows of the 3x4 matrix
-    std::array<float4, 3>
-        normal_from_object;  // rows, up to a positive scale; [0].w: -1 if mirrored, else 1
-};
 
 /// One instance to draw.
 struct Draw {
@@ -23,7 +15,7 @@ struct Draw {
     int mesh = 0;
     double depth = 0.0;     // sort key: least depth of its box [m], or its centre's (back to front)
     bool mirrored = false;  // negative determinant: front faces wind the other way
-    ObjectRows rows;
+    InstanceRow row{};      // composed in double; its ids are numbered along the draws
 };
 
 enum class DrawOrder { front_to_back, back_to_front, scene };

@@ -1,38 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raster/draw_list.h"
+#include "host/scene/draw_list.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+
+#include "host/base/error.h"
 
 namespace kilolux {
 namespace {
+
+constexpr double kUnit = 1e-6;  // of a length that counts as 1
 
 float4 to_row(const glm::dvec4& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
             static_cast<float>(v.w)};
 }
 
+// Whether the matrix is a rotation, mirrored or not.
+bool is_rotation(const glm::dmat3& m) {
+    const glm::dmat3 product = glm::transpose(m) * m - glm::dmat3(1.0);
+    for (int i = 0; i < 9; ++i) {
+        if (!(std::abs(product[i / 3][i % 3]) < kUnit)) return false;
+    }
+    return true;
+}
+
 // The cofactor matrix is the inverse transpose times the determinant, and is there for singular
-// matrices too; scaled to 1, since a vertex normal's length says nothing.
+// matrices too. Scaled so that a rotation stays one: a vertex normal's length says nothing.
 glm::dmat3 normal_matrix(const glm::dmat3& m, double determinant) {
     glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     double largest = 0.0;
-    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(cofactor[i / 3][i % 3]));
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, glm::length(cofactor[i]));
     if (!(largest > 0.0)) return glm::dmat3(0.0);
     return cofactor * ((determinant < 0.0 ? -1.0 : 1.0) / largest);
 }
 
-ObjectRows rows_of(const glm::dmat4& m, double determinant) {
-    const glm::dmat4 rows = glm::transpose(m);
-    const glm::dmat3 normals = glm::transpose(normal_matrix(glm::dmat3(m), determinant));
-    ObjectRows out{};
+// The camera in object space; zero where the transform has no inverse that keeps its precision.
+glm::dvec3 eye_of(const glm::dmat4& view_from_object) {
+    constexpr double kWorstCondition = 64.0;
+    const glm::dmat3 linear(view_from_object);
+    const glm::dvec3 offset(view_from_object[3]);
+    const glm::dvec3 eye = -(glm::inverse(linear) * offset);
+    double longest = 0.0;
+    for (int i = 0; i < 3; ++i) longest = std::max(longest, glm::length(linear[i]));
+    const bool precise = longest * glm::length(eye) <= kWorstCondition * glm::length(offset);
+    return precise ? eye : glm::dvec3(0.0);
+}
+
+// `m`: view_from_object.
+InstanceRow row_of(const glm::dmat4& m, double determinant) {
+    InstanceRow out{};
+    const glm::dvec3 eye = eye_of(m);
+    const glm::vec3 high(eye);
+    const glm::vec3 low(eye - glm::dvec3(high));
+    const glm::dvec3 rest = glm::dvec3(m[3]) + glm::dmat3(m) * (glm::dvec3(high) + glm::dvec3(low));
+    const glm::dmat3 linear = glm::transpose(glm::dmat3(m));
+    const glm::dmat3 normal = normal_matrix(glm::dmat3(m), determinant);
+    const glm::dmat3 normal_rows = glm::transpose(normal);
     for (int i = 0; i < 3; ++i) {
-        const auto row = static_cast<std::size_t>(i);
-        out.view_from_object[row] = to_row(rows[i]);
-        out.normal_from_object[row] =
-            to_row(glm::dvec4(normals[i], i == 0 && determinant < 0.0 ? -1.0 : 1.0));
+        out.view_from_object[i] = to_row(glm::dvec4(linear[i], rest[i]));
+        out.normal_from_object[i] =
+            to_row(glm::dvec4(normal_rows[i], i == 0 && determinant < 0.0 ? -1.0 : 1.0));
     }
+    out.eye_high = {high.x, high.y, high.z, 0.0f};
+    out.eye_low = {low.x, low.y, low.z, 0.0f};
+    out.keeps_unit = (is_rotation(normal) ? KEEPS_UNIT_NORMALS : 0u) |
+                     (is_rotation(glm::dmat3(m)) ? KEEPS_UNIT_TANGENTS : 0u);
     return out;
+}
+
+// Ids ascend along the draws.
+void number_triangles(std::vector<Draw>& draws, const Scene& scene) {
+    std::uint64_t first = 0;
+    for (Draw& draw : draws) {
+        draw.row.first_triangle = static_cast<uint>(first);
+        draw.row.mesh = static_cast<uint>(draw.mesh);
+        first += scene.meshes[static_cast<std::size_t>(draw.mesh)].indices.size() / 3;
+        if (first >= std::numeric_limits<uint>::max()) {
+            throw Error("scene '" + scene.name +
+                        "': more than 4294967294 triangles are in view, which ids cannot name");
+        }
+    }
 }
 
 std::array<glm::dvec4, 8> corners_of(const Box& box, const glm::dmat4& view_from_box) {
@@ -121,9 +171,10 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
         if (order == DrawOrder::back_to_front) nearest = sum / 8.0;
         const double determinant = glm::determinant(glm::dmat3(transform));
         draws.push_back({static_cast<int>(i), instance.mesh, nearest, determinant < 0.0,
-                         rows_of(transform, determinant)});
+                         row_of(transform, determinant)});
     }
     sort_draws(draws, order);
+    number_triangles(draws, scene_);
     return draws;
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/material_row.h"
+
+#include <cassert>
+
+namespace kilolux {
+
+MaterialRow material_row(const Material& material) {
+    MaterialRow row{};
+    const glm::vec4& color = material.base_color;
+    row.base_color = {color.x, color.y, color.z, color.w};
+    const glm::vec3& emissive = material.emissive;
+    row.emissive_cutoff = {emissive.x, emissive.y, emissive.z, material.alpha_cutoff};
+    row.factors = {material.metallic, material.roughness, material.normal_scale,
+                   material.occlusion_strength};
+    const glm::vec3 f0 = dielectric_reflectance(material);
+    row.specular = {f0.x, f0.y, f0.z, material.specular};
+    for (int use = 0; use < USE_COUNT; ++use) {
+        const glm::mat3& m = texture_use(material, use).uv_from_texcoord;
+        row.uv_x[use] = {m[0].x, m[1].x, m[2].x, 0.0f};
+        row.uv_y[use] = {m[0].y, m[1].y, m[2].y, 0.0f};
+    }
+    return row;
+}
+
+const TextureUse& texture_use(const Material& material, int use) {
+    switch (use) {
+        case USE_BASE_COLOR:
+            return material.base_color_texture;
+        case USE_METALLIC_ROUGHNESS:
+            return material.metallic_roughness_texture;
+        case USE_NORMAL:
+            return material.normal_texture;
+        case USE_OCCLUSION:
+            return material.occlusion_texture;
+        case USE_EMISSIVE:
+            return material.emissive_texture;
+        case USE_SPECULAR:
+            return material.specular_texture;
+        default:
+            assert(use == USE_SPECULAR_COLOR);
+            return material.specular_color_texture;
+    }
+}
+
+bool is_srgb_use(int use) {
+    return use == USE_BASE_COLOR || use == USE_EMISSIVE || use == USE_SPECULAR_COLOR;
+}
+
+}  // namespace kilolux

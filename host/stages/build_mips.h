@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "kernels/shared/surface_scene.h"
+
+namespace kilolux {
+
+/// Texels of an image with all its mip levels.
+std::size_t mip_texels(uint width, uint height);
+
+/// Sets size, levels and places of an image whose levels begin at `first_texel`.
+void place_mips(TextureRow& row, uint width, uint height, std::size_t first_texel);
+
+/// 8-bit images -> linear texels of 16 bits a channel, with mip levels.
+class BuildMips {
+ public:
+    explicit BuildMips(const Gpu& gpu, const Tuning& tuning);
+
+    /// The levels of one image, at the places that `row` names. `rgba`: rows from the top. `srgb`:
+    /// colours are sRGB codes. Returns when `rgba` was read.
+    void enqueue(std::span<const std::uint8_t> rgba, bool srgb, const TextureRow& row,
+                 const DeviceArray<std::uint64_t>& texels);
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    cl::Program program_;
+    Kernel first_, next_;
+    GrowingArray<std::uint16_t> srgb_, linear_;
+    GrowingArray<std::uint8_t> image_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/resolve_surfaces.h"
+
+#include "host/base/gbuffer_layout.h"
+#include "host/base/srgb.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kStage = "resolve_surfaces";
+
+cl::Program program_of(const Gpu& gpu, const KernelFeatures& features,
+                       const SurfaceFeatures& surfaces) {
+    BuildOptions options = feature_options(features);
+    options.define("TEXTURE_USES", static_cast<int>(surfaces.texture_uses))
+        .define("HAS_TEXCOORD0", surfaces.texcoord0)
+        .define("HAS_TEXCOORD1", surfaces.texcoord1)
+        .define("HAS_VERTEX_COLOR", surfaces.vertex_color)
+        .define("HAS_TANGENT", (surfaces.texture_uses & (1u << USE_NORMAL)) != 0)
+        .define("HAS_UNLIT_MATERIALS", features.unlit_materials)
+        .define("MAX_ANISOTROPY", surfaces.anisotropy);
+    return build_program(gpu, kStage, options);
+}
+
+}  // namespace
+
+ResolveSurfaces::ResolveSurfaces(const Gpu& gpu, const Tuning& tuning,
+                                 const KernelFeatures& features, const SurfaceFeatures& surfaces)
+    : gpu_(gpu),
+      tuning_(tuning),
+      kernel_(gpu, program_of(gpu, features, surfaces), kStage, "resolve_surfaces"),
+      boundary_(gpu, kStage),
+      code_(gpu, kStage),
+      planes_(gpu, kStage) {
+    const SrgbBuckets buckets = srgb_buckets();
+    upload<float>(gpu_, boundary_.reserve(buckets.boundary.size()), buckets.boundary);
+    upload<uint>(gpu_, code_.reserve(buckets.code.size()), buckets.code);
+}
+
+GBuffer ResolveSurfaces::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
+                                 const GBufferLayout& layout, const View& view, StageTimer& timer) {
+    GBuffer out;
+    out.layout = layout;
+    out.view = view;
+    out.bytes = planes_.reserve(gbuffer_bytes(layout, view.stride, view.height));
+    kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, ids, view,
+                    layout, scene.instances, static_cast<uint>(scene.instances.count()),
+                    scene.meshes, scene.vertices, scene.indices, scene.materials, scene.textures,
+                    scene.texels, boundary_.get(), code_.get(), out.bytes);
+    return out;
+}
+
+}  // namespace kilolux

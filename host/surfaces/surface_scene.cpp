@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/surfaces/surface_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/surfaces/texture_table.h"
+#include "host/surfaces/vertex_rows.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kOwner = "surfaces";
+
+bool keeps_use(int use, const GBufferNeeds& needs) {
+    switch (use) {
+        case USE_EMISSIVE:
+            return needs.material;
+        case USE_OCCLUSION:
+            return needs.occlusion;
+        case USE_SPECULAR:
+        case USE_SPECULAR_COLOR:
+            return needs.specular;
+        default:
+            return true;
+    }
+}
+
+SurfaceMaterial surface_material(const Material& material, const TextureTable& textures) {
+    SurfaceMaterial out{};
+    out.row = material_row(material);
+    if (material.double_sided) out.flags |= MATERIAL_DOUBLE_SIDED;
+    if (material.unlit) out.flags |= MATERIAL_UNLIT;
+    for (int use = 0; use < USE_COUNT; ++use) {
+        out.textures[use] = textures.number_of(material, use);
+        if (texture_use(material, use).uv_set == 1) out.flags |= 1u << use;
+    }
+    return out;
+}
+
+}  // namespace
+
+SurfaceFeatures surface_features(const Scene& scene, const GBufferNeeds& needs, int anisotropy) {
+    SurfaceFeatures out;
+    out.anisotropy = anisotropy;
+    for (const Mesh& mesh : scene.meshes) {
+        const Material& material = material_of(scene, mesh);
+        if (material.alpha_mode == AlphaMode::blend) continue;
+        out.vertex_color |= !mesh.colors.empty();
+        for (int use = 0; use < USE_COUNT; ++use) {
+            const TextureUse& texture = texture_use(material, use);
+            if (!texture.present() || !keeps_use(use, needs)) continue;
+            if (use == USE_NORMAL && mesh.tangents.empty()) continue;
+            out.texture_uses |= 1u << use;
+            (texture.uv_set == 1 ? out.texcoord1 : out.texcoord0) = true;
+        }
+    }
+    return out;
+}
+
+std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& features) {
+    std::uint64_t bytes = TextureTable(scene, features).texels() * sizeof(std::uint64_t);
+    for (const Mesh& mesh : scene.meshes) {
+        bytes += vertex_floats(mesh, features) * mesh.positions.size() * sizeof(float) +
+                 mesh.indices.size() * sizeof(uint) + sizeof(MeshRow);
+    }
+    return bytes + scene.materials.size() * sizeof(SurfaceMaterial) +
+           scene.instances.size() * sizeof(InstanceRow);
+}
+
+SurfaceScene::SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
+                           const SurfaceFeatures& features)
+    : gpu_(gpu),
+      scene_(scene),
+      features_(features),
+      instances_(gpu, kOwner),
+      meshes_(gpu, kOwner),
+      vertices_(gpu, kOwner),
+      indices_(gpu, kOwner),
+      materials_(gpu, kOwner),
+      textures_(gpu, kOwner),
+      texels_(gpu, kOwner) {
+    upload_materials(tuning);
+    upload_meshes();
+}
+
+void SurfaceScene::upload_materials(const Tuning& tuning) {
+    const TextureTable table(scene_, features_);
+    std::vector<SurfaceMaterial> materials;
+    for (const Material& material : scene_.materials) {
+        materials.push_back(surface_material(material, table));
+    }
+    materials.push_back(surface_material(Material{}, table));
+    upload<SurfaceMaterial>(gpu_, materials_.reserve(materials.size()), materials);
+    upload<TextureRow>(gpu_, textures_.reserve(table.rows().size()), table.rows());
+    table.upload(gpu_, tuning, texels_.reserve(table.texels()));
+}
+
+void SurfaceScene::upload_meshes() {
+    std::vector<float> vertices;
+    std::vector<uint> indices;
+    for (const Mesh& mesh : scene_.meshes) {
+        MeshRow row = vertex_layout(mesh, features_);
+        row.first_float = checked_count(vertices.size(), scene_);
+        row.first_index = checked_count(indices.size(), scene_);
+        row.material = static_cast<uint>(mesh.material < 0 ? scene_.materials.size()
+                                                           : static_cast<std::size_t>(mesh.material));
+        if (material_of(scene_, mesh).alpha_mode != AlphaMode::blend) {
+            append_vertices(mesh, row, vertices);
+            indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+        }
+        rows_.push_back(row);
+        revisions_.push_back(mesh.revision);
+    }
+    checked_count(vertices.size(), scene_);
+    checked_count(indices.size(), scene_);
+    upload<MeshRow>(gpu_, meshes_.reserve(rows_.size()), rows_);
+    upload<float>(gpu_, vertices_.reserve(vertices.size()), vertices);
+    upload<uint>(gpu_, indices_.reserve(indices.size()), indices);
+}
+
+void SurfaceScene::refresh_vertices() {
+    std::vector<float> vertices;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const Mesh& mesh = scene_.meshes[i];
+        if (revisions_[i] == mesh.revision) continue;
+        revisions_[i] = mesh.revision;
+        if (material_of(scene_, mesh).alpha_mode == AlphaMode::blend) continue;
+        vertices.clear();
+        append_vertices(mesh, rows_[i], vertices);
+        gpu_.queue.enqueueWriteBuffer(vertices_.get(), CL_TRUE,
+                                      std::size_t{rows_[i].first_float} * sizeof(float),
+                                      vertices.size() * sizeof(float), vertices.data());
+    }
+}
+
+SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
+    refresh_vertices();
+    std::vector<InstanceRow> rows;
+    rows.reserve(draws.size());
+    for (const Draw& draw : draws) rows.push_back(draw.row);
+    const DeviceArray<InstanceRow> instances = instances_.reserve(rows.size());
+    upload<InstanceRow>(gpu_, instances, rows);
+    return {instances,         meshes_.get(),   vertices_.get(), indices_.get(),
+            materials_.get(),  textures_.get(), texels_.get()};
+}
+
+}  // namespace kilolux

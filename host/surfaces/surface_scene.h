@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "host/base/gbuffer_layout.h"
+#include "host/scene/draw_list.h"
+#include "host/scene/scene.h"
+#include "host/stages/resolve_surfaces.h"
+
+namespace kilolux {
+
+/// What resolve_surfaces needs to read of a scene for a G-buffer. `anisotropy` at least 1.
+SurfaceFeatures surface_features(const Scene& scene, const GBufferNeeds& needs, int anisotropy);
+
+/// Bytes that a SurfaceScene takes on the device.
+std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& features);
+
+/// A scene's surfaces on the OpenCL device: vertices, triangles, materials, and textures with their
+/// mip levels. Only what the features read is there; surfaces that blend are not.
+class SurfaceScene {
+ public:
+    /// The scene must outlive this; its materials and textures must stay as they are and its meshes
+    /// as many. Throws Error when the device cannot hold it, or an image is too large.
+    SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
+                 const SurfaceFeatures& features);
+
+    /// The scene with these instances, numbered as their rows say; vertices are uploaded anew where
+    /// a mesh's revision says that they changed. Valid until the next call.
+    SurfaceBuffers at(std::span<const Draw> draws);
+
+    const SurfaceFeatures& features() const { return features_; }
+
+ private:
+    void upload_meshes();
+    void upload_materials(const Tuning& tuning);
+    void refresh_vertices();
+
+    Gpu gpu_;
+    const Scene& scene_;
+    SurfaceFeatures features_;
+    std::vector<MeshRow> rows_;              // by mesh
+    std::vector<std::uint32_t> revisions_;   // of the vertices on the device, by mesh
+    GrowingArray<InstanceRow> instances_;
+    GrowingArray<MeshRow> meshes_;
+    GrowingArray<float> vertices_;
+    GrowingArray<uint> indices_;
+    GrowingArray<SurfaceMaterial> materials_;
+    GrowingArray<TextureRow> textures_;
+    GrowingArray<std::uint64_t> texels_;
+};
+
+}  // namespace kilolux

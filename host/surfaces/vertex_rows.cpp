@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/surfaces/vertex_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/type_ptr.hpp>
+#include <limits>
+#include <string>
+
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+constexpr float kUnit = 1e-6f;  // of a square that counts as 1
+
+template <typename Vector>
+bool are_unit(const std::vector<Vector>& vectors) {
+    return std::all_of(vectors.begin(), vectors.end(), [](const Vector& v) {
+        return std::abs(glm::dot(glm::vec3(v), glm::vec3(v)) - 1.0f) < kUnit;
+    });
+}
+
+// Copies an attribute to its place in every row.
+template <typename Vector>
+void place(const std::vector<Vector>& values, uint at, std::size_t row_floats, float* rows) {
+    if (at == SURFACE_ABSENT) return;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        std::copy_n(glm::value_ptr(values[i]), Vector::length(), rows + i * row_floats + at);
+    }
+}
+
+}  // namespace
+
+const Material& material_of(const Scene& scene, const Mesh& mesh) {
+    static const Material kDefault;
+    return mesh.material < 0 ? kDefault : scene.materials[static_cast<std::size_t>(mesh.material)];
+}
+
+MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features) {
+    MeshRow row{};
+    uint floats = 3;
+    const auto attribute = [&](bool wanted, uint size) {
+        if (!wanted) return SURFACE_ABSENT;
+        floats += size;
+        return floats - size;
+    };
+    row.normal = attribute(!mesh.normals.empty(), 3);
+    const bool maps = (features.texture_uses & (1u << USE_NORMAL)) != 0;
+    row.tangent = attribute(maps && !mesh.tangents.empty(), 4);
+    row.texcoord0 = attribute(features.texcoord0 && !mesh.texcoords[0].empty(), 2);
+    row.texcoord1 = attribute(features.texcoord1 && !mesh.texcoords[1].empty(), 2);
+    row.color = attribute(features.vertex_color && !mesh.colors.empty(), 4);
+    row.vertex_floats = floats;
+    row.unit_vectors = (are_unit(mesh.normals) ? KEEPS_UNIT_NORMALS : 0u) |
+                       (are_unit(mesh.tangents) ? KEEPS_UNIT_TANGENTS : 0u);
+    return row;
+}
+
+std::size_t vertex_floats(const Mesh& mesh, const SurfaceFeatures& features) {
+    return vertex_layout(mesh, features).vertex_floats;
+}
+
+void append_vertices(const Mesh& mesh, const MeshRow& row, std::vector<float>& out) {
+    const std::size_t first = out.size();
+    const std::size_t floats = row.vertex_floats;
+    out.resize(first + mesh.positions.size() * floats);
+    float* rows = out.data() + first;
+    place(mesh.positions, 0, floats, rows);
+    place(mesh.normals, row.normal, floats, rows);
+    place(mesh.tangents, row.tangent, floats, rows);
+    place(mesh.texcoords[0], row.texcoord0, floats, rows);
+    place(mesh.texcoords[1], row.texcoord1, floats, rows);
+    place(mesh.colors, row.color, floats, rows);
+}
+
+uint checked_count(std::size_t count, const Scene& scene) {
+    if (count <= std::numeric_limits<uint>::max()) return static_cast<uint>(count);
+    throw Error("scene '" + scene.name + "': " + std::to_string(count) +
+                " numbers of vertices, triangles or texels; kernels address 4294967295");
+}
+
+}  // namespace kilolux

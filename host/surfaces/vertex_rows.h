@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/scene/scene.h"
+#include "host/stages/resolve_surfaces.h"
+
+namespace kilolux {
+
+/// The material that a mesh shows; the default one where it has none.
+const Material& material_of(const Scene& scene, const Mesh& mesh);
+
+/// Where a mesh's attributes stand in its vertices' rows: those that the features read. Its places
+/// in the buffers and its material are not set.
+MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features);
+
+/// Floats of a vertex's row.
+std::size_t vertex_floats(const Mesh& mesh, const SurfaceFeatures& features);
+
+/// Appends a mesh's vertices as rows.
+void append_vertices(const Mesh& mesh, const MeshRow& row, std::vector<float>& out);
+
+/// `count` as a number that kernels index buffers with. Throws Error beyond 32 bits.
+uint checked_count(std::size_t count, const Scene& scene);
+
+}  // namespace kilolux

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fragment's material: factors times textures, as glTF 2.0 defines them; raster/shaders/
+// material.glsl is the same for OpenGL's fragments.
+//
+// TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
+// G-buffer keeps. HAS_SPECULAR, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some are unlit.
+#ifndef KILOLUX_DEVICE_RESOLVED_SURFACE_H
+#define KILOLUX_DEVICE_RESOLVED_SURFACE_H
+#include "kernels/device/texture.h"
+#include "kernels/device/triangle.h"
+#include "kernels/shared/surface.h"
+
+#define HAS_USE(use) ((TEXTURE_USES & (1 << (use))) != 0)
+
+// What the texture use `use` of a material reads at the fragment, or `otherwise` where it reads
+// none.
+static inline FV4 sample_use(TextureBuffers textures, global const SurfaceMaterial* material,
+                             Fragment f, uint use) {
+    FV4 out;
+    out.x = out.y = out.z = out.w = fv(1.0f);
+#if HAS_TEXCOORD0 || HAS_TEXCOORD1
+    if (material->textures[use] == SURFACE_ABSENT) return out;
+#if HAS_TEXCOORD0 && HAS_TEXCOORD1
+    TexCoord t = f.texcoord0;
+    if ((material->flags & (1u << use)) != 0u) t = f.texcoord1;
+#elif HAS_TEXCOORD1
+    TexCoord t = f.texcoord1;
+#else
+    TexCoord t = f.texcoord0;
+#endif
+    float4 x = material->row.uv_x[use];
+    float4 y = material->row.uv_y[use];
+    Footprint at;
+    at.u = fma(fv(x.x), t.u, fma(fv(x.y), t.v, fv(x.z)));
+    at.v = fma(fv(y.x), t.u, fma(fv(y.y), t.v, fv(y.z)));
+    at.u_dx = fma(fv(x.x), t.u_dx, t.v_dx * x.y);
+    at.v_dx = fma(fv(y.x), t.u_dx, t.v_dx * y.y);
+    at.u_dy = fma(fv(x.x), t.u_dy, t.v_dy * x.y);
+    at.v_dy = fma(fv(y.x), t.u_dy, t.v_dy * y.y);
+    out = sample_texture(textures, material->textures[use], at);
+#endif
+    return out;
+}
+
+// The unit vector along v; +z, towards the viewer, where v has none.
+static inline FV3 unit_or_z(FV3 v) {
+    FV square = dot3(v, v);
+    MASK has_length = lane_mask(square > fv(1e-30f)) & lane_mask(square < fv(1e30f));
+    FV inv = fv(1.0f) / lane_sqrt(lane_select(has_length, square, fv(1.0f)));
+    return fv3(lane_select(has_length, v.x * inv, fv(0.0f)),
+               lane_select(has_length, v.y * inv, fv(0.0f)),
+               lane_select(has_length, v.z * inv, fv(1.0f)));
+}
+
+static inline FV3 shading_normal(TextureBuffers textures, global const SurfaceMaterial* material,
+                                 Fragment f) {
+    FV3 n = f.normal;
+#if HAS_USE(USE_NORMAL)
+    if (material->textures[USE_NORMAL] != SURFACE_ABSENT) {
+        // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
+        FV4 texel = sample_use(textures, material, f, USE_NORMAL);
+        float scale = material->row.factors.z;
+        FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
+        FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
+        FV z = fma(texel.z, fv(2.0f), fv(-1.0f));
+        FV3 bitangent = scale3(cross3(f.normal, f.tangent), f.handedness);
+        FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * f.tangent.x)),
+                         fma(z, n.y, fma(y, bitangent.y, x * f.tangent.y)),
+                         fma(z, n.z, fma(y, bitangent.z, x * f.tangent.z)));
+        n = take3(lane_mask(f.handedness != fv(0.0f)), mapped, n);
+    }
+#endif
+    if ((material->flags & MATERIAL_DOUBLE_SIDED) != 0u) {
+        n = take3(f.front, n, fv3(-n.x, -n.y, -n.z));
+    }
+    return unit_or_z(n);
+}
+
+static inline FV3 times_color(FV3 a, FV4 b) { return fv3(a.x * b.x, a.y * b.y, a.z * b.z); }
+
+static inline FV3 color_of(float4 c) { return fv3(fv(c.x), fv(c.y), fv(c.z)); }
+
+#if HAS_SPECULAR
+// KHR_materials_specular: min(f0 * colour, 1) * weight, and the weight.
+static inline Surface with_specular(TextureBuffers textures,
+                                    global const SurfaceMaterial* material, Fragment f, Surface s) {
+    FV3 f0 = color_of(material->row.specular);
+    FV weight = fv(material->row.specular.w);
+#if HAS_USE(USE_SPECULAR_COLOR)
+    f0 = times_color(f0, sample_use(textures, material, f, USE_SPECULAR_COLOR));
+#endif
+#if HAS_USE(USE_SPECULAR)
+    weight *= sample_use(textures, material, f, USE_SPECULAR).w;
+#endif
+    FV one = fv(1.0f);
+    s.specular = scale3(fv3(min(f0.x, one), min(f0.y, one), min(f0.z, one)), weight);
+    s.specular_f90 = weight;
+    return s;
+}
+#endif
+
+// KHR_materials_unlit: the base colour is what leaves the surface, whatever the lights.
+static inline Surface with_unlit(global const SurfaceMaterial* material, Surface s) {
+#if HAS_UNLIT
+    s.roughness = max(s.roughness, fv(1.0f / 255.0f));  // 0 says unlit
+#endif
+    if ((material->flags & MATERIAL_UNLIT) == 0u) return s;
+    s.emissive = s.albedo;
+    s.albedo = zero3();
+    s.metallic = fv(0.0f);
+    s.roughness = fv(1.0f - (float)HAS_UNLIT);
+    return s;
+}
+
+static inline Surface background_surface() {
+    Surface s;
+    s.position = s.albedo = s.emissive = zero3();
+    s.normal = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
+    s.roughness = s.metallic = s.occlusion = fv(0.0f);
+#if HAS_SPECULAR
+    s.specular = zero3();
+    s.specular_f90 = fv(0.0f);
+#endif
+    return s;
+}
+
+// The surface of `material` at every pixel; its position is not set.
+static inline Surface surface_of_material(TextureBuffers textures,
+                                          global const SurfaceMaterial* material, Fragment f) {
+    Surface s;
+    s.position = zero3();
+    s.normal = shading_normal(textures, material, f);
+    s.albedo = color_of(material->row.base_color);
+#if HAS_USE(USE_BASE_COLOR)
+    s.albedo = times_color(s.albedo, sample_use(textures, material, f, USE_BASE_COLOR));
+#endif
+#if HAS_VERTEX_COLOR
+    s.albedo = fv3(s.albedo.x * f.color.x, s.albedo.y * f.color.y, s.albedo.z * f.color.z);
+#endif
+    s.emissive = color_of(material->row.emissive_cutoff);
+    s.metallic = fv(material->row.factors.x);
+    s.roughness = fv(material->row.factors.y);
+    s.occlusion = fv(1.0f);
+#if HAS_USE(USE_METALLIC_ROUGHNESS)
+    FV4 maps = sample_use(textures, material, f, USE_METALLIC_ROUGHNESS);
+    s.metallic *= maps.z;
+    s.roughness *= maps.y;
+#endif
+#if HAS_USE(USE_OCCLUSION)
+    FV occlusion = sample_use(textures, material, f, USE_OCCLUSION).x;
+    s.occlusion = fma(fv(material->row.factors.w), occlusion - 1.0f, fv(1.0f));
+#endif
+#if HAS_USE(USE_EMISSIVE)
+    s.emissive = times_color(s.emissive, sample_use(textures, material, f, USE_EMISSIVE));
+#endif
+#if HAS_SPECULAR
+    s = with_specular(textures, material, f, s);
+#endif
+#if HAS_UNLIT || HAS_UNLIT_MATERIALS
+    s = with_unlit(material, s);
+#endif
+    return s;
+}
+
+static inline Surface take_surface(MASK mask, Surface a, Surface b) {
+    a.position = take3(mask, a.position, b.position);
+    a.normal = take3(mask, a.normal, b.normal);
+    a.albedo = take3(mask, a.albedo, b.albedo);
+    a.emissive = take3(mask, a.emissive, b.emissive);
+    a.roughness = lane_select(mask, a.roughness, b.roughness);
+    a.metallic = lane_select(mask, a.metallic, b.metallic);
+    a.occlusion = lane_select(mask, a.occlusion, b.occlusion);
+#if HAS_SPECULAR
+    a.specular = take3(mask, a.specular, b.specular);
+    a.specular_f90 = lane_select(mask, a.specular_f90, b.specular_f90);
+#endif
+    return a;
+}
+
+// The surfaces of fragments, each of its own material.
+static inline Surface resolve_materials(SurfaceScene scene, Fragment f, MASK drawn) {
+    TextureBuffers textures = {scene.textures, scene.texels};
+    uint material = first_of(f.material, drawn);
+    Surface s = surface_of_material(textures, scene.materials + material, f);
+    MASK left = drawn & ~lane_mask(f.material == (UV)(material));
+    while (lane_any(left)) {
+        material = first_of(f.material, left);
+        MASK mask = lane_mask(f.material == (UV)(material)) & left;
+        s = take_surface(mask, surface_of_material(textures, scene.materials + material, f), s);
+        left &= ~mask;
+    }
+    return s;
+}
+#endif

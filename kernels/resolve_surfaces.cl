@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangle ids -> G-buffer: each pixel's triangle is interpolated, its textures are sampled, and
+// the planes of the layout are written. One work-item resolves VW neighbouring pixels of a row.
+//
+// Triangles are set up one by one, in scalars, and evaluated in all lanes: 16 pixels hold few of
+// them. Texels are fetched lane by lane and filtered in lanes.
+#include "kernels/device/resolved_surface.h"
+#include "kernels/device/store_gbuffer.h"
+
+kernel void resolve_surfaces(
+    global const uint* restrict ids,  // [height][stride]: triangle + 1; 0 for background
+    View view, GBufferLayout layout,
+    global const InstanceRow* restrict instances,  // [instance_count], ascending first_triangle
+    uint instance_count,                           // at least 1
+    global const MeshRow* restrict meshes, global const float* restrict vertices,
+    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
+    global const TextureRow* restrict textures, global const ulong* restrict texels,
+    global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
+    global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
+    global uchar* restrict gbuffer) {              // out: the layout's planes
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    SurfaceScene scene = {instances, instance_count, meshes,   vertices,
+                          indices,   materials,      textures, texels};
+    Pixels pixels = row_pixels(view, x, y);
+    UV id = lane_load(ids + pixels.first);
+    MASK drawn = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
+    GBufferTarget to = {gbuffer, layout, view, bucket_boundary, bucket_code, pixels, drawn};
+    Surface s;
+    FV z = fv(1.0f);
+    if (lane_any(drawn)) {
+        Fragment f = interpolate_fragment(scene, view, pixels, id, drawn);
+        z = f.z;
+        s = resolve_materials(scene, f, drawn);
+        s.position = view_position(view, pixels.x, pixels.y, z);
+    } else {
+        s = background_surface();
+    }
+    store_surface(to, s, z);
+}

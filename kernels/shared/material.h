@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A glTF material as shaders and kernels read it.
+#ifndef KILOLUX_SHARED_MATERIAL_H
+#define KILOLUX_SHARED_MATERIAL_H
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// A material's texture uses: texture units in GLSL, and rows of uv transforms.
+#define USE_BASE_COLOR 0
+#define USE_METALLIC_ROUGHNESS 1
+#define USE_NORMAL 2
+#define USE_OCCLUSION 3
+#define USE_EMISSIVE 4
+#define USE_SPECULAR 5
+#define USE_SPECULAR_COLOR 6
+#define USE_COUNT 7
+
+SHARED_STRUCT(MaterialRow) {
+    float4 base_color;       // linear Rec. 709, alpha
+    float4 emissive_cutoff;  // xyz: linear radiance; w: alpha cutoff
+    float4 factors;          // metallic, roughness, normal scale, occlusion strength
+    float4 specular;         // xyz: reflectance head on times the colour factor; w: specular factor
+    float4 uv_x[USE_COUNT];  // xyz: u = dot(xyz, (texcoord, 1))
+    float4 uv_y[USE_COUNT];  // xyz: v likewise
+};
+SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 288);
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as resolve_surfaces reads it: meshes, instances, materials and textures in plain
+// buffers.
+#ifndef KILOLUX_SHARED_SURFACE_SCENE_H
+#define KILOLUX_SHARED_SURFACE_SCENE_H
+#include "kernels/shared/material.h"
+#include "kernels/shared/types.h"
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// An attribute or a texture that is not there.
+#define SURFACE_ABSENT 0xffffffffu
+
+// Vectors that need no normalising.
+#define KEEPS_UNIT_NORMALS 1u
+#define KEEPS_UNIT_TANGENTS 2u
+
+// A mesh: vertices as rows of floats in one buffer, triangles as vertex numbers in another.
+SHARED_STRUCT(MeshRow) {
+    uint first_float;    // of vertex 0
+    uint vertex_floats;  // of a row
+    uint first_index;    // of triangle 0, of three
+    uint material;       // row
+    uint normal;         // each attribute's place in a vertex's row [float]; the position is at 0
+    uint tangent;
+    uint texcoord0;
+    uint texcoord1;
+    uint color;
+    uint unit_vectors;  // bits: vectors of the vertices that have length 1
+    uint unused0, unused1;
+};
+SHARED_ASSERT(mesh_row_size, sizeof(MeshRow) == 48);
+
+// A drawn instance. p_view = linear * ((p - eye_high) - eye_low) + offset: the camera is subtracted
+// in object space, where that loses nothing near the camera. Where the transform has no inverse the
+// eye is 0 and the offset the whole translation.
+SHARED_STRUCT(InstanceRow) {
+    float4 view_from_object[3];    // xyz: a row of the linear part; w: of the offset [m]
+    float4 normal_from_object[3];  // xyz: a row, up to a positive scale; [0].w: -1 if mirrored
+    float4 eye_high;               // xyz: the camera in object space, rounded
+    float4 eye_low;                // xyz: what rounding lost
+    uint first_triangle;           // the id of the mesh's triangle 0 is this + 1
+    uint mesh;
+    uint keeps_unit;  // bits: unit vectors of the vertices that stay unit vectors
+    uint unused0;
+};
+SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
+
+// Bits of SurfaceMaterial::flags; uv sets of uses: bit USE_*.
+#define MATERIAL_DOUBLE_SIDED (1u << 8)
+#define MATERIAL_UNLIT (1u << 9)
+
+SHARED_STRUCT(SurfaceMaterial) {
+    MaterialRow row;
+    uint textures[USE_COUNT];  // TextureRows by use
+    uint flags;                // bit USE_*: the use reads texcoord1
+};
+SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == 320);
+
+#define WRAP_REPEAT 0u
+#define WRAP_CLAMP 1u
+#define WRAP_MIRROR 2u
+
+// Bits of TextureRow::filter.
+#define FILTER_MAGNIFY_NEAREST 1u
+#define FILTER_MINIFY_NEAREST 2u
+#define FILTER_NO_MIPMAPS 4u
+#define FILTER_NEAREST_MIPMAP 8u
+
+// An image is at most 2^(TEXTURE_LEVELS - 1) texels a side.
+#define TEXTURE_LEVELS 16
+
+SHARED_STRUCT(TextureRow) {
+    uint width, height;  // of level 0 [texel]
+    uint levels;
+    uint filter;
+    uint wrap_s, wrap_t;
+    uint unused0, unused1;
+    uint first_texel[TEXTURE_LEVELS];
+};
+SHARED_ASSERT(texture_row_size, sizeof(TextureRow) == 96);
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif
