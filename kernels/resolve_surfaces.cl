@@ -3,7 +3,8 @@
 // the planes of the layout are written. One work-item resolves VW neighbouring pixels of a row.
 //
 // Triangles are set up one by one, in scalars, and evaluated in all lanes: 16 pixels hold few of
-// them. Texels are fetched lane by lane and filtered in lanes.
+// them. Texels are fetched lane by lane and filtered in lanes. A CPU would wait for most of them: a
+// material's are asked for, of all its textures, before the first is read.
 #include "kernels/device/resolved_surface.h"
 #include "kernels/device/store_gbuffer.h"
 
@@ -21,21 +22,18 @@ kernel void resolve_surfaces(
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     if (y >= view.height) return;
-    SurfaceScene scene = {instances, instance_count, meshes,   vertices,
-                          indices,   materials,      textures, texels};
     Pixels pixels = row_pixels(view, x, y);
     UV id = lane_load(ids + pixels.first);
     MASK drawn = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
     GBufferTarget to = {gbuffer, layout, view, bucket_boundary, bucket_code, pixels, drawn};
-    Surface s;
-    FV z = fv(1.0f);
-    if (lane_any(drawn)) {
-        Fragment f = interpolate_fragment(scene, view, pixels, id, drawn);
-        z = f.z;
-        s = resolve_materials(scene, f, drawn);
-        s.position = view_position(view, pixels.x, pixels.y, z);
-    } else {
-        s = background_surface();
+    if (!lane_any(drawn)) {
+        store_surface(to, background_surface(), fv(1.0f));
+        return;
     }
-    store_surface(to, s, z);
+    SurfaceScene scene = {instances, instance_count, meshes,   vertices,
+                          indices,   materials,      textures, texels};
+    Fragment fragment = interpolate_fragment(scene, view, pixels, id, drawn);
+    Surface s = resolve_materials(scene, &fragment, drawn);
+    s.position = view_position(view, pixels.x, pixels.y, fragment.z);
+    store_surface(to, s, fragment.z);
 }

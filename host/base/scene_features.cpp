@@ -17,6 +17,7 @@ constexpr SceneFeature kTable[] = {
     {"specular", &F::specular, "HAS_SPECULAR", true},
     {"unlit", &F::unlit_materials, nullptr, true},
     {"", &F::unlit, "HAS_UNLIT"},
+    {"", &F::gloss},
     {"normal-maps", &F::normal_maps},
     {"alpha-mask", &F::alpha_mask},
     {"alpha-blend", &F::alpha_blend},

@@ -21,6 +21,7 @@ struct SceneFeatures {
     bool specular = false;         // dielectrics that reflect otherwise than 4 %
     bool unlit = false;            // unlit surfaces among glossy ones: a roughness of 0 marks them
     bool unlit_materials = false;  // unlit surfaces at all
+    bool gloss = false;            // roughness and metal are read: not by lambert alone
     bool normal_maps = false;
     bool alpha_mask = false;
     bool alpha_blend = false;

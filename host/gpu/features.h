@@ -32,7 +32,8 @@ struct Tuning {
     int shade_rows = 1;   // rows of a shading work-group: 1..16
     int shade_stage = 0;  // lights that a shading work-group stages in local memory; 0: none, else
                           // shade_rows is 16
-    int shade_prefetch = 0;  // 1: shading asks for the next tile's pixels ahead; 0: it does not
+    int shade_prefetch = 0;  // 1: shading asks for the next tile's pixels ahead, and
+                             // resolve_surfaces for texels; 0: they do not
     int cull_group = 1;      // work-items that share a light's clusters
     int cull_chunks = 8;     // contiguous chunks of lights, a work-group each
     int refine_group = 1;    // work-items that share a tile's lists

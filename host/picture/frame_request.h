@@ -39,10 +39,14 @@ struct FrameRequest {
     bool counts = false;            // also k*, by one more pass
     ViewKind view = ViewKind::lit;  // what Frame::display shows
     std::vector<std::string> aovs;  // Frame::aovs, see aov_names()
+    bool probes = false;            // pixels will be probed: surfaces with all they have
     bool operator==(const FrameRequest&) const = default;
 
     /// Whether surfaces or counts of single pixels are read.
     bool pixels() const { return !aovs.empty() || view != ViewKind::lit; }
+
+    /// Whether what the lights do not need of a surface is wanted, too.
+    bool whole_surfaces() const { return pixels() || probes; }
 };
 
 /// Only the linear light.

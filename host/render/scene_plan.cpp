@@ -101,6 +101,7 @@ int shading_of(const RenderSettings& settings, const std::vector<Material>& mate
 
 // What the pictures need of what the scene has, and what is forced.
 SceneFeatures needed(SceneFeatures out, bool glossy, const RenderSettings& settings) {
+    out.gloss = glossy || settings.want.whole_surfaces();
     out.metallic &= glossy;
     out.specular &= glossy;
     out.unlit = glossy && out.unlit_materials;

@@ -66,8 +66,7 @@ InstanceRow row_of(const glm::dmat4& m, double determinant) {
     }
     out.eye_high = {high.x, high.y, high.z, 0.0f};
     out.eye_low = {low.x, low.y, low.z, 0.0f};
-    out.keeps_unit = (is_rotation(normal) ? KEEPS_UNIT_NORMALS : 0u) |
-                     (is_rotation(glm::dmat3(m)) ? KEEPS_UNIT_TANGENTS : 0u);
+    out.is_similarity = is_rotation(normal) ? 1u : 0u;
     return out;
 }
 

@@ -50,9 +50,11 @@ void place_mips(TextureRow& row, uint width, uint height, std::size_t first_texe
     row.width = width;
     row.height = height;
     row.levels = static_cast<uint>(std::bit_width(std::max(width, height)));
+    row.first_texel = static_cast<uint>(first_texel);
+    std::size_t offset = 0;
     for (uint level = 0; level < row.levels; ++level) {
-        row.first_texel[level] = static_cast<uint>(first_texel);
-        first_texel += std::size_t{width} * height;
+        row.level_offset[level] = static_cast<uint>(offset);
+        offset += std::size_t{width} * height;
         width = halved(width);
         height = halved(height);
     }
@@ -77,13 +79,14 @@ void BuildMips::enqueue(std::span<const std::uint8_t> rgba, bool srgb, const Tex
     const uint count = row.width * row.height;
     upload<std::uint8_t>(gpu_, image_.reserve(rgba.size()), rgba);
     first_.enqueue(items(count, tuning_.light_group), untimed, image_.get(),
-                   (srgb ? srgb_ : linear_).get(), count, row.first_texel[0], texels);
+                   (srgb ? srgb_ : linear_).get(), count, row.first_texel, texels);
     uint width = row.width;
     uint height = row.height;
     for (uint level = 1; level < row.levels; ++level) {
         const std::size_t size = std::size_t{halved(width)} * halved(height);
-        next_.enqueue(items(size, tuning_.light_group), untimed, texels, row.first_texel[level - 1],
-                      width, height, row.first_texel[level]);
+        next_.enqueue(items(size, tuning_.light_group), untimed, texels,
+                      row.first_texel + row.level_offset[level - 1], width, height,
+                      row.first_texel + row.level_offset[level]);
         width = halved(width);
         height = halved(height);
     }

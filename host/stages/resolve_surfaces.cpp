@@ -9,13 +9,17 @@ namespace {
 
 constexpr std::string_view kStage = "resolve_surfaces";
 
-cl::Program program_of(const Gpu& gpu, const KernelFeatures& features,
+cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces) {
     BuildOptions options = feature_options(features);
     options.define("TEXTURE_USES", static_cast<int>(surfaces.texture_uses))
         .define("HAS_TEXCOORD0", surfaces.texcoord0)
         .define("HAS_TEXCOORD1", surfaces.texcoord1)
         .define("HAS_VERTEX_COLOR", surfaces.vertex_color)
+        .define("PREFETCH", tuning.shade_prefetch)
+        .define("HAS_NEAREST", surfaces.nearest)
+        .define("HAS_WRAPS", surfaces.wraps)
+        .define("HAS_UV_TRANSFORM", surfaces.uv_transform)
         .define("HAS_TANGENT", (surfaces.texture_uses & (1u << USE_NORMAL)) != 0)
         .define("HAS_UNLIT_MATERIALS", features.unlit_materials)
         .define("MAX_ANISOTROPY", surfaces.anisotropy);
@@ -28,7 +32,7 @@ ResolveSurfaces::ResolveSurfaces(const Gpu& gpu, const Tuning& tuning,
                                  const KernelFeatures& features, const SurfaceFeatures& surfaces)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, program_of(gpu, features, surfaces), kStage, "resolve_surfaces"),
+      kernel_(gpu, program_of(gpu, tuning, features, surfaces), kStage, "resolve_surfaces"),
       boundary_(gpu, kStage),
       code_(gpu, kStage),
       planes_(gpu, kStage) {

@@ -14,6 +14,9 @@ struct SurfaceFeatures {
     bool texcoord0 = false;
     bool texcoord1 = false;
     bool vertex_color = false;
+    bool nearest = false;       // filters other than linear between texels and between mip levels
+    bool wraps = false;         // other than repeat
+    bool uv_transform = false;  // KHR_texture_transform
     int anisotropy = 1;  // samples along a footprint's longer side at most
     bool operator==(const SurfaceFeatures&) const = default;
 };

@@ -14,6 +14,8 @@ constexpr std::string_view kOwner = "surfaces";
 
 bool keeps_use(int use, const GBufferNeeds& needs) {
     switch (use) {
+        case USE_METALLIC_ROUGHNESS:
+            return needs.gloss;
         case USE_EMISSIVE:
             return needs.material;
         case USE_OCCLUSION:
@@ -26,6 +28,35 @@ bool keeps_use(int use, const GBufferNeeds& needs) {
     }
 }
 
+bool is_trilinear(const Sampler& sampler) {
+    return sampler.magnify == Filter::linear && sampler.minify == Filter::linear &&
+           sampler.mipmaps && sampler.between_mipmaps == Filter::linear;
+}
+
+bool same_lookup(const TextureUse& a, const TextureRow& row_a, const TextureUse& b,
+                 const TextureRow& row_b) {
+    return a.uv_set == b.uv_set && a.uv_from_texcoord == b.uv_from_texcoord &&
+           row_a.width == row_b.width && row_a.height == row_b.height &&
+           row_a.wrap_s == row_b.wrap_s && row_a.wrap_t == row_b.wrap_t &&
+           row_a.filter == row_b.filter;
+}
+
+// The first use's lookup serves all that read from the same places.
+void share_lookup(const Material& material, const TextureTable& textures, SurfaceMaterial& out) {
+    out.lookup_use = SURFACE_ABSENT;
+    for (uint use = 0; use < USE_COUNT; ++use) {
+        if (out.textures[use] == SURFACE_ABSENT) continue;
+        if (out.lookup_use == SURFACE_ABSENT) out.lookup_use = use;
+        const uint first = out.lookup_use;
+        if (same_lookup(texture_use(material, static_cast<int>(first)),
+                        textures.rows()[out.textures[first]],
+                        texture_use(material, static_cast<int>(use)),
+                        textures.rows()[out.textures[use]])) {
+            out.flags |= MATERIAL_SHARES_LOOKUP << use;
+        }
+    }
+}
+
 SurfaceMaterial surface_material(const Material& material, const TextureTable& textures) {
     SurfaceMaterial out{};
     out.row = material_row(material);
@@ -35,6 +66,7 @@ SurfaceMaterial surface_material(const Material& material, const TextureTable& t
         out.textures[use] = textures.number_of(material, use);
         if (texture_use(material, use).uv_set == 1) out.flags |= 1u << use;
     }
+    share_lookup(material, textures, out);
     return out;
 }
 
@@ -53,6 +85,11 @@ SurfaceFeatures surface_features(const Scene& scene, const GBufferNeeds& needs, 
             if (use == USE_NORMAL && mesh.tangents.empty()) continue;
             out.texture_uses |= 1u << use;
             (texture.uv_set == 1 ? out.texcoord1 : out.texcoord0) = true;
+            out.uv_transform |= texture.uv_from_texcoord != glm::mat3(1.0f);
+            const Sampler& sampler =
+                scene.textures[static_cast<std::size_t>(texture.texture)].sampler;
+            out.nearest |= !is_trilinear(sampler);
+            out.wraps |= sampler.wrap_s != Wrap::repeat || sampler.wrap_t != Wrap::repeat;
         }
     }
     return out;

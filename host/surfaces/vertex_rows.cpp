@@ -12,13 +12,21 @@
 namespace kilolux {
 namespace {
 
-constexpr float kUnit = 1e-6f;  // of a square that counts as 1
+// Of length 1; zero where there is no direction.
+glm::vec3 direction_of(const glm::vec3& v) {
+    const double length = glm::length(glm::dvec3(v));
+    return length > 0.0 ? glm::vec3(glm::dvec3(v) / length) : glm::vec3(0.0f);
+}
 
 template <typename Vector>
-bool are_unit(const std::vector<Vector>& vectors) {
-    return std::all_of(vectors.begin(), vectors.end(), [](const Vector& v) {
-        return std::abs(glm::dot(glm::vec3(v), glm::vec3(v)) - 1.0f) < kUnit;
-    });
+std::vector<Vector> with_unit_directions(std::vector<Vector> vectors) {
+    for (Vector& v : vectors) {
+        const glm::vec3 unit = direction_of(glm::vec3(v));
+        v.x = unit.x;
+        v.y = unit.y;
+        v.z = unit.z;
+    }
+    return vectors;
 }
 
 // Copies an attribute to its place in every row.
@@ -52,8 +60,6 @@ MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features) {
     row.texcoord1 = attribute(features.texcoord1 && !mesh.texcoords[1].empty(), 2);
     row.color = attribute(features.vertex_color && !mesh.colors.empty(), 4);
     row.vertex_floats = floats;
-    row.unit_vectors = (are_unit(mesh.normals) ? KEEPS_UNIT_NORMALS : 0u) |
-                       (are_unit(mesh.tangents) ? KEEPS_UNIT_TANGENTS : 0u);
     return row;
 }
 
@@ -67,8 +73,8 @@ void append_vertices(const Mesh& mesh, const MeshRow& row, std::vector<float>& o
     out.resize(first + mesh.positions.size() * floats);
     float* rows = out.data() + first;
     place(mesh.positions, 0, floats, rows);
-    place(mesh.normals, row.normal, floats, rows);
-    place(mesh.tangents, row.tangent, floats, rows);
+    place(with_unit_directions(mesh.normals), row.normal, floats, rows);
+    place(with_unit_directions(mesh.tangents), row.tangent, floats, rows);
     place(mesh.texcoords[0], row.texcoord0, floats, rows);
     place(mesh.texcoords[1], row.texcoord1, floats, rows);
     place(mesh.colors, row.color, floats, rows);

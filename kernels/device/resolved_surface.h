@@ -12,22 +12,27 @@
 
 #define HAS_USE(use) ((TEXTURE_USES & (1 << (use))) != 0)
 
-// What the texture use `use` of a material reads at the fragment, or `otherwise` where it reads
-// none.
-static inline FV4 sample_use(TextureBuffers textures, global const SurfaceMaterial* material,
-                             Fragment f, uint use) {
-    FV4 out;
-    out.x = out.y = out.z = out.w = fv(1.0f);
-#if HAS_TEXCOORD0 || HAS_TEXCOORD1
-    if (material->textures[use] == SURFACE_ABSENT) return out;
-#if HAS_TEXCOORD0 && HAS_TEXCOORD1
-    TexCoord t = f.texcoord0;
-    if ((material->flags & (1u << use)) != 0u) t = f.texcoord1;
-#elif HAS_TEXCOORD1
-    TexCoord t = f.texcoord1;
-#else
-    TexCoord t = f.texcoord0;
+// A material's textures at the fragments.
+typedef struct Textures {
+    TextureBuffers buffers;
+    global const SurfaceMaterial* material;
+#if MAX_ANISOTROPY == 1
+    Lookup lookup;  // that of material->lookup_use
 #endif
+} Textures;
+
+#if HAS_TEXCOORD0 || HAS_TEXCOORD1
+static inline Footprint footprint_of(global const SurfaceMaterial* material, const Fragment* f,
+                                     uint use) {
+#if HAS_TEXCOORD0 && HAS_TEXCOORD1
+    Footprint t = f->texcoord0;
+    if ((material->flags & (1u << use)) != 0u) t = f->texcoord1;
+#elif HAS_TEXCOORD1
+    Footprint t = f->texcoord1;
+#else
+    Footprint t = f->texcoord0;
+#endif
+#if HAS_UV_TRANSFORM
     float4 x = material->row.uv_x[use];
     float4 y = material->row.uv_y[use];
     Footprint at;
@@ -37,7 +42,54 @@ static inline FV4 sample_use(TextureBuffers textures, global const SurfaceMateri
     at.v_dx = fma(fv(y.x), t.u_dx, t.v_dx * y.y);
     at.u_dy = fma(fv(x.x), t.u_dy, t.v_dy * x.y);
     at.v_dy = fma(fv(y.x), t.u_dy, t.v_dy * y.y);
-    out = sample_texture(textures, material->textures[use], at);
+    return at;
+#else
+    return t;
+#endif
+}
+#endif
+
+static inline Textures textures_of(SurfaceScene scene, uint material, const Fragment* f) {
+    Textures out;
+    out.buffers.rows = scene.textures;
+    out.buffers.texels = scene.texels;
+    out.material = scene.materials + material;
+#if MAX_ANISOTROPY == 1 && (HAS_TEXCOORD0 || HAS_TEXCOORD1)
+    uint use = out.material->lookup_use;
+    if (use != SURFACE_ABSENT) {
+        out.lookup = lookup_isotropic(scene.textures + out.material->textures[use],
+                                      footprint_of(out.material, f, use));
+        for (uint i = 0; i < USE_COUNT; ++i) {
+            if ((out.material->flags & (MATERIAL_SHARES_LOOKUP << i)) != 0u) {
+                prefetch_texture(out.buffers, scene.textures + out.material->textures[i],
+                                 &out.lookup);
+            }
+        }
+    }
+#endif
+    return out;
+}
+
+// What the texture use `use` reads at the fragments; 1 where it reads none.
+static inline FV4 sample_use(const Textures* textures, const Fragment* f, uint use) {
+    global const SurfaceMaterial* material = textures->material;
+    FV4 out;
+    out.x = out.y = out.z = out.w = fv(1.0f);
+#if HAS_TEXCOORD0 || HAS_TEXCOORD1
+    uint texture = material->textures[use];
+    if (texture == SURFACE_ABSENT) return out;
+    global const TextureRow* row = textures->buffers.rows + texture;
+#if MAX_ANISOTROPY > 1
+    if (is_anisotropic(row)) {
+        return sample_anisotropic(textures->buffers, row, footprint_of(material, f, use));
+    }
+#else
+    if ((material->flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
+        return fetch_texture(textures->buffers, row, &textures->lookup);
+    }
+#endif
+    Lookup at = lookup_isotropic(row, footprint_of(material, f, use));
+    out = fetch_texture(textures->buffers, row, &at);
 #endif
     return out;
 }
@@ -52,26 +104,26 @@ static inline FV3 unit_or_z(FV3 v) {
                lane_select(has_length, v.z * inv, fv(1.0f)));
 }
 
-static inline FV3 shading_normal(TextureBuffers textures, global const SurfaceMaterial* material,
-                                 Fragment f) {
-    FV3 n = f.normal;
+static inline FV3 shading_normal(const Textures* textures, const Fragment* f) {
+    global const SurfaceMaterial* material = textures->material;
+    FV3 n = f->normal;
 #if HAS_USE(USE_NORMAL)
     if (material->textures[USE_NORMAL] != SURFACE_ABSENT) {
         // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
-        FV4 texel = sample_use(textures, material, f, USE_NORMAL);
+        FV4 texel = sample_use(textures, f, USE_NORMAL);
         float scale = material->row.factors.z;
         FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
         FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
         FV z = fma(texel.z, fv(2.0f), fv(-1.0f));
-        FV3 bitangent = scale3(cross3(f.normal, f.tangent), f.handedness);
-        FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * f.tangent.x)),
-                         fma(z, n.y, fma(y, bitangent.y, x * f.tangent.y)),
-                         fma(z, n.z, fma(y, bitangent.z, x * f.tangent.z)));
-        n = take3(lane_mask(f.handedness != fv(0.0f)), mapped, n);
+        FV3 bitangent = scale3(cross3(f->normal, f->tangent), f->handedness);
+        FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * f->tangent.x)),
+                         fma(z, n.y, fma(y, bitangent.y, x * f->tangent.y)),
+                         fma(z, n.z, fma(y, bitangent.z, x * f->tangent.z)));
+        n = take3(lane_mask(f->handedness != fv(0.0f)), mapped, n);
     }
 #endif
     if ((material->flags & MATERIAL_DOUBLE_SIDED) != 0u) {
-        n = take3(f.front, n, fv3(-n.x, -n.y, -n.z));
+        n = take3(f->front, n, fv3(-n.x, -n.y, -n.z));
     }
     return unit_or_z(n);
 }
@@ -82,15 +134,15 @@ static inline FV3 color_of(float4 c) { return fv3(fv(c.x), fv(c.y), fv(c.z)); }
 
 #if HAS_SPECULAR
 // KHR_materials_specular: min(f0 * colour, 1) * weight, and the weight.
-static inline Surface with_specular(TextureBuffers textures,
-                                    global const SurfaceMaterial* material, Fragment f, Surface s) {
+static inline Surface with_specular(const Textures* textures, const Fragment* f, Surface s) {
+    global const SurfaceMaterial* material = textures->material;
     FV3 f0 = color_of(material->row.specular);
     FV weight = fv(material->row.specular.w);
 #if HAS_USE(USE_SPECULAR_COLOR)
-    f0 = times_color(f0, sample_use(textures, material, f, USE_SPECULAR_COLOR));
+    f0 = times_color(f0, sample_use(textures, f, USE_SPECULAR_COLOR));
 #endif
 #if HAS_USE(USE_SPECULAR)
-    weight *= sample_use(textures, material, f, USE_SPECULAR).w;
+    weight *= sample_use(textures, f, USE_SPECULAR).w;
 #endif
     FV one = fv(1.0f);
     s.specular = scale3(fv3(min(f0.x, one), min(f0.y, one), min(f0.z, one)), weight);
@@ -125,36 +177,36 @@ static inline Surface background_surface() {
 }
 
 // The surface of `material` at every pixel; its position is not set.
-static inline Surface surface_of_material(TextureBuffers textures,
-                                          global const SurfaceMaterial* material, Fragment f) {
+static inline Surface surface_of_material(const Textures* textures, const Fragment* f) {
+    global const SurfaceMaterial* material = textures->material;
     Surface s;
     s.position = zero3();
-    s.normal = shading_normal(textures, material, f);
+    s.normal = shading_normal(textures, f);
     s.albedo = color_of(material->row.base_color);
 #if HAS_USE(USE_BASE_COLOR)
-    s.albedo = times_color(s.albedo, sample_use(textures, material, f, USE_BASE_COLOR));
+    s.albedo = times_color(s.albedo, sample_use(textures, f, USE_BASE_COLOR));
 #endif
 #if HAS_VERTEX_COLOR
-    s.albedo = fv3(s.albedo.x * f.color.x, s.albedo.y * f.color.y, s.albedo.z * f.color.z);
+    s.albedo = fv3(s.albedo.x * f->color.x, s.albedo.y * f->color.y, s.albedo.z * f->color.z);
 #endif
     s.emissive = color_of(material->row.emissive_cutoff);
     s.metallic = fv(material->row.factors.x);
     s.roughness = fv(material->row.factors.y);
     s.occlusion = fv(1.0f);
 #if HAS_USE(USE_METALLIC_ROUGHNESS)
-    FV4 maps = sample_use(textures, material, f, USE_METALLIC_ROUGHNESS);
+    FV4 maps = sample_use(textures, f, USE_METALLIC_ROUGHNESS);
     s.metallic *= maps.z;
     s.roughness *= maps.y;
 #endif
 #if HAS_USE(USE_OCCLUSION)
-    FV occlusion = sample_use(textures, material, f, USE_OCCLUSION).x;
+    FV occlusion = sample_use(textures, f, USE_OCCLUSION).x;
     s.occlusion = fma(fv(material->row.factors.w), occlusion - 1.0f, fv(1.0f));
 #endif
 #if HAS_USE(USE_EMISSIVE)
-    s.emissive = times_color(s.emissive, sample_use(textures, material, f, USE_EMISSIVE));
+    s.emissive = times_color(s.emissive, sample_use(textures, f, USE_EMISSIVE));
 #endif
 #if HAS_SPECULAR
-    s = with_specular(textures, material, f, s);
+    s = with_specular(textures, f, s);
 #endif
 #if HAS_UNLIT || HAS_UNLIT_MATERIALS
     s = with_unlit(material, s);
@@ -178,15 +230,13 @@ static inline Surface take_surface(MASK mask, Surface a, Surface b) {
 }
 
 // The surfaces of fragments, each of its own material.
-static inline Surface resolve_materials(SurfaceScene scene, Fragment f, MASK drawn) {
-    TextureBuffers textures = {scene.textures, scene.texels};
-    uint material = first_of(f.material, drawn);
-    Surface s = surface_of_material(textures, scene.materials + material, f);
-    MASK left = drawn & ~lane_mask(f.material == (UV)(material));
-    while (lane_any(left)) {
-        material = first_of(f.material, left);
-        MASK mask = lane_mask(f.material == (UV)(material)) & left;
-        s = take_surface(mask, surface_of_material(textures, scene.materials + material, f), s);
+static inline Surface resolve_materials(SurfaceScene scene, const Fragment* f, MASK drawn) {
+    Surface s = background_surface();
+    for (MASK left = drawn; lane_any(left);) {
+        uint material = first_of(f->material, left);
+        MASK mask = lane_mask(f->material == (UV)(material)) & left;
+        Textures textures = textures_of(scene, material, f);
+        s = take_surface(mask, surface_of_material(&textures, f), s);
         left &= ~mask;
     }
     return s;

@@ -16,6 +16,7 @@
 #define KILOLUX_DEVICE_TRIANGLE_H
 #include "kernels/device/lanes.h"
 #include "kernels/device/pixels.h"
+#include "kernels/device/texture.h"
 #include "kernels/shared/surface_scene.h"
 #include "kernels/shared/view.h"
 
@@ -31,12 +32,6 @@ typedef struct SurfaceScene {
     global const ulong* texels;  // 16 bits a channel, linear, red lowest
 } SurfaceScene;
 
-// A texture coordinate set and its change to the pixel's right and lower neighbours.
-typedef struct TexCoord {
-    FV u, v;
-    FV u_dx, v_dx, u_dy, v_dy;
-} TexCoord;
-
 // The vertex attributes at VW pixels, each of its own triangle.
 typedef struct Fragment {
     FV z;        // [m]
@@ -48,10 +43,10 @@ typedef struct Fragment {
     FV handedness;  // 0: no normal map
 #endif
 #if HAS_TEXCOORD0
-    TexCoord texcoord0;
+    Footprint texcoord0;
 #endif
 #if HAS_TEXCOORD1
-    TexCoord texcoord1;
+    Footprint texcoord1;
 #endif
 #if HAS_VERTEX_COLOR
     FV3 color;
@@ -118,13 +113,8 @@ static inline float3 unit_or_zero(float3 v) {
     return scaled / sqrt(square);
 }
 
-static inline float3 direction_of(global const float4* rows, float3 v, bool keeps_unit) {
-    float3 turned = (float3)(row_times(rows[0], v), row_times(rows[1], v), row_times(rows[2], v));
-    return keeps_unit ? turned : unit_or_zero(turned);
-}
-
-static inline bool keeps_unit(Triangle t, uint vectors) {
-    return (t.instance->keeps_unit & t.mesh.unit_vectors & vectors) != 0u;
+static inline float3 turned(global const float4* rows, float3 v) {
+    return (float3)(row_times(rows[0], v), row_times(rows[1], v), row_times(rows[2], v));
 }
 
 static inline float3 cross_fma(float3 a, float3 b) {
@@ -188,7 +178,7 @@ static inline FV3 take3(MASK mask, FV3 a, FV3 b) {
 
 #if HAS_TEXCOORD0 || HAS_TEXCOORD1
 // An absent set is (0, 0), as OpenGL reads a disabled attribute.
-static inline TexCoord interpolate_texcoord(Weights w, Triangle t, uint place) {
+static inline Footprint interpolate_texcoord(Weights w, Triangle t, uint place) {
     float2 a0 = (float2)(0.0f);
     float2 d1 = (float2)(0.0f);
     float2 d2 = (float2)(0.0f);
@@ -197,7 +187,7 @@ static inline TexCoord interpolate_texcoord(Weights w, Triangle t, uint place) {
         d1 = vload2(0, t.vertex[1] + place) - a0;
         d2 = vload2(0, t.vertex[2] + place) - a0;
     }
-    TexCoord out;
+    Footprint out;
     out.u = fma(w.b2, fv(d2.x), fma(w.b1, fv(d1.x), fv(a0.x)));
     out.v = fma(w.b2, fv(d2.y), fma(w.b1, fv(d1.y), fv(a0.y)));
     out.u_dx = fma(w.b2_dx, fv(d2.x), w.b1_dx * d1.x);
@@ -207,8 +197,8 @@ static inline TexCoord interpolate_texcoord(Weights w, Triangle t, uint place) {
     return out;
 }
 
-static inline TexCoord take_texcoord(MASK mask, TexCoord a, TexCoord b) {
-    TexCoord out;
+static inline Footprint take_texcoord(MASK mask, Footprint a, Footprint b) {
+    Footprint out;
     out.u = lane_select(mask, a.u, b.u);
     out.v = lane_select(mask, a.v, b.v);
     out.u_dx = lane_select(mask, a.u_dx, b.u_dx);
@@ -220,12 +210,13 @@ static inline TexCoord take_texcoord(MASK mask, TexCoord a, TexCoord b) {
 #endif
 
 static inline FV3 interpolate_normal(Weights w, Triangle t) {
+    if (t.mesh.normal == SURFACE_ABSENT) return fv3(fv(0.0f), fv(0.0f), fv(0.0f));
     float3 n[3];
-    bool unit = keeps_unit(t, KEEPS_UNIT_NORMALS);
     for (uint i = 0; i < 3; ++i) {
-        float3 object = t.mesh.normal == SURFACE_ABSENT ? (float3)(0.0f)
-                                                        : vload3(0, t.vertex[i] + t.mesh.normal);
-        n[i] = direction_of(t.instance->normal_from_object, object, unit);
+        n[i] = turned(t.instance->normal_from_object, vload3(0, t.vertex[i] + t.mesh.normal));
+    }
+    if (t.instance->is_similarity == 0u) {
+        for (uint i = 0; i < 3; ++i) n[i] = unit_or_zero(n[i]);
     }
     return interpolate3(w, n);
 }
@@ -234,12 +225,13 @@ static inline FV3 interpolate_normal(Weights w, Triangle t) {
 static inline FV3 interpolate_tangent(Weights w, Triangle t, FV* handedness) {
     *handedness = fv(0.0f);
     if (t.mesh.tangent == SURFACE_ABSENT) return fv3(fv(0.0f), fv(0.0f), fv(0.0f));
+    bool similar = t.instance->is_similarity != 0u;
     float3 tangent[3];
     float sign[3];
-    bool unit = keeps_unit(t, KEEPS_UNIT_TANGENTS);
     for (uint i = 0; i < 3; ++i) {
         float4 object = vload4(0, t.vertex[i] + t.mesh.tangent);
-        tangent[i] = direction_of(t.instance->view_from_object, object.xyz, unit);
+        tangent[i] = similar ? turned(t.instance->normal_from_object, object.xyz)
+                             : unit_or_zero(turned(t.instance->view_from_object, object.xyz));
         sign[i] = object.w;
     }
     // A mirror turns a right-handed basis into a left-handed one.
@@ -307,7 +299,7 @@ static inline Fragment interpolate_fragment(SurfaceScene scene, View view, Pixel
     out.handedness = fv(0.0f);
 #endif
 #if HAS_TEXCOORD0 || HAS_TEXCOORD1
-    TexCoord origin;
+    Footprint origin;
     origin.u = origin.v = origin.u_dx = origin.v_dx = origin.u_dy = origin.v_dy = fv(0.0f);
 #endif
 #if HAS_TEXCOORD0

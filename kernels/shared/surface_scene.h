@@ -12,11 +12,8 @@ namespace kilolux {
 // An attribute or a texture that is not there.
 #define SURFACE_ABSENT 0xffffffffu
 
-// Vectors that need no normalising.
-#define KEEPS_UNIT_NORMALS 1u
-#define KEEPS_UNIT_TANGENTS 2u
-
-// A mesh: vertices as rows of floats in one buffer, triangles as vertex numbers in another.
+// A mesh: vertices as rows of floats in one buffer, triangles as vertex numbers in another. Normals
+// and tangents have length 1, or 0 where the mesh gives no direction.
 SHARED_STRUCT(MeshRow) {
     uint first_float;    // of vertex 0
     uint vertex_floats;  // of a row
@@ -27,8 +24,7 @@ SHARED_STRUCT(MeshRow) {
     uint texcoord0;
     uint texcoord1;
     uint color;
-    uint unit_vectors;  // bits: vectors of the vertices that have length 1
-    uint unused0, unused1;
+    uint unused0, unused1, unused2;
 };
 SHARED_ASSERT(mesh_row_size, sizeof(MeshRow) == 48);
 
@@ -42,21 +38,25 @@ SHARED_STRUCT(InstanceRow) {
     float4 eye_low;                // xyz: what rounding lost
     uint first_triangle;           // the id of the mesh's triangle 0 is this + 1
     uint mesh;
-    uint keeps_unit;  // bits: unit vectors of the vertices that stay unit vectors
+    uint is_similarity;  // 1: normal_from_object is a rotation, and turns tangents, too
     uint unused0;
 };
 SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 
-// Bits of SurfaceMaterial::flags; uv sets of uses: bit USE_*.
+// Bits of SurfaceMaterial::flags, beside those of uses.
 #define MATERIAL_DOUBLE_SIDED (1u << 8)
 #define MATERIAL_UNLIT (1u << 9)
+// << USE_*: the use's texels are where those of the lookup's texture are.
+#define MATERIAL_SHARES_LOOKUP (1u << 16)
 
 SHARED_STRUCT(SurfaceMaterial) {
     MaterialRow row;
     uint textures[USE_COUNT];  // TextureRows by use
-    uint flags;                // bit USE_*: the use reads texcoord1
+    uint flags;                // bit USE_*: the use reads texcoord1; and see above
+    uint lookup_use;           // the use whose lookup others share; SURFACE_ABSENT: none
+    uint unused0, unused1, unused2;
 };
-SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == 320);
+SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == 336);
 
 #define WRAP_REPEAT 0u
 #define WRAP_CLAMP 1u
@@ -76,8 +76,9 @@ SHARED_STRUCT(TextureRow) {
     uint levels;
     uint filter;
     uint wrap_s, wrap_t;
-    uint unused0, unused1;
-    uint first_texel[TEXTURE_LEVELS];
+    uint first_texel;  // of level 0
+    uint unused0;
+    uint level_offset[TEXTURE_LEVELS];  // of each level's first texel from level 0's
 };
 SHARED_ASSERT(texture_row_size, sizeof(TextureRow) == 96);
 

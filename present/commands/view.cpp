@@ -30,6 +30,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     ViewState state;
     state.settings = options.shared.settings;
     state.settings.want.aovs.clear();
+    state.settings.want.probes = true;
     const auto is_given = [&command](const std::string& name) {
         const CLI::Option* option = command.get_option_no_throw(name);
         return option != nullptr && option->count() > 0;

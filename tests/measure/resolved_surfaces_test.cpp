@@ -29,7 +29,7 @@ class Resolving {
     Resolving(const Scene& scene, uint layout = GBUFFER_FULL)
         : scene_(scene), gpu_scene_(scene, 0.0f, GpuSceneUse::covered), ids_(gpu_scene_) {
         needs_.layout = layout;
-        needs_.material = needs_.occlusion = true;
+        needs_.material = needs_.occlusion = needs_.gloss = true;
         features_.gbuffer = layout;
         features_.material = features_.occlusion = features_.metallic = true;
     }
