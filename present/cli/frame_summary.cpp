@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "host/base/gbuffer_layout.h"
 #include "host/base/version.h"
 #include "host/measure/roofline/stage_report.h"
 #include "present/cli/names.h"
+#include "present/cli/option_values.h"
 
 namespace kilolux {
 namespace {
@@ -48,14 +50,12 @@ std::string cluster_line(const FrameStats& s) {
 
 }  // namespace
 
-std::string number_text(double value) { return fmt::format("{}", value); }
-
 std::string short_text(double value) { return fmt::format("{:.6g}", value); }
 
 std::string comparison_text(const Comparison& comparison) {
     std::string value = short_text(comparison.value);
     const std::string threshold = short_text(comparison.threshold);
-    if (value == threshold) value = number_text(comparison.value);  // just above shows as above
+    if (value == threshold) value = text_of(comparison.value);  // just above shows as above
     return fmt::format("{} {} (threshold {})", comparison.metric, value, threshold);
 }
 
@@ -67,7 +67,7 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                      {"seed", fmt::format("{}", options.settings.lights.seed)},
                      {"renderer", name_of(options.settings.renderer)},
                      {"shading", name_of(options.settings.shading)},
-                     {"gbuffer", gbuffer_names().at(options.settings.gbuffer)},
+                     {"gbuffer", gbuffer_layout_name(options.settings.gbuffer)},
                      {"grid", grid_text(stats)},
                      {"device", device.name + ", " + device.version},
                      {"version", version()}};

@@ -11,9 +11,6 @@
 
 namespace kilolux {
 
-/// The shortest text that reads back as the same number.
-std::string number_text(double value);
-
 /// At most six significant digits, for people: "60", "0.00123457".
 std::string short_text(double value);
 

@@ -46,6 +46,10 @@ struct OutputOptions {
 /// Scene, picture, lights, camera, grid and device options.
 void add_shared_options(CLI::App& command, SharedOptions& options);
 
+/// Long names and values of the shared options, in their order: what a command line would have to
+/// say for them. A flag's value is "true" or empty.
+std::vector<std::pair<std::string, std::string>> shared_option_texts(SharedOptions options);
+
 /// Output, sequence, statistics and comparison options.
 void add_output_options(CLI::App& command, OutputOptions& options);
 

@@ -27,9 +27,9 @@ struct ExportOptions {
     fs::path output;
 };
 
-void check_output(const std::string& text) {
+std::string scene_file(const std::string&, const std::string& text) {
     const std::string extension = lower(fs::path(text).extension().string());
-    if (extension == ".glb" || extension == ".gltf") return;
+    if (extension == ".glb" || extension == ".gltf") return text;
     throw UsageError(
         fmt::format("--output: '{}': scene type '{}' is none of .glb, .gltf", text, extension));
 }
@@ -101,14 +101,10 @@ void add_export_command(Program& program) {
         "export", "Write the scene with all its lights as glTF 2.0, for any other renderer",
         kExamples, [options] { run_export(*options); });
     add_shared_options(command, options->shared);
-    const auto output = [options](const std::string&, const std::string& text) {
-        check_output(text);
-        options->output = text;
-    };
     OptionBuilder(command, "Output")
         .value({"--output,-o", "FILE", "",
                 "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
-               output);
+               options->output, scene_file);
     leave_to_help_all(
         command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
                   "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});

@@ -13,6 +13,7 @@
 #include "host/render/renderer.h"
 #include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
+#include "present/cli/option_values.h"
 #include "present/cli/options.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
@@ -104,7 +105,7 @@ class Limits {
 ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, const Camera& camera,
                     const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, renderer.device(), record.stats);
-    notes.strings.emplace_back("time", number_text(record.time) + " s");
+    notes.strings.emplace_back("time", text_of(record.time) + " s");
     if (record.comparison) {
         notes.strings.emplace_back("error", comparison_text(*record.comparison));
     }

@@ -39,10 +39,6 @@ double flip_of(const RgbImage& picture, const RgbImage& reference, bool linear) 
 
 }  // namespace
 
-std::vector<std::string> metric_names() {
-    return {"rmse", "mean", "max", "max-relative", "relmse", "different-pixels", "flip"};
-}
-
 Reference::Reference(std::filesystem::path file)
     : file_(std::move(file)), linear_(image_meaning(file_) == ImageMeaning::linear) {
     const FloatImage image = read_image(file_);
