@@ -2,14 +2,13 @@
 #include "present/commands/bench.h"
 
 #include <cstdio>
-#include <memory>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/commands.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -106,11 +105,9 @@ void put_table(const BenchOptions& options, const std::string& name, const Table
 }
 
 void add_bench_command(Program& program) {
-    const auto options = std::make_shared<BenchOptions>();
-    CLI::App& command = program.add_command(
+    program.add_command(
         "bench", "Measure times against the device's limits, over lights, sizes and settings",
-        kExamples, [options] { run_bench(*options); });
-    add_bench_options(command, *options);
+        kExamples, add_bench_options, run_bench);
 }
 
 }  // namespace kilolux

@@ -7,7 +7,6 @@
 #include "host/base/version.h"
 #include "host/render/kernel_choice.h"
 #include "present/cli/commit.h"
-#include "present/cli/device_list.h"
 #include "present/cli/names.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"

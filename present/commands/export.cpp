@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
@@ -15,7 +13,7 @@
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/commands.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -88,6 +86,17 @@ void run_export(const ExportOptions& options) {
     note(summary(scene, exported, options.output));
 }
 
+void add_export_options(CLI::App& command, ExportOptions& options) {
+    add_shared_options(command, options.shared);
+    OptionBuilder(command, "Output")
+        .value({"--output,-o", "FILE", "",
+                "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
+               options.output, scene_file);
+    leave_to_help_all(
+        command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
+                  "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});
+}
+
 constexpr const char* kExamples =
     "  kilolux export -o atrium.glb --lights 1000\n"
     "  kilolux export hall.glb -o hall.gltf --lights 0 --camera-position 0,2,8\n"
@@ -96,18 +105,9 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_export_command(Program& program) {
-    const auto options = std::make_shared<ExportOptions>();
-    CLI::App& command = program.add_command(
-        "export", "Write the scene with all its lights as glTF 2.0, for any other renderer",
-        kExamples, [options] { run_export(*options); });
-    add_shared_options(command, options->shared);
-    OptionBuilder(command, "Output")
-        .value({"--output,-o", "FILE", "",
-                "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
-               options->output, scene_file);
-    leave_to_help_all(
-        command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
-                  "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});
+    program.add_command("export",
+                        "Write the scene with all its lights as glTF 2.0, for any other renderer",
+                        kExamples, add_export_options, run_export);
 }
 
 }  // namespace kilolux

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "host/base/atomic_write.h"
@@ -19,9 +18,9 @@
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
-#include "present/commands/commands.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -243,6 +242,12 @@ void run_render(const RenderOptions& options) {
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }
 
+void add_render_options(CLI::App& command, RenderOptions& options) {
+    add_shared_options(command, options.shared);
+    add_output_options(command, options.output);
+    add_budget_options(command, options.budget);
+}
+
 constexpr const char* kExamples =
     "  kilolux render -o atrium.png\n"
     "  kilolux render -o atrium.exr --lights 100000 --aov depth,normal,light-count\n"
@@ -254,13 +259,8 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_render_command(Program& program) {
-    const auto options = std::make_shared<RenderOptions>();
-    CLI::App& command =
-        program.add_command("render", "Render a scene to an image file or a sequence of them",
-                            kExamples, [options] { run_render(*options); });
-    add_shared_options(command, options->shared);
-    add_output_options(command, options->output);
-    add_budget_options(command, options->budget);
+    program.add_command("render", "Render a scene to an image file or a sequence of them",
+                        kExamples, add_render_options, run_render);
 }
 
 }  // namespace kilolux

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
@@ -9,8 +8,8 @@
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/commands.h"
 #include "present/image/image_file.h"
+#include "present/program.h"
 #include "present/window/app/session.h"
 #include "present/window/app/state_file.h"
 
@@ -30,14 +29,11 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     ViewState state;
     state.settings = options.shared.settings;
     state.settings.want.aovs.clear();
-    const auto is_given = [&command](const std::string& name) {
-        const CLI::Option* option = command.get_option_no_throw(name);
-        return option != nullptr && option->count() > 0;
-    };
-    if (is_given("--resolution")) {
+    if (is_given(command, "--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
-    return file.load(state, is_given);
+    return file.load(state,
+                     [&command](const std::string& name) { return is_given(command, name); });
 }
 
 // Asks at the beginning what would fail at the end.
@@ -74,6 +70,22 @@ void run_view(const ViewOptions& options, const CLI::App& command) {
     std::_Exit(0);
 }
 
+void add_view_options(CLI::App& command, ViewOptions& options) {
+    add_shared_options(command, options.shared);
+    leave_to_help_all(command, {"--aov"});
+    OptionBuilder(command, "Window")
+        .flag("--fresh", options.fresh,
+              "Begin with the defaults instead of the last window's settings; keep nothing")
+        .count(
+            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
+            options.exit_after, {1, 1'000'000'000})
+        .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
+              options.screenshot)
+        .text({"--script", "FILE", "",
+               "Replay user input, one step per line, then leave; see present/window/README.md"},
+              options.script);
+}
+
 constexpr const char* kExamples =
     "  kilolux view\n"
     "  kilolux view town.glb --lights 20000\n"
@@ -82,25 +94,8 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_view_command(Program& program) {
-    const auto options = std::make_shared<ViewOptions>();
-    const auto self = std::make_shared<const CLI::App*>(nullptr);
-    CLI::App& command =
-        program.add_command("view", "Show a scene in a window and fly through it", kExamples,
-                            [options, self] { run_view(*options, **self); });
-    *self = &command;
-    add_shared_options(command, options->shared);
-    leave_to_help_all(command, {"--aov"});
-    OptionBuilder(command, "Window")
-        .flag("--fresh", options->fresh,
-              "Begin with the defaults instead of the last window's settings; keep nothing")
-        .count(
-            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
-            options->exit_after, {1, 1'000'000'000})
-        .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
-              options->screenshot)
-        .text({"--script", "FILE", "",
-               "Replay user input, one step per line, then leave; see present/window/README.md"},
-              options->script);
+    program.add_command("view", "Show a scene in a window and fly through it", kExamples,
+                        add_view_options, run_view);
 }
 
 }  // namespace kilolux
