@@ -87,9 +87,4 @@ std::string frame_summary(const Scene& scene, const DeviceInfo& device, const Fr
     return out;
 }
 
-Verbosity verbosity_of(const SharedOptions& options) {
-    if (options.quiet) return Verbosity::quiet;
-    return options.verbose ? Verbosity::verbose : Verbosity::normal;
-}
-
 }  // namespace kilolux

@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "host/base/log.h"
 #include "present/cli/options.h"
 #include "present/cli/stats_json.h"
 #include "present/image/image_file.h"
@@ -25,7 +24,5 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
 /// lines.
 std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
                           std::size_t count);
-
-Verbosity verbosity_of(const SharedOptions& options);
 
 }  // namespace kilolux

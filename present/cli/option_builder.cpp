@@ -59,6 +59,15 @@ OptionBuilder& OptionBuilder::number_or_auto(const OptionText& text, double& out
     });
 }
 
+OptionBuilder& OptionBuilder::choice(const OptionText& text, const Choices& choices,
+                                     std::function<void(std::size_t)> take, Show show) {
+    const auto take_name = [names = choices.names, take = std::move(take)](
+                               const std::string& name, const std::string& seen) {
+        take(parse_name(name, seen, names));
+    };
+    return value(described(text, choices), take_name, std::move(show));
+}
+
 OptionBuilder& OptionBuilder::choice(const OptionText& text, std::string& out,
                                      const Choices& choices) {
     return value(described(text, choices), out,

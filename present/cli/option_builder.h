@@ -79,17 +79,16 @@ class OptionBuilder {
     }
     OptionBuilder& number_or_auto(const OptionText& text, double& out, const NumberRange& range);
 
-    /// The place of one of `choices` as a number or enumeration; `text.form` is made of them.
+    /// One of `choices`, whose place `take` gets; `text.form` is made of them.
+    OptionBuilder& choice(const OptionText& text, const Choices& choices,
+                          std::function<void(std::size_t)> take, Show show);
+
+    /// The place of one of `choices` as a number or enumeration.
     template <typename T>
     OptionBuilder& choice(const OptionText& text, T& out, const Choices& choices) {
-        const auto take = [&out, names = choices.names](const std::string& name,
-                                                        const std::string& seen) {
-            out = static_cast<T>(parse_name(name, seen, names));
-        };
-        const auto show = [&out, names = choices.names] {
-            return names.at(static_cast<std::size_t>(out));
-        };
-        return value(described(text, choices), take, show);
+        return choice(
+            text, choices, [&out](std::size_t place) { out = static_cast<T>(place); },
+            [&out, names = choices.names] { return names.at(static_cast<std::size_t>(out)); });
     }
     template <typename Enum>
     requires std::is_enum_v<Enum> OptionBuilder& choice(const OptionText& text, Enum& out) {

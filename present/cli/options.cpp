@@ -5,6 +5,8 @@
 
 #include <tuple>
 
+#include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/base/text.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
@@ -24,6 +26,14 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
               "Let the file name buffers and images outside its folder");
 }
 
+// The renderer's views, and the comparison's.
+Choices show_choices() {
+    Choices choices = choices_of(ViewKind{});
+    choices.names.emplace_back("error");
+    choices.meanings.emplace_back("heat map of the relative error to --reference (render only)");
+    return choices;
+}
+
 void add_picture_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto resolution = [&s](const std::string& name, const std::string& text) {
@@ -35,7 +45,13 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
                [&s] { return fmt::format("{},{}", s.width, s.height); })
         .count({"--samples", "N", "1", "Jittered samples a pixel"}, s.samples, kSamplesRange)
         .number({"--time", "T", "0", "Seconds: moves the lights and the file's animations"}, o.time)
-        .choice({"--show", "", "lit", "What the picture shows"}, s.want.view)
+        .choice(
+            {"--show", "", "lit", "What the picture shows"}, show_choices(),
+            [&o](std::size_t place) {
+                o.show_error = place == view_names().size();
+                o.settings.want.view = o.show_error ? ViewKind::lit : static_cast<ViewKind>(place);
+            },
+            [&o] { return o.show_error ? "error" : name_of(o.settings.want.view); })
         .choice_list({"--aov", "", "none", "Layers of an EXR file beside its colour"}, s.want.aovs,
                      aov_choices())
         .rest()
@@ -136,6 +152,18 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
     OptionBuilder(command, "General")
         .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr")
         .flag("--verbose,-v", options.verbose, "More on stderr");
+}
+
+void begin_command(const SharedOptions& options, bool compares) {
+    if (options.quiet && options.verbose) {
+        throw UsageError("--quiet and --verbose exclude each other");
+    }
+    if (options.show_error && !compares) {
+        throw UsageError("--show error: needs --reference FILE, which render takes");
+    }
+    set_verbosity(options.quiet     ? Verbosity::quiet
+                  : options.verbose ? Verbosity::verbose
+                                    : Verbosity::normal);
 }
 
 std::vector<std::pair<std::string, std::string>> shared_option_texts(SharedOptions options) {

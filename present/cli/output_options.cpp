@@ -92,7 +92,12 @@ void check_format(const SharedOptions& shared, const OutputOptions& options) {
             "--bits: '{}' cannot hold 16 bits a channel; use .png or .tif, or .exr for light",
             file));
     }
-    if (image_meaning(file) == ImageMeaning::display) uses_ocio(options.ocio);
+    if (image_meaning(file) == ImageMeaning::display) {
+        uses_ocio(options.ocio);
+    } else if (shared.show_error) {
+        throw UsageError(fmt::format(
+            "--show error: '{}' holds light; use .png, .jpg or .tif, or --difference", file));
+    }
 }
 
 }  // namespace
@@ -113,8 +118,6 @@ void check_output_options(const SharedOptions& shared, const OutputOptions& opti
     if (options.reference.empty() && !options.difference.empty()) {
         throw UsageError("--difference: needs --reference FILE");
     }
-    if (shared.quiet && shared.verbose)
-        throw UsageError("--quiet and --verbose exclude each other");
 }
 
 }  // namespace kilolux

@@ -26,18 +26,15 @@ void check(const BenchOptions& o) {
         throw UsageError("--max-error: goes with sweeps, not with --culling, --shade or --tune");
     }
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
-    if (o.shared.quiet && o.shared.verbose) {
-        throw UsageError("--quiet and --verbose exclude each other");
-    }
 }
 
 void run_bench(const BenchOptions& options) {
     check(options);
+    begin_command(options.shared);
     if (!options.tables.empty()) {
         std::fputs(results_text(options.tables).c_str(), stdout);
         return;
     }
-    set_verbosity(verbosity_of(options.shared));
     make_output_folder(options.output);
     if (options.culling) return run_culling(options);
     if (options.shading) return run_shading(options);

@@ -74,7 +74,7 @@ std::string summary(const Scene& scene, const ExportedScene& exported, const fs:
 
 void run_export(const ExportOptions& options) {
     if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o scene.glb");
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared);
     check_can_write(options.output);
     const Scene scene = scene_to_export(options);
     check_interrupt();

@@ -168,7 +168,7 @@ void run_check(const InfoOptions& options) {
 }
 
 void run_info(const InfoOptions& options) {
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared);
     if (options.check_limits) return run_check(options);
     const Json document = info_json(options);
     if (!options.stats.empty()) write_json(options.stats, document);

@@ -119,7 +119,9 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     image.half_colour = out.half_colour;
     image.bits = out.bits;
     if (image_meaning(task.file) == ImageMeaning::display && wants_own_display(options)) {
-        image.display = display_colours(frame, options.shared.settings, out.ocio);
+        image.display = options.shared.show_error
+                            ? display_codes(frame)
+                            : display_colours(frame, options.shared.settings, out.ocio);
     }
     return image;
 }
@@ -133,15 +135,16 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
                                renderer.settings().height);
         reference.emplace(task.reference);
     }
-    const Frame frame = renderer.render(camera, task.time, check_interrupt);
+    Frame frame = renderer.render(camera, task.time, check_interrupt);
     check_interrupt();
     FrameRecord record{task.frame, task.time, task.file.string(), frame.stats, std::nullopt};
     if (reference) {
         record.comparison = reference->compare(frame, out.metric, out.threshold.value_or(0.0));
     }
+    if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
+    if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
     write_image(task.file, frame, notes_of(options, renderer, camera, record),
                 image_options(options, frame, task));
-    if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
     return record;
 }
 
@@ -218,7 +221,7 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
 void run_render(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared, !out.reference.empty());
     const Tasks tasks(options);
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");

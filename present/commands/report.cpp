@@ -147,10 +147,7 @@ void apply_quick(const CLI::App& command, ReportOptions& options) {
 
 void run_report(ReportOptions& options, const CLI::App& command) {
     apply_quick(command, options);
-    if (options.shared.quiet && options.shared.verbose) {
-        throw UsageError("--quiet and --verbose exclude each other");
-    }
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared);
     make_output_folder(options.output);
     const SharedOptions& shared = options.shared;
     const Scene scene = open_scene(shared);

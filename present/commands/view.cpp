@@ -47,7 +47,7 @@ void check_files(const ViewOptions& options) {
 }
 
 void run_view(const ViewOptions& options, const CLI::App& command) {
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared);
     check_files(options);
     SessionOptions session;
     session.shared = options.shared;

@@ -10,6 +10,7 @@
 #include "host/measure/report/run.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
+#include "present/cli/options.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"

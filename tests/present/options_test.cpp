@@ -263,6 +263,8 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
         {"-o a.png --aov depth", "--aov: 'a.png' cannot hold layers"},
         {"-o a.png --exr-half", "--exr-half: 'a.png' is not an EXR file"},
         {"-o a.png --quiet --verbose", "exclude each other"},
+        {"-o a.png --show error", "--show error: needs --reference FILE"},
+        {"-o a.exr --show error --reference r.png", "holds light"},
         {"-o a.png --shard 0/2", "--shard: needs --frames"},
         {"-o a.png --threshold 0.1", "--threshold: needs --reference FILE"},
         {"-o a.png --difference d.png", "--difference: needs --reference FILE"},
@@ -270,8 +272,10 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
     };
     for (const auto& c : cases) {
         const Parsed p = parse(c.line);
-        const auto message =
-            message_of<UsageError>([&] { check_output_options(p.shared, p.output); });
+        const auto message = message_of<UsageError>([&] {
+            begin_command(p.shared, !p.output.reference.empty());
+            check_output_options(p.shared, p.output);
+        });
         EXPECT_TRUE(contains(message, c.message)) << c.line << ": " << message;
     }
     const Parsed good = parse("-o a.#.exr --frames 1:2 --aov depth --exr-half --shard 0/2");

@@ -99,9 +99,7 @@ void ViewSession::show_boxes() {
 }
 
 void ViewSession::paint_boxes() const {
-    if (!drawn_) return;
-    const Area area = picture_area();
-    boxes_->draw(drawn_->camera, {area.x, 0, area.width, area.height});
+    if (drawn_) boxes_->draw(drawn_->camera, picture_area());
 }
 
 void ViewSession::describe_picture() {

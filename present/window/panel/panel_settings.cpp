@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <cmath>
@@ -92,12 +93,9 @@ void Panel::camera(const CameraRig& rig) const {
         int chosen = 0;
         if (ui.choice("Go to", chosen, names) && chosen > 0) actions.scene_camera = chosen - 1;
     }
-    char text[96];
     const glm::dvec3& p = rig.camera().position;
-    std::snprintf(text, sizeof text, "%.2f, %.2f, %.2f m", p.x, p.y, p.z);
-    fact_line("Position", text);
-    std::snprintf(text, sizeof text, "%.3g m/s", rig.speed());
-    fact_line("Fly speed", text);
+    fact_line("Position", fmt::format("{:.2f}, {:.2f}, {:.2f} m", p.x, p.y, p.z));
+    fact_line("Fly speed", fmt::format("{:.3g} m/s", rig.speed()));
     actions.reset_camera |= ui.button("Reset");
     ImGui::SameLine();
     actions.frame_scene |= ui.button("Frame");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/panel/stage_history.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 namespace kilolux {
@@ -114,11 +114,10 @@ void draw_stage_history(const StageHistory& history, float height) {
             y -= rise;
         }
     }
-    char text[32];
-    std::snprintf(text, sizeof text, "%g ms", top);
     draw.AddLine({origin.x, origin.y + 0.5f * height}, {origin.x + width, origin.y + 0.5f * height},
                  0x30ffffff);
-    draw.AddText({origin.x + 5.0f, origin.y + 3.0f}, 0xc0ffffff, text);
+    draw.AddText({origin.x + 5.0f, origin.y + 3.0f}, 0xc0ffffff,
+                 fmt::format("{:g} ms", top).c_str());
 }
 
 }  // namespace kilolux
