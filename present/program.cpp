@@ -136,7 +136,7 @@ void Program::refuse_unknown_command(const Words& words) const {
 void Program::run(Words arguments) {
     arguments = as_options(std::move(arguments));
     if (answer_question(arguments)) return;
-    // CLI11 takes them from the back.
+    // CLI11 takes arguments in reverse order.
     app_.parse(Words(arguments.rbegin(), arguments.rend()));
     const Command* command = nullptr;
     for (const Command& known : commands_) {

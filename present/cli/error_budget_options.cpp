@@ -17,7 +17,7 @@
 namespace kilolux {
 namespace {
 
-// Few frames: they are paired with the default's, and a choice is kept.
+// Few frames suffice: each is compared with one of the default setting beside it.
 constexpr BenchFrames kFrames = {1, 6};
 
 // All shared options but the scene and the camera.
@@ -49,7 +49,7 @@ void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when
                     choice.relative, when));
 }
 
-// Without grids and lanes, which `bench --tune` chooses.
+// report_settings() in its short form: without grids and lanes, which `bench --tune` chooses.
 std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const ReportView& view,
                                          const ErrorBudget& budget, const DeviceInfo& device) {
     auto settings = report_settings(view.scene, shared.settings, device, true);

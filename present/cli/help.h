@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people and shells are told of the options.
+// --help, and the completion of options in shells.
 #pragma once
 
 #include <CLI/App.hpp>

@@ -126,8 +126,8 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
         .rest()
         .value({"--max-memory", "SIZE|auto", "auto",
                 "Bound for rendering, e.g. 512M or 4G: pictures that need more are made in bands, "
-                "with the same bits; loading the scene is not bounded; auto: most of what is "
-                "available"},
+                "with the same bits; a scene file's buffers, images and meshes have the "
+                "same bound; auto: most of what is available"},
                s.max_memory_bytes, parse_bytes)
         .value({"--grid", "X,Y,SLICES_PER_OCTAVE", "16,9,4",
                 "Coarse clusters: tiles across and down, slices for each doubling of depth"},

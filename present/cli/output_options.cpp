@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// Of a known type of picture.
+// The file's name; throws UsageError for an unknown type of picture.
 std::string picture_file(const std::string&, const std::string& text) {
     image_meaning(text);
     return text;

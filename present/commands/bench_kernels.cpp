@@ -107,7 +107,7 @@ void run_shading(const BenchOptions& options) {
     std::vector<ShadingMeasurement> measured;
     {
         Progress progress("shading", total, !options.shared.quiet);
-        // Measured now, so that limits and kernels meet the same load.
+        // Measures the limits now: other work on the machine then slows limits and kernels alike.
         const DeviceLimits limits =
             measure_device_limits(Gpu(choose_device(bench.settings.device)));
         measured = measure_shading(bench.settings, limits, runs, [&] {

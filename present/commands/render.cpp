@@ -42,7 +42,7 @@ struct Task {
     fs::path difference;  // empty: none
 };
 
-// The pictures asked for, made one at a time: a sequence may have two thousand million.
+// The pictures asked for, computed one at a time: a sequence may have 2^31 of them.
 class Tasks {
  public:
     explicit Tasks(const RenderOptions& options) : options_(options) {
@@ -60,7 +60,7 @@ class Tasks {
                 frame_file(out.reference, frame), frame_file(out.difference, frame)};
     }
 
-    // A file that is there is whole, so an interrupted sequence goes on where it stopped.
+    // Files are written whole, so an existing one counts as done.
     bool is_done(const Task& task) const {
         return options_.output.skip_existing && fs::exists(task.file);
     }
@@ -183,7 +183,7 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
     return made;
 }
 
-// Asks before the work what would fail after it.
+// Checks before rendering what would fail after it.
 void check_files(const RenderOptions& options, const Tasks& tasks, const Task& first) {
     const OutputOptions& out = options.output;
     check_can_write(first.file);

@@ -24,7 +24,7 @@ struct ViewOptions {
     bool fresh = false;
 };
 
-// What the window was left with, and over it what the command line says.
+// The kept state, with the values of the command line in place of the kept ones.
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file) {
     ViewState state;
     state.settings = options.shared.settings;
@@ -36,7 +36,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
                      [&command](const std::string& name) { return is_given(command, name); });
 }
 
-// Asks at the beginning what would fail at the end.
+// Checks before the window opens what would fail when it closes.
 void check_files(const ViewOptions& options) {
     if (options.screenshot.empty()) return;
     if (image_meaning(options.screenshot) == ImageMeaning::linear) {
@@ -65,7 +65,7 @@ void run_view(const ViewOptions& options, const CLI::App& command) {
     ViewSession view(scene, session, file, window, context);
     view.run();
     if (view.stop()) return;
-    // All files are written. The end of a long kernel or compilation is not waited for.
+    // All files are written; the process does not wait for a long kernel or compilation.
     std::fflush(nullptr);
     std::_Exit(0);
 }

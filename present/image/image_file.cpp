@@ -71,9 +71,9 @@ OIIO::ImageSpec display_spec(const std::filesystem::path& file, const Frame& fra
                          options.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8);
     if (std::string_view(format_of(file).plugin) == "tiff") {
         spec.attribute("Compression", "zip");
-        // Exif's way to say unknown; OpenImageIO would write the hour. Saying sRGB, which a TIFF
-        // without a profile is taken for, makes OpenImageIO 2.4 write an Exif directory that breaks
-        // the file.
+        // Exif's form of an unknown date; without one OpenImageIO writes the present time. The
+        // colour space stays unsaid: readers take a TIFF without a profile for sRGB, and with
+        // "sRGB" OpenImageIO 2.4 writes an Exif directory that breaks the file.
         spec.attribute("DateTime", "    :  :     :  :  ");
         return spec;
     }
@@ -162,8 +162,8 @@ OIIO::ImageSpec exr_spec(const Frame& frame, const ImageNotes& notes, const Imag
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
-    // OpenImageIO writes the hour as capDate unless there is a date; one that is no text is left
-    // out, which it would remark on.
+    // Without a date OpenImageIO writes the present time as capDate. A date that is not a text is
+    // left out of the file; "debug" 0 silences the remark about it.
     spec.attribute("DateTime", 0);
     OIIO::attribute("debug", 0);
     if (notes.camera) describe_camera(spec, *notes.camera, frame);

@@ -201,7 +201,7 @@ std::vector<DrawnBox> boxes_of(const FrozenClusters& frozen, uint least) {
     std::vector<DrawnBox> boxes;
     for (const ActiveCluster& c : frozen.clusters) {
         if (c.list_count < least) continue;
-        // From a quarter on: the map's dark end would not be seen.
+        // Starts at a quarter: the dark end of the heat map is invisible over dark pictures.
         const DisplayColor code = heat_color(0.25 + 0.75 * c.list_count / most);
         const glm::vec3 color = glm::vec3(code[0], code[1], code[2]) / 255.0f;
         boxes.push_back(

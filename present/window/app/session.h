@@ -154,7 +154,7 @@ class ViewSession {
     bool show_help_ = false;
     bool full_screen_ = false;
 
-    // Valid while asked for.
+    // Each is valid while its task runs.
     std::future<DeviceLimits> limits_;
     std::future<std::optional<ProbedPixel>> probing_;
     std::future<FrozenClusters> freezing_;

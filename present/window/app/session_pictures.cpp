@@ -104,7 +104,7 @@ void ViewSession::request_picture() {
     pending_.push_back({*slot, next, worker_->render(next)});
 }
 
-// False: it is still being made.
+// Returns false while the picture is being made.
 bool ViewSession::take_picture(PendingPicture& pending) {
     if (!is_ready(pending.picture)) return false;
     redraw_soon();
@@ -147,7 +147,7 @@ void ViewSession::show_picture(const PendingPicture& pending, Picture picture) {
     ++shown_;
 }
 
-// The map belongs to the picture that was measured.
+// The map is shown only while the window still wants the picture that was measured.
 bool ViewSession::shows_error() const {
     return state_.error_map && error_map_ && error_of_ && same_content(*error_of_, wanted());
 }

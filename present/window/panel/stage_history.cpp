@@ -19,7 +19,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-// A round number at or above.
+// The least 1, 2 or 5 times a power of ten that is not below `value`.
 double round_up(double value) {
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 5.0}) {
