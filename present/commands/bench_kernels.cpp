@@ -59,13 +59,6 @@ Table tuning_table(const TuningResult& result) {
     return table;
 }
 
-std::string tuning_text(const StoredTuning& stored) {
-    std::string text = fmt::format("lanes {}", stored.lanes);
-    for (const TuningParameter& parameter : tuning_parameters())
-        text += fmt::format(", {} {}", parameter.name, stored.tuning.*parameter.value);
-    return text;
-}
-
 }  // namespace
 
 void run_culling(const BenchOptions& options) {
@@ -124,12 +117,12 @@ void run_tuning(const BenchOptions& options) {
     const TuningResult result =
         tune(lighting, options.frames.value_or(5), [](const StoredTuning& tuning, double ms) {
             check_interrupt();
-            detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning)));
+            detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning_json(tuning))));
         });
     put_table(options, "tuning", tuning_table(result), bench.context);
     store_tuning(lighting.device(), result.best);
-    note(fmt::format("kept    {}: {:.4g} ms, built-in {:.4g} ms", tuning_text(result.best),
-                     result.best_ms, result.start_ms));
+    note(fmt::format("kept    {}: {:.4g} ms, built-in {:.4g} ms",
+                     tuning_text(tuning_json(result.best)), result.best_ms, result.start_ms));
 }
 
 }  // namespace kilolux

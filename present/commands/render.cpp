@@ -88,19 +88,6 @@ bool wants_own_display(const RenderOptions& options) {
     return options.output.bits == 16 || uses_ocio(options.output.ocio);
 }
 
-// What each stage would take at the device's measured limits; measures them once a device.
-class Limits {
- public:
-    explicit Limits(const Renderer& renderer)
-        : limits_(cached_device_limits(Gpu(choose_device(renderer.settings().device)))),
-          setup_(frame_setup(renderer.settings(), renderer.plan(), renderer.device())) {}
-    void fill(FrameStats& stats) const { fill_limits(stats, limits_, setup_); }
-
- private:
-    DeviceLimits limits_;
-    FrameSetup setup_;
-};
-
 ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, const Camera& camera,
                     const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, renderer.device(), record.stats);
@@ -161,9 +148,10 @@ void add(Made& made, FrameRecord record) {
 Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScene& scene,
                   Renderer& renderer) {
     Made made;
-    std::optional<Limits> limits;
+    // What each stage would take at the device's limits, which are measured once a device.
+    std::optional<DeviceLimits> limits;
     if (!options.output.stats.empty()) {
-        limits.emplace(renderer);
+        limits = cached_device_limits(Gpu(choose_device(renderer.settings().device)));
         if (options.output.frames) made.log.emplace();
     }
     const std::size_t first = tasks.first_to_do();
@@ -175,7 +163,10 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
             scene.set_time(task.time);
             const Camera camera = choose_camera(options.shared.camera, scene.scene());
             FrameRecord record = render_task(options, renderer, camera, task);
-            if (limits) limits->fill(record.stats);
+            if (limits) {
+                fill_limits(record.stats, *limits,
+                            frame_setup(renderer.settings(), renderer.plan(), renderer.device()));
+            }
             add(made, std::move(record));
         }
         progress.advance();
