@@ -5,17 +5,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 
 #include "host/base/error.h"
 #include "host/base/suggest.h"
 #include "host/base/version.h"
 #include "host/render/renderer.h"
-#include "present/cli/completion.h"
-#include "present/cli/device_list.h"
-#include "present/cli/help_format.h"
+#include "present/cli/help.h"
 #include "present/cli/option_builder.h"
-#include "present/commands/commands.h"
 #include "present/config_file.h"
 
 namespace kilolux {
@@ -36,14 +32,22 @@ using Words = std::vector<std::string>;
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
-bool given(const CLI::App& app, const std::string& name) {
-    const CLI::Option* option = app.get_option_no_throw(name);
-    return option != nullptr && option->count() > 0;
-}
-
 bool has_any(const Words& words, const Words& wanted) {
     return std::find_first_of(words.begin(), words.end(), wanted.begin(), wanted.end()) !=
            words.end();
+}
+
+// A line a device, with the index that --device takes.
+std::string device_list(const std::vector<DeviceInfo>& devices) {
+    if (devices.empty()) return "no OpenCL devices\n";
+    std::string out;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        const DeviceInfo& d = devices[i];
+        out += fmt::format("{}  {} ({}, {} compute units, {} lanes, {} MiB; {}; driver {}; {})\n",
+                           i, d.name, d.is_cpu ? "CPU" : "GPU", d.compute_units, d.lane_width,
+                           d.memory_bytes >> 20, d.version, d.driver, d.platform);
+    }
+    return out;
 }
 
 // "help render" as "render --help", "version" as "--version".
@@ -132,14 +136,14 @@ void Program::refuse_unknown_command(const Words& words) const {
 void Program::run(Words arguments) {
     arguments = as_options(std::move(arguments));
     if (answer_question(arguments)) return;
-    // CLI11 takes them from the back.
+    // CLI11 takes arguments in reverse order.
     app_.parse(Words(arguments.rbegin(), arguments.rend()));
     const Command* command = nullptr;
     for (const Command& known : commands_) {
         if (known.app->parsed()) command = &known;
     }
-    if (given(app_, "--completion")) return print(bash_completion(app_));
-    if (given(command != nullptr ? *command->app : app_, "--list-devices")) {
+    if (is_given(app_, "--completion")) return print(bash_completion(app_));
+    if (is_given(command != nullptr ? *command->app : app_, "--list-devices")) {
         return print(device_list(list_devices()));
     }
     if (command == nullptr) refuse_unknown_command(app_.remaining());
@@ -148,6 +152,11 @@ void Program::run(Words arguments) {
     refuse_extras(*command->app, command->app->remaining());
     if (!config_file_.empty()) apply_config_file(*command->app, config_file_);
     command->run();
+}
+
+bool is_given(const CLI::App& command, const std::string& name) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    return option != nullptr && option->count() > 0;
 }
 
 std::vector<std::string> option_names(const CLI::App& command) {

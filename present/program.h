@@ -3,7 +3,9 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <concepts>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,24 @@ class Program {
     /// called once the command line is parsed. The returned App lives as long as the Program.
     CLI::App& add_command(const std::string& name, const std::string& meaning,
                           const std::string& examples, std::function<void()> run);
+
+    /// A subcommand with options: `declare(command, options)` registers them, and
+    /// `obey(options, command)` or `obey(options)` obeys them.
+    template <typename Options, typename Run>
+    void add_command(const std::string& name, const std::string& meaning,
+                     const std::string& examples, void (*declare)(CLI::App&, Options&), Run obey) {
+        const auto options = std::make_shared<Options>();
+        const auto self = std::make_shared<const CLI::App*>();
+        CLI::App& command = add_command(name, meaning, examples, [options, self, obey] {
+            if constexpr (std::invocable<Run, Options&, const CLI::App&>) {
+                obey(*options, **self);
+            } else {
+                obey(*options);
+            }
+        });
+        *self = &command;
+        declare(command, *options);
+    }
 
     /// Parses and obeys `arguments` (without the program's name). Throws UsageError or
     /// CLI::ParseError for what cannot be obeyed, and whatever the subcommand throws.
@@ -46,7 +66,19 @@ class Program {
 /// "--lights", "--quiet", ...: the long options of a command.
 std::vector<std::string> option_names(const CLI::App& command);
 
+/// Whether the command line holds the option.
+bool is_given(const CLI::App& command, const std::string& name);
+
 /// Throws UsageError, with the nearest known one, for arguments that no option of `command` took.
 void refuse_extras(const CLI::App& command, const std::vector<std::string>& extras);
+
+// One function a subcommand, which registers it: commands/<name>.cpp.
+void add_render_command(Program& program);
+void add_view_command(Program& program);
+void add_bench_command(Program& program);
+void add_report_command(Program& program);
+void add_certify_command(Program& program);
+void add_info_command(Program& program);
+void add_export_command(Program& program);
 
 }  // namespace kilolux

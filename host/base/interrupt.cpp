@@ -5,56 +5,69 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
-#include <climits>
-#include <cstring>
+#include <mutex>
+#include <string>
+#include <thread>
 
 #include "host/base/error.h"
 
 namespace kilolux {
 namespace {
 
-// What a signal handler may touch, which may run in any thread: lock-free flags, and a file whose
-// name and identity are complete whenever `has_file` is set.
 struct SignalState {
     std::atomic<bool> requested = false;
-    std::atomic<bool> has_file = false;
-    std::array<char, PATH_MAX> file{};
+    std::mutex mutex;  // guards what follows
+    std::string file;
     dev_t device = 0;
     ino_t inode = 0;
 };
-static_assert(std::atomic<bool>::is_always_lock_free);
 
+// Never destroyed: the thread that takes signals runs until the process ends.
 SignalState& state() {
-    static SignalState value;
+    static SignalState& value = *new SignalState;
     return value;
 }
 
-bool is_same_file(const SignalState& signals) {
-    struct stat now = {};
-    return lstat(signals.file.data(), &now) == 0 && now.st_dev == signals.device &&
-           now.st_ino == signals.inode;
+sigset_t ending_signals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, number);
+    return signals;
 }
 
-extern "C" void kilolux_on_signal(int number) {
+void remove_unfinished_file() {
     SignalState& signals = state();
-    if (!signals.requested.exchange(true)) return;
-    if (signals.has_file && is_same_file(signals)) unlink(signals.file.data());
+    const std::lock_guard lock(signals.mutex);
+    struct stat now = {};
+    if (!signals.file.empty() && lstat(signals.file.c_str(), &now) == 0 &&
+        now.st_dev == signals.device && now.st_ino == signals.inode) {
+        unlink(signals.file.c_str());
+    }
+}
+
+void take_signals(const sigset_t& signals) {
+    int number = 0;
+    sigwait(&signals, &number);
+    state().requested = true;
+    sigwait(&signals, &number);
+    remove_unfinished_file();
     signal(number, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
     raise(number);
 }
 
 }  // namespace
 
+// The signals are blocked in every thread, and one thread waits for them. A handler would not do:
+// LLVM, in the OpenCL compiler, puts its own in the place of any other, which removes the files
+// that are being compiled, and the compiler then reports that they are missing.
 void catch_signals() {
-    state().requested = false;  // also constructs the state, which a handler must not do
-    struct sigaction action = {};
-    action.sa_handler = kilolux_on_signal;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+    state().requested = false;
     for (const int number : {SIGXFSZ, SIGPIPE}) signal(number, SIG_IGN);
+    const sigset_t signals = ending_signals();
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    std::thread(take_signals, signals).detach();
 }
 
 bool interrupt_requested() { return state().requested; }
@@ -65,16 +78,12 @@ void check_interrupt() {
 
 void set_unfinished_file(const std::filesystem::path& file) {
     SignalState& signals = state();
-    signals.has_file = false;
-    const std::string name = file.string();
+    const std::lock_guard lock(signals.mutex);
     struct stat status = {};
-    if (name.empty() || name.size() >= signals.file.size() || lstat(name.c_str(), &status) != 0) {
-        return;
-    }
-    std::memcpy(signals.file.data(), name.c_str(), name.size() + 1);
+    const bool exists = !file.empty() && lstat(file.c_str(), &status) == 0;
+    signals.file = exists ? file.string() : "";
     signals.device = status.st_dev;
     signals.inode = status.st_ino;
-    signals.has_file = true;
 }
 
 }  // namespace kilolux

@@ -6,12 +6,12 @@
 namespace kilolux {
 
 /// Lets SIGINT, SIGTERM and SIGHUP ask for an orderly end: the first one is noted for
-/// check_interrupt(), the second removes the unfinished file and kills. Writing past a file-size
-/// limit or into a closed pipe becomes an error of write() instead of a signal.
+/// check_interrupt(), the second removes the unfinished file and kills. Threads and processes that
+/// are started later do not see these signals. Writing past a file-size limit or into a closed pipe
+/// becomes an error of write() instead of a signal. Called before other threads are started.
 void catch_signals();
 
-/// Whether a signal has asked for the end. What fails from then on fails because of it: the OpenCL
-/// compiler, for one, removes its files at a signal and says that they are missing.
+/// Whether a signal has asked for the end. What fails from then on is taken to fail because of it.
 bool interrupt_requested();
 
 /// Throws Interrupted once a signal has asked for the end.

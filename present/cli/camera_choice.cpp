@@ -58,7 +58,7 @@ glm::dvec3 up_vector(const CameraChoice& choice, const glm::dvec3& direction) {
 
 Camera place_camera(const CameraPlace& place, double y_fov, double radius) {
     Camera camera = look_at(place.position, place.focal_point, place.view_up, y_fov);
-    // Near enough to enter small scenes; reversed depth keeps its precision.
+    // The near plane must not cut small scenes; reversed depth keeps its precision there.
     camera.z_near = std::min(camera.z_near, 0.01 * radius);
     return camera;
 }

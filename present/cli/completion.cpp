@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/completion.h"
+#include "present/cli/help.h"
 
 #include <fmt/format.h>
 

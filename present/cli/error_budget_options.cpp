@@ -10,7 +10,6 @@
 #include "host/base/log.h"
 #include "present/cli/commit.h"
 #include "present/cli/frame_summary.h"
-#include "present/cli/names.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_fingerprint.h"
@@ -18,33 +17,25 @@
 namespace kilolux {
 namespace {
 
-// Few frames: they are paired with the default's, and a choice is kept.
+// Few frames suffice: each is compared with one of the default setting beside it.
 constexpr BenchFrames kFrames = {1, 6};
 
-std::string vector_text(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
-
-std::string settings_text(const RenderSettings& s) {
-    const LightOptions& l = s.lights;
-    const KernelSettings& k = s.kernels;
-    return fmt::format("{} {}x{} ", name_of(s.renderer), s.width, s.height) +
-           fmt::format("lights {} {} {} {} {} {} {} ", l.count, l.seed, l.radius, l.intensity,
-                       vector_text(l.box.min), vector_text(l.box.max), s.range_budget) +
-           fmt::format("gbuffer {} {} {} {} {} {} {} ", s.gbuffer,
-                       static_cast<int>(s.geometry), s.anisotropy, name_of(s.shading), s.ambient,
-                       s.exposure, name_of(s.tone_curve)) +
-           fmt::format("grid {},{},{} ", s.grid.tiles_x, s.grid.tiles_y, s.grid.slices_per_octave) +
-           fmt::format("kernels {} {} {} {}", k.lanes, k.group_height,
-                       math_names().at(static_cast<std::size_t>(k.math)),
-                       light_color_names().at(static_cast<std::size_t>(k.light_colors)));
+// All shared options but the scene and the camera.
+std::string settings_text(SharedOptions shared) {
+    shared.scene.clear();
+    shared.camera = {};
+    shared.quiet = shared.verbose = false;
+    std::string out;
+    for (const auto& [name, value] : shared_option_texts(shared)) out += name + " " + value + "\n";
+    return out + fmt::format("group-height {}", shared.settings.kernels.group_height);
 }
 
 BudgetKey key_of(const SharedOptions& shared, const BudgetOptions& options,
                  const ErrorBudget& budget, const ReportView& view) {
     const Camera& c = view.camera;
     return fmt::format("{}\n{}\n{}\ncamera {} {} {} {} {} time {}\n{} {} {}", commit(),
-                       scene_fingerprint(shared.scene), settings_text(shared.settings),
-                       vector_text(c.position), vector_text(c.world_from_view[1]),
-                       vector_text(c.world_from_view[2]), c.y_fov,
+                       scene_fingerprint(shared.scene), settings_text(shared), text_of(c.position),
+                       text_of(c.world_from_view[1]), text_of(c.world_from_view[2]), c.y_fov,
                        c.orthographic ? c.y_extent : 0.0, view.time, budget.metric,
                        budget.max_error, options.error_width.value_or(0));
 }
@@ -58,7 +49,7 @@ void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when
                     choice.relative, when));
 }
 
-// Without grids and lanes, which `bench --tune` chooses.
+// report_settings() in its short form: without grids and lanes, which `bench --tune` chooses.
 std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const ReportView& view,
                                          const ErrorBudget& budget, const DeviceInfo& device) {
     auto settings = report_settings(view.scene, shared.settings, device, true);
@@ -92,12 +83,10 @@ void add_budget_options(CLI::App& command, BudgetOptions& options) {
                  "What E is: against the float64 picture asked for; r1-: the kernels' error alone; "
                  "r3-: lights without a range"},
                 options.metric, error_metric_names())
-        .value({"--error-width", "W", "auto",
+        .count({"--error-width", "W", "auto",
                 "Width of the pictures that errors are measured on; auto: at most 320 pixels, and "
                 "so few that the float64 reference takes seconds"},
-               [&options](const std::string& name, const std::string& text) {
-                   options.error_width = static_cast<int>(parse_count(name, text, {1, 65536}));
-               })
+               options.error_width, kEdgeRange)
         .flag("--choose-again", options.choose_again,
               "Measure even if a choice is kept from before");
 }

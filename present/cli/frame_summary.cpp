@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "host/base/gbuffer_layout.h"
 #include "host/base/version.h"
 #include "host/measure/roofline/stage_report.h"
 #include "present/cli/names.h"
+#include "present/cli/option_values.h"
 
 namespace kilolux {
 namespace {
@@ -48,14 +50,12 @@ std::string cluster_line(const FrameStats& s) {
 
 }  // namespace
 
-std::string number_text(double value) { return fmt::format("{}", value); }
-
 std::string short_text(double value) { return fmt::format("{:.6g}", value); }
 
 std::string comparison_text(const Comparison& comparison) {
     std::string value = short_text(comparison.value);
     const std::string threshold = short_text(comparison.threshold);
-    if (value == threshold) value = number_text(comparison.value);  // just above shows as above
+    if (value == threshold) value = text_of(comparison.value);  // just above shows as above
     return fmt::format("{} {} (threshold {})", comparison.metric, value, threshold);
 }
 
@@ -67,9 +67,8 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                      {"seed", fmt::format("{}", options.settings.lights.seed)},
                      {"renderer", name_of(options.settings.renderer)},
                      {"shading", name_of(options.settings.shading)},
-                     {"geometry", geometry_choices().names.at(
-                                      static_cast<std::size_t>(options.settings.geometry))},
-                     {"gbuffer", gbuffer_names().at(options.settings.gbuffer)},
+                     {"geometry", name_of(options.settings.geometry)},
+                     {"gbuffer", gbuffer_layout_name(options.settings.gbuffer)},
                      {"grid", grid_text(stats)},
                      {"device", device.name + ", " + device.version},
                      {"version", version()}};
@@ -87,11 +86,6 @@ std::string frame_summary(const Scene& scene, const DeviceInfo& device, const Fr
     out += "wrote   " + last.file;
     if (count > 1) out += fmt::format(" and {} more", count - 1);
     return out;
-}
-
-Verbosity verbosity_of(const SharedOptions& options) {
-    if (options.quiet) return Verbosity::quiet;
-    return options.verbose ? Verbosity::verbose : Verbosity::normal;
 }
 
 }  // namespace kilolux

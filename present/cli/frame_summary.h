@@ -4,15 +4,11 @@
 
 #include <string>
 
-#include "host/base/log.h"
 #include "present/cli/options.h"
 #include "present/cli/stats_json.h"
 #include "present/image/image_file.h"
 
 namespace kilolux {
-
-/// The shortest text that reads back as the same number.
-std::string number_text(double value);
 
 /// At most six significant digits, for people: "60", "0.00123457".
 std::string short_text(double value);
@@ -28,7 +24,5 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
 /// lines.
 std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
                           std::size_t count);
-
-Verbosity verbosity_of(const SharedOptions& options);
 
 }  // namespace kilolux

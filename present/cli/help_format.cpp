@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/help_format.h"
+#include "present/cli/help.h"
 
 #include <fmt/format.h>
 
@@ -95,7 +95,7 @@ std::string commands(const CLI::App& app) {
 std::string options(const CLI::App& app, bool all) {
     std::string out;
     std::vector<std::string> groups = app.get_groups();
-    // Every command registers it first.
+    // The heading "General", which every command registers first, is printed last.
     if (groups.size() > 1) std::rotate(groups.begin(), groups.begin() + 1, groups.end());
     for (const std::string& group : groups) {
         if (group.ends_with(kRestSuffix) && !all) continue;

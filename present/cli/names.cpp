@@ -31,36 +31,50 @@ Choices::Choices(std::initializer_list<std::pair<std::string, std::string>> desc
     }
 }
 
-Choices renderer_choices() {
-    return {{renderer_name(RendererKind::deferred),
-             "clustered deferred: only lights that may reach a pixel are evaluated"},
-            {renderer_name(RendererKind::forward_plus), "clustered forward"},
-            {renderer_name(RendererKind::forward), "every light at every fragment: a reference"},
-            {renderer_name(RendererKind::deferred_all),
-             "every light at every pixel: the reference for deferred"}};
+const Choices& choices_of(RendererKind) {
+    static const Choices choices = {
+        {renderer_name(RendererKind::deferred),
+         "clustered deferred: only lights that may reach a pixel are evaluated"},
+        {renderer_name(RendererKind::forward_plus), "clustered forward"},
+        {renderer_name(RendererKind::forward), "every light at every fragment: a reference"},
+        {renderer_name(RendererKind::deferred_all),
+         "every light at every pixel: the reference for deferred"}};
+    return choices;
 }
 
-Choices shading_choices() {
-    return {{"auto", "what the scene's materials ask for"},
-            {"lambert", "matt: albedo / pi"},
-            {"blinn-phong", "with normalised highlights"},
-            {"pbr", "glTF's metallic-roughness model"}};
+const Choices& choices_of(Geometry) {
+    static const Choices choices = {
+        {"auto", "ids"},
+        {"ids", "OpenGL draws triangle ids, OpenCL makes the surfaces"},
+        {"planes", "OpenGL's fragments write the surfaces, filtered as its driver likes"}};
+    return choices;
 }
 
-Choices tone_curve_choices() {
-    return {{"none", "clamp at 1"},
-            {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
-            {"aces", "ACES, filmic contrast"}};
+const Choices& choices_of(Shading) {
+    static const Choices choices = {{"auto", "what the scene's materials ask for"},
+                                    {"lambert", "matt: albedo / pi"},
+                                    {"blinn-phong", "with normalised highlights"},
+                                    {"pbr", "glTF's metallic-roughness model"}};
+    return choices;
 }
 
-Choices math_choices() {
-    return {{"exact", "as OpenCL C demands"},
-            {"fast-relaxed", "with -cl-fast-relaxed-math"},
-            {"native", "with native square roots and reciprocals"}};
+const Choices& choices_of(ToneCurve) {
+    static const Choices choices = {{"none", "clamp at 1"},
+                                    {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
+                                    {"aces", "ACES, filmic contrast"}};
+    return choices;
 }
 
-Choices light_color_choices() {
-    return {{"float", "32 bits a channel"}, {"half", "16 bits a channel"}};
+const Choices& choices_of(MathMode) {
+    static const Choices choices = {{"exact", "as OpenCL C demands"},
+                                    {"fast-relaxed", "with -cl-fast-relaxed-math"},
+                                    {"native", "with native square roots and reciprocals"}};
+    return choices;
+}
+
+const Choices& choices_of(LightColors) {
+    static const Choices choices = {{"float", "32 bits a channel"}, {"half", "16 bits a channel"}};
+    return choices;
 }
 
 Choices gbuffer_choices() {
@@ -73,12 +87,6 @@ Choices gbuffer_choices() {
                            {"half", "16-bit floats for position and normal"},
                            {"normal-xy", "two components of the normal"},
                            {"oct-2x4", "octahedral normal, two rows of four floats"}});
-}
-
-Choices geometry_choices() {
-    return {{"auto", "ids"},
-            {"ids", "OpenGL draws triangle ids, OpenCL makes the surfaces"},
-            {"planes", "OpenGL's fragments write the surfaces, filtered as its driver likes"}};
 }
 
 Choices aov_choices() {
@@ -103,31 +111,23 @@ Choices metric_choices() {
             {"flip", "mean difference that an observer sees, 0 to 1 (FLIP)"}};
 }
 
-Choices show_choices() {
-    return ordered(view_names(),
-                   {{"lit", "the lit picture"},
-                    {"albedo", "base colour"},
-                    {"normal", "world normal as colour"},
-                    {"depth", "heat map of the distance, in metres"},
-                    {"position", "place in the scene's box as colour"},
-                    {"roughness", "heat map from 0 to 1"},
-                    {"lights", "heat map of lights evaluated a pixel"},
-                    {"clusters", "coarse clusters in random colours"},
-                    {"slices", "depth slices of the coarse grid in random colours"},
-                    {"active", "active clusters in random colours"},
-                    {"overdraw", "heat map of fragments drawn a pixel"},
-                    {"difference", "heat map of the difference to deferred-all"},
-                    {"false-positives", "heat map of lights evaluated in vain (deferred only)"}});
-}
-
-std::string name_of(RendererKind renderer) { return renderer_name(renderer); }
-
-std::string name_of(Shading shading) {
-    return shading_names().at(static_cast<std::size_t>(shading));
-}
-
-std::string name_of(ToneCurve curve) {
-    return tone_curve_names().at(static_cast<std::size_t>(curve));
+const Choices& choices_of(ViewKind) {
+    static const Choices choices =
+        ordered(view_names(),
+                {{"lit", "the lit picture"},
+                 {"albedo", "base colour"},
+                 {"normal", "world normal as colour"},
+                 {"depth", "heat map of the distance, in metres"},
+                 {"position", "place in the scene's box as colour"},
+                 {"roughness", "heat map from 0 to 1"},
+                 {"lights", "heat map of lights evaluated a pixel"},
+                 {"clusters", "coarse clusters in random colours"},
+                 {"slices", "depth slices of the coarse grid in random colours"},
+                 {"active", "active clusters in random colours"},
+                 {"overdraw", "heat map of fragments drawn a pixel"},
+                 {"difference", "heat map of the difference to deferred-all"},
+                 {"false-positives", "heat map of lights evaluated in vain (deferred only)"}});
+    return choices;
 }
 
 }  // namespace kilolux

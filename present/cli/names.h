@@ -19,28 +19,25 @@ struct Choices {
     std::vector<std::string> meanings;
 };
 
-Choices renderer_choices();
-Choices shading_choices();
-Choices tone_curve_choices();
-Choices math_choices();
-Choices light_color_choices();
+const Choices& choices_of(RendererKind);
+const Choices& choices_of(Geometry);
+const Choices& choices_of(Shading);
+const Choices& choices_of(ToneCurve);
+const Choices& choices_of(MathMode);
+const Choices& choices_of(LightColors);
+const Choices& choices_of(ViewKind);
 Choices gbuffer_choices();
-Choices geometry_choices();
 Choices aov_choices();
 Choices metric_choices();
 
-/// Pictures of --show: what the renderer draws.
-Choices show_choices();
-
-inline std::vector<std::string> renderer_names() { return renderer_choices().names; }
-inline std::vector<std::string> shading_names() { return shading_choices().names; }
-inline std::vector<std::string> tone_curve_names() { return tone_curve_choices().names; }
-inline std::vector<std::string> math_names() { return math_choices().names; }
-inline std::vector<std::string> light_color_names() { return light_color_choices().names; }
-inline std::vector<std::string> gbuffer_names() { return gbuffer_choices().names; }
-
-std::string name_of(RendererKind renderer);
-std::string name_of(Shading shading);
-std::string name_of(ToneCurve curve);
+/// The words for an enumeration, and the word for one of its values.
+template <typename Enum>
+const std::vector<std::string>& names_of() {
+    return choices_of(Enum{}).names;
+}
+template <typename Enum>
+const std::string& name_of(Enum value) {
+    return choices_of(value).names.at(static_cast<std::size_t>(value));
+}
 
 }  // namespace kilolux

@@ -10,14 +10,6 @@ namespace {
 
 std::string long_name(const std::string& names) { return names.substr(0, names.find(',')); }
 
-// HelpFormat prints each line after the first as a row below the option.
-std::string described(std::string meaning, const Choices& choices) {
-    for (std::size_t i = 0; i < choices.meanings.size(); ++i) {
-        meaning += "\n" + choices.names[i] + " - " + choices.meanings[i];
-    }
-    return meaning;
-}
-
 }  // namespace
 
 void leave_to_help_all(CLI::App& command, const std::vector<std::string>& names) {
@@ -36,25 +28,22 @@ OptionBuilder& OptionBuilder::rest() {
     return *this;
 }
 
-OptionBuilder& OptionBuilder::value(const OptionText& text, Take take) {
+OptionBuilder& OptionBuilder::value(const OptionText& text, Take take, Show show) {
     const std::string name = long_name(text.name);
     const auto taker = [take = std::move(take), name](const std::string& seen) {
         take(name, seen);
     };
     CLI::Option* option = command_.add_option_function<std::string>(text.name, taker, text.meaning);
     option->type_name(text.form)->group(heading_)->default_str(text.standard);
-    option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->default_function(show);
     return *this;
-}
-
-OptionBuilder& OptionBuilder::text(const OptionText& text, std::string& out) {
-    return value(text, [&out](const std::string&, const std::string& seen) { out = seen; });
 }
 
 OptionBuilder& OptionBuilder::flag(const std::string& name, bool& out, const std::string& meaning) {
     command_.add_flag(name, out, meaning)
         ->group(heading_)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->default_function([&out]() -> std::string { return out ? "true" : ""; });
     return *this;
 }
 
@@ -65,40 +54,46 @@ OptionBuilder& OptionBuilder::question(const std::string& name, const std::strin
 
 OptionBuilder& OptionBuilder::number_or_auto(const OptionText& text, double& out,
                                              const NumberRange& range) {
-    return value(text, [&out, range](const std::string& name, const std::string& seen) {
-        out = parse_number_or_auto(name, seen, range);
+    return value(text, out, [range](const std::string& name, const std::string& seen) {
+        return parse_number_or_auto(name, seen, range);
     });
 }
 
-OptionBuilder& OptionBuilder::vector(const OptionText& text, std::optional<glm::dvec3>& out) {
-    return value(text, [&out](const std::string& name, const std::string& seen) {
-        out = parse_vector(name, seen);
-    });
+OptionBuilder& OptionBuilder::choice(const OptionText& text, const Choices& choices,
+                                     std::function<void(std::size_t)> take, Show show) {
+    const auto take_name = [names = choices.names, take = std::move(take)](
+                               const std::string& name, const std::string& seen) {
+        take(parse_name(name, seen, names));
+    };
+    return value(described(text, choices), take_name, std::move(show));
 }
 
 OptionBuilder& OptionBuilder::choice(const OptionText& text, std::string& out,
                                      const Choices& choices) {
-    return choose(text, choices, [&out, names = choices.names](std::size_t i) { out = names[i]; });
-}
-
-OptionBuilder& OptionBuilder::choice_list(OptionText text, std::vector<std::string>& out,
-                                          const Choices& choices) {
-    text.form = joined(choices.names, "|") + ",...";
-    text.meaning = described(text.meaning, choices);
-    return value(text,
-                 [&out, names = choices.names](const std::string& name, const std::string& seen) {
-                     out = parse_name_list(name, seen, names);
+    return value(described(text, choices), out,
+                 [names = choices.names](const std::string& name, const std::string& seen) {
+                     return names[parse_name(name, seen, names)];
                  });
 }
 
-OptionBuilder& OptionBuilder::choose(OptionText text, const Choices& choices,
-                                     std::function<void(std::size_t)> take) {
+OptionBuilder& OptionBuilder::choice_list(const OptionText& text, std::vector<std::string>& out,
+                                          const Choices& choices) {
+    OptionText list = described(text, choices);
+    list.form += ",...";
+    const auto take = [&out, names = choices.names](const std::string& name,
+                                                    const std::string& seen) {
+        out = parse_name_list(name, seen, names);
+    };
+    return value(list, take, [&out] { return joined(out, ","); });
+}
+
+// HelpFormat prints each line after the first as a row below the option.
+OptionText OptionBuilder::described(OptionText text, const Choices& choices) {
     text.form = joined(choices.names, "|");
-    text.meaning = described(text.meaning, choices);
-    return value(text, [names = choices.names, take = std::move(take)](const std::string& name,
-                                                                       const std::string& seen) {
-        take(parse_name(name, seen, names));
-    });
+    for (std::size_t i = 0; i < choices.meanings.size(); ++i) {
+        text.meaning += "\n" + choices.names[i] + " - " + choices.meanings[i];
+    }
+    return text;
 }
 
 }  // namespace kilolux

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <concepts>
 #include <functional>
-#include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "present/cli/names.h"
@@ -36,43 +38,70 @@ class OptionBuilder {
     /// Leaves the options that follow to --help-all.
     OptionBuilder& rest();
 
-    /// Any text that `take` accepts; it gets the long name for its messages, and the text.
+    /// Any text that `take` accepts; it gets the long name for its messages, and the text. `show`
+    /// tells the present value,
+    /// see shared_option_texts().
     using Take = std::function<void(const std::string& name, const std::string& text)>;
-    OptionBuilder& value(const OptionText& text, Take take);
+    using Show = std::function<std::string()>;
+    OptionBuilder& value(const OptionText& text, Take take, Show show = {});
 
-    OptionBuilder& text(const OptionText& text, std::string& out);
+    /// What `parse` makes of the long name and the text.
+    template <typename T, typename Parse>
+    requires std::invocable<Parse, const std::string&, const std::string&> OptionBuilder& value(
+        const OptionText& text, T& out, Parse parse) {
+        Show show;
+        if constexpr (requires { text_of(out); }) show = [&out] { return text_of(out); };
+        const auto take = [&out, parse](const std::string& name, const std::string& seen) {
+            out = static_cast<T>(parse(name, seen));
+        };
+        return value(text, take, show);
+    }
+
+    /// A text, or a path.
+    template <typename Text>
+    OptionBuilder& text(const OptionText& text, Text& out) {
+        return value(text, out, [](const std::string&, const std::string& seen) { return seen; });
+    }
     OptionBuilder& flag(const std::string& name, bool& out, const std::string& meaning);
     /// A flag that Program itself obeys.
     OptionBuilder& question(const std::string& name, const std::string& meaning);
     template <typename T>
     OptionBuilder& number(const OptionText& text, T& out, const NumberRange& range = {}) {
-        return value(text, [&out, range](const std::string& name, const std::string& seen) {
-            out = static_cast<T>(parse_number(name, seen, range));
+        return value(text, out, [range](const std::string& name, const std::string& seen) {
+            return parse_number(name, seen, range);
         });
     }
     template <typename T>
     OptionBuilder& count(const OptionText& text, T& out, const CountRange& range) {
-        return value(text, [&out, range](const std::string& name, const std::string& seen) {
-            out = static_cast<T>(parse_count(name, seen, range));
+        return value(text, out, [range](const std::string& name, const std::string& seen) {
+            return parse_count(name, seen, range);
         });
     }
     OptionBuilder& number_or_auto(const OptionText& text, double& out, const NumberRange& range);
-    OptionBuilder& vector(const OptionText& text, std::optional<glm::dvec3>& out);
 
-    /// One of `choices`, which stand in the order of the enumeration; `text.form` is made of them.
+    /// One of `choices`, whose place `take` gets; `text.form` is made of them.
+    OptionBuilder& choice(const OptionText& text, const Choices& choices,
+                          std::function<void(std::size_t)> take, Show show);
+
+    /// The place of one of `choices` as a number or enumeration.
+    template <typename T>
+    OptionBuilder& choice(const OptionText& text, T& out, const Choices& choices) {
+        return choice(
+            text, choices, [&out](std::size_t place) { out = static_cast<T>(place); },
+            [&out, names = choices.names] { return names.at(static_cast<std::size_t>(out)); });
+    }
     template <typename Enum>
-    OptionBuilder& choice(const OptionText& text, Enum& out, const Choices& choices) {
-        return choose(text, choices, [&out](std::size_t i) { out = static_cast<Enum>(i); });
+    requires std::is_enum_v<Enum> OptionBuilder& choice(const OptionText& text, Enum& out) {
+        return choice(text, out, choices_of(out));
     }
     OptionBuilder& choice(const OptionText& text, std::string& out, const Choices& choices);
 
     /// Some of `choices`, separated by commas.
-    OptionBuilder& choice_list(OptionText text, std::vector<std::string>& out,
+    OptionBuilder& choice_list(const OptionText& text, std::vector<std::string>& out,
                                const Choices& choices);
 
  private:
-    OptionBuilder& choose(OptionText text, const Choices& choices,
-                          std::function<void(std::size_t)> take);
+    static OptionText described(OptionText text, const Choices& choices);
 
     CLI::App& command_;
     std::string heading_;

@@ -145,11 +145,21 @@ std::vector<int> parse_counts(const std::string& option, std::string_view text,
 
 std::pair<int, int> parse_resolution(const std::string& option, std::string_view text) {
     const auto size = int_pair(text, text.find('x') == std::string_view::npos ? ',' : 'x');
-    const auto fits = [](int pixels) { return pixels >= 1 && pixels <= 65536; };
-    if (!size || !fits(size->first) || !fits(size->second)) {
+    if (!size || !contains(kEdgeRange, size->first) || !contains(kEdgeRange, size->second)) {
         refuse(option, text, "W,H or WxH, each a whole number from 1 to 65536");
     }
     return *size;
+}
+
+std::array<int, 3> parse_grid(const std::string& option, std::string_view text) {
+    const auto v = parse_counts(option, text, "X,Y,SLICES_PER_OCTAVE", kTilesRange);
+    parse_count(option + ": slices per octave", text_of(v[2]), kSlicesRange);
+    return {v[0], v[1], v[2]};
+}
+
+int parse_lanes(const std::string& option, std::string_view text) {
+    const std::size_t place = parse_name(option, text, {"auto", "1", "2", "4", "8", "16"});
+    return place == 0 ? 0 : 1 << (place - 1);
 }
 
 glm::dvec3 parse_vector(const std::string& option, std::string_view text) {
@@ -199,6 +209,15 @@ std::vector<std::string> parse_name_list(const std::string& option, std::string_
         if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
     }
     return out;
+}
+
+std::string text_of(double value) { return fmt::format("{}", value); }
+std::string text_of(float value) { return fmt::format("{}", value); }
+std::string text_of(std::uint64_t value) { return fmt::format("{}", value); }
+std::string text_of(int value) { return fmt::format("{}", value); }
+std::string text_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+std::string text_of(const Box& box) {
+    return box.empty() ? "" : text_of(box.min) + "," + text_of(box.max);
 }
 
 }  // namespace kilolux

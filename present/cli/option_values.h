@@ -3,9 +3,11 @@
 // must be>".
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +29,24 @@ struct CountRange {
     std::uint64_t min = 0;
     std::uint64_t max = 0;
 };
+
+// Ranges of the settings that options and the window's saved values share.
+inline constexpr double kMaxFloat = std::numeric_limits<float>::max();
+
+inline constexpr NumberRange kAboveZeroRange{0.0, kMaxFloat, true};
+inline constexpr NumberRange kZeroOrAboveRange{0.0, kMaxFloat};
+inline constexpr NumberRange kExposureRange{-126.0, 126.0};  // [EV]
+inline constexpr NumberRange kBloomRange{0.0, 1.0};
+inline constexpr NumberRange kAmbientRange = kZeroOrAboveRange;
+
+inline constexpr CountRange kEdgeRange{1, 65536};  // of a picture [pixel]
+inline constexpr CountRange kSamplesRange{1, 65536};
+inline constexpr CountRange kAnisotropyRange{1, 16};
+// 31 bits: indices of lights and offsets of lists have 32 on the device.
+inline constexpr CountRange kLightsRange{0, std::uint64_t{1} << 31};
+inline constexpr CountRange kLightSeedRange{0, std::numeric_limits<std::uint64_t>::max()};
+inline constexpr CountRange kTilesRange{1, 4096};
+inline constexpr CountRange kSlicesRange{1, 64};  // per octave of depth
 
 bool contains(const NumberRange& range, double value);
 bool contains(const CountRange& range, double value);
@@ -53,6 +73,12 @@ std::vector<int> parse_counts(const std::string& option, std::string_view text,
 /// Width and height "W,H" or "WxH", each from 1 to 65536 [pixel].
 std::pair<int, int> parse_resolution(const std::string& option, std::string_view text);
 
+/// Tiles across and down, and slices for each doubling of depth: "X,Y,SLICES_PER_OCTAVE".
+std::array<int, 3> parse_grid(const std::string& option, std::string_view text);
+
+/// A power of two from 1 to 16, or 0 for "auto".
+int parse_lanes(const std::string& option, std::string_view text);
+
 /// Three numbers "X,Y,Z".
 glm::dvec3 parse_vector(const std::string& option, std::string_view text);
 
@@ -72,5 +98,17 @@ std::size_t parse_name(const std::string& option, std::string_view text,
 /// Names of `names` separated by commas, each once, in the order given.
 std::vector<std::string> parse_name_list(const std::string& option, std::string_view text,
                                          const std::vector<std::string>& names);
+
+/// The text that an option reads back as the same value; empty for what was not given.
+std::string text_of(double value);
+std::string text_of(float value);
+std::string text_of(std::uint64_t value);
+std::string text_of(int value);
+std::string text_of(const glm::dvec3& value);
+std::string text_of(const Box& value);
+inline std::string text_of(const std::string& value) { return value; }
+template <typename T>
+requires requires(const T& value) { text_of(value); }
+std::string text_of(const std::optional<T>& value) { return value ? text_of(*value) : ""; }
 
 }  // namespace kilolux

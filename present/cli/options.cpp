@@ -5,11 +5,12 @@
 
 #include <tuple>
 
+#include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/base/text.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"
-#include "present/cli/setting_ranges.h"
 
 namespace kilolux {
 namespace {
@@ -25,29 +26,41 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
               "Let the file name buffers and images outside its folder");
 }
 
+// The renderer's views, and the comparison's.
+Choices show_choices() {
+    Choices choices = choices_of(ViewKind{});
+    choices.names.emplace_back("error");
+    choices.meanings.emplace_back("heat map of the relative error to --reference (render only)");
+    return choices;
+}
+
 void add_picture_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto resolution = [&s](const std::string& name, const std::string& text) {
         std::tie(s.width, s.height) = parse_resolution(name, text);
     };
     OptionBuilder(command, "Picture")
-        .choice({"--renderer", "", "deferred", "How surfaces are lit"}, s.renderer,
-                renderer_choices())
-        .value({"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good"}, resolution)
+        .choice({"--renderer", "", "deferred", "How surfaces are lit"}, s.renderer)
+        .value({"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good"}, resolution,
+               [&s] { return fmt::format("{},{}", s.width, s.height); })
         .count({"--samples", "N", "1", "Jittered samples a pixel"}, s.samples, kSamplesRange)
         .number({"--time", "T", "0", "Seconds: moves the lights and the file's animations"}, o.time)
-        .choice({"--show", "", "lit", "What the picture shows"}, s.want.view, show_choices())
+        .choice(
+            {"--show", "", "lit", "What the picture shows"}, show_choices(),
+            [&o](std::size_t place) {
+                o.show_error = place == view_names().size();
+                o.settings.want.view = o.show_error ? ViewKind::lit : static_cast<ViewKind>(place);
+            },
+            [&o] { return o.show_error ? "error" : name_of(o.settings.want.view); })
         .choice_list({"--aov", "", "none", "Layers of an EXR file beside its colour"}, s.want.aovs,
                      aov_choices())
         .rest()
         .choice({"--gbuffer", "", "packed", "How a pixel is stored between the passes"}, s.gbuffer,
                 gbuffer_choices())
-        .choice({"--geometry", "", "auto", "How surfaces get into the G-buffer"}, s.geometry,
-                geometry_choices())
+        .choice({"--geometry", "", "auto", "How surfaces get into the G-buffer"}, s.geometry)
         .count({"--anisotropy", "N", "1 on CPUs, 8 on GPUs", "Texture samples along a footprint"},
                s.anisotropy, kAnisotropyRange)
-        .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading,
-                shading_choices())
+        .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading)
         .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,
                 kAmbientRange);
 }
@@ -57,16 +70,13 @@ void add_display_options(CLI::App& command, RenderSettings& s) {
         .number({"--exposure", "EV", "0", "Each step doubles the brightness"}, s.exposure,
                 kExposureRange)
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
-                s.tone_curve, tone_curve_choices())
+                s.tone_curve)
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
                 kBloomRange);
 }
 
 void add_light_options(CLI::App& command, RenderSettings& s) {
     LightOptions& l = s.lights;
-    const auto box = [&l](const std::string& name, const std::string& text) {
-        l.box = parse_box(name, text);
-    };
     OptionBuilder(command, "Generated point lights, added to the file's own")
         .count({"--lights", "N", "5000", "How many, e.g. 20k or 1e6; 0 keeps only the file's own"},
                l.count, kLightsRange)
@@ -79,7 +89,7 @@ void add_light_options(CLI::App& command, RenderSettings& s) {
                         l.intensity, kAboveZeroRange)
         .rest()
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
-               box)
+               l.box, parse_box)
         .number({"--range-budget", "E", "0.00390625",
                  "Decides the range of the file's lights without one: the radiance lost beyond it"},
                 s.range_budget, kAboveZeroRange);
@@ -90,12 +100,14 @@ void add_camera_options(CLI::App& command, CameraChoice& c) {
         .count({"--camera-index", "I", "the first, else one that frames the scene",
                 "A camera of the scene, from 0"},
                c.index, {0, 0x7fffffff})
-        .vector({"--camera-position", "X,Y,Z", "", "Where it stands, in metres"}, c.position)
-        .vector({"--camera-focal-point", "X,Y,Z", "",
-                 "What it looks at; with a position alone: the scene's middle"},
-                c.focal_point)
+        .value({"--camera-position", "X,Y,Z", "", "Where it stands, in metres"}, c.position,
+               parse_vector)
+        .value({"--camera-focal-point", "X,Y,Z", "",
+                "What it looks at; with a position alone: the scene's middle"},
+               c.focal_point, parse_vector)
         .rest()
-        .vector({"--camera-view-up", "X,Y,Z", "0,1,0", "What is up in the picture"}, c.view_up)
+        .value({"--camera-view-up", "X,Y,Z", "0,1,0", "What is up in the picture"}, c.view_up,
+               parse_vector)
         .number(
             {"--camera-view-angle", "DEG", "the camera's, else 45", "Vertical angle, in degrees"},
             c.view_angle, {0.0, 180.0, true})
@@ -105,16 +117,11 @@ void add_camera_options(CLI::App& command, CameraChoice& c) {
 void add_device_options(CLI::App& command, SharedOptions& o) {
     RenderSettings& s = o.settings;
     const auto grid = [&s](const std::string& name, const std::string& text) {
-        const auto v = parse_counts(name, text, "X,Y,SLICES_PER_OCTAVE", {1, 4096});
-        parse_count(name + ": slices per octave", fmt::format("{}", v[2]), {1, 64});
-        s.grid = {v[0], v[1], v[2]};
+        const auto [x, y, slices] = parse_grid(name, text);
+        s.grid = {x, y, slices};
     };
-    const auto lanes = [&s](const std::string& name, const std::string& text) {
-        const std::size_t place = parse_name(name, text, {"auto", "1", "2", "4", "8", "16"});
-        s.kernels.lanes = place == 0 ? 0 : 1 << (place - 1);
-    };
-    const auto memory = [&s](const std::string& name, const std::string& text) {
-        s.max_memory_bytes = parse_bytes(name, text);
+    const auto grid_text = [&s] {
+        return fmt::format("{},{},{}", s.grid.tiles_x, s.grid.tiles_y, s.grid.slices_per_octave);
     };
     OptionBuilder(command, "Device")
         .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, s.device)
@@ -122,19 +129,18 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
         .rest()
         .value({"--max-memory", "SIZE|auto", "auto",
                 "Bound for rendering, e.g. 512M or 4G: pictures that need more are made in bands, "
-                "with the same bits; loading the scene is not bounded; auto: most of what is "
-                "available"},
-               memory)
+                "with the same bits; a scene file's buffers, images and meshes have the "
+                "same bound; auto: most of what is available"},
+               s.max_memory_bytes, parse_bytes)
         .value({"--grid", "X,Y,SLICES_PER_OCTAVE", "16,9,4",
                 "Coarse clusters: tiles across and down, slices for each doubling of depth"},
-               grid)
+               grid, grid_text)
         .value({"--lanes", "auto|1|2|4|8|16", "auto",
                 "Pixels or lights a work-item treats at once; changes no bit of a picture"},
-               lanes)
-        .choice({"--math", "", "exact", "How shading kernels compute"}, s.kernels.math,
-                math_choices())
+               s.kernels.lanes, parse_lanes)
+        .choice({"--math", "", "exact", "How shading kernels compute"}, s.kernels.math)
         .choice({"--light-colors", "", "float", "How shading kernels store lights' colours"},
-                s.kernels.light_colors, light_color_choices());
+                s.kernels.light_colors);
 }
 
 }  // namespace
@@ -149,6 +155,29 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
     OptionBuilder(command, "General")
         .flag("--quiet,-q", options.quiet, "Only warnings and errors on stderr")
         .flag("--verbose,-v", options.verbose, "More on stderr");
+}
+
+void begin_command(const SharedOptions& options, bool compares) {
+    if (options.quiet && options.verbose) {
+        throw UsageError("--quiet and --verbose exclude each other");
+    }
+    if (options.show_error && !compares) {
+        throw UsageError("--show error: needs --reference FILE, which render takes");
+    }
+    set_verbosity(options.quiet     ? Verbosity::quiet
+                  : options.verbose ? Verbosity::verbose
+                                    : Verbosity::normal);
+}
+
+std::vector<std::pair<std::string, std::string>> shared_option_texts(SharedOptions options) {
+    CLI::App command;
+    add_shared_options(command, options);
+    std::vector<std::pair<std::string, std::string>> out;
+    for (CLI::Option* option : command.get_options()) {
+        option->default_str("")->capture_default_str();
+        out.emplace_back(option->get_name(), option->get_default_str());
+    }
+    return out;
 }
 
 }  // namespace kilolux

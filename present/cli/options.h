@@ -21,7 +21,8 @@ struct SharedOptions {
     bool allow_outside_paths = false;  // the file may name buffers and images outside its folder
     RenderSettings settings;
     CameraChoice camera;
-    double time = 0.0;  // [s]
+    double time = 0.0;        // [s]
+    bool show_error = false;  // --show error: the picture's error against --reference
     bool quiet = false;
     bool verbose = false;
 };
@@ -45,6 +46,14 @@ struct OutputOptions {
 
 /// Scene, picture, lights, camera, grid and device options.
 void add_shared_options(CLI::App& command, SharedOptions& options);
+
+/// Sets what is printed. Throws UsageError for shared options that exclude or need each other;
+/// `compares`: the command line has --reference.
+void begin_command(const SharedOptions& options, bool compares = false);
+
+/// Long names and values of the shared options, in their order: what a command line would have to
+/// say for them. A flag's value is "true" or empty.
+std::vector<std::pair<std::string, std::string>> shared_option_texts(SharedOptions options);
 
 /// Output, sequence, statistics and comparison options.
 void add_output_options(CLI::App& command, OutputOptions& options);

@@ -9,23 +9,25 @@
 namespace kilolux {
 namespace {
 
+// The file's name; throws UsageError for an unknown type of picture.
+std::string picture_file(const std::string&, const std::string& text) {
+    image_meaning(text);
+    return text;
+}
+
 void add_encoding_options(CLI::App& command, OutputOptions& o) {
-    const auto output = [&o](const std::string&, const std::string& text) {
-        image_meaning(text);
-        o.output = text;
-    };
-    const auto bits = [&o](const std::string& name, const std::string& text) {
-        o.bits = parse_name(name, text, {"8", "16"}) == 0 ? 8 : 16;
+    const auto bits = [](const std::string& name, const std::string& text) {
+        return parse_name(name, text, {"8", "16"}) == 0 ? 8 : 16;
     };
     OptionBuilder(command, "Output")
         .value({"--output,-o", "FILE", "",
                 "Picture: .exr and .hdr linear, .png .jpg .jpeg .tif .tiff for the eye; a sequence "
                 "has #### for the frame number"},
-               output)
+               o.output, picture_file)
         .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"}, o.stats)
         .rest()
         .flag("--exr-half", o.half_colour, "EXR colour in half precision")
-        .value({"--bits", "8|16", "8", "Bits a channel of PNG and TIFF"}, bits)
+        .value({"--bits", "8|16", "8", "Bits a channel of PNG and TIFF"}, o.bits, bits)
         .text({"--ocio-view", "NAME|none", "the display's",
                "OpenColorIO view of pictures for the eye in place of --tonemap, where the "
                "environment's OCIO names a configuration; none: no OpenColorIO"},
@@ -38,25 +40,16 @@ void add_encoding_options(CLI::App& command, OutputOptions& o) {
 }
 
 void add_sequence_options(CLI::App& command, OutputOptions& o) {
-    const auto frames = [&o](const std::string& name, const std::string& text) {
-        o.frames = parse_frames(name, text);
-    };
-    const auto shard = [&o](const std::string& name, const std::string& text) {
-        o.shard = parse_shard(name, text);
-    };
     OptionBuilder(command, "Sequences")
-        .value({"--frames", "A:B", "", "Frames A to B; frame f is at --time + f / --fps"}, frames)
+        .value({"--frames", "A:B", "", "Frames A to B; frame f is at --time + f / --fps"}, o.frames,
+               parse_frames)
         .number({"--fps", "F", "24", "Frames a second"}, o.frames_per_second, {0.0, 1e6, true})
         .value({"--shard", "I/N", "0/1", "Only every N-th frame, from the I-th on, counted from 0"},
-               shard)
+               o.shard, parse_shard)
         .flag("--skip-existing", o.skip_existing, "Leave out frames whose file exists");
 }
 
 void add_comparison_options(CLI::App& command, OutputOptions& o) {
-    const auto difference = [&o](const std::string&, const std::string& text) {
-        image_meaning(text);
-        o.difference = text;
-    };
     OptionBuilder(command, "Comparison")
         .text({"--reference", "FILE", "", "Compare the picture with this one"}, o.reference)
         .number({"--threshold", "T", "0", "Exit with 3 if the metric is above"}, o.threshold, {0.0})
@@ -65,7 +58,7 @@ void add_comparison_options(CLI::App& command, OutputOptions& o) {
         .value({"--difference", "FILE", "",
                 "Write the difference: .exr holds |picture - reference| a channel, .png a heat "
                 "map, logarithmic from 1e-6 to 1"},
-               difference);
+               o.difference, picture_file);
 }
 
 void check_sequence(const OutputOptions& options) {
@@ -99,7 +92,12 @@ void check_format(const SharedOptions& shared, const OutputOptions& options) {
             "--bits: '{}' cannot hold 16 bits a channel; use .png or .tif, or .exr for light",
             file));
     }
-    if (image_meaning(file) == ImageMeaning::display) uses_ocio(options.ocio);
+    if (image_meaning(file) == ImageMeaning::display) {
+        uses_ocio(options.ocio);
+    } else if (shared.show_error) {
+        throw UsageError(fmt::format(
+            "--show error: '{}' holds light; use .png, .jpg or .tif, or --difference", file));
+    }
 }
 
 }  // namespace
@@ -120,8 +118,6 @@ void check_output_options(const SharedOptions& shared, const OutputOptions& opti
     if (options.reference.empty() && !options.difference.empty()) {
         throw UsageError("--difference: needs --reference FILE");
     }
-    if (shared.quiet && shared.verbose)
-        throw UsageError("--quiet and --verbose exclude each other");
 }
 
 }  // namespace kilolux

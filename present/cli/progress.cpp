@@ -37,7 +37,7 @@ std::string progress_line(const std::string& label, std::size_t done, std::size_
         tail += fmt::format(", {} left", duration(elapsed_s * (1.0 / share - 1.0)));
     }
     const int room = std::min(width - static_cast<int>(head.size() + tail.size()) - 3, 40);
-    // A bar of fewer than eight columns is not worth its place.
+    // A bar of fewer than eight columns shows too little.
     if (room < 8) return (head + tail).substr(0, static_cast<std::size_t>(std::max(width, 0)));
     const auto filled = static_cast<std::size_t>(share * room);
     const auto empty = static_cast<std::size_t>(room) - filled;

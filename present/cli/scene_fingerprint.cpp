@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "host/base/error.h"
+#include "host/scene/gltf/files.h"
 
 namespace kilolux {
 namespace {
@@ -23,34 +22,13 @@ std::string file_line(const fs::path& file) {
     return fmt::format("{} {} {}\n", file.string(), size, time);
 }
 
-// The JSON of a .gltf, or of a .glb's first chunk (glTF 2.0, 4.4); discarded if there is none.
+// The JSON of a .gltf or .glb file; discarded if there is none.
 nlohmann::json document_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    constexpr std::size_t kHeader = 20, kLength = 12;
-    if (text.starts_with("glTF") && text.size() > kHeader) {
-        std::uint32_t length = 0;
-        std::memcpy(&length, text.data() + kLength, sizeof length);
-        text = text.substr(kHeader, length);
+    try {
+        return nlohmann::json::parse(read_gltf_text(file, file.string()).json, nullptr, false);
+    } catch (const Error&) {
+        return nlohmann::json::value_t::discarded;
     }
-    return nlohmann::json::parse(text, nullptr, false);
-}
-
-int hex_digit(char c) {
-    const std::string digits = "0123456789abcdef";
-    const auto place = digits.find(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
-    return place == std::string::npos ? 0 : static_cast<int>(place);
-}
-
-std::string percent_decoded(const std::string& uri) {
-    std::string out;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool code = uri[i] == '%' && i + 2 < uri.size();
-        out +=
-            code ? static_cast<char>(16 * hex_digit(uri[i + 1]) + hex_digit(uri[i + 2])) : uri[i];
-        i += code ? 2 : 0;
-    }
-    return out;
 }
 
 }  // namespace

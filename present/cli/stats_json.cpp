@@ -6,7 +6,6 @@
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/measure/roofline/stage_report.h"
-#include "present/cli/device_list.h"
 
 namespace kilolux {
 namespace {
@@ -54,6 +53,18 @@ std::string text_of(const Json& json, int indent) {
 [[noreturn]] void fail_to_print() { throw Error("standard output: cannot write"); }
 
 }  // namespace
+
+Json device_json(const DeviceInfo& device) {
+    return {{"name", device.name},
+            {"version", device.version},
+            {"driver", device.driver},
+            {"platform", device.platform},
+            {"cpu", device.is_cpu},
+            {"lane_width", device.lane_width},
+            {"compute_units", device.compute_units},
+            {"memory_bytes", device.memory_bytes},
+            {"max_allocation_bytes", device.max_allocation_bytes}};
+}
 
 Json cost_json(const FeatureCost& cost) {
     Json out = {{"name", cost.feature}, {"bytes_per_pixel", cost.bytes_per_pixel}};

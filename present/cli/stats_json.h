@@ -46,6 +46,8 @@ class FrameLog {
     bool empty_ = true;
 };
 
+nlohmann::ordered_json device_json(const DeviceInfo& device);
+
 /// Name, bytes a pixel, and either times or why there are none.
 nlohmann::ordered_json cost_json(const FeatureCost& cost);
 

@@ -2,14 +2,13 @@
 #include "present/commands/bench.h"
 
 #include <cstdio>
-#include <memory>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/stats_json.h"
-#include "present/commands/commands.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -27,18 +26,15 @@ void check(const BenchOptions& o) {
         throw UsageError("--max-error: goes with sweeps, not with --culling, --shade or --tune");
     }
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
-    if (o.shared.quiet && o.shared.verbose) {
-        throw UsageError("--quiet and --verbose exclude each other");
-    }
 }
 
 void run_bench(const BenchOptions& options) {
     check(options);
+    begin_command(options.shared);
     if (!options.tables.empty()) {
         std::fputs(results_text(options.tables).c_str(), stdout);
         return;
     }
-    set_verbosity(verbosity_of(options.shared));
     make_output_folder(options.output);
     if (options.culling) return run_culling(options);
     if (options.shading) return run_shading(options);
@@ -106,11 +102,9 @@ void put_table(const BenchOptions& options, const std::string& name, const Table
 }
 
 void add_bench_command(Program& program) {
-    const auto options = std::make_shared<BenchOptions>();
-    CLI::App& command = program.add_command(
+    program.add_command(
         "bench", "Measure times against the device's limits, over lights, sizes and settings",
-        kExamples, [options] { run_bench(*options); });
-    add_bench_options(command, *options);
+        kExamples, add_bench_options, run_bench);
 }
 
 }  // namespace kilolux

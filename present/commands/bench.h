@@ -61,6 +61,8 @@ std::string command_line();
 
 nlohmann::ordered_json program_json();
 nlohmann::ordered_json tuning_json(const StoredTuning& tuning);
+/// Of tuning_json(): "lanes 8, group_height 4".
+std::string tuning_text(const nlohmann::ordered_json& tuning);
 
 /// What results were measured with: program, device, tuning in force, scene, camera and everything
 /// else that stays the same over a run.

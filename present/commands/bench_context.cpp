@@ -7,7 +7,6 @@
 #include "host/base/version.h"
 #include "host/render/kernel_choice.h"
 #include "present/cli/commit.h"
-#include "present/cli/device_list.h"
 #include "present/cli/names.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
@@ -30,23 +29,22 @@ Json camera_json(const Camera& camera) {
 
 Json settings_json(const SharedOptions& shared) {
     const RenderSettings& s = shared.settings;
-    return {
-        {"light_seed", s.lights.seed},
-        {"light_radius_m", s.lights.radius},
-        {"light_intensity_cd", s.lights.intensity},
-        {"light_box", s.lights.box.empty()
-                          ? Json(nullptr)
-                          : Json{s.lights.box.min.x, s.lights.box.min.y, s.lights.box.min.z,
-                                 s.lights.box.max.x, s.lights.box.max.y, s.lights.box.max.z}},
-        {"shading", name_of(s.shading)},
-        {"ambient", s.ambient},
-        {"math", math_names().at(static_cast<std::size_t>(s.kernels.math))},
-        {"light_colors", light_color_names().at(static_cast<std::size_t>(s.kernels.light_colors))},
-        {"range_budget", s.range_budget},
-        {"samples", s.samples},
-        {"bloom", s.bloom},
-        {"tonemap", name_of(s.tone_curve)},
-        {"time_s", shared.time}};
+    return {{"light_seed", s.lights.seed},
+            {"light_radius_m", s.lights.radius},
+            {"light_intensity_cd", s.lights.intensity},
+            {"light_box", s.lights.box.empty()
+                              ? Json(nullptr)
+                              : Json{s.lights.box.min.x, s.lights.box.min.y, s.lights.box.min.z,
+                                     s.lights.box.max.x, s.lights.box.max.y, s.lights.box.max.z}},
+            {"shading", name_of(s.shading)},
+            {"ambient", s.ambient},
+            {"math", name_of(s.kernels.math)},
+            {"light_colors", name_of(s.kernels.light_colors)},
+            {"range_budget", s.range_budget},
+            {"samples", s.samples},
+            {"bloom", s.bloom},
+            {"tonemap", name_of(s.tone_curve)},
+            {"time_s", shared.time}};
 }
 
 }  // namespace

@@ -59,13 +59,6 @@ Table tuning_table(const TuningResult& result) {
     return table;
 }
 
-std::string tuning_text(const StoredTuning& stored) {
-    std::string text = fmt::format("lanes {}", stored.lanes);
-    for (const TuningParameter& parameter : tuning_parameters())
-        text += fmt::format(", {} {}", parameter.name, stored.tuning.*parameter.value);
-    return text;
-}
-
 }  // namespace
 
 void run_culling(const BenchOptions& options) {
@@ -107,7 +100,7 @@ void run_shading(const BenchOptions& options) {
     std::vector<ShadingMeasurement> measured;
     {
         Progress progress("shading", total, !options.shared.quiet);
-        // Measured now, so that limits and kernels meet the same load.
+        // Measures the limits now: other work on the machine then slows limits and kernels alike.
         const DeviceLimits limits =
             measure_device_limits(Gpu(choose_device(bench.settings.device)));
         measured = measure_shading(bench.settings, limits, runs, [&] {
@@ -124,12 +117,12 @@ void run_tuning(const BenchOptions& options) {
     const TuningResult result =
         tune(lighting, options.frames.value_or(5), [](const StoredTuning& tuning, double ms) {
             check_interrupt();
-            detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning)));
+            detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning_json(tuning))));
         });
     put_table(options, "tuning", tuning_table(result), bench.context);
     store_tuning(lighting.device(), result.best);
-    note(fmt::format("kept    {}: {:.4g} ms, built-in {:.4g} ms", tuning_text(result.best),
-                     result.best_ms, result.start_ms));
+    note(fmt::format("kept    {}: {:.4g} ms, built-in {:.4g} ms",
+                     tuning_text(tuning_json(result.best)), result.best_ms, result.start_ms));
 }
 
 }  // namespace kilolux

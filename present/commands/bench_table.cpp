@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "present/commands/bench.h"
 
 namespace kilolux {
@@ -32,13 +33,6 @@ std::string shared_fields(const std::vector<BenchRow>& rows) {
     return out;
 }
 
-std::string tuning_words(const Json& tuning) {
-    std::string out;
-    for (const auto& [name, value] : tuning.items())
-        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", name, value.dump());
-    return out;
-}
-
 // The command in a line of its own, then what was measured with what.
 std::string context_text(const Json& document, const std::string& fields) {
     const auto word = [&](const char* path) {
@@ -56,7 +50,7 @@ std::string context_text(const Json& document, const std::string& fields) {
         word("/command"), word("/context/device/name"), word("/context/device/driver"),
         word("/context/program/commit"), word("/context/scene/name"), size, fields,
         word("/context/frames/measured"), word("/context/frames/warm_up"),
-        tuning_words(context.at("tuning")));
+        tuning_text(context.at("tuning")));
 }
 
 std::string result_text(const fs::path& csv) {
@@ -77,6 +71,12 @@ std::string result_text(const fs::path& csv) {
 }
 
 }  // namespace
+
+std::string tuning_text(const Json& tuning) {
+    std::vector<std::string> parts;
+    for (const auto& [name, value] : tuning.items()) parts.push_back(name + " " + value.dump());
+    return joined(parts);
+}
 
 fs::path context_file(fs::path csv) { return csv.replace_extension(".context.json"); }
 

@@ -3,19 +3,17 @@
 
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <set>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/suggest.h"
-#include "present/cli/device_list.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
-#include "present/commands/commands.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -140,11 +138,9 @@ void require_all_passed(const std::vector<HardCaseRow>& rows) {
 }
 
 void add_certify_command(Program& program) {
-    const auto options = std::make_shared<CertifyOptions>();
-    CLI::App& command = program.add_command(
-        "certify", "Run the numerically hard cases on a device; exit 3 where one fails", kExamples,
-        [options] { run_certify(*options); });
-    add_certify_options(command, *options);
+    program.add_command("certify",
+                        "Run the numerically hard cases on a device; exit 3 where one fails",
+                        kExamples, add_certify_options, run_certify);
 }
 
 }  // namespace kilolux

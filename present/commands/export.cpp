@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
@@ -15,7 +13,7 @@
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/commands.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -27,9 +25,9 @@ struct ExportOptions {
     fs::path output;
 };
 
-void check_output(const std::string& text) {
+std::string scene_file(const std::string&, const std::string& text) {
     const std::string extension = lower(fs::path(text).extension().string());
-    if (extension == ".glb" || extension == ".gltf") return;
+    if (extension == ".glb" || extension == ".gltf") return text;
     throw UsageError(
         fmt::format("--output: '{}': scene type '{}' is none of .glb, .gltf", text, extension));
 }
@@ -76,7 +74,7 @@ std::string summary(const Scene& scene, const ExportedScene& exported, const fs:
 
 void run_export(const ExportOptions& options) {
     if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o scene.glb");
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared);
     check_can_write(options.output);
     const Scene scene = scene_to_export(options);
     check_interrupt();
@@ -88,6 +86,17 @@ void run_export(const ExportOptions& options) {
     note(summary(scene, exported, options.output));
 }
 
+void add_export_options(CLI::App& command, ExportOptions& options) {
+    add_shared_options(command, options.shared);
+    OptionBuilder(command, "Output")
+        .value({"--output,-o", "FILE", "",
+                "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
+               options.output, scene_file);
+    leave_to_help_all(
+        command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
+                  "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});
+}
+
 constexpr const char* kExamples =
     "  kilolux export -o atrium.glb --lights 1000\n"
     "  kilolux export hall.glb -o hall.gltf --lights 0 --camera-position 0,2,8\n"
@@ -96,22 +105,9 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_export_command(Program& program) {
-    const auto options = std::make_shared<ExportOptions>();
-    CLI::App& command = program.add_command(
-        "export", "Write the scene with all its lights as glTF 2.0, for any other renderer",
-        kExamples, [options] { run_export(*options); });
-    add_shared_options(command, options->shared);
-    const auto output = [options](const std::string&, const std::string& text) {
-        check_output(text);
-        options->output = text;
-    };
-    OptionBuilder(command, "Output")
-        .value({"--output,-o", "FILE", "",
-                "Scene: .glb holds everything, .gltf has its buffer and images beside it"},
-               output);
-    leave_to_help_all(
-        command, {"--renderer", "--samples", "--show", "--aov", "--gbuffer", "--shading",
-                  "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});
+    program.add_command("export",
+                        "Write the scene with all its lights as glTF 2.0, for any other renderer",
+                        kExamples, add_export_options, run_export);
 }
 
 }  // namespace kilolux

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <memory>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -10,14 +9,13 @@
 #include "host/measure/roofline/independent_limits.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/renderer.h"
-#include "present/cli/device_list.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
-#include "present/commands/commands.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -170,7 +168,7 @@ void run_check(const InfoOptions& options) {
 }
 
 void run_info(const InfoOptions& options) {
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared);
     if (options.check_limits) return run_check(options);
     const Json document = info_json(options);
     if (!options.stats.empty()) write_json(options.stats, document);
@@ -179,6 +177,21 @@ void run_info(const InfoOptions& options) {
     std::string text;
     add_lines(text, document, "");
     std::fputs(text.c_str(), stdout);
+}
+
+void add_info_options(CLI::App& command, InfoOptions& options) {
+    add_shared_options(command, options.shared);
+    OptionBuilder(command, "Output")
+        .flag("--json", options.json, "JSON instead of text")
+        .flag("--costs", options.costs,
+              "Measure what each feature that the scene does without would cost on this picture")
+        .flag("--measure-limits", options.measure_limits,
+              "Measure the device's limits again, and keep them")
+        .flag("--check-limits", options.check_limits,
+              "Measure the device's limits again and compare them with C++ loops on a CPU or with "
+              "published peaks of a GPU; exit 3 if they differ by more than a factor of 1.6")
+        .text({"--stats", "FILE", "", "Write the JSON to a file; - for standard output"},
+              options.stats);
 }
 
 constexpr const char* kExamples =
@@ -192,22 +205,9 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_info_command(Program& program) {
-    const auto options = std::make_shared<InfoOptions>();
-    CLI::App& command = program.add_command(
-        "info", "Tell the devices, what the scene holds, and what of the renderer it needs",
-        kExamples, [options] { run_info(*options); });
-    add_shared_options(command, options->shared);
-    OptionBuilder(command, "Output")
-        .flag("--json", options->json, "JSON instead of text")
-        .flag("--costs", options->costs,
-              "Measure what each feature that the scene does without would cost on this picture")
-        .flag("--measure-limits", options->measure_limits,
-              "Measure the device's limits again, and keep them")
-        .flag("--check-limits", options->check_limits,
-              "Measure the device's limits again and compare them with C++ loops on a CPU or with "
-              "published peaks of a GPU; exit 3 if they differ by more than a factor of 1.6")
-        .text({"--stats", "FILE", "", "Write the JSON to a file; - for standard output"},
-              options->stats);
+    program.add_command("info",
+                        "Tell the devices, what the scene holds, and what of the renderer it needs",
+                        kExamples, add_info_options, run_info);
 }
 
 }  // namespace kilolux

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "host/base/atomic_write.h"
@@ -13,14 +12,15 @@
 #include "host/render/renderer.h"
 #include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
+#include "present/cli/option_values.h"
 #include "present/cli/options.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
-#include "present/commands/commands.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
@@ -42,7 +42,7 @@ struct Task {
     fs::path difference;  // empty: none
 };
 
-// The pictures asked for, made one at a time: a sequence may have two thousand million.
+// The pictures asked for, computed one at a time: a sequence may have 2^31 of them.
 class Tasks {
  public:
     explicit Tasks(const RenderOptions& options) : options_(options) {
@@ -60,7 +60,7 @@ class Tasks {
                 frame_file(out.reference, frame), frame_file(out.difference, frame)};
     }
 
-    // A file that is there is whole, so an interrupted sequence goes on where it stopped.
+    // Files are written whole, so an existing one counts as done.
     bool is_done(const Task& task) const {
         return options_.output.skip_existing && fs::exists(task.file);
     }
@@ -88,23 +88,10 @@ bool wants_own_display(const RenderOptions& options) {
     return options.output.bits == 16 || uses_ocio(options.output.ocio);
 }
 
-// What each stage would take at the device's measured limits; measures them once a device.
-class Limits {
- public:
-    explicit Limits(const Renderer& renderer)
-        : limits_(cached_device_limits(Gpu(choose_device(renderer.settings().device)))),
-          setup_(frame_setup(renderer.settings(), renderer.plan(), renderer.device())) {}
-    void fill(FrameStats& stats) const { fill_limits(stats, limits_, setup_); }
-
- private:
-    DeviceLimits limits_;
-    FrameSetup setup_;
-};
-
 ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, const Camera& camera,
                     const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, renderer.device(), record.stats);
-    notes.strings.emplace_back("time", number_text(record.time) + " s");
+    notes.strings.emplace_back("time", text_of(record.time) + " s");
     if (record.comparison) {
         notes.strings.emplace_back("error", comparison_text(*record.comparison));
     }
@@ -119,7 +106,9 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     image.half_colour = out.half_colour;
     image.bits = out.bits;
     if (image_meaning(task.file) == ImageMeaning::display && wants_own_display(options)) {
-        image.display = display_colours(frame, options.shared.settings, out.ocio);
+        image.display = options.shared.show_error
+                            ? display_codes(frame)
+                            : display_colours(frame, options.shared.settings, out.ocio);
     }
     return image;
 }
@@ -133,15 +122,16 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
                                renderer.settings().height);
         reference.emplace(task.reference);
     }
-    const Frame frame = renderer.render(camera, task.time, check_interrupt);
+    Frame frame = renderer.render(camera, task.time, check_interrupt);
     check_interrupt();
     FrameRecord record{task.frame, task.time, task.file.string(), frame.stats, std::nullopt};
     if (reference) {
         record.comparison = reference->compare(frame, out.metric, out.threshold.value_or(0.0));
     }
+    if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
+    if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
     write_image(task.file, frame, notes_of(options, renderer, camera, record),
                 image_options(options, frame, task));
-    if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
     return record;
 }
 
@@ -158,9 +148,10 @@ void add(Made& made, FrameRecord record) {
 Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScene& scene,
                   Renderer& renderer) {
     Made made;
-    std::optional<Limits> limits;
+    // What each stage would take at the device's limits, which are measured once a device.
+    std::optional<DeviceLimits> limits;
     if (!options.output.stats.empty()) {
-        limits.emplace(renderer);
+        limits = cached_device_limits(Gpu(choose_device(renderer.settings().device)));
         if (options.output.frames) made.log.emplace();
     }
     const std::size_t first = tasks.first_to_do();
@@ -172,7 +163,10 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
             scene.set_time(task.time);
             const Camera camera = choose_camera(options.shared.camera, scene.scene());
             FrameRecord record = render_task(options, renderer, camera, task);
-            if (limits) limits->fill(record.stats);
+            if (limits) {
+                fill_limits(record.stats, *limits,
+                            frame_setup(renderer.settings(), renderer.plan(), renderer.device()));
+            }
             add(made, std::move(record));
         }
         progress.advance();
@@ -180,7 +174,7 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
     return made;
 }
 
-// Asks before the work what would fail after it.
+// Checks before rendering what would fail after it.
 void check_files(const RenderOptions& options, const Tasks& tasks, const Task& first) {
     const OutputOptions& out = options.output;
     check_can_write(first.file);
@@ -218,7 +212,7 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
 void run_render(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared, !out.reference.empty());
     const Tasks tasks(options);
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");
@@ -242,6 +236,12 @@ void run_render(const RenderOptions& options) {
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }
 
+void add_render_options(CLI::App& command, RenderOptions& options) {
+    add_shared_options(command, options.shared);
+    add_output_options(command, options.output);
+    add_budget_options(command, options.budget);
+}
+
 constexpr const char* kExamples =
     "  kilolux render -o atrium.png\n"
     "  kilolux render -o atrium.exr --lights 100000 --aov depth,normal,light-count\n"
@@ -253,13 +253,8 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_render_command(Program& program) {
-    const auto options = std::make_shared<RenderOptions>();
-    CLI::App& command =
-        program.add_command("render", "Render a scene to an image file or a sequence of them",
-                            kExamples, [options] { run_render(*options); });
-    add_shared_options(command, options->shared);
-    add_output_options(command, options->output);
-    add_budget_options(command, options->budget);
+    program.add_command("render", "Render a scene to an image file or a sequence of them",
+                        kExamples, add_render_options, run_render);
 }
 
 }  // namespace kilolux

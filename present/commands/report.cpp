@@ -1,26 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/commands/report.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 
+#include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
+#include "host/base/log.h"
+#include "host/measure/bench/plot.h"
+#include "host/measure/report/error_sheets.h"
+#include "host/measure/report/run.h"
 #include "host/measure/report/tables.h"
+#include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
-#include "present/commands/commands.h"
+#include "present/image/image_file.h"
+#include "present/program.h"
 
 namespace kilolux {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+struct ReportOptions {
+    SharedOptions shared;
+    std::optional<int> warm_up;
+    std::optional<int> frames;
+    std::filesystem::path output;   // folder; empty: the table on standard output only
+    std::vector<std::string> axes;  // by axis_name(); empty: all
+    bool json = false;
+    bool quick = false;
+    BudgetOptions budget;
+};
+
+struct Report {
+    nlohmann::ordered_json context;
+    std::string caption;  // scene, lights, sizes, device, for pictures
+    std::vector<ReportRow> rows;
+};
 
 BenchFrames report_frames(const ReportOptions& options) {
     return {options.warm_up.value_or(options.quick ? 1 : 2),
@@ -58,11 +81,73 @@ std::string caption_of(const SharedOptions& shared, const DeviceInfo& device,
                        s.lights.count, s.width, s.height, width, height, device.name);
 }
 
-void run_report(const ReportOptions& options) {
-    if (options.shared.quiet && options.shared.verbose) {
-        throw UsageError("--quiet and --verbose exclude each other");
+// "gbuffer half" -> "gbuffer_half".
+std::string file_stem(std::string name) {
+    for (char& c : name) {
+        if (c == ' ' || c == ',' || c == '/') c = '_';
     }
-    set_verbosity(verbosity_of(options.shared));
+    return name;
+}
+
+void write_canvas(const fs::path& file, Canvas canvas) {
+    Frame frame;
+    frame.width = canvas.width;
+    frame.height = canvas.height;
+    frame.display = std::move(canvas.rgba);
+    write_image(file, frame);
+}
+
+void write_errors(const fs::path& folder, const Report& report, const ReportRow& row,
+                  ReportRun& run) {
+    const auto references = run.references().all(run.at_error_size(row.setting.settings));
+    const std::string file = file_stem(row.setting.name) + ".png";
+    write_canvas(folder / "worst" / file, worst_pixel_sheet(row, references, report.caption));
+    write_canvas(folder / "errors" / file, error_map_sheet(row, references, report.caption));
+}
+
+// The summary with its notes: report.md.
+std::string report_text(const Report& report) {
+    return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows);
+}
+
+// The document of --json and report.json.
+Json report_json(const Report& report) {
+    return {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
+}
+
+// Writes report.csv, report.json, report.md, the plots, and the pictures of errors and worst pixels
+// to the folder of -o.
+void write_report(const ReportOptions& options, const Report& report, ReportRun& run) {
+    const fs::path& folder = options.output;
+    write_atomically(folder / "report.csv", to_csv(report_table(report.rows)));
+    write_atomically(folder / "report.md", report_text(report));
+    write_json((folder / "report.json").string(), report_json(report));
+    write_plot(surfaces_plot(report.rows, report.caption), folder / "time_against_error");
+    write_plot(unbounded_plot(report.rows, report.caption),
+               folder / "time_against_unbounded_error");
+    make_output_folder(folder / "worst");
+    make_output_folder(folder / "errors");
+    for (const ReportRow& row : report.rows) {
+        check_interrupt();
+        write_errors(folder, report, row, run);
+    }
+    note("wrote   " + folder.string());
+}
+
+// The values of --quick, unless the command line gives others.
+void apply_quick(const CLI::App& command, ReportOptions& options) {
+    if (!options.quick) return;
+    RenderSettings& s = options.shared.settings;
+    if (!is_given(command, "--resolution")) {
+        s.width = 480;
+        s.height = 270;
+    }
+    if (!is_given(command, "--lights")) s.lights.count = 1000;
+}
+
+void run_report(ReportOptions& options, const CLI::App& command) {
+    apply_quick(command, options);
+    begin_command(options.shared);
     make_output_folder(options.output);
     const SharedOptions& shared = options.shared;
     const Scene scene = open_scene(shared);
@@ -86,15 +171,21 @@ void run_report(const ReportOptions& options) {
     choose_from_rows(shared, options.budget, view, report.rows);
 }
 
-// The values of --quick, unless the command line gives others.
-void apply_quick(const CLI::App& command, ReportOptions& options) {
-    if (!options.quick) return;
-    RenderSettings& s = options.shared.settings;
-    if (command.get_option("--resolution")->count() == 0) {
-        s.width = 480;
-        s.height = 270;
-    }
-    if (command.get_option("--lights")->count() == 0) s.lights.count = 1000;
+void add_report_options(CLI::App& command, ReportOptions& options) {
+    add_shared_options(command, options.shared);
+    OptionBuilder(command, "Measuring and output")
+        .flag("--quick", options.quick,
+              "480x270 pixels, 1000 lights, fewer settings and frames: about a minute")
+        .choice_list({"--axes", "", "all", "What settings may differ in"}, options.axes,
+                     setting_axis_names())
+        .count({"--warm-up", "N", "2", "Frames before the measured ones, in each of two rounds"},
+               options.warm_up, {0, 1'000'000})
+        .count({"--frames", "N", "20", "Measured frames; fewer of slow settings"}, options.frames,
+               {1, 1'000'000})
+        .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
+              options.output)
+        .flag("--json", options.json, "JSON instead of a table on standard output");
+    add_budget_options(command, options.budget);
 }
 
 constexpr const char* kExamples =
@@ -106,15 +197,9 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_report_command(Program& program) {
-    const auto options = std::make_shared<ReportOptions>();
-    const auto command = std::make_shared<CLI::App*>(nullptr);
-    *command = &program.add_command(
+    program.add_command(
         "report", "Measure speed against error of every setting that trades one for the other",
-        kExamples, [options, command] {
-            apply_quick(**command, *options);
-            run_report(*options);
-        });
-    add_report_options(**command, *options);
+        kExamples, add_report_options, run_report);
 }
 
 }  // namespace kilolux

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
@@ -9,8 +8,8 @@
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
-#include "present/commands/commands.h"
 #include "present/image/image_file.h"
+#include "present/program.h"
 #include "present/window/app/session.h"
 #include "present/window/app/state_file.h"
 
@@ -25,23 +24,20 @@ struct ViewOptions {
     bool fresh = false;
 };
 
-// What the window was left with, and over it what the command line says.
+// The kept state, with the values of the command line in place of the kept ones.
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file) {
     ViewState state;
     state.settings = options.shared.settings;
     state.settings.want.aovs.clear();
     state.settings.want.probes = true;
-    const auto is_given = [&command](const std::string& name) {
-        const CLI::Option* option = command.get_option_no_throw(name);
-        return option != nullptr && option->count() > 0;
-    };
-    if (is_given("--resolution")) {
+    if (is_given(command, "--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
-    return file.load(state, is_given);
+    return file.load(state,
+                     [&command](const std::string& name) { return is_given(command, name); });
 }
 
-// Asks at the beginning what would fail at the end.
+// Checks before the window opens what would fail when it closes.
 void check_files(const ViewOptions& options) {
     if (options.screenshot.empty()) return;
     if (image_meaning(options.screenshot) == ImageMeaning::linear) {
@@ -52,7 +48,7 @@ void check_files(const ViewOptions& options) {
 }
 
 void run_view(const ViewOptions& options, const CLI::App& command) {
-    set_verbosity(verbosity_of(options.shared));
+    begin_command(options.shared);
     check_files(options);
     SessionOptions session;
     session.shared = options.shared;
@@ -70,9 +66,25 @@ void run_view(const ViewOptions& options, const CLI::App& command) {
     ViewSession view(scene, session, file, window, context);
     view.run();
     if (view.stop()) return;
-    // All files are written. The end of a long kernel or compilation is not waited for.
+    // All files are written; the process does not wait for a long kernel or compilation.
     std::fflush(nullptr);
     std::_Exit(0);
+}
+
+void add_view_options(CLI::App& command, ViewOptions& options) {
+    add_shared_options(command, options.shared);
+    leave_to_help_all(command, {"--aov"});
+    OptionBuilder(command, "Window")
+        .flag("--fresh", options.fresh,
+              "Begin with the defaults instead of the last window's settings; keep nothing")
+        .count(
+            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
+            options.exit_after, {1, 1'000'000'000})
+        .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
+              options.screenshot)
+        .text({"--script", "FILE", "",
+               "Replay user input, one step per line, then leave; see present/window/README.md"},
+              options.script);
 }
 
 constexpr const char* kExamples =
@@ -83,25 +95,8 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_view_command(Program& program) {
-    const auto options = std::make_shared<ViewOptions>();
-    const auto self = std::make_shared<const CLI::App*>(nullptr);
-    CLI::App& command =
-        program.add_command("view", "Show a scene in a window and fly through it", kExamples,
-                            [options, self] { run_view(*options, **self); });
-    *self = &command;
-    add_shared_options(command, options->shared);
-    leave_to_help_all(command, {"--aov"});
-    OptionBuilder(command, "Window")
-        .flag("--fresh", options->fresh,
-              "Begin with the defaults instead of the last window's settings; keep nothing")
-        .count(
-            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
-            options->exit_after, {1, 1'000'000'000})
-        .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
-              options->screenshot)
-        .text({"--script", "FILE", "",
-               "Replay user input, one step per line, then leave; see present/window/README.md"},
-              options->script);
+    program.add_command("view", "Show a scene in a window and fly through it", kExamples,
+                        add_view_options, run_view);
 }
 
 }  // namespace kilolux

@@ -11,21 +11,11 @@
 #include "host/measure/metrics/flip_hdr.h"
 #include "host/measure/metrics/flip_ldr.h"
 #include "host/measure/metrics/metrics.h"
-#include "host/picture/view_canvas.h"
+#include "present/image/display_picture.h"
 #include "present/image/image_file.h"
 
 namespace kilolux {
 namespace {
-
-// Display codes as read_image() gives those of a file.
-std::vector<float> display_colour(const Frame& frame) {
-    std::vector<float> colour;
-    colour.reserve(frame.display.size() / 4 * 3);
-    for (std::size_t i = 0; i < frame.display.size(); ++i) {
-        if (i % 4 != 3) colour.push_back(static_cast<float>(frame.display[i]) / 255.0f);
-    }
-    return colour;
-}
 
 RgbImage linear_of_display(RgbImage image) {
     for (double& value : image.rgb) value = srgb_to_linear(value);
@@ -38,10 +28,6 @@ double flip_of(const RgbImage& picture, const RgbImage& reference, bool linear) 
 }
 
 }  // namespace
-
-std::vector<std::string> metric_names() {
-    return {"rmse", "mean", "max", "max-relative", "relmse", "different-pixels", "flip"};
-}
 
 Reference::Reference(std::filesystem::path file)
     : file_(std::move(file)), linear_(image_meaning(file_) == ImageMeaning::linear) {
@@ -57,8 +43,7 @@ void require_reference_size(const std::filesystem::path& file, int width, int he
 }
 
 RgbImage Reference::comparable(const Frame& frame) const {
-    return rgb_image_of(frame.width, frame.height,
-                        linear_ ? frame.radiance : display_colour(frame));
+    return rgb_image_of(frame.width, frame.height, linear_ ? frame.radiance : display_codes(frame));
 }
 
 Comparison Reference::compare(const Frame& frame, const std::string& metric,
@@ -77,26 +62,42 @@ Comparison Reference::compare(const Frame& frame, const std::string& metric,
     return out;
 }
 
+Canvas Reference::error_map(const Frame& frame) const {
+    const auto relative = pixel_errors(comparable(frame), colour_, &colour_);
+    return kilolux::error_map(relative, {frame.width, frame.height, frame.width, frame.height});
+}
+
 Frame Reference::difference(const Frame& frame) const {
     const RgbImage picture = comparable(frame);
     Frame out;
     out.width = frame.width;
     out.height = frame.height;
-    Canvas map = make_canvas(frame.width, frame.height);
     const HeatScale scale{1e-6, 1.0, true, "DIFFERENCE"};
-    for (std::size_t pixel = 0; pixel < picture.pixel_count(); ++pixel) {
-        double largest = 0.0;
-        for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
-            const double error = std::abs(picture.rgb[i] - colour_.rgb[i]);
-            out.radiance.push_back(static_cast<float>(error));
-            largest = std::max(largest, std::isnan(error) ? scale.high : error);
-        }
-        const int place = static_cast<int>(pixel);
-        map.set(place % frame.width, place / frame.width, heat_color(position_on(scale, largest)));
+    std::vector<double> largest(picture.pixel_count(), 0.0);
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+        const double error = std::abs(picture.rgb[i] - colour_.rgb[i]);
+        out.radiance.push_back(static_cast<float>(error));
+        largest[i / 3] = std::max(largest[i / 3], std::isnan(error) ? scale.high : error);
     }
+    Canvas map = heat_map(largest, frame.width, frame.height, scale);
     draw_legend(map, scale);
     out.display = std::move(map.rgba);
     return out;
+}
+
+Canvas error_map(std::span<const double> relative, const ErrorMapSize& size) {
+    const HeatScale scale{1e-8, 1.0, true, "RELATIVE ERROR"};
+    std::vector<double> values;
+    for (int y = 0; y < size.height; ++y) {
+        const int row = y * size.from_height / size.height;
+        for (int x = 0; x < size.width; ++x) {
+            const int from = row * size.from_width + x * size.from_width / size.width;
+            values.push_back(relative[static_cast<std::size_t>(from)]);
+        }
+    }
+    Canvas map = heat_map(values, size.width, size.height, scale);
+    draw_legend(map, scale);
+    return map;
 }
 
 }  // namespace kilolux

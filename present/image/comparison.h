@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "host/measure/metrics/rgb_image.h"
 #include "host/picture/frame.h"
+#include "host/picture/view_canvas.h"
 
 namespace kilolux {
 
@@ -31,6 +33,9 @@ class Reference {
     /// Throws Error when the sizes differ.
     Comparison compare(const Frame& frame, const std::string& metric, double threshold) const;
 
+    /// The relative error |picture - reference| / |reference| of each pixel's worst channel.
+    Canvas error_map(const Frame& frame) const;
+
     /// The difference as a picture: Frame::radiance is |picture - reference| of each channel,
     /// Frame::display a heat map of each pixel's largest, logarithmic from 1e-6 to 1.
     Frame difference(const Frame& frame) const;
@@ -42,6 +47,13 @@ class Reference {
     bool linear_ = true;
     RgbImage colour_;
 };
+
+/// Relative errors in the heat map's colours, logarithmic from 1e-8 to 1, with its legend: one
+/// value a pixel of a `from_width` x `from_height` picture, magnified to `width` x `height`.
+struct ErrorMapSize {
+    int from_width, from_height, width, height;
+};
+Canvas error_map(std::span<const double> relative, const ErrorMapSize& size);
 
 /// Throws Error unless the picture in `file` is of that size; reads its header only.
 void require_reference_size(const std::filesystem::path& file, int width, int height);

@@ -94,20 +94,21 @@ bool uses_ocio(const OcioOptions& options) {
     return false;
 }
 
+std::vector<float> display_codes(const Frame& frame) {
+    std::vector<float> rgb;
+    rgb.reserve(frame.display.size() / 4 * 3);
+    for (std::size_t i = 0; i < frame.display.size(); ++i) {
+        if (i % 4 != 3) rgb.push_back(static_cast<float>(frame.display[i]) / 255.0f);
+    }
+    return rgb;
+}
+
 std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
                                    const OcioOptions& ocio) {
-    const std::size_t count =
-        static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-    std::vector<float> rgb(3 * count);
-    if (settings.want.view != ViewKind::lit) {
-        for (std::size_t i = 0; i < rgb.size(); ++i) {
-            rgb[i] = static_cast<float>(frame.display[i / 3 * 4 + i % 3]) / 255.0f;
-        }
-        return rgb;
-    }
-    const std::vector<float>& light = frame.bloomed.empty() ? frame.radiance : frame.bloomed;
+    if (settings.want.view != ViewKind::lit) return display_codes(frame);
+    std::vector<float> rgb = frame.bloomed.empty() ? frame.radiance : frame.bloomed;
     const float gain = std::exp2(settings.exposure);
-    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = light[i] * gain;
+    for (float& v : rgb) v *= gain;
     if (uses_ocio(ocio)) {
         for (float& v : rgb) v = displayable(v);
         apply_ocio(rgb, frame, ocio);

@@ -22,6 +22,9 @@ struct OcioOptions {
 /// $OCIO where it is not set.
 bool uses_ocio(const OcioOptions& options);
 
+/// Frame::display as RGB codes from 0 to 1, as read_image() gives those of a file.
+std::vector<float> display_codes(const Frame& frame);
+
 /// The picture as RGB from 0 to 1, encoded for the display: exposure, then OpenColorIO's view or
 /// the tone curve and sRGB. A debug view (settings.want.view) is Frame::display as it is. Throws
 /// Error with OpenColorIO's reason, UsageError for displays, views and spaces that the

@@ -44,7 +44,7 @@ FloatImage read_image(const std::filesystem::path& file) {
         if (!in->read_image(0, 0, begin, end, type, out, stride)) fail(file, in->geterror());
     };
     for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
-        // Floats in runs, ids one by one.
+        // Channels of floats are read in runs, ids one by one.
         end = begin + 1;
         while (!is_id(begin) && end < spec.nchannels && !is_id(end)) ++end;
         const std::vector<std::string> names(spec.channelnames.begin() + begin,

@@ -122,6 +122,18 @@ TEST(AtomicWrite, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
     EXPECT_EQ(folder.names(), (std::set<std::string>{"a"}));
 }
 
+// The first signal; returns when it has been noted.
+void ask_to_end() {
+    kill(getpid(), SIGTERM);
+    while (!interrupt_requested()) usleep(1000);
+}
+
+// The second signal, which kills.
+[[noreturn]] void end_by(int number) {
+    kill(getpid(), number);
+    for (;;) pause();
+}
+
 TEST(Interrupt, TheFirstSignalAsksTheSecondKillsAndRemovesTheUnfinishedFile) {
     const TemporaryFolder folder;
     write_text(folder / "part", "half");
@@ -129,7 +141,7 @@ TEST(Interrupt, TheFirstSignalAsksTheSecondKillsAndRemovesTheUnfinishedFile) {
         catch_signals();
         check_interrupt();
         set_unfinished_file(folder / "part");
-        raise(SIGTERM);
+        ask_to_end();
         bool asked = false;
         try {
             check_interrupt();
@@ -137,7 +149,7 @@ TEST(Interrupt, TheFirstSignalAsksTheSecondKillsAndRemovesTheUnfinishedFile) {
             asked = true;
         }
         if (!asked || !fs::exists(folder / "part")) _exit(51);
-        raise(SIGINT);
+        end_by(SIGINT);
     });
     ASSERT_TRUE(WIFSIGNALED(status)) << "exit code " << WEXITSTATUS(status);
     EXPECT_EQ(WTERMSIG(status), SIGINT);
@@ -173,8 +185,8 @@ TEST(AtomicWrite, LeavesFilesOfOthersAlone) {
         catch_signals();
         write_text(folder / (".kilolux-" + std::to_string(getpid()) + "-0.part"), "theirs");
         AtomicFile file(folder / "a");
-        raise(SIGTERM);
-        raise(SIGTERM);
+        ask_to_end();
+        end_by(SIGTERM);
     });
     EXPECT_EQ(WTERMSIG(status), SIGTERM);
     ASSERT_EQ(folder.names().size(), 1u);
@@ -190,8 +202,8 @@ TEST(Interrupt, TheSecondSignalRemovesOnlyTheFileThatWasNamed) {
         set_unfinished_file(folder / "part");
         fs::rename(folder / "part", folder / "whole");
         write_text(folder / "part", "theirs");
-        raise(SIGTERM);
-        raise(SIGTERM);
+        ask_to_end();
+        end_by(SIGTERM);
     });
     EXPECT_EQ(WTERMSIG(status), SIGTERM);
     EXPECT_EQ(folder.names(), (std::set<std::string>{"part", "whole"}));

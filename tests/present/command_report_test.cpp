@@ -7,9 +7,10 @@
 #include <sstream>
 
 #include "host/measure/bench/row.h"
+#include "host/measure/report/run.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
-#include "present/commands/report.h"
+#include "present/cli/options.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"

@@ -157,19 +157,19 @@ TEST(Options, OutputOptionsArrive) {
 }
 
 TEST(Options, EveryNameIsTakenAndPlacedRight) {
-    const auto renderers = renderer_names();
+    const auto renderers = names_of<RendererKind>();
     for (std::size_t i = 0; i < renderers.size(); ++i) {
         const auto kind = parse("--renderer " + renderers[i]).shared.settings.renderer;
         EXPECT_EQ(static_cast<std::size_t>(kind), i) << renderers[i];
         EXPECT_EQ(name_of(kind), renderers[i]);
     }
-    for (const std::string& name : shading_names()) {
+    for (const std::string& name : names_of<Shading>()) {
         EXPECT_EQ(name_of(parse("--shading " + name).shared.settings.shading), name);
     }
-    for (const std::string& name : tone_curve_names()) {
+    for (const std::string& name : names_of<ToneCurve>()) {
         EXPECT_EQ(name_of(parse("--tonemap " + name).shared.settings.tone_curve), name);
     }
-    const auto layouts = gbuffer_names();
+    const auto layouts = gbuffer_choices().names;
     for (std::size_t i = 0; i < layouts.size(); ++i) {
         EXPECT_EQ(parse("--gbuffer " + layouts[i]).shared.settings.gbuffer, i) << layouts[i];
     }
@@ -190,9 +190,10 @@ TEST(Options, PeoplesWaysToWriteNumbers) {
 
 // --help says of every word what it means; scenes' views come with the renderer.
 TEST(Options, EveryChoiceHasAMeaning) {
-    for (const Choices& choices : {renderer_choices(), shading_choices(), tone_curve_choices(),
-                                   math_choices(), light_color_choices(), gbuffer_choices(),
-                                   aov_choices(), metric_choices(), show_choices()}) {
+    for (const Choices& choices :
+         {choices_of(RendererKind{}), choices_of(Shading{}), choices_of(ToneCurve{}),
+          choices_of(MathMode{}), choices_of(LightColors{}), choices_of(ViewKind{}),
+          gbuffer_choices(), aov_choices(), metric_choices()}) {
         ASSERT_EQ(choices.meanings.size(), choices.names.size()) << choices.names[0];
         for (std::size_t i = 0; i < choices.names.size(); ++i) {
             EXPECT_FALSE(choices.meanings[i].empty()) << choices.names[i];
@@ -262,6 +263,8 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
         {"-o a.png --aov depth", "--aov: 'a.png' cannot hold layers"},
         {"-o a.png --exr-half", "--exr-half: 'a.png' is not an EXR file"},
         {"-o a.png --quiet --verbose", "exclude each other"},
+        {"-o a.png --show error", "--show error: needs --reference FILE"},
+        {"-o a.exr --show error --reference r.png", "holds light"},
         {"-o a.png --shard 0/2", "--shard: needs --frames"},
         {"-o a.png --threshold 0.1", "--threshold: needs --reference FILE"},
         {"-o a.png --difference d.png", "--difference: needs --reference FILE"},
@@ -269,8 +272,10 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
     };
     for (const auto& c : cases) {
         const Parsed p = parse(c.line);
-        const auto message =
-            message_of<UsageError>([&] { check_output_options(p.shared, p.output); });
+        const auto message = message_of<UsageError>([&] {
+            begin_command(p.shared, !p.output.reference.empty());
+            check_output_options(p.shared, p.output);
+        });
         EXPECT_TRUE(contains(message, c.message)) << c.line << ": " << message;
     }
     const Parsed good = parse("-o a.#.exr --frames 1:2 --aov depth --exr-half --shard 0/2");

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -224,6 +226,42 @@ TEST(Render, FourShardsAreOneSequenceOfAnAnimatedScene) {
         EXPECT_NE(read_image(folder / "one.0.exr").values,
                   read_image(folder / ("one." + number + ".exr")).values);
     }
+}
+
+TEST(Render, ShowsTheErrorAgainstAReference) {
+    const TemporaryFolder folder;
+    const auto render = [&](const char* file, std::vector<std::string> more) {
+        return run_kilolux(small_render(folder / file, std::move(more)));
+    };
+    const std::string reference = (folder / "r.exr").string();
+    ASSERT_EQ(render("r.exr", {}).code, 0);
+    const auto shown = [&](const char* file, std::vector<std::string> more) {
+        more.insert(more.end(), {"--show", "error", "--reference", reference});
+        const ChildResult result = render(file, std::move(more));
+        EXPECT_EQ(result.code, 0) << result.err;
+        return read_image(folder / file).values;
+    };
+    const auto equal = shown("equal.png", {"--threshold", "0"});
+    EXPECT_LT(std::ranges::max(equal), 0.02f) << "no error has the map's darkest colour";
+    // Relative errors of 1 and more have the brightest colour of the heat map.
+    const auto far = shown("far.png", {"--ambient", "1000", "--threshold", "1e9"});
+    EXPECT_GT(std::ranges::count_if(far, [](float v) { return v > 0.6f; }), 500);
+    const auto deep =
+        shown("deep.png", {"--ambient", "1000", "--threshold", "1e9", "--bits", "16"});
+    for (std::size_t i = 0; i < far.size(); ++i) ASSERT_NEAR(deep[i], far[i], 1e-4f) << i;
+}
+
+TEST(Render, ShowErrorNeedsAReferenceAndAPictureForTheEye) {
+    const TemporaryFolder folder;
+    const ChildResult alone = run_kilolux(small_render(folder / "a.png", {"--show", "error"}));
+    EXPECT_EQ(alone.code, 2);
+    EXPECT_EQ(alone.err, "kilolux: --show error: needs --reference FILE, which render takes\n");
+    const ChildResult light =
+        run_kilolux(small_render(folder / "a.exr", {"--show", "error", "--reference", "none.exr"}));
+    EXPECT_EQ(light.code, 2);
+    EXPECT_TRUE(contains(light.err, "holds light")) << light.err;
+    EXPECT_EQ(run_kilolux({"info", "grid", "--show", "error"}).code, 2);
+    EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(Render, ASignalEndsASequenceBetweenFrames) {

@@ -18,10 +18,12 @@ TEST(SceneFingerprint, ChangesWithEveryFileOfTheScene) {
     write_text(folder / "s.gltf", json);
     write_text(folder / "a b.bin", "1");
     write_text(folder / "t.png", "1");
-    const std::uint32_t length = static_cast<std::uint32_t>(json.size());
-    write_text(folder / "s.glb", "glTF" + std::string(8, '\0') +
-                                     std::string(reinterpret_cast<const char*>(&length), 4) +
-                                     "JSON" + json);
+    const auto word = [](std::size_t value) {
+        const auto narrow = static_cast<std::uint32_t>(value);
+        return std::string(reinterpret_cast<const char*>(&narrow), 4);
+    };
+    write_text(folder / "s.glb",
+               "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json);
     for (const char* scene : {"s.gltf", "s.glb"}) {
         const std::string path = (folder / scene).string();
         std::set<std::string> seen = {scene_fingerprint(path)};

@@ -74,12 +74,12 @@ TEST(Window, MovesTheCameraByKeysAndMouse) {
 TEST(Window, ShowsThePictureOfEveryRenderer) {
     const TemporaryFolder folder;
     Script script(folder);
-    for (const std::string& name : renderer_names()) {
+    for (const std::string& name : names_of<RendererKind>()) {
         script.line("choose renderer " + name).shot(name);
     }
     play(script);
     ExpectedPicture expected;
-    for (int i = 0; const std::string& name : renderer_names()) {
+    for (int i = 0; const std::string& name : names_of<RendererKind>()) {
         const auto renderer = static_cast<RendererKind>(i++);
         expect_same_picture(folder / (name + ".png"),
                             expected.of([&](RenderSettings& s) { s.renderer = renderer; }));

@@ -10,6 +10,7 @@
 
 #include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
+#include "host/base/text.h"
 #include "host/measure/bench/renderer_names.h"
 #include "kernels/shared/cluster_grid.h"
 
@@ -67,16 +68,6 @@ std::vector<std::uint64_t> piece_values(std::string_view piece) {
 }
 
 }  // namespace
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    while (true) {
-        const std::size_t end = text.find(separator);
-        parts.push_back(text.substr(0, end));
-        if (end == std::string_view::npos) return parts;
-        text.remove_prefix(end + 1);
-    }
-}
 
 std::vector<std::uint64_t> parse_count_sweep(const std::string& option, std::string_view text,
                                              std::uint64_t min, std::uint64_t max) {

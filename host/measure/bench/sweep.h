@@ -20,9 +20,6 @@ namespace kilolux {
 std::vector<std::uint64_t> parse_count_sweep(const std::string& option, std::string_view text,
                                              std::uint64_t min, std::uint64_t max);
 
-/// The pieces of a text between separators; at least one.
-std::vector<std::string_view> split(std::string_view text, char separator);
-
 /// What one measurement of a sweep varies.
 struct SweepPoint {
     RendererKind renderer = RendererKind::deferred;

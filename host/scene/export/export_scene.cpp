@@ -9,6 +9,7 @@
 #include <set>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/scene/export/parts.h"
 #include "host/scene/gltf/parallel.h"
 
@@ -61,12 +62,6 @@ void add_array(Json& root, const char* name, Json array) {
     if (!array.empty()) root[name] = std::move(array);
 }
 
-bool is_glb(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension == ".glb";
-}
-
 void append_word(Bytes& out, std::uint64_t word) {
     for (int shift = 0; shift < 32; shift += 8) {
         out.push_back(static_cast<unsigned char>(word >> shift));
@@ -85,7 +80,9 @@ void append_chunk(Bytes& out, const char* type, std::span<const unsigned char> b
 class Writer {
  public:
     Writer(const Scene& scene, const std::filesystem::path& file)
-        : scene_(scene), stem_(file.stem().string()), binary_(is_glb(file)) {}
+        : scene_(scene),
+          stem_(file.stem().string()),
+          binary_(lower(file.extension().string()) == ".glb") {}
 
     ExportedScene write(const std::filesystem::path& file) {
         const std::vector<int> mesh_of = add_meshes();

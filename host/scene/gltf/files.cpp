@@ -95,23 +95,6 @@ Bytes read_file_bytes(const fs::path& path, const std::string& where) {
     return bytes;
 }
 
-// The text with %XX replaced; a '%' that no two hex digits follow stands for itself.
-std::string percent_decoded(const std::string& text) {
-    std::string out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned value = 0;
-        const char* digits = text.data() + i + 1;
-        if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
-            out += static_cast<char>(value);
-            i += 2;
-        } else {
-            out += text[i];
-        }
-    }
-    return out;
-}
-
 Bytes decode_base64(std::string_view text, const std::string& where) {
     while (!text.empty() && text.back() == '=') text.remove_suffix(1);
     const std::size_t bad = std::min(text.find_first_not_of(kBase64), text.size());
@@ -187,6 +170,22 @@ fs::path path_of_uri(const UriBase& base, const std::string& uri, const std::str
 }
 
 }  // namespace
+
+std::string percent_decoded(const std::string& text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned value = 0;
+        const char* digits = text.data() + i + 1;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+            out += static_cast<char>(value);
+            i += 2;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
 
 std::string shown_uri(const std::string& uri) {
     constexpr std::size_t kLongest = 80;

@@ -34,6 +34,9 @@ struct UriBase {
 /// broken base64.
 Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& where);
 
+/// The text with %XX replaced; a '%' that no two hex digits follow stands for itself.
+std::string percent_decoded(const std::string& text);
+
 /// A URI or another text of the file as an error message may show it: short and without control
 /// characters.
 std::string shown_uri(const std::string& uri);

@@ -34,7 +34,7 @@ CameraRig::CameraRig(const Camera& start, const Box& scene_box)
 void CameraRig::set(const Camera& camera) {
     camera_ = camera;
     const glm::dvec3 middle = box_.empty() ? glm::dvec3(0.0) : box_.center();
-    // In its direction, as far away as the scene's middle; see choose_camera().
+    // The focal point lies ahead at the distance of the scene's middle, as in choose_camera().
     const double reach = std::max(glm::length(middle - camera.position), 1e-3 * radius_);
     focal_ = camera.position - camera.world_from_view[2] * reach;
     unmoved_ = true;
@@ -110,7 +110,7 @@ void CameraRig::orbit(const CameraMotion& motion, double seconds) {
         std::clamp(distance * std::pow(kDistancePerClick, nearer), 1e-4 * radius_, 1e3 * radius_);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, kUp));
     const glm::dvec3 up = glm::cross(right, forward);
-    // What is under the mouse follows it.
+    // A drag over the window's height moves the focal plane by its visible height.
     const double metres = 2.0 * distance * std::tan(0.5 * camera_.y_fov);
     const glm::dvec3 focal = focal_ + metres * (motion.pan.y * up - motion.pan.x * right);
     if (camera_.orthographic) camera_.y_extent *= std::pow(kDistancePerClick, nearer);

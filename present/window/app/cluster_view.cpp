@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/cluster_view.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -67,9 +68,8 @@ void share_row(const LightContribution& share, double total) {
     ImGui::Text("%.2f m", share.range);
     ImGui::TableNextColumn();
     const double part = total > 0.0 ? brightness(share.radiance) / total : 0.0;
-    char text[48];
-    std::snprintf(text, sizeof text, "%.3g", brightness(share.radiance));
-    ImGui::ProgressBar(static_cast<float>(part), {-FLT_MIN, ImGui::GetFontSize()}, text);
+    const std::string text = fmt::format("{:.3g}", brightness(share.radiance));
+    ImGui::ProgressBar(static_cast<float>(part), {-FLT_MIN, ImGui::GetFontSize()}, text.c_str());
 }
 
 void describe_lights(const ProbedPixel& pixel) {
@@ -79,8 +79,7 @@ void describe_lights(const ProbedPixel& pixel) {
         total += brightness(share.radiance);
         reaching += share.distance < share.range ? 1 : 0;
     }
-    fact_line("List", std::to_string(pixel.shares.size()) + " lights, " + std::to_string(reaching) +
-                          " reach the pixel");
+    fact_line("List", fmt::format("{} lights, {} reach the pixel", pixel.shares.size(), reaching));
     if (pixel.shares.empty() || !ImGui::BeginTable("shares", 4)) return;
     ImGui::TableNextRow();
     for (const char* text : {"light", "distance", "range", "adds"}) {
@@ -97,17 +96,13 @@ void describe_lights(const ProbedPixel& pixel) {
 
 void describe_lists(const ProbedPixel& pixel) {
     const PixelProbe& p = pixel.probe;
-    char text[128];
-    std::snprintf(text, sizeof text, "tile %u, %u  slice %u  %u lights", p.tile_x, p.tile_y,
-                  p.slice, p.coarse_count);
-    fact_line("Coarse", text);
+    fact_line("Coarse", fmt::format("tile {}, {}  slice {}  {} lights", p.tile_x, p.tile_y, p.slice,
+                                    p.coarse_count));
     if (p.active) {
         const ActiveCluster& a = *p.active;
-        std::snprintf(text, sizeof text, "slice %u  %u pixels  %.2f x %.2f x %.2f m", a.slice,
-                      a.pixel_count, static_cast<double>(a.max_x - a.min_x),
-                      static_cast<double>(a.max_y - a.min_y),
-                      static_cast<double>(a.max_z - a.min_z));
-        fact_line("Active", text);
+        fact_line("Active", fmt::format("slice {}  {} pixels  {:.2f} x {:.2f} x {:.2f} m", a.slice,
+                                        a.pixel_count, a.max_x - a.min_x, a.max_y - a.min_y,
+                                        a.max_z - a.min_z));
     }
     if (p.has_list) {
         describe_lights(pixel);
@@ -134,30 +129,32 @@ void draw_edges(ImDrawList& draw, const std::array<glm::dvec3, 8>& corners, cons
     }
 }
 
+// World positions of a box whose corner i is corner(x, y, z) in view space, bits 0 to 2 of i.
+template <typename Corner>
+std::array<glm::dvec3, 8> corners_of(const Camera& camera, Corner corner) {
+    std::array<glm::dvec3, 8> corners;
+    for (uint i = 0; i < 8; ++i) corners[i] = to_world(camera, corner(i & 1, i >> 1 & 1, i >> 2));
+    return corners;
+}
+
 std::array<glm::dvec3, 8> active_corners(const ProbedPixel& pixel) {
     const ActiveCluster& a = *pixel.probe.active;
-    std::array<glm::dvec3, 8> corners;
-    for (std::size_t i = 0; i < 8; ++i) {
-        corners[i] = to_world(pixel.camera,
-                              {(i & 1) != 0 ? a.max_x : a.min_x, (i & 2) != 0 ? a.max_y : a.min_y,
-                               (i & 4) != 0 ? a.max_z : a.min_z});
-    }
-    return corners;
+    return corners_of(pixel.camera, [&](uint x, uint y, uint z) {
+        return glm::dvec3(x ? a.max_x : a.min_x, y ? a.max_y : a.min_y, z ? a.max_z : a.min_z);
+    });
 }
 
 std::array<glm::dvec3, 8> coarse_corners(const ProbedPixel& pixel) {
     const PixelProbe& p = pixel.probe;
     const View view = view_of(pixel.camera, pixel.width, pixel.height);
-    std::array<glm::dvec3, 8> corners;
-    for (std::size_t i = 0; i < 8; ++i) {
-        const auto x = static_cast<float>((p.tile_x + (i & 1)) * p.grid.tile_width);
-        const auto y = static_cast<float>((p.tile_y + (i >> 1 & 1)) * p.grid.tile_height);
-        const float z = depth_of_slice(p.grid, p.slice + static_cast<uint>(i >> 2 & 1));
-        const FV3 at = view_position(view, std::min(x, static_cast<float>(pixel.width)),
-                                     std::min(y, static_cast<float>(pixel.height)), z);
-        corners[i] = to_world(pixel.camera, {at.x, at.y, at.z});
-    }
-    return corners;
+    return corners_of(pixel.camera, [&](uint x, uint y, uint z) {
+        const auto right = static_cast<float>((p.tile_x + x) * p.grid.tile_width);
+        const auto down = static_cast<float>((p.tile_y + y) * p.grid.tile_height);
+        const FV3 at = view_position(view, std::min(right, static_cast<float>(pixel.width)),
+                                     std::min(down, static_cast<float>(pixel.height)),
+                                     depth_of_slice(p.grid, p.slice + z));
+        return glm::dvec3(at.x, at.y, at.z);
+    });
 }
 
 }  // namespace
@@ -174,6 +171,12 @@ void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera
     draw.PopClipRect();
 }
 
+std::string pixel_line(const ProbedPixel& pixel) {
+    const std::string place = fmt::format("{},{}  ", pixel.x, pixel.y);
+    if (!pixel.probe.drawn()) return place + "nothing is there";
+    return place + fmt::format("depth {:.2f} m", pixel.probe.surface[SURFACE_DEPTH]);
+}
+
 void describe_probe(const ProbedPixel& pixel, const std::array<float, 2>& corner, float scale) {
     ImGui::SetNextWindowPos({corner[0], corner[1]}, ImGuiCond_Always, {1.0f, 1.0f});
     ImGui::SetNextWindowSize({scale * 400.0f, 0.0f});
@@ -181,20 +184,13 @@ void describe_probe(const ProbedPixel& pixel, const std::array<float, 2>& corner
     ImGui::Begin("probe", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
-    char text[128];
+    fact_line("Pixel", pixel_line(pixel));
     if (pixel.probe.drawn()) {
         const auto& s = pixel.probe.surface;
         const glm::dvec3 world = to_world(
             pixel.camera, {s[SURFACE_POSITION], s[SURFACE_POSITION + 1], s[SURFACE_POSITION + 2]});
-        std::snprintf(text, sizeof text, "%d, %d  depth %.2f m", pixel.x, pixel.y,
-                      static_cast<double>(s[SURFACE_DEPTH]));
-        fact_line("Pixel", text);
-        std::snprintf(text, sizeof text, "%.2f, %.2f, %.2f m", world.x, world.y, world.z);
-        fact_line("Position", text);
+        fact_line("Position", fmt::format("{:.2f}, {:.2f}, {:.2f} m", world.x, world.y, world.z));
         describe_lists(pixel);
-    } else {
-        std::snprintf(text, sizeof text, "%d, %d  nothing is there", pixel.x, pixel.y);
-        fact_line("Pixel", text);
     }
     ImGui::End();
 }
@@ -205,7 +201,7 @@ std::vector<DrawnBox> boxes_of(const FrozenClusters& frozen, uint least) {
     std::vector<DrawnBox> boxes;
     for (const ActiveCluster& c : frozen.clusters) {
         if (c.list_count < least) continue;
-        // From a quarter on: the map's dark end would not be seen.
+        // Starts at a quarter: the dark end of the heat map is invisible over dark pictures.
         const DisplayColor code = heat_color(0.25 + 0.75 * c.list_count / most);
         const glm::vec3 color = glm::vec3(code[0], code[1], code[2]) / 255.0f;
         boxes.push_back(

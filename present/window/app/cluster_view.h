@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/measure/reference/light_contributions.h"
@@ -37,6 +38,9 @@ struct ScreenPlace {
 /// circles, larger where they add more.
 void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
                 const ScreenPlace& place);
+
+/// "59,126  depth 2.50 m", or that nothing was drawn there.
+std::string pixel_line(const ProbedPixel& pixel);
 
 /// A box of text about the pixel: tile, slice, size, and the list's lights. `corner`: its lower
 /// right.

@@ -91,7 +91,7 @@ bool ViewSession::stop() {
 
 void ViewSession::redraw_soon(int frames) { frames_to_draw_ = std::max(frames_to_draw_, frames); }
 
-// How long nothing has to be done unless something happens.
+// How long the loop may sleep while no event comes [s].
 double ViewSession::wait_seconds() {
     if (script_) return script_->is_settling() ? 0.01 : 0.0;
     if (is_resting()) return kIdleSeconds;
@@ -113,7 +113,7 @@ void ViewSession::wait() {
         keep_state();
     }
     clock_ += frame_seconds_;
-    // A key that has just been pressed has not moved the camera while nothing happened.
+    // After a long wait: a key that ended it has been held for one frame at most.
     if (seconds == kIdleSeconds) frame_seconds_ = std::min(frame_seconds_, kFrameSeconds);
     if (woken_.exchange(false)) redraw_soon();
     fade_notice();
@@ -125,7 +125,7 @@ void ViewSession::notify(const std::string& text) {
     notice_until_ = clock_ + kNoticeSeconds;
 }
 
-// In its last second.
+// The notice fades during its last second.
 void ViewSession::fade_notice() {
     if (facts_.notice.empty()) return;
     const double left = notice_until_ - clock_;
@@ -139,7 +139,7 @@ void ViewSession::remember_size() {
     state_.window_size = {std::max(size[0], kSmallestKept), std::max(size[1], kSmallestKept)};
 }
 
-// Changes that last are written: neither a lost display nor a crash loses them.
+// Writes a change that has lasted kKeepSeconds, so that a crash does not lose it.
 void ViewSession::keep_state() {
     if (clock_ < next_keep_) return;
     next_keep_ = clock_ + kKeepSeconds;
@@ -178,12 +178,12 @@ void ViewSession::take_results() {
 }
 
 void ViewSession::fail(const std::string& what) {
-    // A person reads it and goes on; a script cannot.
+    // A script ends with the message; without one the window shows it.
     if (script_) throw Error(what);
     facts_.failure = what;
 }
 
-// Nobody looks at it, and nobody waits for it.
+// Minimised, and no script or --exit-after waits for pictures.
 bool ViewSession::is_resting() const {
     return window_.is_minimised() && !script_ && options_.exit_after == 0;
 }

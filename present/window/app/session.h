@@ -33,11 +33,6 @@ struct SessionOptions {
     std::filesystem::path screenshot;  // written at the end; empty: none
 };
 
-/// A rectangle of the framebuffer [pixel], from the upper left.
-struct Area {
-    int x = 0, y = 0, width = 0, height = 0;
-};
-
 /// The window: input changes the state and the camera, the worker renders what they describe, and
 /// every frame shows the latest picture with the panel beside it.
 class ViewSession {
@@ -89,7 +84,7 @@ class ViewSession {
         std::future<Picture> picture;
     };
     PictureRequest wanted() const;
-    PictureRequest wanted_whole() const;
+    PictureRequest wanted(double scale) const;  // of the picture's edges
     bool is_moving() const;
     bool is_resting() const;
     bool renders_always() const;
@@ -104,7 +99,7 @@ class ViewSession {
     void fail(const std::string& what);
     template <typename T, typename Take>
     bool take(std::future<T>& future, Take take);
-    Area picture_area() const;
+    BoxTarget picture_area() const;
     float panel_width() const;
 
     // Drawing.
@@ -159,7 +154,7 @@ class ViewSession {
     bool show_help_ = false;
     bool full_screen_ = false;
 
-    // Valid while asked for.
+    // Each is valid while its task runs.
     std::future<DeviceLimits> limits_;
     std::future<std::optional<ProbedPixel>> probing_;
     std::future<FrozenClusters> freezing_;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <cstring>
 
 #include "host/base/error.h"
-#include "host/picture/view_canvas.h"
 #include "present/cli/frame_summary.h"
+#include "present/image/comparison.h"
 #include "present/image/image_file.h"
 #include "present/window/app/command_text.h"
 #include "present/window/app/session.h"
@@ -18,26 +19,9 @@ namespace fs = std::filesystem;
 // The first of kilolux-001, kilolux-002, ... that does not exist.
 fs::path free_file(const std::string& extension) {
     for (int i = 1;; ++i) {
-        char name[32];
-        std::snprintf(name, sizeof name, "kilolux-%03d", i);
-        fs::path file = name + extension;
+        fs::path file = fmt::format("kilolux-{:03}{}", i, extension);
         if (!fs::exists(file)) return file;
     }
-}
-
-// A heat map of relative errors at the picture's size, with its legend.
-Canvas error_picture(const FrameError& error, int width, int height) {
-    const HeatScale scale{1e-8, 1.0, true, "RELATIVE ERROR"};
-    Canvas canvas = make_canvas(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const int from = y * error.height / height * error.width + x * error.width / width;
-            const double value = error.relative.at(static_cast<std::size_t>(from));
-            canvas.set(x, y, heat_color(position_on(scale, value)));
-        }
-    }
-    draw_legend(canvas, scale);
-    return canvas;
 }
 
 }  // namespace
@@ -60,7 +44,8 @@ void ViewSession::measure_error() {
 
 void ViewSession::take_error(FrameError error) {
     const RenderSettings& measured = error_of_->settings;
-    const Canvas canvas = error_picture(error, measured.width, measured.height);
+    const Canvas canvas =
+        error_map(error.relative, {error.width, error.height, measured.width, measured.height});
     error_map_ = make_texture(GL_TEXTURE_2D);
     glTextureStorage2D(error_map_.name(), 1, GL_RGBA8, canvas.width, canvas.height);
     glTextureParameteri(error_map_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -107,13 +92,13 @@ void ViewSession::copy(const std::string& text) {
 
 std::string ViewSession::command() const {
     SharedOptions options = options_.shared;
-    options.settings = wanted_whole().settings;
+    options.settings = wanted(1.0).settings;
     options.time = time_;
     return render_command(rig_, options, scene_);
 }
 
 void ViewSession::save_picture(const std::string& extension) {
-    const PictureRequest request = wanted_whole();
+    const PictureRequest request = wanted(1.0);
     SharedOptions shared = options_.shared;
     shared.settings = request.settings;
     const auto save = [request, shared, extension](Renderer& renderer) {

@@ -15,7 +15,7 @@ ScreenPlace ViewSession::picture_place() const {
     return {panel_width(), 0.0f, static_cast<float>(size[0]), static_cast<float>(size[1])};
 }
 
-// Once for each pixel that the mouse comes to in each picture.
+// Asks once for each pixel under the mouse and each picture.
 void ViewSession::ask_probe() {
     if (!state_.probe || !drawn_ || probing_.valid()) return;
     const ScreenPlace place = picture_place();
@@ -37,7 +37,7 @@ void ViewSession::ask_probe() {
     probing_ = worker_->ask([x, y, drawn = *drawn_](Renderer& renderer) {
         const RenderSettings& s = renderer.settings();
         std::optional<ProbedPixel> out;
-        // Another picture may have been made since, as by a measurement.
+        // The renderer may have made another picture since, e.g. for a measurement of errors.
         if (s.width != drawn.settings.width || s.height != drawn.settings.height) return out;
         out = ProbedPixel{x, y, s.width, s.height, drawn.camera, renderer.probe(x, y), {}};
         const auto shading = static_cast<Shading>(renderer.plan().kernels.shading + 1);
@@ -58,7 +58,7 @@ void ViewSession::ask_clusters() {
     });
 }
 
-// What cannot be looked at is switched off.
+// Switches the probe or the freeze off when its task failed.
 void ViewSession::take_clusters() {
     state_.probe &=
         take(probing_, [this](std::optional<ProbedPixel> pixel) { probed_ = std::move(pixel); });
@@ -99,9 +99,7 @@ void ViewSession::show_boxes() {
 }
 
 void ViewSession::paint_boxes() const {
-    if (!drawn_) return;
-    const Area area = picture_area();
-    boxes_->draw(drawn_->camera, {area.x, 0, area.width, area.height});
+    if (drawn_) boxes_->draw(drawn_->camera, picture_area());
 }
 
 void ViewSession::describe_picture() {

@@ -59,7 +59,8 @@ Settled ViewSession::settled() const {
     return shown && !busy ? Settled::yes : Settled::not_yet;
 }
 
-Area ViewSession::picture_area() const {
+// In the framebuffer, from its lower left.
+BoxTarget ViewSession::picture_area() const {
     const auto size = window_.size();
     const auto pixels = window_.framebuffer();
     const double ratio = size[0] > 0 ? static_cast<double>(pixels[0]) / size[0] : 1.0;
@@ -68,25 +69,19 @@ Area ViewSession::picture_area() const {
 }
 
 PictureRequest ViewSession::wanted() const {
+    return wanted(state_.adaptive ? scale_.scale(is_moving()) : state_.fixed_scale);
+}
+
+PictureRequest ViewSession::wanted(double scale) const {
     PictureRequest out;
     out.settings = state_.settings;
-    const double scale = state_.adaptive ? scale_.scale(is_moving()) : state_.fixed_scale;
-    const Area area = picture_area();
+    const BoxTarget area = picture_area();
     out.settings.width = std::max(static_cast<int>(scale * area.width), kSmallestEdge);
     out.settings.height = std::max(static_cast<int>(scale * area.height), kSmallestEdge);
     if (state_.frozen) out.settings.want.aovs = {"depth"};
     out.camera = rig_.camera();
     out.time = time_;
     return out;
-}
-
-// As wanted(), in full size.
-PictureRequest ViewSession::wanted_whole() const {
-    PictureRequest request = wanted();
-    const Area area = picture_area();
-    request.settings.width = std::max(area.width, kSmallestEdge);
-    request.settings.height = std::max(area.height, kSmallestEdge);
-    return request;
 }
 
 void ViewSession::request_picture() {
@@ -109,7 +104,7 @@ void ViewSession::request_picture() {
     pending_.push_back({*slot, next, worker_->render(next)});
 }
 
-// False: it is still being made.
+// Returns false while the picture is being made.
 bool ViewSession::take_picture(PendingPicture& pending) {
     if (!is_ready(pending.picture)) return false;
     redraw_soon();
@@ -132,7 +127,7 @@ void ViewSession::show_picture(const PendingPicture& pending, Picture picture) {
         limits_ =
             worker_->ask([](Renderer& renderer) { return cached_device_limits(renderer.gpu()); });
     }
-    const Area area = picture_area();
+    const BoxTarget area = picture_area();
     facts_.scale = area.width > 0 ? static_cast<double>(drawn.width) / area.width : 1.0;
     facts_.width = drawn.width;
     facts_.height = drawn.height;
@@ -152,7 +147,7 @@ void ViewSession::show_picture(const PendingPicture& pending, Picture picture) {
     ++shown_;
 }
 
-// The map belongs to the picture that was measured.
+// The map is shown only while the window still wants the picture that was measured.
 bool ViewSession::shows_error() const {
     return state_.error_map && error_map_ && error_of_ && same_content(*error_of_, wanted());
 }

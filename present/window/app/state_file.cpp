@@ -11,7 +11,7 @@
 #include "host/base/log.h"
 #include "host/picture/views.h"
 #include "present/cli/names.h"
-#include "present/cli/setting_ranges.h"
+#include "present/cli/option_values.h"
 
 namespace kilolux {
 namespace {
@@ -73,12 +73,12 @@ struct Reader {
 
 template <typename Visitor>
 void visit_picture(Visitor& v, RenderSettings& s) {
-    v.choice("renderer", "--renderer", s.renderer, renderer_names());
-    v.choice("shading", "--shading", s.shading, shading_names());
-    v.choice("gbuffer", "--gbuffer", s.gbuffer, gbuffer_names());
+    v.choice("renderer", "--renderer", s.renderer, names_of<RendererKind>());
+    v.choice("shading", "--shading", s.shading, names_of<Shading>());
+    v.choice("gbuffer", "--gbuffer", s.gbuffer, gbuffer_choices().names);
     v.choice("show", "--show", s.want.view, view_names());
     v.number("exposure", "--exposure", s.exposure, kExposureRange);
-    v.choice("tonemap", "--tonemap", s.tone_curve, tone_curve_names());
+    v.choice("tonemap", "--tonemap", s.tone_curve, names_of<ToneCurve>());
     v.number("bloom", "--bloom", s.bloom, kBloomRange);
     v.number("ambient", "--ambient", s.ambient, kAmbientRange);
     v.number("samples", "--samples", s.samples, kSamplesRange);

@@ -33,7 +33,7 @@ void set_hints(bool visible) {
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     if (visible) glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    // In full screen it stays visible while a window on another monitor has the focus.
+    // Keeps a full-screen window visible when a window on another monitor gets the focus.
     glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
 }
 

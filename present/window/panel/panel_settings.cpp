@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <cmath>
@@ -10,13 +11,6 @@
 
 namespace kilolux {
 namespace {
-
-template <typename Enum>
-void enum_choice(Widgets& ui, const char* label, Enum& value,
-                 const std::vector<std::string>& names) {
-    int index = static_cast<int>(value);
-    if (ui.choice(label, index, names)) value = static_cast<Enum>(index);
-}
 
 // A slider and a box for a value that is automatic at 0.
 void automatic_slider(Widgets& ui, const char* label, double& value, double automatic,
@@ -36,13 +30,12 @@ void automatic_slider(Widgets& ui, const char* label, double& value, double auto
 void Panel::picture() const {
     if (!ui.section("Picture", true)) return;
     RenderSettings& s = state.settings;
-    enum_choice(ui, "Renderer", s.renderer, renderer_names());
-    enum_choice(ui, "Shading", s.shading, shading_names());
-    int layout = static_cast<int>(s.gbuffer);
-    if (ui.choice("G-buffer", layout, gbuffer_names())) s.gbuffer = static_cast<uint>(layout);
-    enum_choice(ui, "Show", s.want.view, view_names());
+    ui.choice("Renderer", s.renderer, names_of<RendererKind>());
+    ui.choice("Shading", s.shading, names_of<Shading>());
+    ui.choice("G-buffer", s.gbuffer, gbuffer_choices().names);
+    ui.choice("Show", s.want.view, view_names());
     ui.slider("Exposure", s.exposure, {-8.0, 8.0, false, "%+.1f EV"});
-    enum_choice(ui, "Tone map", s.tone_curve, tone_curve_names());
+    ui.choice("Tone map", s.tone_curve, names_of<ToneCurve>());
     ui.slider("Bloom", s.bloom, {0.0, 1.0, false, "%.2f"});
     ui.slider("Ambient", s.ambient, {0.0, 1.0, false, "%.3f"});
     ui.slider("Samples", s.samples, {1, 16, false, "%.0f"});
@@ -90,9 +83,7 @@ void Panel::clusters() const {
 
 void Panel::camera(const CameraRig& rig) const {
     if (!ui.section("Camera", false)) return;
-    int mode = static_cast<int>(state.camera_mode);
-    if (ui.choice("Mode", mode, {"fly", "orbit"}))
-        state.camera_mode = static_cast<CameraMode>(mode);
+    ui.choice("Mode", state.camera_mode, {"fly", "orbit"});
     if (!facts.scene.cameras.empty()) {
         std::vector<std::string> names = {"-"};
         for (std::size_t i = 0; i < facts.scene.cameras.size(); ++i) {
@@ -102,12 +93,9 @@ void Panel::camera(const CameraRig& rig) const {
         int chosen = 0;
         if (ui.choice("Go to", chosen, names) && chosen > 0) actions.scene_camera = chosen - 1;
     }
-    char text[96];
     const glm::dvec3& p = rig.camera().position;
-    std::snprintf(text, sizeof text, "%.2f, %.2f, %.2f m", p.x, p.y, p.z);
-    fact_line("Position", text);
-    std::snprintf(text, sizeof text, "%.3g m/s", rig.speed());
-    fact_line("Fly speed", text);
+    fact_line("Position", fmt::format("{:.2f}, {:.2f}, {:.2f} m", p.x, p.y, p.z));
+    fact_line("Fly speed", fmt::format("{:.3g} m/s", rig.speed()));
     actions.reset_camera |= ui.button("Reset");
     ImGui::SameLine();
     actions.frame_scene |= ui.button("Frame");

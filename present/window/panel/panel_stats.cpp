@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
 
+#include "host/base/text.h"
 #include "present/window/panel/panel.h"
 
 namespace kilolux {
 namespace {
 
-std::string fixed(double value, int digits) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
+std::string fixed(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 
 void cell(const std::string& text) {
     ImGui::TableNextColumn();
@@ -70,6 +68,51 @@ void stage_table(const PanelFacts& facts, const std::vector<StageReport>& report
     ImGui::EndTable();
 }
 
+struct ErrorLine {
+    const char* name;
+    double (*value)(const ReferenceError& error);
+};
+
+constexpr ErrorLine kErrorLines[] = {
+    {"max relative", [](const ReferenceError& e) { return e.hdr.relative.max; }},
+    {"99.9 % below", [](const ReferenceError& e) { return e.hdr.relative.percentile_99_9; }},
+    {"mean relative", [](const ReferenceError& e) { return e.hdr.relative.mean; }},
+    {"RMSE", [](const ReferenceError& e) { return e.hdr.rmse; }},
+    {"FLIP, mean", [](const ReferenceError& e) { return e.flip_mean; }},
+    {"FLIP, max", [](const ReferenceError& e) { return e.flip_max; }}};
+
+void error_table(const FrameError& error) {
+    if (!ImGui::BeginTable("error", 3)) return;
+    ImGui::TableNextRow();
+    for (const char* text : {"against float64", "kernels", "with G-buffer"}) {
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", text);
+    }
+    const auto cell = [](double value) {
+        ImGui::TableNextColumn();
+        if (value == 0.0) {
+            ImGui::TextUnformatted("0");
+        } else {
+            ImGui::Text("%.2e", value);
+        }
+    };
+    for (const ErrorLine& line : kErrorLines) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(line.name);
+        if (error.kernels) {
+            cell(line.value(*error.kernels));
+        } else {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted("-");
+        }
+        cell(line.value(error.whole));
+    }
+    ImGui::EndTable();
+    ImGui::TextDisabled("%d x %d pixels, %.1f lights reach one", error.width, error.height,
+                        error.lights_per_pixel);
+}
+
 std::string lights_text(const FrameStats& s) {
     std::string out = short_count(s.lights_used) + " used";
     if (s.lights_rejected > 0) out += ", " + std::to_string(s.lights_rejected) + " rejected";
@@ -86,20 +129,11 @@ void count_lines(const FrameStats& s) {
         fact_line("A pixel", text);
     }
     if (s.grid[2] == 0) return;
-    fact_line("Grid", std::to_string(s.grid[0]) + " x " + std::to_string(s.grid[1]) + " x " +
-                          std::to_string(s.grid[2]));
-    if (s.coarse_pairs > 0) {
-        fact_line("Coarse pairs", short_count(s.coarse_pairs));
-    }
+    fact_line("Grid", fmt::format("{}", fmt::join(s.grid, " x ")));
+    if (s.coarse_pairs > 0) fact_line("Coarse pairs", short_count(s.coarse_pairs));
     if (s.active_clusters == 0) return;
     fact_line("Active", short_count(s.active_clusters) + " clusters, " +
                             short_count(s.refined_pairs) + " pairs");
-}
-
-std::string list_of(const std::vector<std::string>& words) {
-    std::string out;
-    for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-    return out.empty() ? "nothing" : out;
 }
 
 void wrapped(const char* name, const std::string& text) {
@@ -155,19 +189,35 @@ void Panel::speed() const {
                             byte_text(facts.process_bytes) + " process");
 }
 
+void Panel::error() const {
+    if (!ui.section("Error", false)) return;
+    if (facts.measuring) {
+        ImGui::ProgressBar(facts.error_share, {-FLT_MIN, 0.0f}, "float64 reference");
+    } else {
+        actions.measure_error |= ui.button("Measure error", true);
+        ui.tip("Compares this picture, at a reduced size, with float64 and every light");
+    }
+    if (!facts.error) return;
+    error_table(*facts.error);
+    ui.checkbox("Error map", state.error_map);
+    ui.tip("Shows each pixel's relative error, until camera, lights or settings change");
+}
+
 void Panel::device() const {
     if (!ui.section("Device and scene", false)) return;
     const DeviceInfo& d = facts.device;
-    wrapped("OpenCL", d.name + ", " + d.version + ", " + std::to_string(d.compute_units) +
-                          " units, " + std::to_string(d.lane_width) + " lanes");
+    wrapped("OpenCL", fmt::format("{}, {}, {} units, {} lanes", d.name, d.version, d.compute_units,
+                                  d.lane_width));
     wrapped("OpenGL", facts.opengl);
     wrapped("Picture to the window", facts.picture_way);
-    wrapped("Scene", facts.scene.name + ", " + short_count(facts.triangles) + " triangles, " +
-                         std::to_string(facts.scene.instances.size()) + " instances, " +
-                         std::to_string(facts.scene.materials.size()) + " materials");
-    wrapped("Compiled in", list_of(facts.plan.features));
-    wrapped("Left out", list_of(facts.plan.left_out));
-    wrapped("G-buffer", std::to_string(facts.plan.gbuffer_bytes_per_pixel) + " bytes per pixel");
+    wrapped("Scene", fmt::format("{}, {} triangles, {} instances, {} materials", facts.scene.name,
+                                 short_count(facts.triangles), facts.scene.instances.size(),
+                                 facts.scene.materials.size()));
+    for (const auto& [name, features] : {std::pair("Compiled in", facts.plan.features),
+                                         std::pair("Left out", facts.plan.left_out)}) {
+        wrapped(name, features.empty() ? "nothing" : joined(features));
+    }
+    wrapped("G-buffer", fmt::format("{} bytes per pixel", facts.plan.gbuffer_bytes_per_pixel));
 }
 
 }  // namespace kilolux

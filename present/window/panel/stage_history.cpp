@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/panel/stage_history.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 namespace kilolux {
@@ -19,7 +19,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-// A round number at or above.
+// The least 1, 2 or 5 times a power of ten that is not below `value`.
 double round_up(double value) {
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     for (const double step : {1.0, 2.0, 5.0}) {
@@ -114,11 +114,10 @@ void draw_stage_history(const StageHistory& history, float height) {
             y -= rise;
         }
     }
-    char text[32];
-    std::snprintf(text, sizeof text, "%g ms", top);
     draw.AddLine({origin.x, origin.y + 0.5f * height}, {origin.x + width, origin.y + 0.5f * height},
                  0x30ffffff);
-    draw.AddText({origin.x + 5.0f, origin.y + 3.0f}, 0xc0ffffff, text);
+    draw.AddText({origin.x + 5.0f, origin.y + 3.0f}, 0xc0ffffff,
+                 fmt::format("{:g} ms", top).c_str());
 }
 
 }  // namespace kilolux

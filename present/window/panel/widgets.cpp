@@ -5,16 +5,12 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+
+#include "host/base/text.h"
 
 namespace kilolux {
 namespace {
-
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 std::string hidden(const char* label) { return std::string("##") + label; }
 
@@ -92,9 +88,9 @@ bool Widgets::slide(const char* text, double& value, const SliderRange& range, c
     return changed;
 }
 
-bool Widgets::choice(const char* text, int& value, const std::vector<std::string>& names) {
+bool Widgets::choose(const char* text, std::size_t& value, const std::vector<std::string>& names) {
     label(text);
-    const auto chosen = static_cast<std::size_t>(value);
+    const std::size_t chosen = value;
     const bool open = ImGui::BeginCombo(hidden(text).c_str(), names.at(chosen).c_str(),
                                         ImGuiComboFlags_HeightLargest);
     if (!open) {
@@ -106,18 +102,10 @@ bool Widgets::choice(const char* text, int& value, const std::vector<std::string
         const bool clicked = ImGui::Selectable(names[i].c_str(), i == chosen);
         note(std::string(text) + " " + names[i]).visible = true;
         if (!clicked) continue;
-        value = static_cast<int>(i);
+        value = i;
         changed = i != chosen;
     }
     ImGui::EndCombo();
-    return changed;
-}
-
-bool Widgets::choice(const char* text, std::string& value, const std::vector<std::string>& names) {
-    const auto found = std::find(names.begin(), names.end(), value);
-    int index = found == names.end() ? 0 : static_cast<int>(found - names.begin());
-    const bool changed = choice(text, index, names);
-    if (changed) value = names.at(static_cast<std::size_t>(index));
     return changed;
 }
 

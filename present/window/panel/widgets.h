@@ -54,8 +54,14 @@ class Widgets {
         value = static_cast<T>(std::is_integral_v<T> ? std::round(wide) : wide);
         return true;
     }
-    bool choice(const char* label, int& value, const std::vector<std::string>& names);
-    bool choice(const char* label, std::string& value, const std::vector<std::string>& names);
+    /// `value`: the place of the chosen name, as a number or enumeration.
+    template <typename T>
+    bool choice(const char* label, T& value, const std::vector<std::string>& names) {
+        auto place = static_cast<std::size_t>(value);
+        if (!choose(label, place, names)) return false;
+        value = static_cast<T>(place);
+        return true;
+    }
     /// Shown while the mouse is on the previous widget.
     void tip(const char* text) const;
 
@@ -63,6 +69,7 @@ class Widgets {
     std::vector<std::string> names() const;
 
  private:
+    bool choose(const char* label, std::size_t& value, const std::vector<std::string>& names);
     bool slide(const char* label, double& value, const SliderRange& range, const char* beside);
     void label(const char* text, const char* beside = "") const;
     WidgetPlace& note(const std::string& name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/script/script.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -38,9 +40,8 @@ void check_step(const ScriptStep& step) {
     }
     const std::size_t count = step.words.size() - 1;
     if (count >= found->second.least && count <= found->second.most) return;
-    throw UsageError(step.place + ": '" + name + "' with " + std::to_string(count) +
-                     " words after it; it takes " + std::to_string(found->second.least) +
-                     " or more");
+    throw UsageError(fmt::format("{}: '{}' with {} words after it; it takes {} or more", step.place,
+                                 name, count, found->second.least));
 }
 
 }  // namespace

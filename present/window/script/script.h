@@ -59,6 +59,7 @@ class ScriptPlayer {
     void begin_widget(const ScriptStep& step);
     void add_key(const std::string& name, double seconds);
     void add_press(int button, int action, int modifiers = 0);
+    void add_reach(const std::string& widget, int modifiers = 0);
     void add_click(const std::string& widget, int modifiers = 0);
     void add_slide(const std::string& widget, double value);
     void add_value(const std::string& widget, const std::string& text);

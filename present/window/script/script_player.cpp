@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "host/base/error.h"
@@ -137,7 +137,7 @@ void ScriptPlayer::begin_widget(const ScriptStep& step) {
         add_click(phrase(step, 1));
         add_click(phrase(step, 0));
     } else {
-        // Dragging reaches only the values of whole pixels: the exact one is typed.
+        // A drag reaches the value to within a pixel; typing it then sets it exactly.
         if (name == "slide") add_slide(phrase(step, 1), number(step, step.words.size() - 1));
         add_value(phrase(step, 1), step.words.back());
     }
@@ -184,31 +184,32 @@ void ScriptPlayer::add_press(int button, int action, int modifiers) {
     add_wait(1);
 }
 
-void ScriptPlayer::add_click(const std::string& widget, int modifiers) {
-    const int key = GLFW_KEY_LEFT_CONTROL;
+// Brings the mouse to the middle of a widget, and presses Ctrl where `modifiers` has it.
+void ScriptPlayer::add_reach(const std::string& widget, int modifiers) {
     actions_.push_back([this, widget] { return reach(widget); });
     actions_.push_back([this, widget, modifiers] {
         move_to(place_of(widget).middle_x(), place_of(widget).middle_y());
-        if (modifiers != 0) stage_.window.post(KeyEvent{key, 0, GLFW_PRESS, modifiers});
+        if (modifiers != 0) {
+            stage_.window.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_PRESS, modifiers});
+        }
         return true;
     });
     add_wait(1);
+}
+
+void ScriptPlayer::add_click(const std::string& widget, int modifiers) {
+    add_reach(widget, modifiers);
     add_press(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS, modifiers);
     add_press(GLFW_MOUSE_BUTTON_LEFT, GLFW_RELEASE, modifiers);
     if (modifiers == 0) return;
     actions_.push_back([this] {
-        stage_.window.post(KeyEvent{key, 0, GLFW_RELEASE, 0});
+        stage_.window.post(KeyEvent{GLFW_KEY_LEFT_CONTROL, 0, GLFW_RELEASE, 0});
         return true;
     });
 }
 
 void ScriptPlayer::add_slide(const std::string& widget, double value) {
-    actions_.push_back([this, widget] { return reach(widget); });
-    actions_.push_back([this, widget] {
-        move_to(place_of(widget).middle_x(), place_of(widget).middle_y());
-        return true;
-    });
-    add_wait(1);
+    add_reach(widget);
     add_press(GLFW_MOUSE_BUTTON_LEFT, GLFW_PRESS);
     for (int i = 1; i <= kDragFrames; ++i) {
         const double t = static_cast<double>(i) / kDragFrames;
@@ -228,9 +229,8 @@ void ScriptPlayer::add_value(const std::string& widget, const std::string& text)
         const std::optional<SliderRange>& range = place_of(widget).slider;
         if (!range) throw Error(place_ + ": '" + widget + "' is not a slider");
         if (value >= range->low && value <= range->high) return true;
-        char ends[64];
-        std::snprintf(ends, sizeof ends, "%.10g to %.10g", range->low, range->high);
-        throw Error(place_ + ": " + text + " is not on the slider '" + widget + "', " + ends);
+        throw Error(fmt::format("{}: {} is not on the slider '{}', {:.10g} to {:.10g}", place_,
+                                text, widget, range->low, range->high));
     });
     add_click(widget, GLFW_MOD_CONTROL);
     add_wait(1);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// --help, and the completion of options in shells.
 #pragma once
 
+#include <CLI/App.hpp>
 #include <CLI/Formatter.hpp>
 #include <string>
 
@@ -13,5 +15,9 @@ class HelpFormat : public CLI::Formatter {
     std::string make_help(const CLI::App* app, std::string name,
                           CLI::AppFormatMode mode) const override;
 };
+
+/// A bash script that completes commands, options, and values that are names or files, made from
+/// the program's own tree of options.
+std::string bash_completion(const CLI::App& program);
 
 }  // namespace kilolux
