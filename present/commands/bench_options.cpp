@@ -3,6 +3,7 @@
 
 #include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
+#include "host/base/text.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"
 #include "present/commands/bench.h"

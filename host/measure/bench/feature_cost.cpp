@@ -18,8 +18,7 @@ ScenePlan plan_with(const LightingBench& bench, const std::string& feature) {
 }
 
 bool is_forceable(const std::string& feature) {
-    const std::vector<std::string>& names = forceable_features();
-    return std::find(names.begin(), names.end(), feature) != names.end();
+    return std::ranges::count(forceable_features(), feature) > 0;
 }
 
 void measure_cost(LightingBench& bench, int runs, FeatureCost& cost) {

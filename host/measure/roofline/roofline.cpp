@@ -199,7 +199,7 @@ constexpr Model kModels[] = {
 
 // Work that fits the cache moves at the cache's rates.
 double bytes_seconds(const StageWork& work, const DeviceLimits& limits) {
-    const double bytes = work.bytes_read + work.bytes_written;
+    const double bytes = work.bytes();
     const bool cached = bytes <= limits.cache_bytes;
     const double read = cached ? limits.cached_read_bandwidth : limits.read_bandwidth;
     const double write = cached ? limits.cached_write_bandwidth : limits.write_bandwidth;

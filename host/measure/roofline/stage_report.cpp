@@ -29,7 +29,7 @@ std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimi
             report.limit_ms = limit.ms;
             report.ratio = stage.ms > 0.0 ? limit.ms / stage.ms : 0.0;
             report.bound = bound_name(limit.bound);
-            report.bytes = work->bytes_read + work->bytes_written + work->bytes_uploaded;
+            report.bytes = work->bytes() + work->bytes_uploaded;
             report.gigabytes_per_s = giga_rate(report.bytes, stage.ms);
         }
         report.evaluations = evaluations_of(stage.name, counts);
