@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a light adds at a point, and sums over many of them.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/half.h"
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -77,7 +78,7 @@ void check_sum(Findings& findings, const Gpu& gpu, const LightingCase& input) {
     const Worst worst = error_against_r1(input, result);
     findings.at_most(
         "|x-r|/E / ((72 + k/64) u)",
-        Worst{worst.value / bound, worst.checked, std::to_string(input.lights.size()) + " lights"},
+        Worst{worst.value / bound, worst.checked, fmt::format("{} lights", input.lights.size())},
         1.0);
     if (input.lights.size() == 1000000) findings.report("|x-r|/E of 1e6 lights", worst.value);
     if (input.lights.size() == 1000) findings.report("|x-r|/E of 1000 lights", worst.value);
@@ -116,7 +117,7 @@ void check_lobe(Findings& findings, const Gpu& gpu, int shading, double roughnes
     const DeviceResult result = light_on_device(gpu, input);
     const ReferencePicture r1 = r1_picture(input, result);
     const double peak = *std::max_element(r1.radiance.rgb.begin(), r1.radiance.rgb.end());
-    const auto place = [&] { return "roughness " + std::to_string(roughness); };
+    const auto place = [&] { return fmt::format("roughness {:f}", roughness); };
     Worst worst;
     Worst above;
     std::size_t i = 0;

@@ -91,8 +91,19 @@ std::uint64_t count_lit(const std::vector<float>& values);
 /// Values that are NaN, infinite or negative.
 std::uint64_t count_invalid(const std::vector<float>& values);
 
+/// The largest of `error(x, y)` over the pixels that show a surface.
+template <typename Error>
+Worst worst_of_drawn(const LightingCase& input, Error&& error) {
+    Worst worst;
+    for_each_drawn(input,
+                   [&](uint x, uint y) { worst.see(error(x, y), [&] { return at_pixel(x, y); }); });
+    return worst;
+}
+
 /// Floats of two pictures whose bits differ; sizes must be equal.
 Worst different_bits(const std::vector<float>& a, const std::vector<float>& b);
+void check_same_bits(Findings& findings, std::string_view what, const std::vector<float>& a,
+                     const std::vector<float>& b);
 
 /// "exact": radiance by lists has the bits of radiance by every light, and background is 0.
 void check_exact(Findings& findings, const LightingCase& input, const DeviceResult& result);

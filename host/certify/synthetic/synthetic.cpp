@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kBackground = std::numeric_limits<double>::quiet_NaN();
 
-glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
-
 float4 row_of(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0f};
 }

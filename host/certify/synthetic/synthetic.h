@@ -12,6 +12,8 @@
 
 namespace kilolux {
 
+inline glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
+
 /// A camera by its lens; make_view() computes the coefficients.
 struct ViewShape {
     uint width = 64;

@@ -7,6 +7,7 @@
 
 #include "host/measure/metrics/compensated_sum.h"
 #include "host/measure/reference/reference_brdf.h"
+#include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
 namespace {
@@ -120,6 +121,14 @@ RowCount shade_row(int y, const SurfaceSamples& surfaces, const ReferenceLights&
 }
 
 }  // namespace
+
+Shading shading_of(const KernelFeatures& kernels) {
+    // Shading has `automatic` before the models.
+    static_assert(static_cast<int>(Shading::lambert) == SHADING_LAMBERT + 1 &&
+                  static_cast<int>(Shading::blinn_phong) == SHADING_BLINN_PHONG + 1 &&
+                  static_cast<int>(Shading::pbr) == SHADING_PBR + 1);
+    return static_cast<Shading>(kernels.shading + 1);
+}
 
 ReferencePicture shade_reference(const SurfaceSamples& surfaces, const ReferenceLights& lights,
                                  const ReferenceOptions& options) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/gpu/features.h"
 #include "host/measure/metrics/parallel_rows.h"
 #include "host/measure/metrics/rgb_image.h"
 #include "host/measure/reference/reference_lights.h"
@@ -15,6 +16,9 @@ namespace kilolux {
 /// How far (d/range)^2 must be below 1 for a light to reach a pixel in any rounding: 80 roundings
 /// of float32; the kernels make about ten.
 inline constexpr double kReachMargin = 1e-5;
+
+/// What the kernels compute, as a setting that is not automatic.
+Shading shading_of(const KernelFeatures& kernels);
 
 /// The model of a reference picture.
 struct ReferenceOptions {
