@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -118,6 +119,12 @@ fs::path with_extension(const fs::path& stem, const char* extension) {
 }
 
 }  // namespace
+
+std::vector<PlotPoint>& series_of(Plot& plot, const std::string& name, PlotStyle style) {
+    auto found = std::ranges::find(plot.series, name, &PlotSeries::name);
+    if (found == plot.series.end()) found = plot.series.insert(found, {name, {}, style});
+    return found->points;
+}
 
 PlotFiles write_plot(const Plot& plot, const fs::path& stem) {
     const Plot ready = drawable(plot);

@@ -49,13 +49,6 @@ std::string curve_name(const SweepPoint& point, const std::vector<std::string>& 
     return name;
 }
 
-// Appends to the curve of that name.
-void add_point(Plot& plot, const std::string& curve, PlotPoint point) {
-    auto found = std::ranges::find(plot.series, curve, &PlotSeries::name);
-    if (found == plot.series.end()) found = plot.series.insert(found, PlotSeries{curve, {}});
-    found->points.push_back(std::move(point));
-}
-
 // Keeps curves of two points or more, sorted by x; whether there is one.
 bool finish(Plot& plot) {
     std::erase_if(plot.series, [](const PlotSeries& s) { return s.points.size() < 2; });
@@ -107,9 +100,9 @@ Plot time_plot(const Axis& axis, const Curves& curves) {
             continue;
         const std::string name = curve_name(row.point, curves.varying, axis.field);
         const bool labelled = axis.labelled && row.stage == kFrameStage;
-        add_point(plot, row.stage + (name.empty() ? "" : ", " + name),
-                  {axis.x(row.point), row.ms.median,
-                   labelled ? field_text(row.point, axis.field) : "", row.ms.p5, row.ms.p95});
+        series_of(plot, row.stage + (name.empty() ? "" : ", " + name))
+            .push_back({axis.x(row.point), row.ms.median,
+                        labelled ? field_text(row.point, axis.field) : "", row.ms.p5, row.ms.p95});
     }
     return plot;
 }
@@ -135,8 +128,8 @@ Plot speed_up_plot(const Curves& curves) {
         if (row.stage != kFrameStage || row.point.renderer == RendererKind::deferred_all) continue;
         const BenchRow* naive = naive_row(row, curves.rows);
         if (!naive || row.ms.median <= 0.0) continue;
-        add_point(plot, curve_name(row.point, curves.varying, "lights"),
-                  {static_cast<double>(row.point.lights), naive->ms.median / row.ms.median});
+        series_of(plot, curve_name(row.point, curves.varying, "lights"))
+            .push_back({static_cast<double>(row.point.lights), naive->ms.median / row.ms.median});
     }
     return plot;
 }

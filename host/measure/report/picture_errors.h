@@ -13,6 +13,10 @@
 
 namespace kilolux {
 
+/// The sRGB codes, 4 per pixel, opaque, that the renderer would show for a linear picture without
+/// bloom: exposure, tone curve, IEC 61966-2-1 rounded to the nearest code.
+std::vector<std::uint8_t> display_codes(const RgbImage& image, float exposure_ev, ToneCurve curve);
+
 /// A float64 reference, linear and as displayed.
 struct ComparedReference {
     ReferencePicture picture;
