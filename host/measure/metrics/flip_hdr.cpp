@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/metrics/flip_hdr.h"
+#include "host/measure/metrics/flip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ RgbImage flip_tone_map(const RgbImage& image, double exposure_ev) {
 }
 
 FlipResult flip_hdr(const RgbImage& picture, const RgbImage& reference, double pixels_per_degree) {
-    require_same_size("HDR-FLIP", picture.width, picture.height, reference.width, reference.height);
+    require_same_size("HDR-FLIP", picture, reference);
     const FlipExposures exposures = flip_exposures(reference);
     const double step = (exposures.stop - exposures.start) / (exposures.count - 1);
     FlipResult out{.width = picture.width, .height = picture.height, .errors = {}, .error = {}};

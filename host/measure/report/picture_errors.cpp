@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host/base/srgb.h"
-#include "host/measure/metrics/flip_hdr.h"
+#include "host/measure/metrics/flip.h"
 #include "host/measure/metrics/ssim.h"
 #include "kernels/shared/tone_curve.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/measure/metrics/flip_ldr.h"
+#include "host/measure/metrics/flip.h"
 #include "host/measure/metrics/metrics.h"
 #include "host/measure/reference/reference.h"
 #include "host/picture/frame.h"
