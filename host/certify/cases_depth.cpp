@@ -16,7 +16,7 @@
 namespace kilolux {
 namespace {
 
-// --- 1 ---
+// Case 1, slice-boundaries.
 
 constexpr std::string_view kSliceHeaders[] = {"kernels/device/lanes.h",
                                               "kernels/shared/cluster_grid.h"};
@@ -86,7 +86,7 @@ void compare_slices(Findings& findings, std::string_view what, const std::vector
     findings.at_most(what, different, 0.0);
 }
 
-// --- 2, 3 ---
+// Cases 2, far-over-near, and 3, beyond-the-grid.
 
 double tile_noise(uint x, uint y) {
     const uint h = (x / FINE_TILE * 73u + y / FINE_TILE * 151u + 7u) * 2654435761u;

@@ -80,7 +80,7 @@ void remove_near_lights(const Gpu& gpu, LightingCase& input, double least) {
     });
 }
 
-// --- mirror ---
+// Case M5, mirror.
 
 std::vector<SurfaceSample> random_surfaces(uint width, uint height) {
     std::vector<SurfaceSample> surfaces;

@@ -19,7 +19,7 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// --- 15 ---
+// Case 15, bad-numbers.
 
 SceneLight usual_light(Random& random, const Box& box) {
     SceneLight light;
@@ -117,7 +117,7 @@ Frame render_first_camera(const Scene& scene, const RenderSettings& settings) {
     return Renderer(scene, settings).render(camera_of(scene.cameras.front()), 0.0);
 }
 
-// --- 24 ---
+// Case 24, degenerate-surfaces.
 
 enum class Quad { usual, zero_normal, short_normal, long_normal, sliver, no_area };
 
@@ -146,7 +146,7 @@ Scene broken_scene(bool mended) {
     return scene;
 }
 
-// --- 19 ---
+// Case 19, far-from-origin.
 
 template <typename Vector>
 Vector to_multiple(const Vector& v) {

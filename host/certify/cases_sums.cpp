@@ -38,7 +38,7 @@ LightingCase near_lights_case(int shading) {
     return input;
 }
 
-// --- 14 ---
+// Case 14, half-overflow.
 
 LightingCase overlapping_case(int shading, double intensity) {
     std::vector<SurfaceSample> surfaces;
@@ -55,7 +55,7 @@ LightingCase overlapping_case(int shading, double intensity) {
     return input;
 }
 
-// --- 18 ---
+// Case 18, long-sums.
 
 // Lights all around a point; intensities from e^-6 to e^6.
 std::vector<Light> lights_of_all_sizes(uint count) {
@@ -93,7 +93,7 @@ LightingCase sum_case(uint count) {
     return input;
 }
 
-// --- 22 ---
+// Case 22, narrow-lobes.
 
 // Normals that sweep away from the half vector by up to `widths` widths of the lobe; eye and light
 // straight above.

@@ -18,7 +18,7 @@
 namespace kilolux {
 namespace {
 
-// --- 6, 7 ---
+// Cases 6, orthographic, and 7, off-centre.
 
 Camera parallel_camera(double near, double far) {
     Camera camera;
@@ -74,7 +74,7 @@ Worst oblique_depth_error(const LightingCase& input, const DeviceResult& result,
     });
 }
 
-// --- 8 ---
+// Case 8, infinite-far.
 
 void render_background(const Gpu& gpu, Findings& findings) {
     const Scene scene = make_generated_scene("plain");
@@ -108,7 +108,7 @@ void render_background(const Gpu& gpu, Findings& findings) {
     findings.tried("drawn pixels", frame.aovs[0].values.size() - background, 100);
 }
 
-// --- 9: writes and reads past the end of a buffer ---
+// Case 9, odd-sizes: writes and reads past the end of a buffer.
 
 constexpr uint kGuard = 0x7fc12345u;  // a NaN
 

@@ -104,15 +104,15 @@ Worst different_bits(const std::vector<float>& a, const std::vector<float>& b);
 void check_same_bits(Findings& findings, std::string_view what, const std::vector<float>& a,
                      const std::vector<float>& b);
 
-/// "exact": radiance by lists has the bits of radiance by every light, and background is 0.
+/// Checks that radiance by lists has the bits of radiance by every light, and background is 0.
 void check_exact(Findings& findings, const LightingCase& input, const DeviceResult& result);
 
-/// "conservative": of `pixel_limit` drawn pixels, no light with float64 distance below its range is
+/// Checks that of `pixel_limit` drawn pixels, no light with float64 distance below its range is
 /// missing from the pixel's list. Returns how many (pixel, light) pairs reach.
 std::uint64_t check_none_missing(Findings& findings, const LightingCase& input,
                                  const DeviceResult& result, std::size_t pixel_limit = 400);
 
-/// Both, with at least `least_pairs` pairs that reach. Returns the result.
+/// Both checks, with at least `least_pairs` pairs that reach. Returns the result.
 DeviceResult check_lists(Findings& findings, const Gpu& gpu, const LightingCase& input,
                          std::uint64_t least_pairs = 1000);
 

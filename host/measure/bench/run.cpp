@@ -92,7 +92,7 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
         frame_ms_.emplace_back(point, measured.back().frame_ms);
         std::copy_n(measured.back().grid, 3, grid_.begin());
         if (is_forward(point.renderer)) {
-            // Counted by a pass that the frames in the sweep do not pay for.
+            // A further pass counts, which the timed frames leave out.
             RenderSettings counted = settings;
             counted.want.counts = true;
             renderer.change(counted);

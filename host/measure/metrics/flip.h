@@ -31,8 +31,8 @@ FlipResult flip_ldr(const RgbImage& picture, const RgbImage& reference,
 
 /// The exposures at which HDR-FLIP compares.
 struct FlipExposures {
-    double start = 0.0;  // [EV]: the brightest pixel is just not burnt out
-    double stop = 0.0;   // [EV]: the median pixel is just not burnt out
+    double start = 0.0;  // [EV]: the brightest pixel is just below white
+    double stop = 0.0;   // [EV]: the median pixel is just below white
     int count = 2;       // one per EV, at least 2
 };
 
@@ -45,7 +45,7 @@ FlipExposures flip_exposures(const RgbImage& reference);
 /// HDR-FLIP of two linear Rec. 709 pictures (ibid.): for every pixel the largest LDR-FLIP of the
 /// tone-mapped pictures over flip_exposures().
 ///
-/// Negative values count as 0, infinite ones as burnt out. Costs flip_ldr() times the number of
+/// Negative values count as 0, infinite ones as white. Costs flip_ldr() times the number of
 /// exposures. Throws Error when the sizes differ.
 FlipResult flip_hdr(const RgbImage& picture, const RgbImage& reference,
                     double pixels_per_degree = kFlipPixelsPerDegree);

@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-// Share of the displayable range at which a tone-mapped pixel is just not burnt out.
+// Share of the displayable range at which a tone-mapped pixel counts as just below white.
 constexpr double kNotBurntOut = 0.85;
 
 // (k0 x^2 + k1 x) / (k3 x^2 + k4 x + k5): Narkowicz 2015, "ACES Filmic Tone Mapping Curve", with
