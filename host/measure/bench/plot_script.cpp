@@ -162,7 +162,7 @@ struct Axis {
     }
 
     std::string commands() const {
-        const std::string range = fmt::format("set {}range [{}:{}]\n", name, low, high);
+        std::string range = fmt::format("set {}range [{}:{}]\n", name, low, high);
         if (!logarithmic) return range;
         return fmt::format("set logscale {}\n{}{}", name, range, log_tics(name, low, high));
     }

@@ -150,8 +150,8 @@ std::string field_text(const SweepPoint& point, const std::string& field) {
 std::vector<std::string> varying_fields(const std::vector<SweepPoint>& points) {
     std::vector<std::string> names;
     for (const auto& [name, text] : fields_of(SweepPoint{})) {
-        const auto differs = [&](const SweepPoint& point) {
-            return field_text(point, name) != field_text(points.front(), name);
+        const auto differs = [&points, field = name](const SweepPoint& point) {
+            return field_text(point, field) != field_text(points.front(), field);
         };
         if (std::ranges::any_of(points, differs)) names.push_back(name);
     }
