@@ -2,8 +2,7 @@
 // The functions of hard_cases(), named after their cases.
 #pragma once
 
-#include "host/certify/findings.h"
-#include "host/gpu/device.h"
+#include "host/certify/lighting_case.h"
 
 namespace kilolux {
 

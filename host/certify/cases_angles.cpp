@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grazing light, grazing views, and surfaces that face away from the eye.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -103,19 +104,19 @@ double lobe_uncertainty(const SurfaceSample& s, const glm::dvec3& l) {
 Worst facing_away_error(const LightingCase& input, const DeviceResult& result) {
     const ReferencePicture r1 = r1_picture(input, result);
     const SurfaceSamples surfaces = decoded_surfaces(input, result);
-    const float4 light = result.lights.front().position_inv_range2;
+    const glm::dvec3 light = xyz(result.lights.front().position_inv_range2);
     Worst worst;
     std::size_t i = 0;
     for_each_pixel(input.image.view, [&](uint x, uint y) {
         const SurfaceSample& s = surfaces.pixels[i];
-        const glm::dvec3 l = glm::normalize(glm::dvec3(light.x, light.y, light.z) - s.position);
+        const glm::dvec3 l = glm::normalize(light - s.position);
         const double expected = r1.radiance.rgb[3 * i];
         const double scale = r1.scale.rgb[3 * i++];
         const double allowed =
             1e-5 * std::max(expected, scale) +
             scale * std::max(glm::dot(s.normal, l), 0.0) * lobe_uncertainty(s, l);
         worst.see(std::abs(result.radiance(x, y, 0) - expected) / allowed,
-                  [&] { return at_pixel(x, y) + ", roughness " + std::to_string(s.roughness); });
+                  [&] { return fmt::format("{}, roughness {:f}", at_pixel(x, y), s.roughness); });
     });
     return worst;
 }

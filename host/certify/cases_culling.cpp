@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Culling of spheres that are tangent, tiny, huge or around the camera.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/render/light_rows.h"
 
 namespace kilolux {
@@ -132,8 +133,7 @@ void try_spheres_at_the_camera(const Gpu& gpu, Findings& findings) {
     const DeviceResult result = light_on_device(gpu, input);
     const std::uint64_t pairs = check_none_missing(findings, input, result, 200);
     findings.tried("pairs that reach", pairs, 50000);
-    findings.at_most("bits of lists against all lights", different_bits(result.listed, result.all),
-                     0.0);
+    check_same_bits(findings, "bits of lists against all lights", result.listed, result.all);
 }
 
 void try_boundaries_and_tangents(const Gpu& gpu, Findings& findings) {
@@ -174,7 +174,7 @@ void try_tiny_lights(const Gpu& gpu, Findings& findings) {
     const LightRows rows = make_light_rows(lights, glm::dvec3(0.0));
     findings.require("lights of range <= 0 rejected and counted",
                      rows.rejected == 4 && rows.local.size() == 1,
-                     std::to_string(rows.rejected) + " rejected of 4");
+                     fmt::format("{} rejected of 4", rows.rejected));
 }
 
 void try_tangent_spheres(const Gpu& gpu, Findings& findings) {
@@ -199,7 +199,7 @@ void try_tangent_spheres(const Gpu& gpu, Findings& findings) {
         for (uint i = 0; i < kLights; ++i) {
             const uint pixel = tangent.pixels[i];
             const float4 c = tangent.lights[i].position_range;
-            const glm::dvec3 v = point_of(planes, pixel) - glm::dvec3(c.x, c.y, c.z);
+            const glm::dvec3 v = point_of(planes, pixel) - xyz(c);
             if (glm::dot(v, v) >= double{c.w} * c.w) continue;
             ++reaching;
             const auto list = lists.list_at(grid, planes, pixel % 33, pixel / 33);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Denormal numbers, flushed to zero or not.
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 
@@ -16,7 +18,6 @@
 #pragma GCC diagnostic pop
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
 #include "host/render/light_rows.h"
@@ -118,7 +119,7 @@ void compare(Findings& findings, const DenormalOutput& a, const DenormalOutput& 
     std::uint64_t slices = 0;
     for (std::size_t i = 0; i < a.radiance.size(); ++i) {
         radiance.see(std::abs(double{a.radiance[i]} - b.radiance[i]) / (kSmallestNormal * k),
-                     [&] { return std::to_string(i); });
+                     [&] { return fmt::to_string(i); });
         slices += a.slices[i] != b.slices[i] ? 1 : 0;
     }
     findings.at_most("flushed against not: |d| / (1.2e-38 k)", radiance, 1.0);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth slices: boundaries, huge ratios of far to near, and what lies beyond the grid.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
 #include "host/scene/camera.h"
@@ -15,7 +16,7 @@
 namespace kilolux {
 namespace {
 
-// --- 1 ---
+// Case 1, slice-boundaries.
 
 constexpr std::string_view kSliceHeaders[] = {"kernels/device/lanes.h",
                                               "kernels/shared/cluster_grid.h"};
@@ -76,16 +77,16 @@ std::vector<uint> slices_by_search(const ClusterGrid& grid, const std::vector<fl
 
 void compare_slices(Findings& findings, std::string_view what, const std::vector<uint>& found,
                     const std::vector<uint>& expected, const std::vector<float>& z) {
-    std::uint64_t different = 0;
-    std::string where;
+    Worst different;
     for (std::size_t i = 0; i < z.size(); ++i) {
         if (found[i] == expected[i]) continue;
-        if (different++ == 0) where = "z = " + std::to_string(z[i]);
+        if (different.value++ == 0.0) different.where = fmt::format("z = {:f}", z[i]);
     }
-    findings.none(what, different, z.size(), where);
+    different.checked = z.size();
+    findings.at_most(what, different, 0.0);
 }
 
-// --- 2, 3 ---
+// Cases 2, far-over-near, and 3, beyond-the-grid.
 
 double tile_noise(uint x, uint y) {
     const uint h = (x / FINE_TILE * 73u + y / FINE_TILE * 151u + 7u) * 2654435761u;
@@ -158,10 +159,8 @@ void try_far_over_near(const Gpu& gpu, Findings& findings) {
         const DepthOf depth = slab_depth(near, far);
         const LightingCase input = deep_case(near, far, depth);
         const DeviceResult result = check_lists(findings, gpu, input, 500);
-        Worst error;
-        for_each_pixel(input.image.view, [&](uint x, uint y) {
-            const double found = result.planes.at(SURFACE_DEPTH, x, y);
-            error.see(std::abs(found / depth(x, y) - 1.0), [&] { return at_pixel(x, y); });
+        const Worst error = worst_of_drawn(input, [&](uint x, uint y) {
+            return std::abs(result.planes.at(SURFACE_DEPTH, x, y) / depth(x, y) - 1.0);
         });
         // u each for the depth value, its coefficient, the fma and the division: 4 * 6e-8.
         findings.at_most("relative error of z", error, 2.5e-7);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists: long, empty, with wide indices, and equal on every run.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <set>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/certify/scene_case.h"
 #include "host/gpu/buffer.h"
 #include "host/render/renderer.h"
@@ -36,7 +37,7 @@ void check_full_list(Findings& findings, const DeviceResult& result, uint light_
         for (uint i = 0; i < list.size(); ++i) wrong += list[i] == i ? 0 : 1;
     }
     findings.none("entries missing or out of order", wrong, light_count,
-                  std::to_string(light_count) + " lights");
+                  fmt::format("{} lights", light_count));
 }
 
 // The device, and a part of it with one compute unit, as a machine with one thread. Only the device

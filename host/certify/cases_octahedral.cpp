@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Normals packed into two 16-bit numbers, by OpenGL and by OpenCL.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
 #include "raster/compute_probe.h"
@@ -97,8 +98,6 @@ std::vector<float4> decoded_by_device(Gpu gpu, std::vector<uint> codes) {
     return normals;
 }
 
-glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
-
 double angle_rad(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
@@ -117,9 +116,7 @@ void try_octahedral_wrap(const Gpu& gpu, Findings& findings) {
     Worst apart;
     for (std::size_t i = 0; i < directions.size(); ++i) {
         const glm::dvec3 n = xyz(directions[i]);
-        const auto place = [&] {
-            return std::to_string(n.x) + " " + std::to_string(n.y) + " " + std::to_string(n.z);
-        };
+        const auto place = [&] { return fmt::format("{:f} {:f} {:f}", n.x, n.y, n.z); };
         const double angle = std::max(angle_rad(n, xyz(device[i])), angle_rad(n, xyz(glsl[i])));
         degrees.see(glm::degrees(angle), place);
         const bool axis = std::abs(n.x) + std::abs(n.y) + std::abs(n.z) == 1.0;

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 
 namespace kilolux {
 namespace {
@@ -116,9 +115,9 @@ void count_cell(Overlap& sum, const LightingCase& input, const CoarseResult& res
     const double size = size_of(input.image.view, grid, slice);
     const auto list = result.lists.coarse_of(index);
     for (uint light = 0; light < input.lights.size(); ++light) {
-        const float4 p = result.lights[light].position_inv_range2;
+        const glm::dvec3 center = xyz(result.lights[light].position_inv_range2);
         const double range = input.lights[light].position_range.w;
-        const bool touches = distance_to(cell, {p.x, p.y, p.z}) < range;
+        const bool touches = distance_to(cell, center) < range;
         const bool listed = std::binary_search(list.begin(), list.end(), light);
         ++sum.pairs;
         sum.missed += touches && !listed ? 1 : 0;

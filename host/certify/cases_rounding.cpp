@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rounding to 8-bit sRGB codes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,7 +11,6 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/base/srgb.h"
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/certify/scene_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/stages/tonemap.h"
@@ -23,9 +24,8 @@ namespace {
 // The linear value between a code and the next (IEC 61966-2-1).
 double boundary_above(int code) { return srgb_to_linear((code + 0.5) / 255.0); }
 
-int code_of(double linear) {
-    return static_cast<int>(std::lround(255.0 * linear_to_srgb(std::clamp(linear, 0.0, 1.0))));
-}
+// The code before it is rounded.
+double exact_code(double linear) { return 255.0 * linear_to_srgb(std::clamp(linear, 0.0, 1.0)); }
 
 struct SrgbValues {
     std::vector<float> linear;
@@ -109,11 +109,10 @@ void try_srgb_rounding(const Gpu& gpu, Findings& findings) {
     Worst off;
     Worst from_exact;
     for (std::size_t i = 0; i < own.size(); ++i) {
-        wrong += own[i] != code_of(values.linear[i]) ? 1 : 0;
-        off.see(std::abs(own[i] - opengl[i]), [&] { return std::to_string(values.linear[i]); });
-        const double exact = 255.0 * linear_to_srgb(std::clamp(double{values.linear[i]}, 0.0, 1.0));
-        from_exact.see(std::abs(exact - opengl[i]),
-                       [&] { return std::to_string(values.linear[i]); });
+        wrong += own[i] != std::lround(exact_code(values.linear[i])) ? 1 : 0;
+        const auto place = [&] { return fmt::format("{:f}", values.linear[i]); };
+        off.see(std::abs(own[i] - opengl[i]), place);
+        from_exact.see(std::abs(exact_code(values.linear[i]) - opengl[i]), place);
     }
     findings.none("own codes wrong", wrong, own.size());
     findings.at_most("OpenGL's codes off by", off, 1.0);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a light adds at a point, and sums over many of them.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "host/base/half.h"
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -37,7 +38,7 @@ LightingCase near_lights_case(int shading) {
     return input;
 }
 
-// --- 14 ---
+// Case 14, half-overflow.
 
 LightingCase overlapping_case(int shading, double intensity) {
     std::vector<SurfaceSample> surfaces;
@@ -54,7 +55,7 @@ LightingCase overlapping_case(int shading, double intensity) {
     return input;
 }
 
-// --- 18 ---
+// Case 18, long-sums.
 
 // Lights all around a point; intensities from e^-6 to e^6.
 std::vector<Light> lights_of_all_sizes(uint count) {
@@ -77,7 +78,7 @@ void check_sum(Findings& findings, const Gpu& gpu, const LightingCase& input) {
     const Worst worst = error_against_r1(input, result);
     findings.at_most(
         "|x-r|/E / ((72 + k/64) u)",
-        Worst{worst.value / bound, worst.checked, std::to_string(input.lights.size()) + " lights"},
+        Worst{worst.value / bound, worst.checked, fmt::format("{} lights", input.lights.size())},
         1.0);
     if (input.lights.size() == 1000000) findings.report("|x-r|/E of 1e6 lights", worst.value);
     if (input.lights.size() == 1000) findings.report("|x-r|/E of 1000 lights", worst.value);
@@ -92,7 +93,7 @@ LightingCase sum_case(uint count) {
     return input;
 }
 
-// --- 22 ---
+// Case 22, narrow-lobes.
 
 // Normals that sweep away from the half vector by up to `widths` widths of the lobe; eye and light
 // straight above.
@@ -116,7 +117,7 @@ void check_lobe(Findings& findings, const Gpu& gpu, int shading, double roughnes
     const DeviceResult result = light_on_device(gpu, input);
     const ReferencePicture r1 = r1_picture(input, result);
     const double peak = *std::max_element(r1.radiance.rgb.begin(), r1.radiance.rgb.end());
-    const auto place = [&] { return "roughness " + std::to_string(roughness); };
+    const auto place = [&] { return fmt::format("roughness {:f}", roughness); };
     Worst worst;
     Worst above;
     std::size_t i = 0;

@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/certify/scene_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
@@ -19,7 +18,7 @@
 namespace kilolux {
 namespace {
 
-// --- 6, 7 ---
+// Cases 6, orthographic, and 7, off-centre.
 
 Camera parallel_camera(double near, double far) {
     Camera camera;
@@ -44,15 +43,13 @@ Worst position_error(const Camera& camera, const LightingCase& input, const Devi
     const View& view = input.image.view;
     const glm::dmat4 clip =
         clip_from_view(camera, static_cast<int>(view.width), static_cast<int>(view.height));
-    Worst worst;
-    for_each_drawn(input, [&](uint x, uint y) {
+    return worst_of_drawn(input, [&](uint x, uint y) {
         const glm::dvec3 p = result.planes.vector(SURFACE_POSITION, x, y);
         const glm::dvec4 c = clip * glm::dvec4(p, 1.0);
         const double off_x = (c.x / c.w + 1.0) * 0.5 - (x + 0.5) / view.width;
         const double off_y = (1.0 - c.y / c.w) * 0.5 - (y + 0.5) / view.height;
-        worst.see(std::max(std::abs(off_x), std::abs(off_y)), [&] { return at_pixel(x, y); });
+        return std::max(std::abs(off_x), std::abs(off_y));
     });
-    return worst;
 }
 
 ViewShape oblique_shape() {
@@ -67,20 +64,17 @@ ViewShape oblique_shape() {
 Worst oblique_depth_error(const LightingCase& input, const DeviceResult& result,
                           const DepthOf& depth) {
     const View& view = input.image.view;
-    Worst worst;
-    for_each_drawn(input, [&](uint x, uint y) {
+    return worst_of_drawn(input, [&](uint x, uint y) {
         const double z = depth(x, y);
         const double d = depth01_of(view, x, y, z);
         const double terms = std::abs(d * view.depth.x) + std::abs((x + 0.5) * view.depth.y) +
                              std::abs((y + 0.5) * view.depth.z) + std::abs(view.depth.w);
         const double found = result.planes.at(SURFACE_DEPTH, x, y);
-        worst.see(std::abs(found / z - 1.0) / (4 * kUlp * std::max(terms * z, 1.0)),
-                  [&] { return at_pixel(x, y); });
+        return std::abs(found / z - 1.0) / (4 * kUlp * std::max(terms * z, 1.0));
     });
-    return worst;
 }
 
-// --- 8 ---
+// Case 8, infinite-far.
 
 void render_background(const Gpu& gpu, Findings& findings) {
     const Scene scene = make_generated_scene("plain");
@@ -114,7 +108,7 @@ void render_background(const Gpu& gpu, Findings& findings) {
     findings.tried("drawn pixels", frame.aovs[0].values.size() - background, 100);
 }
 
-// --- 9: writes and reads past the end of a buffer ---
+// Case 9, odd-sizes: writes and reads past the end of a buffer.
 
 constexpr uint kGuard = 0x7fc12345u;  // a NaN
 
@@ -165,8 +159,8 @@ void check_reads(Findings& findings, const Gpu& gpu, const LightingCase& input,
     const Radiance radiance =
         lighting.light({gbuffer, upload_lights(gpu, input.lights), result.grid}, timer);
     check_guards(findings, gpu, radiance.planes, size, room);
-    findings.at_most("bits changed by what surrounds the buffers",
-                     different_bits(download(gpu, radiance), result.listed), 0.0);
+    check_same_bits(findings, "bits changed by what surrounds the buffers", download(gpu, radiance),
+                    result.listed);
     Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
     fill_guard(gpu, tonemap.enqueue({new_buffer(gpu, std::vector<float>(room)), tall}, 0.0f, timer),
                room / 3);

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/certify/findings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace kilolux {
 
 void Findings::at_most(std::string_view what, const Worst& worst, double limit) {
-    const auto found = std::find_if(findings_.begin(), findings_.end(),
-                                    [&](const Finding& f) { return f.what == what; });
+    const auto found = std::ranges::find(findings_, what, &Finding::what);
     if (found == findings_.end()) {
-        findings_.push_back({std::string(what), worst.value, limit, worst.checked, worst.where});
+        findings_.push_back({worst, std::string(what), limit});
         return;
     }
     found->checked += worst.checked;
     // Limits may differ from one use to the next.
     const auto share = [](double value, double of) { return value > 0.0 ? value / of : 0.0; };
-    if (share(worst.value, limit) <= share(found->worst, found->limit)) return;
-    found->worst = worst.value;
-    found->limit = limit;
+    if (share(worst.value, limit) <= share(found->value, found->limit)) return;
+    found->value = worst.value;
     found->where = worst.where;
+    found->limit = limit;
 }
 
 void Findings::at_most(std::string_view what, double value, double limit, std::string_view where) {
@@ -42,19 +43,16 @@ void Findings::report(std::string_view what, double value) {
 
 void Findings::tried(std::string_view what, std::uint64_t count, std::uint64_t least) {
     if (count >= least) return;
-    none(std::string("too few ") + std::string(what), least - count, least,
-         std::to_string(count) + " of " + std::to_string(least));
+    none(fmt::format("too few {}", what), least - count, least,
+         fmt::format("{} of {}", count, least));
 }
 
 void Findings::merge(const Findings& other) {
-    for (const Finding& f : other.findings_) {
-        at_most(f.what, Worst{f.worst, f.checked, f.where}, f.limit);
-    }
+    for (const Finding& f : other.findings_) at_most(f.what, f, f.limit);
 }
 
 bool Findings::passed() const {
-    return !findings_.empty() && std::all_of(findings_.begin(), findings_.end(),
-                                             [](const Finding& f) { return f.passed(); });
+    return !findings_.empty() && std::ranges::all_of(findings_, &Finding::passed);
 }
 
 }  // namespace kilolux

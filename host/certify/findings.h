@@ -12,8 +12,8 @@ namespace kilolux {
 
 /// The largest of several errors, and where it was.
 struct Worst {
-    double value = 0.0;  // NaN counts as infinite
-    std::uint64_t checked = 0;
+    double value = 0.0;         // NaN counts as infinite
+    std::uint64_t checked = 0;  // values compared
     std::string where;
 
     /// Takes an error into account. `place()` gives the text; called only for a new worst.
@@ -26,14 +26,11 @@ struct Worst {
     }
 };
 
-/// One thing that a case measured, and what it may be at most.
-struct Finding {
-    std::string what;  // "missed lights", "|d|/max(r,E)"
-    double worst = 0.0;
-    double limit = 0.0;         // infinite: reported, not judged
-    std::uint64_t checked = 0;  // values compared
-    std::string where;          // of the worst
-    bool passed() const { return worst <= limit; }
+/// One thing that a case measured: its worst value, and what that may be at most.
+struct Finding : Worst {
+    std::string what;    // "missed lights", "|d|/max(r,E)"
+    double limit = 0.0;  // infinite: reported, not judged
+    bool passed() const { return value <= limit; }
 };
 
 /// Everything that a case found. A `what` given again keeps the finding nearest to its limit.

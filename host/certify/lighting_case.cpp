@@ -1,42 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/certify/lighting_case.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
+#include "host/base/gbuffer_layout.h"
 #include "host/base/interrupt.h"
 #include "host/gpu/buffer.h"
-#include "kernels/shared/evaluate_modes.h"
+#include "host/measure/reference/decoded_samples.h"
 
 namespace kilolux {
 namespace {
 
 // Whether the point is within the light's range and cone, in double.
-bool reaches(const ShadeLight& light, double range, glm::dvec3 p) {
-    const float4 c = light.position_inv_range2;
-    const glm::dvec3 v = p - glm::dvec3{c.x, c.y, c.z};
-    const double d2 = dot(v, v);
+bool reaches(const ShadeLight& light, double range, const glm::dvec3& p) {
+    const glm::dvec3 v = p - xyz(light.position_inv_range2);
+    const double d2 = glm::dot(v, v);
     if (d2 >= range * range) return false;
-    const float4 axis = light.axis_cos;
-    return axis.w <= -1.0f || dot(v, glm::dvec3{axis.x, axis.y, axis.z}) > axis.w * std::sqrt(d2);
+    const double cos_out = light.axis_cos.w;
+    return cos_out <= -1.0 || glm::dot(v, xyz(light.axis_cos)) > cos_out * std::sqrt(d2);
 }
 
-Shading model_of(int shading) {
-    if (shading == SHADING_PBR) return Shading::pbr;
-    return shading == SHADING_BLINN_PHONG ? Shading::blinn_phong : Shading::lambert;
+void put_surface(Synthetic& image, uint x, uint y, const SurfaceSample& s) {
+    const std::size_t pixel = std::size_t{y} * image.view.stride + x;
+    image.put(PLANE_DEPTH, pixel, depth01_of(image.view, x, y, -s.position.z));
+    image.put(PLANE_POSITION_X, pixel, s.position);
+    image.put(PLANE_NORMAL_X, pixel, s.normal);
+    image.put(PLANE_ALBEDO_R, pixel, s.albedo);
+    image.put(PLANE_EMISSIVE_R, pixel, s.emissive);
+    image.put(PLANE_ROUGHNESS, pixel, s.roughness);
+    image.put(PLANE_METALLIC, pixel, s.metallic);
+    image.put(PLANE_OCCLUSION_F, pixel, s.occlusion);
 }
 
-SurfaceSample decoded_at(const Planes& planes, uint x, uint y) {
-    SurfaceSample s;
-    s.position = planes.vector(SURFACE_POSITION, x, y);
-    s.normal = planes.vector(SURFACE_NORMAL, x, y);
-    s.albedo = planes.vector(SURFACE_ALBEDO, x, y);
-    s.emissive = planes.vector(SURFACE_EMISSIVE, x, y);
-    s.roughness = planes.at(SURFACE_ROUGHNESS, x, y);
-    s.metallic = planes.at(SURFACE_METALLIC, x, y);
-    s.occlusion = planes.at(SURFACE_OCCLUSION, x, y);
-    s.kind = SurfaceKind::lit;
-    return s;
+// How far a position lies from its pixel's ray at its depth, along an axis.
+double off_ray(const View& view, uint x, uint y, const glm::dvec3& p) {
+    const glm::dvec3 off = glm::abs(position_at(view, x + 0.5, y + 0.5, -p.z) - p);
+    return std::max(off.x, off.y) * (1.0 + 1e-5) + 1e-5 * std::abs(p.z);
 }
 
 }  // namespace
@@ -64,9 +66,7 @@ void put_out_surfaces(LightingCase& input) {
     for (std::size_t i = 0; i < pixels; ++i) material[i] &= 0xff000000u;
 }
 
-std::string at_pixel(uint x, uint y) {
-    return "pixel " + std::to_string(x) + ", " + std::to_string(y);
-}
+std::string at_pixel(uint x, uint y) { return fmt::format("pixel {}, {}", x, y); }
 
 SurfaceSample grey_surface(const glm::dvec3& position, const glm::dvec3& normal) {
     SurfaceSample s;
@@ -76,6 +76,31 @@ SurfaceSample grey_surface(const glm::dvec3& position, const glm::dvec3& normal)
     s.roughness = 0.5;
     s.kind = SurfaceKind::lit;
     return s;
+}
+
+LightingCase surface_case(std::span<const SurfaceSample> surfaces, int shading, uint width) {
+    const auto count = static_cast<uint>(surfaces.size());
+    ViewShape shape{width, std::max((count + width - 1) / width, 1u)};
+    shape.rotated = false;
+    shape.near = 1e-3;
+    const View view = make_view(shape);
+    LightingCase input;
+    input.features = every_feature(shading);
+    input.features.gbuffer = GBUFFER_FULL;
+    input.features.directional_lights = false;
+    input.features.light_index_bits = 32;
+    GBufferNeeds needs;
+    needs.layout = GBUFFER_FULL;
+    needs.material = needs.occlusion = true;
+    input.image = {view, make_gbuffer_layout(needs, view.stride, view.height), {}};
+    input.image.bytes.resize(gbuffer_bytes(input.image.layout, view.stride, view.height));
+    double pad = 0.0;
+    for (uint i = 0; i < count; ++i) {
+        put_surface(input.image, i % width, i / width, surfaces[i]);
+        pad = std::max(pad, off_ray(view, i % width, i / width, surfaces[i].position));
+    }
+    input.request.position_pad = static_cast<float>(pad);
+    return input;
 }
 
 ClusterGrid grid_of(const LightingCase& input) {
@@ -116,13 +141,12 @@ DeviceResult light_on_device(const Gpu& gpu, const LightingCase& input) {
 }
 
 std::uint64_t count_lit(const std::vector<float>& values) {
-    return static_cast<std::uint64_t>(
-        std::count_if(values.begin(), values.end(), [](float v) { return v != 0.0f; }));
+    return values.size() - static_cast<std::size_t>(std::ranges::count(values, 0.0f));
 }
 
 std::uint64_t count_invalid(const std::vector<float>& values) {
-    return static_cast<std::uint64_t>(std::count_if(
-        values.begin(), values.end(), [](float v) { return !std::isfinite(v) || v < 0.0f; }));
+    const auto invalid = [](float v) { return !std::isfinite(v) || v < 0.0f; };
+    return static_cast<std::uint64_t>(std::ranges::count_if(values, invalid));
 }
 
 Worst different_bits(const std::vector<float>& a, const std::vector<float>& b) {
@@ -131,16 +155,19 @@ Worst different_bits(const std::vector<float>& a, const std::vector<float>& b) {
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
         if (std::bit_cast<uint>(a[i]) == std::bit_cast<uint>(b[i])) continue;
         if (different++ == 0) {
-            first = "value " + std::to_string(i) + ": " + std::to_string(a[i]) + ", " +
-                    std::to_string(b[i]);
+            first = fmt::format("value {}: {:f}, {:f}", i, a[i], b[i]);
         }
     }
     return {static_cast<double>(different), a.size(), first};
 }
 
+void check_same_bits(Findings& findings, std::string_view what, const std::vector<float>& a,
+                     const std::vector<float>& b) {
+    findings.at_most(what, different_bits(a, b), 0.0);
+}
+
 void check_exact(Findings& findings, const LightingCase& input, const DeviceResult& result) {
-    findings.at_most("bits of lists against all lights", different_bits(result.listed, result.all),
-                     0.0);
+    check_same_bits(findings, "bits of lists against all lights", result.listed, result.all);
     Worst background;
     Worst number;
     for (uint y = 0; y < input.image.view.height; ++y) {
@@ -181,7 +208,7 @@ std::uint64_t check_none_missing(Findings& findings, const LightingCase& input,
             ++reaching;
             if (listed[light]) continue;
             if (missed.value++ == 0.0) {
-                missed.where = "light " + std::to_string(light) + ", " + at_pixel(x, y);
+                missed.where = fmt::format("light {}, {}", light, at_pixel(x, y));
             }
         }
     }
@@ -203,18 +230,19 @@ SurfaceSamples decoded_surfaces(const LightingCase& input, const DeviceResult& r
     SurfaceSamples out =
         make_surface_samples(static_cast<int>(view.width), static_cast<int>(view.height));
     for_each_drawn(input, [&](uint x, uint y) {
-        out.at(static_cast<int>(x), static_cast<int>(y)) = decoded_at(result.planes, x, y);
+        out.at(static_cast<int>(x), static_cast<int>(y)) = surface_sample(
+            [&](std::size_t plane) { return result.planes.at(static_cast<uint>(plane), x, y); },
+            false, false);
     });
     return out;
 }
 
 ReferencePicture r1_picture(const LightingCase& input, const DeviceResult& result) {
-    ReferenceOptions options;
-    options.shading = model_of(input.features.shading);
-    options.ambient = input.ambient;
-    options.orthographic = input.image.view.orthographic != 0;
     return shade_reference(decoded_surfaces(input, result),
-                           reference_lights(result.lights, result.directional_lights), options);
+                           reference_lights(result.lights, result.directional_lights),
+                           {.shading = shading_of(input.features),
+                            .ambient = input.ambient,
+                            .orthographic = input.image.view.orthographic != 0});
 }
 
 Worst error_against_r1(const LightingCase& input, const DeviceResult& result) {

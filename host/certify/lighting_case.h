@@ -7,7 +7,6 @@
 
 #include "host/certify/findings.h"
 #include "host/certify/synthetic/host_lists.h"
-#include "host/certify/synthetic/light_sets.h"
 #include "host/certify/synthetic/random.h"
 #include "host/certify/synthetic/synthetic.h"
 #include "host/measure/reference/reference.h"
@@ -91,18 +90,29 @@ std::uint64_t count_lit(const std::vector<float>& values);
 /// Values that are NaN, infinite or negative.
 std::uint64_t count_invalid(const std::vector<float>& values);
 
+/// The largest of `error(x, y)` over the pixels that show a surface.
+template <typename Error>
+Worst worst_of_drawn(const LightingCase& input, Error&& error) {
+    Worst worst;
+    for_each_drawn(input,
+                   [&](uint x, uint y) { worst.see(error(x, y), [&] { return at_pixel(x, y); }); });
+    return worst;
+}
+
 /// Floats of two pictures whose bits differ; sizes must be equal.
 Worst different_bits(const std::vector<float>& a, const std::vector<float>& b);
+void check_same_bits(Findings& findings, std::string_view what, const std::vector<float>& a,
+                     const std::vector<float>& b);
 
-/// "exact": radiance by lists has the bits of radiance by every light, and background is 0.
+/// Checks that radiance by lists has the bits of radiance by every light, and background is 0.
 void check_exact(Findings& findings, const LightingCase& input, const DeviceResult& result);
 
-/// "conservative": of `pixel_limit` drawn pixels, no light with float64 distance below its range is
+/// Checks that of `pixel_limit` drawn pixels, no light with float64 distance below its range is
 /// missing from the pixel's list. Returns how many (pixel, light) pairs reach.
 std::uint64_t check_none_missing(Findings& findings, const LightingCase& input,
                                  const DeviceResult& result, std::size_t pixel_limit = 400);
 
-/// Both, with at least `least_pairs` pairs that reach. Returns the result.
+/// Both checks, with at least `least_pairs` pairs that reach. Returns the result.
 DeviceResult check_lists(Findings& findings, const Gpu& gpu, const LightingCase& input,
                          std::uint64_t least_pairs = 1000);
 

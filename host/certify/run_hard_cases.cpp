@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 
 #include "host/certify/hard_case.h"
@@ -7,35 +9,33 @@
 namespace kilolux {
 namespace {
 
-std::string number(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof(text), value, std::chars_format::general, 3);
-    return {text, end.ptr};
-}
-
-bool is_count(const Finding& f) { return f.limit == 0.0 && f.worst == std::floor(f.worst); }
+bool is_count(const Finding& f) { return f.limit == 0.0 && f.value == std::floor(f.value); }
 
 void run_at(HardCaseRow& row, const Gpu& gpu, int lanes) {
     Findings found;
     try {
         row.hard_case.run(gpu.with_lanes(lanes), found);
     } catch (const std::exception& error) {
-        row.error = std::to_string(lanes) + " lanes: " + error.what();
+        row.error = fmt::format("{} lanes: {}", lanes, error.what());
     }
     row.findings.merge(found);
     row.lanes.push_back(lanes);
 }
 
-void append(std::string& list, const std::string& separator, const std::string& text) {
-    list += (list.empty() ? "" : separator) + text;
+std::string findings_text(const HardCaseRow& row) {
+    std::string text = row.error;
+    for (const Finding& f : row.findings.all()) {
+        text += (text.empty() ? "" : "; ") + finding_text(f);
+    }
+    return text;
 }
 
 }  // namespace
 
 std::string finding_text(const Finding& f) {
-    std::string text = f.what + ": " + number(f.worst);
-    if (is_count(f) && f.checked > 1) text += " of " + std::to_string(f.checked);
-    if (f.limit > 0.0 && std::isfinite(f.limit)) text += " (" + number(f.limit) + ")";
+    std::string text = fmt::format("{}: {:.3g}", f.what, f.value);
+    if (is_count(f) && f.checked > 1) text += fmt::format(" of {}", f.checked);
+    if (f.limit > 0.0 && std::isfinite(f.limit)) text += fmt::format(" ({:.3g})", f.limit);
     if (!f.passed()) text += " FAILED" + (f.where.empty() ? "" : " at " + f.where);
     return text;
 }
@@ -55,18 +55,16 @@ std::vector<HardCaseRow> run_hard_cases(const Gpu& gpu, std::span<const HardCase
 }
 
 Table hard_case_table(const std::vector<HardCaseRow>& rows) {
-    Table table{{"case", "name", "tried", "worst error (limit)", "threshold", "lanes", "pass"}, {}};
-    for (const HardCaseRow& row : rows) {
-        const HardCase& c = row.hard_case;
-        std::string findings = row.error;
-        for (const Finding& f : row.findings.all()) append(findings, "; ", finding_text(f));
-        std::string lanes;
-        for (const int width : row.lanes) append(lanes, ", ", std::to_string(width));
-        table.rows.push_back({std::string(c.label), std::string(c.name), std::string(c.tried),
-                              findings, std::string(c.threshold), lanes,
-                              std::string(row.passed() ? "yes" : "NO")});
-    }
-    return table;
+    using Row = HardCaseRow;
+    return make_table<Row>(
+        {{"case", [](const Row& row) { return row.hard_case.label; }},
+         {"name", [](const Row& row) { return row.hard_case.name; }},
+         {"tried", [](const Row& row) { return row.hard_case.tried; }},
+         {"worst error (limit)", findings_text},
+         {"threshold", [](const Row& row) { return row.hard_case.threshold; }},
+         {"lanes", [](const Row& row) { return fmt::to_string(fmt::join(row.lanes, ", ")); }},
+         {"pass", [](const Row& row) { return row.passed() ? "yes" : "NO"; }}},
+        rows);
 }
 
 }  // namespace kilolux

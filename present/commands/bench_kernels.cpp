@@ -8,7 +8,7 @@
 #include "host/measure/bench/culling.h"
 #include "host/measure/bench/shading.h"
 #include "host/measure/bench/tune.h"
-#include "host/measure/roofline/limit_watch.h"
+#include "host/measure/roofline/limit_kernels.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/commands/bench.h"

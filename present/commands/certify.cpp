@@ -38,7 +38,7 @@ Json row_json(const HardCaseRow& row) {
     out["findings"] = Json::array();
     for (const Finding& f : row.findings.all()) {
         out["findings"].push_back({{"what", f.what},
-                                   {"worst", finite_or_null(f.worst)},
+                                   {"worst", finite_or_null(f.value)},
                                    {"limit", finite_or_null(f.limit)},
                                    {"checked", f.checked},
                                    {"where", f.where}});

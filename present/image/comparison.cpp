@@ -8,8 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/srgb.h"
-#include "host/measure/metrics/flip_hdr.h"
-#include "host/measure/metrics/flip_ldr.h"
+#include "host/measure/metrics/flip.h"
 #include "host/measure/metrics/metrics.h"
 #include "present/image/display_picture.h"
 #include "present/image/image_file.h"

@@ -8,7 +8,6 @@
 
 #include "host/gpu/device_cache.h"
 #include "host/measure/roofline/limit_kernels.h"
-#include "host/measure/roofline/limit_watch.h"
 #include "tests/support/cache_sandbox.h"
 
 namespace kilolux {

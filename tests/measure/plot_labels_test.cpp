@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/bench/plot_labels.h"
+#include "host/measure/bench/plot_script.h"
 
 #include <gtest/gtest.h>
 

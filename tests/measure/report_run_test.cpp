@@ -7,8 +7,8 @@
 
 #include <set>
 
-#include "host/measure/report/display.h"
 #include "host/measure/report/error_sheets.h"
+#include "host/measure/report/picture_errors.h"
 #include "host/measure/report/tables.h"
 #include "host/render/scene_plan.h"
 #include "host/scene/generated/scenes.h"

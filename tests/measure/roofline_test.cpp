@@ -195,9 +195,7 @@ TEST(StageReports, HoldTimesAgainstLimits) {
     const auto reports = stage_reports(stats, round_limits(), some_setup());
     ASSERT_EQ(reports.size(), 3u);
     EXPECT_EQ(reports[1].limit_ms, stats.stages[1].limit_ms);
-    EXPECT_DOUBLE_EQ(reports[1].ratio, reports[1].limit_ms / 2.0);
     EXPECT_DOUBLE_EQ(reports[1].evaluations, 8000.0);  // three directional lights beside
-    EXPECT_DOUBLE_EQ(reports[1].giga_evaluations_per_s, 8000.0 / 2e-3 * 1e-9);
     EXPECT_DOUBLE_EQ(reports[2].evaluations, 700.0);
     EXPECT_TRUE(reports[0].bound.empty());
     const Efficiency efficiency = efficiency_of(reports, stats);

@@ -11,7 +11,6 @@
 
 #include "host/base/error.h"
 #include "host/measure/bench/plots.h"
-#include "host/measure/bench/row_log.h"
 #include "host/measure/bench/run.h"
 
 namespace kilolux {
@@ -235,6 +234,9 @@ TEST(BenchPlots, DrawTimesAndSpeedUp) {
 
 TEST(BenchRun, ComparesSmallPicturesOfTheSameShape) {
     using Size = std::array<int, 2>;
+    const auto error_resolution = [](Size size, std::uint64_t lights) {
+        return error_size(size, lights, kBenchErrorSize);
+    };
     EXPECT_EQ(error_resolution({1920, 1080}, 5000), (Size{480, 270}));
     EXPECT_EQ(error_resolution({64, 36}, 5000), (Size{64, 36}));
     EXPECT_EQ(error_resolution({1, 1}, 0), (Size{1, 1}));

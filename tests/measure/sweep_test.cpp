@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "host/base/error.h"
-#include "host/measure/bench/renderer_names.h"
 
 namespace kilolux {
 namespace {

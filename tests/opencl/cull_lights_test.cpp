@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "tests/opencl/cull_scenarios.h"
+#include "tests/support/slice_search.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {

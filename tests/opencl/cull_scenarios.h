@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host/certify/synthetic/host_lists.h"
-#include "host/certify/synthetic/light_sets.h"
 #include "host/certify/synthetic/synthetic.h"
 
 namespace kilolux {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/host_lists.h"
-#include "host/certify/synthetic/light_sets.h"
 #include "host/stages/bloom.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/count_pairs.h"

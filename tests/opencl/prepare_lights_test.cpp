@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/host_lists.h"
-#include "host/certify/synthetic/light_sets.h"
+#include "tests/support/slice_search.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {

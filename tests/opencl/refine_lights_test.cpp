@@ -8,7 +8,6 @@
 #include <algorithm>
 
 #include "host/certify/synthetic/host_lists.h"
-#include "host/certify/synthetic/light_sets.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {

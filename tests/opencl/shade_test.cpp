@@ -10,7 +10,6 @@
 #include <cstring>
 
 #include "host/certify/synthetic/host_lists.h"
-#include "host/certify/synthetic/light_sets.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "tests/opencl/shading_reference.h"
 #include "tests/support/test_gpu.h"

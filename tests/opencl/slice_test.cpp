@@ -10,6 +10,7 @@
 #include "host/certify/synthetic/host_lists.h"
 #include "host/gpu/buffer.h"
 #include "host/stages/build_clusters.h"
+#include "tests/support/slice_search.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {

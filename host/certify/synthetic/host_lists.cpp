@@ -66,16 +66,4 @@ std::string fingerprint(const HostLists& lists) {
     return text;
 }
 
-ClusterGrid fine_grid(ClusterGrid grid) {
-    grid.slices_per_octave <<= grid.fine_slice_bits;
-    grid.slices <<= grid.fine_slice_bits;
-    return grid;
-}
-
-uint slice_by_search(const ClusterGrid& grid, double z) {
-    uint slice = 0;
-    while (slice + 1 < grid.slices && z >= depth_of_slice(grid, slice + 1)) ++slice;
-    return slice;
-}
-
 }  // namespace kilolux

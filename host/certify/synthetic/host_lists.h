@@ -40,10 +40,4 @@ ListedLights list_everywhere(const Gpu& gpu, const Tuning& tuning, const KernelF
 /// A text that is equal if and only if the lists are; their places in memory do not count.
 std::string fingerprint(const HostLists& lists);
 
-/// The grid whose slices are those of active clusters.
-ClusterGrid fine_grid(ClusterGrid grid);
-
-/// Slice of a depth by comparing with the ends of the slices.
-uint slice_by_search(const ClusterGrid& grid, double z);
-
 }  // namespace kilolux

@@ -15,10 +15,9 @@ namespace {
 
 constexpr double kBackground = std::numeric_limits<double>::quiet_NaN();
 
-glm::dvec3 xyz(const float4& v) { return {v.x, v.y, v.z}; }
-
-float4 row_of(const glm::dvec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0f};
+float4 row_of(const glm::dvec3& v, double w = 0.0) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
+            static_cast<float>(w)};
 }
 
 void set_rotation(View& view, bool rotated) {
@@ -195,6 +194,46 @@ Planes decode(const Gpu& gpu, const KernelFeatures& features, const GBuffer& gbu
     const View& view = gbuffer.view;
     return {view, download<float>(gpu, planes,
                                   std::size_t{stage.plane_count()} * view.stride * view.height)};
+}
+
+Light point_light(const glm::dvec3& position, double range, const glm::dvec3& intensity) {
+    return {row_of(position, range), row_of(intensity, 1.0), {0.0f, 0.0f, 0.0f, -1.0f}};
+}
+
+Light spot_light(const Light& point, glm::dvec3 axis, double inner, double outer) {
+    Light light = point;
+    const double cos_out = std::cos(outer);
+    light.color_scale.w = static_cast<float>(1.0 / std::max(0.001, std::cos(inner) - cos_out));
+    light.axis_cos = row_of(axis, cos_out);
+    return light;
+}
+
+std::vector<Light> random_lights(const View& view, const LightMix& mix) {
+    Random random(mix.seed);
+    std::vector<Light> lights;
+    const bool orthographic = view.orthographic != 0;
+    while (lights.size() < mix.count) {
+        const double z = orthographic ? random.uniform(mix.z_near, mix.z_far)
+                                      : random.log_uniform(mix.z_near, mix.z_far);
+        const double px = view.width * (0.5 + random.uniform(-0.5, 0.5) * mix.spread);
+        const double py = view.height * (0.5 + random.uniform(-0.5, 0.5) * mix.spread);
+        const glm::dvec3 intensity{random.uniform(0, 10), random.uniform(0, 10),
+                                   random.uniform(0, 10)};
+        const double range = random.log_uniform(mix.range_min, mix.range_max);
+        const glm::dvec3 p = world_from_view(view, position_at(view, px, py, z));
+        const Light point = point_light(p, range, intensity);
+        const double outer = random.uniform(0.05, 1.57);
+        const bool spot = random.unit() < mix.spots;
+        lights.push_back(spot ? spot_light(point, random.direction(), outer * random.unit(), outer)
+                              : point);
+    }
+    return lights;
+}
+
+LightInput upload_lights(const Gpu& gpu, const std::vector<Light>& lights,
+                         const std::vector<DirectionalLight>& directional) {
+    return {new_buffer(gpu, lights), static_cast<uint>(lights.size()), new_buffer(gpu, directional),
+            static_cast<uint>(directional.size())};
 }
 
 }  // namespace kilolux

@@ -26,10 +26,6 @@ struct CullingMeasurement {
     double bytes = 0.0;                   // that cull must move
     std::uint64_t brute_force_pairs = 0;  // equal to `pairs`, or there is a bug
     std::uint64_t foreign_pairs = 0;      // entries that brute force lacks: 0, or there is a bug
-
-    double nanoseconds_per_light() const;
-    double nanoseconds_per_pair() const;
-    double speed_up() const;
 };
 
 /// Measures the lists of `light_count` generated lights (settings.lights, but for the count) for

@@ -2,7 +2,6 @@
 #include "host/measure/bench/feature_cost.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "host/measure/metrics/statistics.h"
 #include "kernels/shared/evaluate_modes.h"
@@ -18,8 +17,7 @@ ScenePlan plan_with(const LightingBench& bench, const std::string& feature) {
 }
 
 bool is_forceable(const std::string& feature) {
-    const std::vector<std::string>& names = forceable_features();
-    return std::find(names.begin(), names.end(), feature) != names.end();
+    return std::ranges::count(forceable_features(), feature) > 0;
 }
 
 void measure_cost(LightingBench& bench, int runs, FeatureCost& cost) {
@@ -48,10 +46,8 @@ void measure_cost(LightingBench& bench, int runs, FeatureCost& cost) {
 }  // namespace
 
 CostEstimate estimate_cost(std::vector<double> differences_ms) {
-    std::sort(differences_ms.begin(), differences_ms.end());
-    const double spread = quantile(differences_ms, 0.75) - quantile(differences_ms, 0.25);
-    const double turns = static_cast<double>(differences_ms.size());
-    return {quantile(differences_ms, 0.5), 1.57 * spread / std::sqrt(turns)};
+    std::ranges::sort(differences_ms);
+    return {quantile(differences_ms, 0.5), notch(differences_ms)};
 }
 
 std::vector<FeatureCost> left_out_features(const ScenePlan& plan) {

@@ -21,7 +21,7 @@ struct FeatureCost {
 };
 
 /// The cost by paired measurements with and without the feature [ms], one difference a turn: their
-/// median, and whether it is above its noise (McGill, Tukey and Larsen 1978, notches).
+/// median, and whether it is above its noise, the median's notch().
 struct CostEstimate {
     double ms = 0.0;
     double noise_ms = 0.0;

@@ -2,22 +2,27 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
+#include <vector>
 
+#include "host/gpu/stage_timer.h"
 #include "host/gpu/tuning_store.h"
+#include "host/interop/gbuffer_bridge.h"
 #include "host/picture/frame.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
-#include "host/scene/scene.h"
+#include "raster/geometry_pass.h"
+#include "raster/gl_context.h"
+#include "raster/gpu_scene.h"
 
 namespace kilolux {
 
 /// One measurement of the stages from lights to display on a fixed G-buffer.
 struct LightingRun {
-    FrameStats
-        stats;        // stages: the least time of each over the runs; counts as in a rendered frame
-    double ms = 0.0;  // sum of the stages' times
+    // Of the stages the least time over the runs; counts as in a rendered frame.
+    FrameStats stats;
+    double ms = 0.0;            // sum of the stages' times
     std::uint64_t picture = 0;  // hash of every bit of the radiance
 };
 
@@ -38,9 +43,6 @@ class LightingBench {
     /// does.
     LightingBench(const Scene& scene, const RenderSettings& settings, const Camera& camera,
                   double time = 0.0);
-    ~LightingBench();
-    LightingBench(LightingBench&&) noexcept;
-    LightingBench& operator=(LightingBench&&) noexcept;
 
     /// Builds the stages, runs them and throws them away. The queue is idle before and after.
     LightingRun run(const LightingRequest& request);
@@ -49,13 +51,31 @@ class LightingBench {
     LightingRequest request() const;
 
     /// The device as it describes itself, with its own lane width.
-    const DeviceInfo& device() const;
-    const Scene& scene() const;
-    const RenderSettings& settings() const;
+    const DeviceInfo& device() const { return device_; }
+    const Scene& scene() const { return scene_; }
+    const RenderSettings& settings() const { return settings_; }
 
  private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
+    struct Stages;
+
+    void set_layout(const GBufferNeeds& needs);
+    void draw(std::vector<StageTime>* least);
+    Radiance light(Stages& stages);
+
+    const Scene& scene_;
+    RenderSettings settings_;
+    Camera camera_;
+    Box box_;
+    Gpu gpu_;
+    DeviceInfo device_;
+    GlContext context_;
+    GpuScene gpu_scene_;
+    std::optional<GeometryPass> geometry_;
+    GBufferBridge bridge_;
+    GBuffer gbuffer_;
+    LightInput lights_;
+    FrameStats light_stats_;  // counts of the lights
+    StageTimer timer_;
 };
 
 }  // namespace kilolux

@@ -2,14 +2,17 @@
 #include "host/measure/bench/plot.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 
+#include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/measure/bench/plot_script.h"
 
@@ -24,7 +27,8 @@ class WorkFolder {
     explicit WorkFolder(const fs::path& parent) {
         std::string name = (parent / ".kilolux-plot-XXXXXX").string();
         if (!mkdtemp(name.data())) {
-            throw Error("plot: cannot write in '" + parent.string() + "': " + std::strerror(errno));
+            throw Error(fmt::format("plot: cannot write in '{}': {}", parent.string(),
+                                    std::strerror(errno)));
         }
         path_ = name;
     }
@@ -39,13 +43,6 @@ class WorkFolder {
  private:
     fs::path path_;
 };
-
-void write_text(const fs::path& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw Error("plot: cannot write '" + file.string() + "': " + std::strerror(errno));
-}
 
 std::string first_line(const fs::path& file) {
     std::ifstream in(file);
@@ -93,22 +90,23 @@ void run_gnuplot(const fs::path& folder, const std::string& script, const fs::pa
     pid_t process = 0;
     const int failure =
         posix_spawnp(&process, program.c_str(), actions.get(), nullptr, arguments, environ);
+    const std::string what = fmt::format("plot '{}': ", stem.string());
     if (failure == ENOENT) {
-        throw Error("plot '" + stem.string() +
-                    "': gnuplot not found; install the package gnuplot-nox");
+        throw Error(what + "gnuplot not found; install the package gnuplot-nox");
     }
     if (failure != 0) {
-        throw Error("plot '" + stem.string() + "': cannot run gnuplot: " + std::strerror(failure));
+        throw Error(fmt::format("{}cannot run gnuplot: {}", what, std::strerror(failure)));
     }
     const int status = wait_for(process);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-    throw Error("plot '" + stem.string() + "': gnuplot failed: " + first_line(messages));
+    throw Error(fmt::format("{}gnuplot failed: {}", what, first_line(messages)));
 }
 
 void move_into_place(const fs::path& from, const fs::path& to) {
     std::error_code failure;
     fs::rename(from, to, failure);
-    if (failure) throw Error("plot: cannot write '" + to.string() + "': " + failure.message());
+    if (!failure) return;
+    throw Error(fmt::format("plot: cannot write '{}': {}", to.string(), failure.message()));
 }
 
 fs::path with_extension(const fs::path& stem, const char* extension) {
@@ -119,17 +117,23 @@ fs::path with_extension(const fs::path& stem, const char* extension) {
 
 }  // namespace
 
+std::vector<PlotPoint>& series_of(Plot& plot, const std::string& name, PlotStyle style) {
+    auto found = std::ranges::find(plot.series, name, &PlotSeries::name);
+    if (found == plot.series.end()) found = plot.series.insert(found, {name, {}, style});
+    return found->points;
+}
+
 PlotFiles write_plot(const Plot& plot, const fs::path& stem) {
     const Plot ready = drawable(plot);
     if (ready.series.empty()) {
-        throw Error("plot '" + stem.string() + "': no point to draw in " +
-                    std::to_string(plot.series.size()) + " series");
+        throw Error(fmt::format("plot '{}': no point to draw in {} series", stem.string(),
+                                plot.series.size()));
     }
     const fs::path parent = stem.has_parent_path() ? stem.parent_path() : fs::path(".");
     const std::string name = stem.filename().string();
     const WorkFolder work(parent);
-    write_text(work.path() / (name + ".dat"), plot_data(ready));
-    write_text(work.path() / (name + ".gnuplot"), plot_script(ready, name));
+    write_atomically(work.path() / (name + ".dat"), plot_data(ready));
+    write_atomically(work.path() / (name + ".gnuplot"), plot_script(ready, name));
     run_gnuplot(work.path(), name + ".gnuplot", stem);
     PlotFiles out{.script = with_extension(stem, ".gnuplot"),
                   .data = with_extension(stem, ".dat"),

@@ -35,6 +35,10 @@ struct Plot {
     bool pareto_front = false;  // draws the Pareto set of all points, x as cost and y as error
 };
 
+/// The points of the plot's series of that name, which is added if it is new.
+std::vector<PlotPoint>& series_of(Plot& plot, const std::string& name,
+                                  PlotStyle style = PlotStyle::lines_and_points);
+
 /// Files of a written plot.
 struct PlotFiles {
     std::filesystem::path script;  // STEM.gnuplot, draws the pictures again from the data

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
-#include "host/measure/bench/plot_labels.h"
 #include "host/measure/metrics/pareto.h"
 
 namespace kilolux {
@@ -15,26 +15,53 @@ namespace {
 
 constexpr const char* kFrontName = "Pareto front";
 
+// Of gnuplot's 'Sans,9', with a margin [pixel].
+constexpr double kCharacter = 7.0;
+constexpr double kLine = 15.0;
+constexpr double kNear = 16.0;  // beyond this a line joins a label to its point [pixel]
+
+bool inside(const PlotBox& box, const PlotBox& frame) {
+    return box.left >= frame.left && box.right <= frame.right && box.bottom >= frame.bottom &&
+           box.top <= frame.top;
+}
+
+PlotBox box_of(const PlotLabel& label) {
+    const double width = kCharacter * static_cast<double>(label.text.size());
+    return {label.x, label.y - 0.5 * kLine, label.x + width, label.y + 0.5 * kLine};
+}
+
+// The label with its nearest edge or corner at `distance` from its point, in one of 12 directions.
+PlotLabel moved(PlotLabel label, double distance, int direction) {
+    const double angle = direction * std::numbers::pi / 6.0;
+    const double width = kCharacter * static_cast<double>(label.text.size());
+    label.x = label.point_x + distance * std::cos(angle) + 0.5 * width * (std::cos(angle) - 1.0);
+    label.y = label.point_y + (distance + 0.5 * kLine) * std::sin(angle);
+    label.far = distance > kNear;
+    return label;
+}
+
 bool drawable(double value, bool logarithmic) {
     return std::isfinite(value) && (!logarithmic || value > 0.0);
 }
 
-// A single-quoted gnuplot string, in which only the quote itself is special, on one line.
-std::string quoted(const std::string& text) {
-    std::string out = "'";
+// `text` on one line between quotes, with each quote in it replaced.
+std::string quoted(const std::string& text, char quote, std::string_view replacement) {
+    std::string out(1, quote);
     for (const char c : text) {
-        if (c == '\'') out += '\'';
-        out += c == '\n' || c == '\r' ? ' ' : c;
+        if (c == quote) {
+            out += replacement;
+        } else {
+            out += c == '\n' || c == '\r' ? ' ' : c;
+        }
     }
-    return out + "'";
+    return out + quote;
 }
 
-// A double-quoted string of a data file, which ends at the next double quote.
-std::string data_text(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? '\'' : (c == '\n' || c == '\r' ? ' ' : c);
-    return out + "\"";
-}
+// A gnuplot string: only the quote itself is special.
+std::string quoted(const std::string& text) { return quoted(text, '\'', "''"); }
+
+// A string of a data file, which ends at the next quote.
+std::string data_text(const std::string& text) { return quoted(text, '"', "'"); }
 
 PlotSeries front_of(const Plot& plot) {
     std::vector<CostAndError> points;
@@ -49,13 +76,12 @@ PlotSeries front_of(const Plot& plot) {
 }
 
 bool has_error_bars(const PlotSeries& series) {
-    return std::any_of(series.points.begin(), series.points.end(),
-                       [](const PlotPoint& p) { return p.low < p.high; });
+    return std::ranges::any_of(series.points, [](const PlotPoint& p) { return p.low < p.high; });
 }
 
 bool has_x_bars(const PlotSeries& series) {
-    return std::any_of(series.points.begin(), series.points.end(),
-                       [](const PlotPoint& p) { return p.x_low < p.x_high; });
+    return std::ranges::any_of(series.points,
+                               [](const PlotPoint& p) { return p.x_low < p.x_high; });
 }
 
 // One element of the plot command. The front is a thick line of steps: between two settings only
@@ -136,7 +162,7 @@ struct Axis {
     }
 
     std::string commands() const {
-        const std::string range = fmt::format("set {}range [{}:{}]\n", name, low, high);
+        std::string range = fmt::format("set {}range [{}:{}]\n", name, low, high);
         if (!logarithmic) return range;
         return fmt::format("set logscale {}\n{}{}", name, range, log_tics(name, low, high));
     }
@@ -224,6 +250,30 @@ std::string label_commands(const Plot& plot, const Axis& x, const Axis& y) {
 
 }  // namespace
 
+std::vector<PlotLabel> placed_labels(const std::vector<PlotLabel>& labels,
+                                     const std::vector<PlotBox>& obstacles, const PlotArea& area) {
+    const PlotBox frame = {area.left * kPlotWidth, area.bottom * kPlotHeight,
+                           area.right * kPlotWidth, area.top * kPlotHeight};
+    std::vector<PlotBox> taken = obstacles;
+    std::vector<PlotLabel> out;
+    const auto place = [&](const PlotLabel& label) {
+        for (const double distance : {9.0, 24.0, 40.0, 60.0, 85.0, 115.0, 150.0}) {
+            for (int direction = 0; direction < 12; ++direction) {
+                const PlotLabel candidate = moved(label, distance, direction);
+                const PlotBox box = box_of(candidate);
+                const auto blocked = [&](const PlotBox& other) { return box.overlaps(other); };
+                if (!inside(box, frame) || std::any_of(taken.begin(), taken.end(), blocked))
+                    continue;
+                taken.push_back(box);
+                out.push_back(candidate);
+                return;
+            }
+        }
+    };
+    for (const PlotLabel& label : labels) place(label);
+    return out;
+}
+
 Plot drawable(const Plot& plot) {
     Plot out = plot;
     out.series.clear();
@@ -255,19 +305,26 @@ std::string plot_data(const Plot& plot) {
 
 std::string plot_script(const Plot& plot, const std::string& stem) {
     const Axis x = axis_of('x', plot), y = axis_of('y', plot);
-    std::string out = "# Run in this folder: gnuplot FILE\nDATA = " + quoted(stem + ".dat") + "\n";
-    out += fmt::format("set title {}.\"\\n\".{} noenhanced\n", quoted(plot.title),
-                       quoted(plot.subtitle));
-    out += "set xlabel " + quoted(plot.x_label) + " noenhanced\n";
-    out += "set ylabel " + quoted(plot.y_label) + " noenhanced\n";
-    out += x.commands() + y.commands() + label_commands(plot, x, y);
-    out += "set grid xtics ytics lt 1 lw 0.5 lc rgb '#cccccc'\n";
-    out += "set key outside right top noenhanced\n";
-    out += "set terminal pngcairo size 1200,750 font 'Sans,11' noenhanced\n";
-    out += "set output " + quoted(stem + ".png") + "\n" + plot_command(plot);
-    out += "set terminal svg size 1200,750 font 'Sans,11' noenhanced background rgb 'white'\n";
-    out += "set output " + quoted(stem + ".svg") + "\nreplot\nset output\n";
-    return out;
+    const std::string frame = fmt::format(
+        "# Run in this folder: gnuplot FILE\n"
+        "DATA = {data}\n"
+        "set title {title}.\"\\n\".{subtitle} noenhanced\n"
+        "set xlabel {x} noenhanced\n"
+        "set ylabel {y} noenhanced\n",
+        fmt::arg("data", quoted(stem + ".dat")), fmt::arg("title", quoted(plot.title)),
+        fmt::arg("subtitle", quoted(plot.subtitle)), fmt::arg("x", quoted(plot.x_label)),
+        fmt::arg("y", quoted(plot.y_label)));
+    const std::string outputs = fmt::format(
+        "set grid xtics ytics lt 1 lw 0.5 lc rgb '#cccccc'\n"
+        "set key outside right top noenhanced\n"
+        "set terminal pngcairo size {width},{height} font 'Sans,11' noenhanced\n"
+        "set output {png}\n{plot}"
+        "set terminal svg size {width},{height} font 'Sans,11' noenhanced background rgb 'white'\n"
+        "set output {svg}\nreplot\nset output\n",
+        fmt::arg("width", kPlotWidth), fmt::arg("height", kPlotHeight),
+        fmt::arg("png", quoted(stem + ".png")), fmt::arg("plot", plot_command(plot)),
+        fmt::arg("svg", quoted(stem + ".svg")));
+    return frame + x.commands() + y.commands() + label_commands(plot, x, y) + outputs;
 }
 
 }  // namespace kilolux

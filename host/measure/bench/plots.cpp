@@ -16,30 +16,24 @@ struct Axis {
     const char* label;
     double (*x)(const SweepPoint&);
     bool labelled;  // points carry the field's text
-    bool log_x;
 };
 
 constexpr Axis kAxes[] = {
     {"lights", "time_against_lights", "Time against lights", "lights",
-     [](const SweepPoint& p) { return static_cast<double>(p.lights); }, false, true},
+     [](const SweepPoint& p) { return static_cast<double>(p.lights); }, false},
     {"grid", "time_against_grid", "Time against the coarse grid",
      "tiles x * tiles y * slices per octave",
-     [](const SweepPoint& p) { return static_cast<double>(p.grid[0]) * p.grid[1] * p.grid[2]; },
-     true, true},
+     [](const SweepPoint& p) { return 1.0 * p.grid[0] * p.grid[1] * p.grid[2]; }, true},
     {"group height", "time_against_work_group", "Time against the shading work-group",
-     "rows of a work-group",
-     [](const SweepPoint& p) { return static_cast<double>(p.group_height); }, false, true},
+     "rows of a work-group", [](const SweepPoint& p) { return 1.0 * p.group_height; }, false},
     {"lanes", "time_against_lanes", "Time against lanes", "lanes of a work-item",
-     [](const SweepPoint& p) { return static_cast<double>(p.lanes); }, false, true},
+     [](const SweepPoint& p) { return 1.0 * p.lanes; }, false},
     {"resolution", "time_against_resolution", "Time against resolution", "pixels",
-     [](const SweepPoint& p) { return static_cast<double>(p.resolution[0]) * p.resolution[1]; },
-     true, true},
+     [](const SweepPoint& p) { return 1.0 * p.resolution[0] * p.resolution[1]; }, true},
 };
 
-std::vector<SweepPoint> points_of(const std::vector<BenchRow>& rows) {
-    std::vector<SweepPoint> points;
-    for (const BenchRow& row : rows) points.push_back(row.point);
-    return points;
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::count(names, name) > 0;
 }
 
 // The texts of the varying fields but one.
@@ -47,50 +41,29 @@ std::string curve_name(const SweepPoint& point, const std::vector<std::string>& 
                        const std::string& but) {
     std::string name;
     for (const auto& [field, text] : fields_of(point)) {
-        const bool varies = std::find(varying.begin(), varying.end(), field) != varying.end();
-        if (!varies || field == but) continue;
+        if (!contains(varying, field) || field == but) continue;
         const bool bare = field == "renderer" || field == "resolution" || field == "gbuffer";
         if (!name.empty()) name += ", ";
-        if (!bare) name += field + " ";
-        name += text;
+        name += bare ? text : fmt::format("{} {}", field, text);
     }
     return name;
-}
-
-std::string field_text(const SweepPoint& point, const std::string& field) {
-    for (const auto& [name, text] : fields_of(point)) {
-        if (name == field) return text;
-    }
-    return {};
-}
-
-void add_point(Plot& plot, const std::string& curve, PlotPoint point) {
-    const auto found = std::find_if(plot.series.begin(), plot.series.end(),
-                                    [&](const PlotSeries& s) { return s.name == curve; });
-    if (found != plot.series.end()) {
-        found->points.push_back(std::move(point));
-    } else {
-        plot.series.push_back({curve, {std::move(point)}});
-    }
 }
 
 // Keeps curves of two points or more, sorted by x; whether there is one.
 bool finish(Plot& plot) {
     std::erase_if(plot.series, [](const PlotSeries& s) { return s.points.size() < 2; });
     for (PlotSeries& series : plot.series) {
-        std::stable_sort(series.points.begin(), series.points.end(),
-                         [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+        std::ranges::stable_sort(series.points, {}, &PlotPoint::x);
     }
     return !plot.series.empty();
 }
 
 // Scene, device, and the fields that all points share: resolution, lights, renderer.
 std::string full_subtitle(const std::string& subtitle, const std::vector<BenchRow>& rows) {
-    const std::vector<std::string> varying = varying_fields(points_of(rows));
+    const std::vector<std::string> varying = varying_fields(rows);
     std::string out = subtitle;
     for (const auto& [field, text] : fields_of(rows.front().point)) {
-        const bool varies = std::find(varying.begin(), varying.end(), field) != varying.end();
-        if (!varies && text != "auto") out += fmt::format(", {} {}", field, text);
+        if (!contains(varying, field) && text != "auto") out += fmt::format(", {} {}", field, text);
     }
     return out;
 }
@@ -102,16 +75,16 @@ struct Curves {
 };
 
 Curves curves_along(const std::string& field, const std::vector<BenchRow>& rows) {
-    const std::vector<std::string> varying = varying_fields(points_of(rows));
+    const std::vector<std::string> varying = varying_fields(rows);
     Curves curves;
     for (const BenchRow& row : rows) {
         const std::string name = curve_name(row.point, varying, field);
-        const bool has_fellow = std::any_of(rows.begin(), rows.end(), [&](const BenchRow& other) {
+        const auto on_same_curve = [&](const BenchRow& other) {
             return other.point != row.point && curve_name(other.point, varying, field) == name;
-        });
-        if (has_fellow) curves.rows.push_back(row);
+        };
+        if (std::ranges::any_of(rows, on_same_curve)) curves.rows.push_back(row);
     }
-    curves.varying = varying_fields(points_of(curves.rows));
+    curves.varying = varying_fields(curves.rows);
     return curves;
 }
 
@@ -120,17 +93,16 @@ Plot time_plot(const Axis& axis, const Curves& curves) {
     plot.title = axis.title;
     plot.x_label = axis.label;
     plot.y_label = "time [ms]";
-    plot.log_x = axis.log_x;
-    plot.log_y = true;
+    plot.log_x = plot.log_y = true;
     for (const BenchRow& row : curves.rows) {
         // Automatic values are not on the axis.
         if ((row.stage != kFrameStage && row.stage != "shade") || axis.x(row.point) <= 0.0)
             continue;
         const std::string name = curve_name(row.point, curves.varying, axis.field);
         const bool labelled = axis.labelled && row.stage == kFrameStage;
-        add_point(plot, row.stage + (name.empty() ? "" : ", " + name),
-                  {axis.x(row.point), row.ms.median,
-                   labelled ? field_text(row.point, axis.field) : "", row.ms.p5, row.ms.p95});
+        series_of(plot, row.stage + (name.empty() ? "" : ", " + name))
+            .push_back({axis.x(row.point), row.ms.median,
+                        labelled ? field_text(row.point, axis.field) : "", row.ms.p5, row.ms.p95});
     }
     return plot;
 }
@@ -156,8 +128,8 @@ Plot speed_up_plot(const Curves& curves) {
         if (row.stage != kFrameStage || row.point.renderer == RendererKind::deferred_all) continue;
         const BenchRow* naive = naive_row(row, curves.rows);
         if (!naive || row.ms.median <= 0.0) continue;
-        add_point(plot, curve_name(row.point, curves.varying, "lights"),
-                  {static_cast<double>(row.point.lights), naive->ms.median / row.ms.median});
+        series_of(plot, curve_name(row.point, curves.varying, "lights"))
+            .push_back({static_cast<double>(row.point.lights), naive->ms.median / row.ms.median});
     }
     return plot;
 }
@@ -166,16 +138,17 @@ Plot speed_up_plot(const Curves& curves) {
 
 std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows, const std::string& subtitle) {
     std::vector<NamedPlot> plots;
-    if (rows.empty()) return plots;
+    const auto add = [&](const std::string& stem, Plot plot, const Curves& curves) {
+        if (!finish(plot)) return;
+        plot.subtitle = full_subtitle(subtitle, curves.rows);
+        plots.push_back({stem, std::move(plot)});
+    };
     for (const Axis& axis : kAxes) {
         const Curves curves = curves_along(axis.field, rows);
-        plots.push_back({axis.stem, time_plot(axis, curves)});
-        if (!curves.rows.empty()) plots.back().plot.subtitle = full_subtitle(subtitle, curves.rows);
+        add(axis.stem, time_plot(axis, curves), curves);
     }
     const Curves curves = curves_along("lights", rows);
-    plots.push_back({"speed_up_against_lights", speed_up_plot(curves)});
-    if (!curves.rows.empty()) plots.back().plot.subtitle = full_subtitle(subtitle, curves.rows);
-    std::erase_if(plots, [](NamedPlot& named) { return !finish(named.plot); });
+    add("speed_up_against_lights", speed_up_plot(curves), curves);
     return plots;
 }
 

@@ -5,20 +5,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <iterator>
 
+#include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
-#include "host/measure/bench/renderer_names.h"
 
 namespace kilolux {
 namespace {
-
-Cell cell_of(double value) { return value; }
-Cell cell_of(const std::string& text) { return text; }
-template <std::integral Integer>
-Cell cell_of(Integer value) {
-    return static_cast<std::int64_t>(value);
-}
 
 void read(std::string& text, const std::string& field) { text = field; }
 template <typename Number>
@@ -29,7 +24,7 @@ void read(Number& number, const std::string& field) {
         throw Error(fmt::format("'{}', must be a number", field));
 }
 
-struct Column {
+struct CsvColumn {
     const char* name;
     Cell (*cell)(const BenchRow& row);
     void (*read)(BenchRow& row, const std::string& field);  // null: follows from others
@@ -37,13 +32,13 @@ struct Column {
 
 // A column that holds one member, to which `Member` refers.
 template <auto Member>
-constexpr Column stored(const char* name) {
+constexpr CsvColumn stored(const char* name) {
     return {name, [](const BenchRow& row) { return cell_of(Member(row)); },
             [](BenchRow& row, const std::string& field) { read(Member(row), field); }};
 }
 
 template <double (BenchRow::*Value)() const>
-constexpr Column derived(const char* name) {
+constexpr CsvColumn derived(const char* name) {
     return {name, [](const BenchRow& row) { return Cell((row.*Value)()); }, nullptr};
 }
 
@@ -51,7 +46,7 @@ constexpr Column derived(const char* name) {
     stored < [](auto& row) -> auto& { return row.path; } \
     >
 
-constexpr Column kColumns[] = {
+constexpr CsvColumn kColumns[] = {
     {"renderer", [](const BenchRow& r) { return Cell(renderer_name(r.point.renderer)); },
      [](BenchRow& r, const std::string& field) { r.point.renderer = renderer_of_name(field); }},
     MEMBER(point.resolution[0])("width"),
@@ -89,7 +84,7 @@ constexpr Column kColumns[] = {
 
 std::vector<std::string> columns() {
     std::vector<std::string> names;
-    for (const Column& column : kColumns) names.emplace_back(column.name);
+    for (const CsvColumn& column : kColumns) names.emplace_back(column.name);
     return names;
 }
 
@@ -108,22 +103,6 @@ BenchRow row_of(const std::vector<std::string>& fields) {
 // 0 is what has no model or was not counted.
 Cell unless_zero(double value) { return value > 0.0 ? Cell(value) : Cell(); }
 
-std::vector<Cell> summary_cells(const BenchRow& r) {
-    return {r.stage,
-            r.ms.median,
-            r.ms.p5,
-            r.ms.p95,
-            unless_zero(r.limit_ms),
-            unless_zero(r.ratio()),
-            r.beats_limit() ? "beaten: " + r.bound : r.bound,
-            unless_zero(r.giga_evaluations_per_s()),
-            unless_zero(r.gigabytes_per_s()),
-            r.k,
-            r.useful_share(),
-            r.error.max_relative,
-            cell_of(r.error.different_pixels)};
-}
-
 }  // namespace
 
 bool BenchRow::beats_limit() const {
@@ -139,30 +118,33 @@ Table bench_table(const std::vector<BenchRow>& rows) {
     table.columns = columns();
     for (const BenchRow& row : rows) {
         std::vector<Cell>& cells = table.rows.emplace_back();
-        for (const Column& column : kColumns) cells.push_back(column.cell(row));
+        for (const CsvColumn& column : kColumns) cells.push_back(column.cell(row));
     }
     return table;
 }
 
 Table bench_summary(const std::vector<BenchRow>& rows) {
-    std::vector<SweepPoint> points;
-    for (const BenchRow& row : rows) points.push_back(row.point);
-    const std::vector<std::string> varying = varying_fields(points);
-    Table table;
-    table.columns = varying;
-    for (const char* name : {"stage", "median [ms]", "p5", "p95", "limit [ms]", "ratio", "bound",
-                             "Geval/s", "GB/s", "k", "k*/k", "max rel. error", "bits differ"}) {
-        table.columns.emplace_back(name);
+    using R = BenchRow;
+    std::vector<Column<R>> columns;
+    for (const std::string& field : varying_fields(rows)) {
+        columns.push_back({field, [field](const R& r) { return field_text(r.point, field); }});
     }
-    for (const BenchRow& row : rows) {
-        std::vector<Cell>& cells = table.rows.emplace_back();
-        for (const auto& [name, text] : fields_of(row.point)) {
-            const bool shown = std::find(varying.begin(), varying.end(), name) != varying.end();
-            if (shown) cells.emplace_back(text);
-        }
-        for (Cell& cell : summary_cells(row)) cells.push_back(std::move(cell));
-    }
-    return table;
+    columns.insert(
+        columns.end(),
+        {{"stage", &R::stage},
+         {"median [ms]", [](const R& r) { return r.ms.median; }},
+         {"p5", [](const R& r) { return r.ms.p5; }},
+         {"p95", [](const R& r) { return r.ms.p95; }},
+         {"limit [ms]", [](const R& r) { return unless_zero(r.limit_ms); }},
+         {"ratio", [](const R& r) { return unless_zero(r.ratio()); }},
+         {"bound", [](const R& r) { return r.beats_limit() ? "beaten: " + r.bound : r.bound; }},
+         {"Geval/s", [](const R& r) { return unless_zero(r.giga_evaluations_per_s()); }},
+         {"GB/s", [](const R& r) { return unless_zero(r.gigabytes_per_s()); }},
+         {"k", &R::k},
+         {"k*/k", &R::useful_share},
+         {"max rel. error", [](const R& r) { return r.error.max_relative; }},
+         {"bits differ", [](const R& r) { return r.error.different_pixels; }}});
+    return make_table(columns, rows);
 }
 
 std::string bench_legend() {
@@ -186,6 +168,39 @@ std::vector<BenchRow> bench_rows(const TextTable& csv) {
         }
     }
     return rows;
+}
+
+std::vector<std::string> varying_fields(const std::vector<BenchRow>& rows) {
+    std::vector<SweepPoint> points;
+    for (const BenchRow& row : rows) points.push_back(row.point);
+    return varying_fields(points);
+}
+
+BenchLog::BenchLog(std::filesystem::path file, bool resume) : file_(std::move(file)) {
+    if (!resume || !std::filesystem::exists(file_)) return;
+    std::ifstream in(file_, std::ios::binary);
+    if (!in) throw Error(fmt::format("{}: cannot read", file_.string()));
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    // A copy may have been cut off within a line or a point.
+    text.erase(text.rfind('\n') + 1);
+    try {
+        rows_ = bench_rows(parse_csv(text));
+    } catch (const Error& error) {
+        throw Error(fmt::format("{}: {}", file_.string(), error.what()));
+    }
+    while (!rows_.empty() && rows_.back().stage != kFrameStage) rows_.pop_back();
+}
+
+std::vector<BenchRow> BenchLog::rows_of(const SweepPoint& point) const {
+    std::vector<BenchRow> rows;
+    std::ranges::copy_if(rows_, std::back_inserter(rows),
+                         [&](const BenchRow& row) { return row.point == point; });
+    return rows;
+}
+
+void BenchLog::append(const std::vector<BenchRow>& rows) {
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    write_atomically(file_, to_csv(bench_table(rows_)));
 }
 
 }  // namespace kilolux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,5 +67,30 @@ bool is_bench_table(const TextTable& csv);
 /// The rows of bench_table() as parse_csv() reads them. Throws Error with the line's number for
 /// anything else.
 std::vector<BenchRow> bench_rows(const TextTable& csv);
+
+/// Names of the fields in which the rows' points differ.
+std::vector<std::string> varying_fields(const std::vector<BenchRow>& rows);
+
+/// The CSV of a sweep. It is written whole after every point, so that an interruption loses one
+/// point at most.
+class BenchLog {
+ public:
+    /// `resume`: keep the complete points of the file. Otherwise the first append() replaces it.
+    /// Throws Error for a file that is no such log.
+    BenchLog(std::filesystem::path file, bool resume);
+
+    /// Rows of the complete points.
+    const std::vector<BenchRow>& rows() const { return rows_; }
+
+    /// The rows of a point; empty if it is not there.
+    std::vector<BenchRow> rows_of(const SweepPoint& point) const;
+
+    /// Adds a complete point and writes the file. Throws Error with the system's reason.
+    void append(const std::vector<BenchRow>& rows);
+
+ private:
+    std::filesystem::path file_;
+    std::vector<BenchRow> rows_;
+};
 
 }  // namespace kilolux

@@ -2,40 +2,42 @@
 #include "host/measure/bench/run.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include "host/measure/metrics/metrics.h"
 #include "host/measure/roofline/stage_report.h"
-#include "host/render/renderer.h"
 
 namespace kilolux {
 namespace {
 
-constexpr double kErrorWidth = 480.0;      // [pixel]
-constexpr double kErrorEvaluations = 2e9;  // a few seconds of a small CPU
-
-// A stage's time in each frame that has it.
-std::vector<double> times_of(const std::vector<FrameStats>& frames, const std::string& stage) {
-    std::vector<double> times;
+// A row of a stage's time in each frame that has it.
+BenchRow stage_row(BenchRow row, const StageReport& report, const std::vector<FrameStats>& frames) {
+    std::vector<double> times_ms;
     for (const FrameStats& frame : frames) {
         for (const StageTime& time : frame.stages) {
-            if (time.name == stage) times.push_back(time.ms);
+            if (time.name == report.stage) times_ms.push_back(time.ms);
         }
     }
-    return times;
+    row.stage = report.stage;
+    row.ms = statistics(times_ms);
+    row.limit_ms = report.limit_ms;
+    row.bound = report.bound;
+    row.bytes = report.bytes;
+    row.evaluations = report.evaluations;
+    return row;
 }
 
 // A row of a time of each frame that is no stage's. It has no limit: some stages have none.
 template <typename Ms>
 BenchRow timed_row(BenchRow row, std::string_view stage, const std::vector<FrameStats>& frames,
                    Ms ms) {
-    std::vector<double> times;
-    for (const FrameStats& frame : frames) times.push_back(ms(frame));
+    std::vector<double> times_ms;
+    for (const FrameStats& frame : frames) times_ms.push_back(std::invoke(ms, frame));
     row.stage = stage;
-    row.ms = statistics(times);
+    row.ms = statistics(times_ms);
     return row;
 }
 
@@ -59,15 +61,6 @@ RgbImage mean_of(const RgbImage& picture) {
 }
 
 }  // namespace
-
-std::array<int, 2> error_resolution(std::array<int, 2> resolution, std::uint64_t lights) {
-    const double pixels = static_cast<double>(resolution[0]) * resolution[1];
-    const double evaluations = pixels * static_cast<double>(std::max<std::uint64_t>(lights, 1));
-    const double scale =
-        std::min({1.0, kErrorWidth / resolution[0], std::sqrt(kErrorEvaluations / evaluations)});
-    for (int& edge : resolution) edge = std::max(1, static_cast<int>(scale * edge));
-    return resolution;
-}
 
 BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera, double time,
                    GlSource gl)
@@ -99,7 +92,7 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
         frame_ms_.emplace_back(point, measured.back().frame_ms);
         std::copy_n(measured.back().grid, 3, grid_.begin());
         if (is_forward(point.renderer)) {
-            // Counted by a pass that the frames in the sweep do not pay for.
+            // A further pass counts, which the timed frames leave out.
             RenderSettings counted = settings;
             counted.want.counts = true;
             renderer.change(counted);
@@ -126,18 +119,10 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     row.error = error_of(point);
     std::vector<BenchRow> rows;
     for (const StageReport& report : stage_reports(stats, limits(), setup)) {
-        BenchRow stage = row;
-        stage.stage = report.stage;
-        stage.ms = statistics(times_of(frames, report.stage));
-        stage.limit_ms = report.limit_ms;
-        stage.bound = report.bound;
-        stage.bytes = report.bytes;
-        stage.evaluations = report.evaluations;
-        rows.push_back(std::move(stage));
+        rows.push_back(stage_row(row, report, frames));
     }
     rows.push_back(timed_row(row, kOtherStage, frames, other_ms));
-    rows.push_back(timed_row(row, kFrameStage, frames,
-                             [](const FrameStats& frame) { return frame.frame_ms; }));
+    rows.push_back(timed_row(row, kFrameStage, frames, &FrameStats::frame_ms));
     return rows;
 }
 
@@ -159,52 +144,58 @@ std::size_t BenchRun::frame_count(const std::vector<SweepPoint>& points,
     std::size_t counted = 0;
     for (const SweepPoint& p : points) {
         counted += is_forward(p.renderer);
-        covered.emplace(p.resolution, p.lights, p.gbuffer);
-        compared.emplace(error_point(p).resolution, p.lights, p.gbuffer);
+        covered.insert(key_of(p));
+        compared.insert(key_of(error_point(p)));
     }
     const auto each =
         static_cast<std::size_t>(frames.warm_up) + static_cast<std::size_t>(frames.measured) + 1;
     return points.size() * each + counted + covered.size() + compared.size();
 }
 
+BenchRun::SceneKey BenchRun::key_of(const SweepPoint& point) {
+    return {point.resolution, point.lights, point.gbuffer};
+}
+
 SweepPoint BenchRun::error_point(SweepPoint point) const {
-    point.resolution = error_resolution(point.resolution, point.lights + scene_.lights.size());
+    point.resolution =
+        error_size(point.resolution, point.lights + scene_.lights.size(), kBenchErrorSize);
     return point;
 }
 
+// A frame that is not timed.
+Frame BenchRun::render(const RenderSettings& settings) {
+    Frame frame = Renderer(scene_, settings, gl_).render(camera_, time_);
+    on_frame_();
+    return frame;
+}
+
 const BenchRun::Coverage& BenchRun::coverage(const SweepPoint& point) {
-    const auto [found, is_new] =
-        coverages_.try_emplace({point.resolution, point.lights, point.gbuffer});
+    const auto [found, is_new] = coverages_.try_emplace(key_of(point));
     if (!is_new) return found->second;
     RenderSettings settings = settings_at(base_, point);
     settings.renderer = RendererKind::deferred;
     settings.want.counts = true;
-    const FrameStats stats = Renderer(scene_, settings, gl_).render(camera_, time_).stats;
-    on_frame_();
+    const FrameStats stats = render(settings).stats;
     found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels};
     return found->second;
 }
 
 const RgbImage& BenchRun::reference(const SweepPoint& point) {
-    const auto [found, is_new] =
-        references_.try_emplace({point.resolution, point.lights, point.gbuffer});
+    const auto [found, is_new] = references_.try_emplace(key_of(point));
     if (!is_new) return found->second;
     SweepPoint all = point;
     all.renderer = RendererKind::deferred_all;
     all.lanes = all.group_height = 0;
-    found->second =
-        picture_of(Renderer(scene_, settings_at(base_, all), gl_).render(camera_, time_));
-    on_frame_();
+    found->second = picture_of(render(settings_at(base_, all)));
     return found->second;
 }
 
 PictureError BenchRun::error_of(const SweepPoint& point) {
     const SweepPoint small = error_point(point);
-    const Frame frame = Renderer(scene_, settings_at(base_, small), gl_).render(camera_, time_);
-    on_frame_();
+    const RgbImage picture = picture_of(render(settings_at(base_, small)));
     const RgbImage& expected = reference(small);
     const RgbImage floor = mean_of(expected);
-    const HdrMetrics metrics = compare_hdr(picture_of(frame), expected, {.scale = &floor});
+    const HdrMetrics metrics = compare_hdr(picture, expected, {.scale = &floor});
     return {metrics.relative.max, metrics.different_pixels, metrics.pixels};
 }
 

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "host/measure/bench/row.h"
+#include "host/measure/metrics/error_size.h"
 #include "host/measure/metrics/rgb_image.h"
-#include "host/measure/roofline/limit_watch.h"
+#include "host/measure/roofline/limit_kernels.h"
 #include "host/measure/roofline/roofline.h"
 #include "host/picture/frame.h"
 #include "host/render/renderer.h"
@@ -25,9 +26,8 @@ struct BenchFrames {
     int measured = 120;
 };
 
-/// The size at which pictures are compared: of the same shape, at most 480 pixels wide, and small
-/// enough that deferred-all takes at most 2e9 evaluations.
-std::array<int, 2> error_resolution(std::array<int, 2> resolution, std::uint64_t lights);
+/// Of the pictures whose error a sweep measures: deferred-all takes a few seconds of a small CPU.
+inline constexpr ErrorSizeLimits kBenchErrorSize = {.width = 480, .evaluations = 2e9};
 
 /// Measures points of a sweep over one scene from one camera at one time.
 class BenchRun {
@@ -64,7 +64,9 @@ class BenchRun {
     };
     using SceneKey = std::tuple<std::array<int, 2>, std::uint64_t, uint>;
 
+    static SceneKey key_of(const SweepPoint& point);
     SweepPoint error_point(SweepPoint point) const;
+    Frame render(const RenderSettings& settings);
     const Coverage& coverage(const SweepPoint& point);
     const RgbImage& reference(const SweepPoint& point);
     PictureError error_of(const SweepPoint& point);

@@ -18,8 +18,9 @@
 namespace kilolux {
 namespace {
 
-constexpr int kModels[] = {SHADING_LAMBERT, SHADING_BLINN_PHONG, SHADING_PBR};
-constexpr const char* kModelNames[] = {"lambert", "blinn-phong", "pbr"};
+// By SHADING_*.
+constexpr const char* kModels[] = {"lambert", "blinn-phong", "pbr"};
+static_assert(SHADING_LAMBERT == 0 && SHADING_BLINN_PHONG == 1 && SHADING_PBR == 2);
 constexpr float kNearest = 2.0f, kFarthest = 20.0f;  // of the pixels [m]
 constexpr float kRange = 100.0f;                     // of the lights [m]
 
@@ -91,19 +92,37 @@ std::vector<Variant> make_variants(const Gpu& gpu, const RenderSettings& setting
     const DeviceInfo device = describe(gpu.device);
     const Tuning tuning = choose_tuning(device, settings.kernels).tuning;
     std::vector<Variant> variants;
-    for (const int model : kModels) {
+    for (int model = 0; model < static_cast<int>(std::size(kModels)); ++model) {
         for (const int lanes : lane_widths(device)) {
             KernelFeatures features;
             features.shading = model;
+            ShadeAll shade(gpu.with_lanes(lanes), tuning, features);
+            shade.set_ambient(settings.ambient);
             ShadingMeasurement measurement;
-            measurement.model = kModelNames[model];
+            measurement.model = kModels[model];
             measurement.lanes = lanes;
-            const Gpu lanes_gpu = gpu.with_lanes(lanes);
-            variants.push_back({measurement, features, ShadeAll(lanes_gpu, tuning, features), {}});
-            variants.back().shade.set_ambient(settings.ambient);
+            variants.push_back({measurement, features, std::move(shade), {}});
         }
     }
     return variants;
+}
+
+// Runs every variant in turn, first once to warm up; raises the limits before each turn.
+void time_variants(std::vector<Variant>& variants, const Gpu& gpu, const GBuffer& gbuffer, int runs,
+                   DeviceLimits& limits, const std::function<void()>& on_run) {
+    const PreparedLights lights = make_lights(gpu);
+    LimitKernels limit_kernels(gpu.with_lanes(gpu.info.vector_width));
+    for (int run = -1; run < runs; ++run) {
+        raise_arithmetic_limits(limits, limit_kernels);
+        for (Variant& variant : variants) {
+            StageTimer timer;
+            variant.shade.enqueue(gbuffer, lights, timer);
+            const double ms = timer.take().front().ms;
+            if (run >= 0) variant.times_ms.push_back(ms);
+            on_run();
+        }
+    }
+    for (Variant& variant : variants) variant.measurement.ms = statistics(variant.times_ms);
 }
 
 void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) {
@@ -113,24 +132,16 @@ void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) 
     counts.lights = kShadingLights;
     counts.evaluations = counts.full_evaluations = counts.pixels * kShadingLights;
     counts.kernels = variant.features;
-    StageWork work = stage_work("shade", counts).value();
+    const StageWork work = stage_work("shade", counts).value();
     const StageLimit limit = stage_limit(work, limits);
     m.limit_ms = limit.ms;
     m.bound = bound_name(limit.bound);
     m.evaluations = counts.evaluations;
-    m.bytes = work.bytes_read + work.bytes_written;
+    m.bytes = work.bytes();
     m.instruction_ms = 1e3 * work.instructions.total / (0.5 * limits.fma_flops);
 }
 
-// The least time of the same model with one lane.
-double one_lane_ms(const std::vector<Variant>& variants, const std::string& model) {
-    for (const Variant& variant : variants) {
-        if (variant.measurement.model == model && variant.measurement.lanes == 1) {
-            return variant.measurement.ms.min;
-        }
-    }
-    return 0.0;
-}
+double ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
 
 }  // namespace
 
@@ -145,47 +156,37 @@ std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, 
         const Gpu gpu = open_device(settings);
         const GBuffer gbuffer =
             make_gbuffer(gpu, view_of(Camera{}, settings.width, settings.height));
-        const PreparedLights lights = make_lights(gpu);
         std::vector<Variant> variants = make_variants(gpu, settings);
-        LimitKernels limit_kernels(gpu.with_lanes(gpu.info.vector_width));
-        for (int run = -1; run < runs; ++run) {
-            raise_arithmetic_limits(limits, limit_kernels);
-            for (Variant& variant : variants) {
-                StageTimer timer;
-                variant.shade.enqueue(gbuffer, lights, timer);
-                const double ms = timer.take().front().ms;
-                if (run >= 0) variant.times_ms.push_back(ms);  // the first one warms up
-                on_run();
-            }
-        }
+        time_variants(variants, gpu, gbuffer, runs, limits, on_run);
         std::vector<ShadingMeasurement> out;
+        double one_lane_ms = 0.0;  // each model's first variant
         for (Variant& variant : variants) {
-            variant.measurement.ms = statistics(variant.times_ms);
+            ShadingMeasurement& m = variant.measurement;
             set_limits(variant, gbuffer.view, limits);
-        }
-        for (const Variant& variant : variants) {
-            out.push_back(variant.measurement);
-            const double ms = variant.measurement.ms.min;
-            out.back().speed_up =
-                ms > 0.0 ? one_lane_ms(variants, variant.measurement.model) / ms : 0.0;
+            if (m.lanes == 1) one_lane_ms = m.ms.min;
+            m.speed_up = ratio(one_lane_ms, m.ms.min);
+            out.push_back(m);
         }
         return out;
     });
 }
 
 Table shading_table(const std::vector<ShadingMeasurement>& measurements) {
-    Table table;
-    table.columns = {"model",      "lanes",         "n",     "median [ms]",       "least [ms]",
-                     "limit [ms]", "ratio",         "bound", "instruction ratio", "Geval/s",
-                     "GB/s",       "times one lane"};
-    for (const ShadingMeasurement& m : measurements) {
-        const double per_ms = m.ms.min > 0.0 ? 1e-6 / m.ms.min : 0.0;
-        table.rows.push_back({m.model, std::int64_t{m.lanes}, static_cast<std::int64_t>(m.ms.count),
-                              m.ms.median, m.ms.min, m.limit_ms, m.ratio(), m.bound,
-                              m.instruction_ratio(), m.evaluations * per_ms, m.bytes * per_ms,
-                              m.speed_up});
-    }
-    return table;
+    using M = ShadingMeasurement;
+    return make_table<M>(
+        {{"model", &M::model},
+         {"lanes", &M::lanes},
+         {"n", [](const M& m) { return m.ms.count; }},
+         {"median [ms]", [](const M& m) { return m.ms.median; }},
+         {"least [ms]", [](const M& m) { return m.ms.min; }},
+         {"limit [ms]", &M::limit_ms},
+         {"ratio", [](const M& m) { return ratio(m.limit_ms, m.ms.min); }},
+         {"bound", &M::bound},
+         {"instruction ratio", [](const M& m) { return ratio(m.instruction_ms, m.ms.min); }},
+         {"Geval/s", [](const M& m) { return ratio(1e-6 * m.evaluations, m.ms.min); }},
+         {"GB/s", [](const M& m) { return ratio(1e-6 * m.bytes, m.ms.min); }},
+         {"times one lane", &M::speed_up}},
+        measurements);
 }
 
 }  // namespace kilolux

@@ -17,18 +17,14 @@ struct ShadingMeasurement {
     std::string model;  // "lambert", "blinn-phong", "pbr"
     int lanes = 1;
     Statistics ms;
-    double limit_ms = 0.0;        // by the device's limits
-    double instruction_ms = 0.0;  // by its instructions alone, at the rate of multiply-adds
+    double limit_ms = 0.0;  // by the device's limits
+    // By its instructions alone, at half of the multiply-add FLOP/s, as rooflines are drawn.
+    // Devices with separate adders may take less, which limit_ms includes.
+    double instruction_ms = 0.0;
     std::string bound;
     double evaluations = 0.0;
     double bytes = 0.0;
     double speed_up = 0.0;  // least time with one lane / least time with these lanes
-
-    /// Of the least time, as limits are the best of several runs.
-    double ratio() const { return ms.min > 0.0 ? limit_ms / ms.min : 0.0; }
-    /// Instructions at half of the multiply-add FLOP/s, as rooflines are drawn. It exceeds 1 on
-    /// devices with separate adders, which limit_ms includes.
-    double instruction_ratio() const { return ms.min > 0.0 ? instruction_ms / ms.min : 0.0; }
 };
 
 /// Lights per pixel of measure_shading().
@@ -37,7 +33,8 @@ inline constexpr int kShadingLights = 64;
 /// Times the all-lights shading kernel on a synthetic full-screen G-buffer (packed, settings' size)
 /// with every pixel in range of kShadingLights point lights: each model with 1, 2, 4, 8, 16 and the
 /// device's own lanes, in turns, so that other load affects all alike. The arithmetic limits are
-/// measured again between the runs; the best counts. `on_run` is called after every run and may
+/// measured again between the runs; the best counts. Limits are compared with the least times, as
+/// both are the best of several runs. `on_run` is called after every run and may
 /// throw to stop.
 std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, DeviceLimits limits,
                                                 int runs, const std::function<void()>& on_run);

@@ -6,18 +6,18 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
-#include <set>
 
 #include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
 #include "host/base/text.h"
-#include "host/measure/bench/renderer_names.h"
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::size_t kMostValues = 10000;
+constexpr std::string_view kRendererNames[] = {"deferred", "forward-plus", "forward",
+                                               "deferred-all"};
 
 std::optional<std::uint64_t> count_of(std::string_view text) {
     std::uint64_t value = 0;
@@ -26,48 +26,39 @@ std::optional<std::uint64_t> count_of(std::string_view text) {
     return value;
 }
 
-// A range's step: added, or multiplied by.
-struct Step {
-    std::uint64_t amount = 0;
-    bool factor = false;
-
-    // The value after `value`; none beyond `last`.
-    std::optional<std::uint64_t> next(std::uint64_t value, std::uint64_t last) const {
-        const bool beyond = factor ? value > last / amount : amount > last - value;
-        if (beyond) return std::nullopt;
-        return factor ? value * amount : value + amount;
-    }
-};
-
-std::optional<Step> step_of(std::string_view text) {
-    const bool factor = text.starts_with('*');
-    const auto amount = count_of(factor ? text.substr(1) : text);
-    if (!amount || *amount < (factor ? 2u : 1u)) return std::nullopt;
-    return Step{*amount, factor};
-}
-
 // The values of one piece; empty: it is malformed.
 std::vector<std::uint64_t> piece_values(std::string_view piece) {
     const auto parts = split(piece, ':');
-    if (parts.size() == 1) {
-        const auto value = count_of(parts[0]);
-        return value ? std::vector{*value} : std::vector<std::uint64_t>{};
-    }
-    if (parts.size() != 3) return {};
     const auto first = count_of(parts[0]);
+    if (!first || (parts.size() != 1 && parts.size() != 3)) return {};
+    std::vector<std::uint64_t> values = {*first};
+    if (parts.size() == 1) return values;
+    const bool geometric = parts[2].starts_with('*');
     const auto last = count_of(parts[1]);
-    const auto step = step_of(parts[2]);
-    if (!first || !last || !step || *first > *last || (step->factor && *first == 0)) return {};
-    std::vector<std::uint64_t> values;
-    std::optional<std::uint64_t> value = first;
-    while (value && values.size() <= kMostValues) {
-        values.push_back(*value);
-        value = step->next(*value, *last);
+    const auto step = count_of(parts[2].substr(geometric ? 1 : 0));
+    if (!last || !step || *first > *last || *step < (geometric ? 2u : 1u)) return {};
+    if (geometric && *first == 0) return {};
+    // The next value itself may be beyond 2^64.
+    const auto has_next = [&](std::uint64_t value) {
+        return geometric ? value <= *last / *step : *step <= *last - value;
+    };
+    while (values.size() <= kMostValues && has_next(values.back())) {
+        values.push_back(geometric ? values.back() * *step : values.back() + *step);
     }
     return values;
 }
 
 }  // namespace
+
+std::string renderer_name(RendererKind renderer) {
+    return std::string(kRendererNames[static_cast<std::size_t>(renderer)]);
+}
+
+RendererKind renderer_of_name(std::string_view name) {
+    const auto* found = std::ranges::find(kRendererNames, name);
+    if (found == std::end(kRendererNames)) throw Error(fmt::format("'{}' is no renderer", name));
+    return static_cast<RendererKind>(found - std::begin(kRendererNames));
+}
 
 std::vector<std::uint64_t> parse_count_sweep(const std::string& option, std::string_view text,
                                              std::uint64_t min, std::uint64_t max) {
@@ -140,7 +131,7 @@ bool has_clusters(RendererKind renderer) {
     return renderer == RendererKind::deferred || renderer == RendererKind::forward_plus;
 }
 
-std::vector<std::pair<std::string, std::string>> fields_of(const SweepPoint& p) {
+SweepFields fields_of(const SweepPoint& p) {
     const auto text = [](int value) { return value == 0 ? "auto" : fmt::to_string(value); };
     return {{"renderer", renderer_name(p.renderer)},
             {"resolution", fmt::format("{}x{}", p.resolution[0], p.resolution[1])},
@@ -151,16 +142,18 @@ std::vector<std::pair<std::string, std::string>> fields_of(const SweepPoint& p) 
             {"gbuffer", gbuffer_layout_name(p.gbuffer)}};
 }
 
+std::string field_text(const SweepPoint& point, const std::string& field) {
+    const SweepFields fields = fields_of(point);
+    return std::ranges::find(fields, field, &SweepFields::value_type::first)->second;
+}
+
 std::vector<std::string> varying_fields(const std::vector<SweepPoint>& points) {
-    const auto fields = fields_of(SweepPoint{});
-    std::vector<std::set<std::string>> seen(fields.size());
-    for (const SweepPoint& point : points) {
-        const auto texts = fields_of(point);
-        for (std::size_t i = 0; i < texts.size(); ++i) seen[i].insert(texts[i].second);
-    }
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-        if (seen[i].size() > 1) names.push_back(fields[i].first);
+    for (const auto& [name, text] : fields_of(SweepPoint{})) {
+        const auto differs = [&points, field = name](const SweepPoint& point) {
+            return field_text(point, field) != field_text(points.front(), field);
+        };
+        if (std::ranges::any_of(points, differs)) names.push_back(name);
     }
     return names;
 }

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "host/measure/bench/renderer_names.h"
 #include "host/render/settings.h"
 
 namespace kilolux {
@@ -19,6 +18,11 @@ namespace kilolux {
 /// values, or for a number outside [min, max].
 std::vector<std::uint64_t> parse_count_sweep(const std::string& option, std::string_view text,
                                              std::uint64_t min, std::uint64_t max);
+
+/// The name of a renderer on the command line and in files, and back; throws Error for an unknown
+/// name.
+std::string renderer_name(RendererKind renderer);
+RendererKind renderer_of_name(std::string_view name);
 
 /// What one measurement of a sweep varies.
 struct SweepPoint {
@@ -54,7 +58,11 @@ bool has_clusters(RendererKind renderer);
 
 /// Names and texts of a point's fields: renderer, resolution, lights, grid, lanes, group height,
 /// gbuffer.
-std::vector<std::pair<std::string, std::string>> fields_of(const SweepPoint& point);
+using SweepFields = std::vector<std::pair<std::string, std::string>>;
+SweepFields fields_of(const SweepPoint& point);
+
+/// The text of one field.
+std::string field_text(const SweepPoint& point, const std::string& field);
 
 /// Names of the fields in which the points differ, in fields_of()'s order.
 std::vector<std::string> varying_fields(const std::vector<SweepPoint>& points);

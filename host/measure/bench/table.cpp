@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 
 #include "host/base/error.h"
 
@@ -31,13 +30,9 @@ void check(const Table& table) {
 
 std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"') out += '"';
-        out += c;
-    }
-    out += '"';
-    return out;
+    std::string doubled;
+    for (const char c : text) doubled.append(c == '"' ? 2 : 1, c);
+    return fmt::format("\"{}\"", doubled);
 }
 
 // A cell must stay on its line and within its bars.
@@ -78,38 +73,28 @@ MarkdownColumn markdown_column(const Table& table, std::size_t index, int signif
     return out;
 }
 
-// Splits a text at commas and line ends outside of quotes.
-class CsvReader {
- public:
-    explicit CsvReader(std::string_view text) : text_(text) {}
-
-    bool at_end() const { return text_.empty(); }
-
-    std::vector<std::string> next_line() {
-        std::vector<std::string> fields(1);
-        bool quoted = false;
-        while (!text_.empty()) {
-            const char c = text_.front();
-            text_.remove_prefix(1);
-            if (c == '"' && quoted && text_.starts_with('"')) {
-                fields.back() += c;
-                text_.remove_prefix(1);
-            } else if (c == '"') {
-                quoted = !quoted;
-            } else if (c == ',' && !quoted) {
-                fields.emplace_back();
-            } else if (c == '\n' && !quoted) {
-                break;
-            } else {
-                fields.back() += c;
-            }
+// Takes the first line off a CSV, split at the commas and the end that are not within quotes.
+std::vector<std::string> take_csv_line(std::string_view& csv) {
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    while (!csv.empty()) {
+        const char c = csv.front();
+        csv.remove_prefix(1);
+        if (c == '"' && quoted && csv.starts_with('"')) {
+            fields.back() += c;
+            csv.remove_prefix(1);
+        } else if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            fields.emplace_back();
+        } else if (c == '\n' && !quoted) {
+            break;
+        } else {
+            fields.back() += c;
         }
-        return fields;
     }
-
- private:
-    std::string_view text_;
-};
+    return fields;
+}
 
 Cell cell_of_text(const std::string& text) {
     const char* const end = text.data() + text.size();
@@ -125,26 +110,19 @@ std::string markdown_line(const std::vector<MarkdownColumn>& columns, std::size_
     std::string out = "|";
     for (const MarkdownColumn& column : columns) {
         const std::string& field = column.fields[line];
-        const std::size_t padding = column.width - width_of(field);
-        out += ' ';
-        if (column.numbers) out.append(padding, ' ');
-        out += field;
-        if (!column.numbers) out.append(padding, ' ');
-        out += " |";
+        const std::string padding(column.width - width_of(field), ' ');
+        out += column.numbers ? fmt::format(" {}{} |", padding, field)
+                              : fmt::format(" {}{} |", field, padding);
     }
-    out += '\n';
-    return out;
+    return out + "\n";
 }
 
 std::string markdown_rule(const std::vector<MarkdownColumn>& columns) {
     std::string out = "|";
     for (const MarkdownColumn& column : columns) {
-        out += ' ';
-        out.append(column.width - 1, '-');
-        out += column.numbers ? ": |" : "- |";
+        out += fmt::format(" {:->{}} |", column.numbers ? ":" : "-", column.width);
     }
-    out += '\n';
-    return out;
+    return out + "\n";
 }
 
 }  // namespace
@@ -152,16 +130,18 @@ std::string markdown_rule(const std::vector<MarkdownColumn>& columns) {
 std::string to_csv(const Table& table) {
     check(table);
     std::string out;
-    const auto append_line = [&](std::size_t count, const auto& field) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (i > 0) out += ',';
-            out += csv_field(field(i));
+    const auto append_line = [&](const auto& values, const auto& text) {
+        const char* separator = "";
+        for (const auto& value : values) {
+            out += separator;
+            out += csv_field(text(value));
+            separator = ",";
         }
         out += '\n';
     };
-    append_line(table.columns.size(), [&](std::size_t i) { return table.columns[i]; });
+    append_line(table.columns, [](const std::string& name) { return name; });
     for (const auto& row : table.rows) {
-        append_line(row.size(), [&](std::size_t i) { return cell_text(row[i], std::nullopt); });
+        append_line(row, [](const Cell& cell) { return cell_text(cell, std::nullopt); });
     }
     return out;
 }
@@ -179,10 +159,9 @@ std::string to_markdown(const Table& table, int significant_digits) {
 
 TextTable parse_csv(std::string_view csv) {
     TextTable table;
-    CsvReader reader(csv);
-    if (!reader.at_end()) table.columns = reader.next_line();
-    while (!reader.at_end()) {
-        std::vector<std::string> fields = reader.next_line();
+    if (!csv.empty()) table.columns = take_csv_line(csv);
+    while (!csv.empty()) {
+        std::vector<std::string> fields = take_csv_line(csv);
         if (fields.size() != table.columns.size()) {
             throw Error(fmt::format("line {}: has {} fields, must have {}", table.rows.size() + 2,
                                     fields.size(), table.columns.size()));

@@ -75,7 +75,7 @@ struct Search {
 
     bool beats(double ms) const { return ms < (1.0 - kTuningGain) * result.best_ms; }
 
-    // Measures both again: one of them may have met other load.
+    // Measures both again: other load may have slowed one of them.
     bool confirmed(TuningTrial& trial) {
         result.best_ms = std::min(result.best_ms, measure(result.best).ms);
         trial.ms = std::min(trial.ms, measure(trial.tuning).ms);

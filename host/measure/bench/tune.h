@@ -8,6 +8,7 @@
 
 #include "host/gpu/tuning_store.h"
 #include "host/measure/bench/lighting_bench.h"
+#include "host/measure/metrics/pareto.h"
 
 namespace kilolux {
 
@@ -42,7 +43,7 @@ struct TuningResult {
 };
 
 /// An improvement of less than this share of the time is noise.
-inline constexpr double kTuningGain = 0.03;
+inline constexpr double kTuningGain = kCostResolution;
 
 /// Coordinate descent from `start`: two rounds over all parameters, each of which is set to the
 /// fastest of its values while the others stay. An alternative is taken if it is faster by more

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 
 namespace kilolux {
 
@@ -24,5 +25,13 @@ class CompensatedSum {
     double sum_ = 0.0;
     double lost_ = 0.0;
 };
+
+/// The sum of `term(value)`.
+template <typename Values, typename Term = std::identity>
+double compensated_sum(const Values& values, const Term& term = {}) {
+    CompensatedSum sum;
+    for (const auto& value : values) sum.add(term(value));
+    return sum.value();
+}
 
 }  // namespace kilolux

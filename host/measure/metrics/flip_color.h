@@ -11,7 +11,8 @@ namespace kilolux {
 glm::dvec3 ycxcz_from_linear(const glm::dvec3& rgb);
 glm::dvec3 linear_from_ycxcz(const glm::dvec3& ycxcz);
 
-/// CIE L*a*b* with a* and b* scaled by 0.01 L*: colours fade in the dark (Hunt 1952; ibid. 4.1.2).
+/// CIE L*a*b* with a* and b* scaled by 0.01 L*: dark colours look less
+/// saturated (Hunt 1952; ibid. 4.1.2).
 glm::dvec3 hunt_lab_from_linear(const glm::dvec3& rgb);
 
 /// |dL| + sqrt(da^2 + db^2): Abasi et al. 2020, for large colour differences.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/metrics/flip_hdr.h"
+#include "host/measure/metrics/flip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-// Share of the displayable range at which a tone-mapped pixel is just not burnt out.
+// Share of the displayable range at which a tone-mapped pixel counts as just below white.
 constexpr double kNotBurntOut = 0.85;
 
 // (k0 x^2 + k1 x) / (k3 x^2 + k4 x + k5): Narkowicz 2015, "ACES Filmic Tone Mapping Curve", with
@@ -81,7 +81,7 @@ RgbImage flip_tone_map(const RgbImage& image, double exposure_ev) {
 }
 
 FlipResult flip_hdr(const RgbImage& picture, const RgbImage& reference, double pixels_per_degree) {
-    require_same_size("HDR-FLIP", picture.width, picture.height, reference.width, reference.height);
+    require_same_size("HDR-FLIP", picture, reference);
     const FlipExposures exposures = flip_exposures(reference);
     const double step = (exposures.stop - exposures.start) / (exposures.count - 1);
     FlipResult out{.width = picture.width, .height = picture.height, .errors = {}, .error = {}};

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/metrics/flip_ldr.h"
+#include "host/measure/metrics/flip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <vector>
 
 #include "host/measure/metrics/flip_color.h"
-#include "host/measure/metrics/flip_filters.h"
 #include "host/measure/metrics/parallel_rows.h"
+#include "host/measure/metrics/separable_filter.h"
 
 namespace kilolux {
 namespace {
@@ -16,6 +19,12 @@ namespace {
 constexpr double kColorExponent = 0.7;  // q_c
 constexpr double kRemapBreak = 0.4;     // p_c
 constexpr double kRemapValue = 0.95;    // p_t
+
+// Strength of edges and of points in a luminance plane of range 0..1 (ibid., section 4.2).
+struct FlipFeatures {
+    Plane edges;
+    Plane points;
+};
 
 // A picture as FLIP compares it: blurred colours, and the edges and points before the blur.
 struct Perceived {
@@ -54,6 +63,97 @@ std::array<Plane, 3> planes_of(const RgbImage& image) {
         }
     }
     return planes;
+}
+
+constexpr double kPi = std::numbers::pi;
+
+// a * sqrt(pi / b) * exp(-pi^2 x^2 / b), x in degrees: the filter of a CSF a * exp(-b f^2).
+struct CsfTerm {
+    double a;
+    double b;
+};
+
+constexpr std::array<CsfTerm, 1> kAchromatic = {{{1.0, 0.0047}}};
+constexpr std::array<CsfTerm, 1> kRedGreen = {{{1.0, 0.0053}}};
+constexpr std::array<CsfTerm, 2> kBlueYellow = {{{34.1, 0.04}, {13.5, 0.025}}};
+constexpr double kWidest = 0.04;  // largest b: one radius serves all
+
+constexpr double kFeatureWidth = 0.082;  // of an edge or point [degree]
+
+std::vector<double> csf_taps(double b, double pixels_per_degree) {
+    const double sigma = std::sqrt(b / (2.0 * kPi * kPi)) * pixels_per_degree;
+    const double widest = std::sqrt(kWidest / (2.0 * kPi * kPi)) * pixels_per_degree;
+    return gaussian_taps(sigma, static_cast<int>(std::ceil(3.0 * widest)));
+}
+
+// A sum of Gaussians is not separable, but each term is.
+Plane filter_csf(const Plane& in, std::span<const CsfTerm> terms, double pixels_per_degree) {
+    Plane out = make_plane(in.width, in.height);
+    double total = 0.0;
+    for (const CsfTerm& term : terms) {
+        const auto taps = csf_taps(term.b, pixels_per_degree);
+        const double sum = std::accumulate(taps.begin(), taps.end(), 0.0);
+        const double weight = term.a * std::sqrt(kPi / term.b);
+        const Plane filtered = filter_separable(in, taps, taps);
+        for (std::size_t i = 0; i < out.values.size(); ++i) {
+            out.values[i] += weight * filtered.values[i];
+        }
+        total += weight * sum * sum;
+    }
+    for (double& value : out.values) value /= total;
+    return out;
+}
+
+// Positive taps sum to 1 and negative ones to -1: a step or a point of height 1 has strength 1.
+std::vector<double> balanced(std::vector<double> taps) {
+    double positive = 0.0, negative = 0.0;
+    for (const double tap : taps) (tap > 0.0 ? positive : negative) += std::abs(tap);
+    for (double& tap : taps) tap /= tap > 0.0 ? positive : negative;
+    return taps;
+}
+
+// First and second derivative of a Gaussian, and the Gaussian itself.
+struct FeatureTaps {
+    std::vector<double> smooth, first, second;
+};
+
+FeatureTaps feature_taps(double pixels_per_degree) {
+    const double sigma = 0.5 * kFeatureWidth * pixels_per_degree;
+    const int radius = static_cast<int>(std::ceil(3.0 * sigma));
+    FeatureTaps taps{gaussian_taps(sigma, radius), {}, {}};
+    for (int x = -radius; x <= radius; ++x) {
+        const int place = x + radius;
+        const double g = taps.smooth[static_cast<std::size_t>(place)];
+        taps.first.push_back(-x * g);
+        taps.second.push_back((x * x / (sigma * sigma) - 1.0) * g);
+    }
+    return {normalized(taps.smooth), balanced(taps.first), balanced(taps.second)};
+}
+
+Plane gradient_length(const Plane& in, const std::vector<double>& derivative,
+                      const std::vector<double>& smooth) {
+    Plane along_x = filter_separable(in, derivative, smooth);
+    const Plane along_y = filter_separable(in, smooth, derivative);
+    for (std::size_t i = 0; i < along_x.values.size(); ++i) {
+        const double x = along_x.values[i];
+        const double y = along_y.values[i];
+        along_x.values[i] = std::sqrt(x * x + y * y);
+    }
+    return along_x;
+}
+
+// Blurs the three opponent planes as the eye does at this distance, by the contrast sensitivity
+// functions of section 4.1.1 and table 1, as Gaussians.
+std::array<Plane, 3> filter_contrast(const std::array<Plane, 3>& ycxcz, double pixels_per_degree) {
+    return {filter_csf(ycxcz[0], kAchromatic, pixels_per_degree),
+            filter_csf(ycxcz[1], kRedGreen, pixels_per_degree),
+            filter_csf(ycxcz[2], kBlueYellow, pixels_per_degree)};
+}
+
+FlipFeatures detect_features(const Plane& luminance, double pixels_per_degree) {
+    const FeatureTaps taps = feature_taps(pixels_per_degree);
+    return {gradient_length(luminance, taps.first, taps.smooth),
+            gradient_length(luminance, taps.second, taps.smooth)};
 }
 
 Perceived perceive(const RgbImage& image, double pixels_per_degree) {
@@ -102,7 +202,7 @@ bool nan_at(const RgbImage& image, std::size_t i) {
 }  // namespace
 
 FlipResult flip_ldr(const RgbImage& picture, const RgbImage& reference, double pixels_per_degree) {
-    require_same_size("FLIP", picture.width, picture.height, reference.width, reference.height);
+    require_same_size("FLIP", picture, reference);
     const Perceived a = perceive(picture, pixels_per_degree);
     const Perceived b = perceive(reference, pixels_per_degree);
     const double largest = largest_color_error();

@@ -35,9 +35,7 @@ double relative_error(double absolute, double r, double scale) {
 }
 
 double mean(std::span<const double> values) {
-    CompensatedSum sum;
-    for (const double v : values) sum.add(v);
-    return values.empty() ? 0.0 : sum.value() / static_cast<double>(values.size());
+    return values.empty() ? 0.0 : compensated_sum(values) / static_cast<double>(values.size());
 }
 
 double percentile_99_9(std::span<const double> values) {
@@ -87,9 +85,8 @@ double rel_mse(std::span<const double> absolute, const RgbImage& reference) {
 }
 
 double root_mean_square(std::span<const double> errors) {
-    CompensatedSum sum;
-    for (const double e : errors) sum.add(e * e);
-    return std::sqrt(sum.value() / static_cast<double>(errors.size()));
+    const double sum = compensated_sum(errors, [](double e) { return e * e; });
+    return std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
 }  // namespace
@@ -115,11 +112,10 @@ std::string pixel_text(const ErrorDistribution& worst) {
 
 HdrMetrics compare_hdr(const RgbImage& picture, const RgbImage& reference,
                        const HdrOptions& options) {
-    require_same_size("compare", picture.width, picture.height, reference.width, reference.height);
+    require_same_size("compare", picture, reference);
     const RgbImage* scale = options.scale;
     if (scale) {
-        require_same_size("compare: scale", scale->width, scale->height, picture.width,
-                          picture.height);
+        require_same_size("compare: scale", *scale, picture);
     }
     std::vector<double> absolute(picture.rgb.size());
     std::vector<double> relative(picture.rgb.size());
@@ -141,7 +137,7 @@ HdrMetrics compare_hdr(const RgbImage& picture, const RgbImage& reference,
 
 std::vector<double> pixel_errors(const RgbImage& picture, const RgbImage& reference,
                                  const RgbImage* scale) {
-    require_same_size("compare", picture.width, picture.height, reference.width, reference.height);
+    require_same_size("compare", picture, reference);
     std::vector<double> out(picture.pixel_count(), 0.0);
     for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
         const double x = picture.rgb[i], r = reference.rgb[i];
@@ -154,19 +150,17 @@ std::vector<double> pixel_errors(const RgbImage& picture, const RgbImage& refere
 }
 
 CodeDifferences compare_codes(const DisplayView& picture, const DisplayView& reference) {
-    require_same_size("compare", picture.width, picture.height, reference.width, reference.height);
+    require_same_size("compare", picture, reference);
     CodeDifferences out;
     out.pixels = picture.rgba.size() / 4;
     std::vector<double> differences;
-    differences.reserve(3 * out.pixels);
     for (std::size_t pixel = 0; pixel < out.pixels; ++pixel) {
-        int worst = 0;
-        for (std::size_t c = 4 * pixel; c < 4 * pixel + 3; ++c) {
-            const int difference = std::abs(picture.rgba[c] - reference.rgba[c]);
-            worst = std::max(worst, difference);
-            differences.push_back(difference);
+        const std::size_t first = 4 * pixel;
+        for (std::size_t c = first; c < first + 3; ++c) {
+            differences.push_back(std::abs(picture.rgba[c] - reference.rgba[c]));
         }
-        out.different_pixels += worst >= 1;
+        const auto* codes = &picture.rgba[first];
+        out.different_pixels += !std::equal(codes, codes + 3, &reference.rgba[first]);
     }
     out.difference = error_distribution(differences, picture.width, 3);
     return out;

@@ -9,8 +9,8 @@
 namespace kilolux {
 namespace {
 
-// The thread sanitizer does not see how oneTBB hands over work. By this counter it sees that rows
-// run after what the caller did before, and before what the caller does next.
+// Tells the thread sanitizer, which does not see how oneTBB hands over work, that rows run after
+// what the caller did before, and before what the caller does next.
 std::atomic<unsigned> order{0};
 
 struct OrderedRow {

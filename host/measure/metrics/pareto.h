@@ -27,8 +27,7 @@ std::vector<std::size_t> pareto_set(std::span<const CostAndError> points);
 std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
                                     std::span<const double> noises);
 
-inline constexpr double kCostResolution =
-    0.03;  // relative; also the noise threshold of bench --tune
+inline constexpr double kCostResolution = 0.03;   // relative; bench --tune's, too
 inline constexpr double kErrorResolution = 0.06;  // relative: 0.5 dB of PSNR
 
 }  // namespace kilolux

@@ -39,5 +39,9 @@ RgbImage linear_from_display(const DisplayView& display);
 /// Throws Error that names `what` and both sizes unless they are equal and not empty.
 void require_same_size(std::string_view what, int width, int height, int other_width,
                        int other_height);
+template <typename Picture, typename Other>
+void require_same_size(std::string_view what, const Picture& picture, const Other& other) {
+    require_same_size(what, picture.width, picture.height, other.width, other.height);
+}
 
 }  // namespace kilolux

@@ -52,7 +52,7 @@ double ssim_at(const Moments& m, std::size_t i) {
 }  // namespace
 
 std::optional<double> ssim(const DisplayView& picture, const DisplayView& reference) {
-    require_same_size("SSIM", picture.width, picture.height, reference.width, reference.height);
+    require_same_size("SSIM", picture, reference);
     const int inner_width = picture.width - 2 * kRadius;
     const int inner_height = picture.height - 2 * kRadius;
     if (inner_width <= 0 || inner_height <= 0) return std::nullopt;

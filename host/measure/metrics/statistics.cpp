@@ -19,6 +19,11 @@ double quantile(std::span<const double> sorted, double share) {
     return sorted[lower] + (at - static_cast<double>(lower)) * (sorted[upper] - sorted[lower]);
 }
 
+double notch(std::span<const double> sorted) {
+    const double spread = quantile(sorted, 0.75) - quantile(sorted, 0.25);
+    return 1.57 * spread / std::sqrt(static_cast<double>(sorted.size()));
+}
+
 Statistics statistics(std::span<const double> values) {
     Statistics out;
     out.count = values.size();
@@ -29,14 +34,12 @@ Statistics statistics(std::span<const double> values) {
     }
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());
-    CompensatedSum sum;
-    for (const double v : sorted) sum.add(v);
     out.min = sorted.front();
     out.p5 = quantile(sorted, 0.05);
     out.median = quantile(sorted, 0.5);
     out.p95 = quantile(sorted, 0.95);
     out.max = sorted.back();
-    out.mean = sum.value() / static_cast<double>(sorted.size());
+    out.mean = compensated_sum(sorted) / static_cast<double>(sorted.size());
     return out;
 }
 

@@ -24,4 +24,8 @@ Statistics statistics(std::span<const double> values);
 /// The value below which `share` (0..1) of the ascending, not empty `sorted` lie; interpolated.
 double quantile(std::span<const double> sorted, double share);
 
+/// Half the width of the notch of the ascending, not empty `sorted`: medians whose notches do not
+/// overlap differ with 95 % confidence (McGill, Tukey and Larsen 1978, "Variations of Box Plots").
+double notch(std::span<const double> sorted);
+
 }  // namespace kilolux

@@ -36,7 +36,7 @@ struct RayHit {
 class Bvh {
  public:
     /// Leaves out triangles without area or with a coordinate that is not finite. Built top-down by
-    /// the binned surface area heuristic (Wald 2007).
+    /// the surface area heuristic along the longest axis (Wald 2007).
     explicit Bvh(std::vector<BvhTriangle> triangles);
 
     /// The nearest hit with t_min <= t <= t_max for which `accept` is true, on either side. Of hits

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -10,11 +9,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::uint32_t kLeafTriangles = 4;
-constexpr std::size_t kBins = 16;
-// Relative costs of testing a triangle and of visiting a node.
-constexpr double kTriangleCost = 1.0;
-constexpr double kNodeCost = 1.0;
+constexpr std::size_t kLeafTriangles = 4;
 // Deeper nodes are split in half by count, which ends after at most 32 more levels.
 constexpr int kHeuristicDepth = 64;
 
@@ -25,93 +20,49 @@ bool usable(const BvhTriangle& triangle) {
     return std::isfinite(extent) && extent > 0.0;
 }
 
-Box box_of(const BvhTriangle& triangle) {
+// A triangle while the tree is built.
+struct Item {
     Box box;
-    for (const glm::dvec3& corner : triangle.corners) box.add(corner);
-    return box;
-}
+    std::uint32_t triangle = 0;
+};
 
 void merge(Box& box, const Box& other) {
-    box.min = glm::min(box.min, other.min);
-    box.max = glm::max(box.max, other.max);
+    box.add(other.min);
+    box.add(other.max);
 }
 
 double half_area(const Box& box) {
-    if (box.empty()) return 0.0;
     const glm::dvec3 s = box.size();
     return s.x * s.y + s.y * s.z + s.z * s.x;
 }
 
-// A triangle while the tree is built.
-struct Item {
-    Box box;
-    glm::dvec3 center;
-    std::uint32_t triangle = 0;
-};
-
-struct Bin {
-    Box box;
-    std::uint32_t count = 0;
-};
-
-struct Split {
-    int axis = -1;  // -1: none is better than a leaf
-    std::size_t bin = 0;
-    double cost = 0.0;
-};
-
-std::size_t bin_of(const Item& item, const Box& centers, int axis) {
-    const double size = centers.max[axis] - centers.min[axis];
-    const double share = (item.center[axis] - centers.min[axis]) / size;
-    return std::min(kBins - 1, static_cast<std::size_t>(share * static_cast<double>(kBins)));
+void sort_along_longest_axis(std::span<Item> items) {
+    Box centers;
+    for (const Item& item : items) centers.add(item.box.center());
+    const glm::dvec3 s = centers.size();
+    const int axis = s.x > s.y ? (s.x > s.z ? 0 : 2) : (s.y > s.z ? 1 : 2);
+    std::ranges::sort(items, {}, [axis](const Item& item) { return item.box.center()[axis]; });
 }
 
-// Cost of a split before each bin: items on each side times the area of their box.
-Split best_split_along(std::span<const Item> items, const Box& centers, int axis) {
-    std::array<Bin, kBins> bins;
-    for (const Item& item : items) {
-        Bin& bin = bins[bin_of(item, centers, axis)];
-        merge(bin.box, item.box);
-        ++bin.count;
+// How many of the sorted items go to the left: the cost of a side is its number of items times the
+// area of their box.
+std::size_t cheapest_cut(std::span<const Item> items) {
+    std::vector<double> right_cost(items.size());
+    Box right, left;
+    for (std::size_t i = items.size() - 1; i > 0; --i) {
+        merge(right, items[i].box);
+        right_cost[i] = half_area(right) * static_cast<double>(items.size() - i);
     }
-    std::array<double, kBins> right_cost{};
-    Bin right;
-    for (std::size_t b = kBins - 1; b > 0; --b) {
-        merge(right.box, bins[b].box);
-        right.count += bins[b].count;
-        right_cost[b] = half_area(right.box) * right.count;
-    }
-    Split best{.axis = -1, .bin = 0, .cost = std::numeric_limits<double>::infinity()};
-    Bin left;
-    for (std::size_t b = 1; b < kBins; ++b) {
-        merge(left.box, bins[b - 1].box);
-        left.count += bins[b - 1].count;
-        if (left.count == 0 || left.count == items.size()) continue;
-        const double cost = half_area(left.box) * left.count + right_cost[b];
-        if (cost < best.cost) best = {.axis = axis, .bin = b, .cost = cost};
+    std::size_t best = 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < items.size(); ++i) {
+        merge(left, items[i - 1].box);
+        const double cost = half_area(left) * static_cast<double>(i) + right_cost[i];
+        if (cost >= least) continue;
+        best = i;
+        least = cost;
     }
     return best;
-}
-
-Split best_split(std::span<const Item> items, const Box& box, const Box& centers) {
-    Split best{.axis = -1, .bin = 0, .cost = std::numeric_limits<double>::infinity()};
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(centers.max[axis] > centers.min[axis])) continue;
-        const Split split = best_split_along(items, centers, axis);
-        if (split.axis >= 0 && split.cost < best.cost) best = split;
-    }
-    const double leaf = half_area(box) * kTriangleCost * static_cast<double>(items.size());
-    const double cut = best.cost * kTriangleCost + half_area(box) * kNodeCost;
-    if (items.size() <= kLeafTriangles && leaf <= cut) best.axis = -1;
-    return best;
-}
-
-// Moves the items of the left side to the front and returns their number.
-std::size_t partition(std::span<Item> items, const Box& centers, const Split& split) {
-    const auto middle = std::partition(items.begin(), items.end(), [&](const Item& item) {
-        return bin_of(item, centers, split.axis) < split.bin;
-    });
-    return static_cast<std::size_t>(middle - items.begin());
 }
 
 }  // namespace
@@ -120,64 +71,37 @@ struct Bvh::Builder {
     std::vector<Item> items;
     std::vector<Node>& nodes;
 
-    struct Range {
-        std::uint32_t node, first, count;
-        int depth;
-    };
-
-    // Number of items for the left child; 0: a leaf.
-    std::size_t cut(std::span<Item> span, Node& node, int depth) {
-        Box centers;
-        for (const Item& item : span) {
-            merge(node.box, item.box);
-            centers.add(item.center);
+    // Fills a node that is there with the items first .. first + count, and adds its children.
+    void build(std::size_t node, std::size_t first, std::size_t count, int depth) {
+        const auto range = std::span(items).subspan(first, count);
+        for (const Item& item : range) merge(nodes[node].box, item.box);
+        if (count <= kLeafTriangles) {
+            nodes[node].first = static_cast<std::uint32_t>(first);
+            nodes[node].count = static_cast<std::uint32_t>(count);
+            return;
         }
-        if (span.size() == 1) return 0;
-        if (depth < kHeuristicDepth) {
-            const Split split = best_split(span, node.box, centers);
-            if (split.axis >= 0) return partition(span, centers, split);
-        }
-        return span.size() <= kLeafTriangles ? 0 : span.size() / 2;
-    }
-
-    void build() {
-        nodes.push_back({});
-        std::vector<Range> open = {{0, 0, static_cast<std::uint32_t>(items.size()), 0}};
-        while (!open.empty()) {
-            const Range range = open.back();
-            open.pop_back();
-            Node node;
-            const auto left = static_cast<std::uint32_t>(
-                cut(std::span(items).subspan(range.first, range.count), node, range.depth));
-            if (left == 0) {
-                node.first = range.first;
-                node.count = range.count;
-            } else {
-                node.first = static_cast<std::uint32_t>(nodes.size());
-                nodes.resize(nodes.size() + 2);
-                open.push_back({node.first, range.first, left, range.depth + 1});
-                open.push_back(
-                    {node.first + 1, range.first + left, range.count - left, range.depth + 1});
-            }
-            nodes[range.node] = node;
-        }
+        sort_along_longest_axis(range);
+        const std::size_t left = depth < kHeuristicDepth ? cheapest_cut(range) : count / 2;
+        const std::size_t child = nodes.size();
+        nodes[node].first = static_cast<std::uint32_t>(child);
+        nodes.resize(child + 2);
+        build(child, first, left, depth + 1);
+        build(child + 1, first + left, count - left, depth + 1);
     }
 };
 
-Bvh::Bvh(std::vector<BvhTriangle> triangles) : triangles_(std::move(triangles)) {
-    std::erase_if(triangles_, [](const BvhTriangle& t) { return !usable(t); });
-    if (triangles_.empty()) return;
+Bvh::Bvh(std::vector<BvhTriangle> triangles) {
+    std::erase_if(triangles, [](const BvhTriangle& t) { return !usable(t); });
+    if (triangles.empty()) return;
     Builder builder{.items = {}, .nodes = nodes_};
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        const Box box = box_of(triangles_[i]);
-        builder.items.push_back(
-            {.box = box, .center = box.center(), .triangle = static_cast<std::uint32_t>(i)});
+    for (const BvhTriangle& triangle : triangles) {
+        Item& item = builder.items.emplace_back();
+        item.triangle = static_cast<std::uint32_t>(builder.items.size() - 1);
+        for (const glm::dvec3& corner : triangle.corners) item.box.add(corner);
     }
-    builder.build();
-    std::vector<BvhTriangle> sorted;
-    sorted.reserve(triangles_.size());
-    for (const Item& item : builder.items) sorted.push_back(triangles_[item.triangle]);
-    triangles_ = std::move(sorted);
+    nodes_.resize(1);
+    builder.build(0, 0, triangles.size(), 0);
+    for (const Item& item : builder.items) triangles_.push_back(triangles[item.triangle]);
 }
 
 }  // namespace kilolux

@@ -2,6 +2,7 @@
 #include "host/measure/reference/decoded_samples.h"
 
 namespace kilolux {
+
 SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bool specular,
                              bool unlit) {
     const auto vector = [&](std::size_t plane) {
@@ -38,6 +39,11 @@ SurfaceSamples surface_samples(const DecodedSurfaces& decoded) {
         }
     }
     return out;
+}
+
+ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options) {
+    return shade_reference(surface_samples(lit.surfaces),
+                           reference_lights(lit.lights, lit.directional), options);
 }
 
 }  // namespace kilolux

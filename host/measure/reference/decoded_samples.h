@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "host/measure/reference/surface_samples.h"
+#include "host/measure/reference/reference.h"
 #include "host/picture/decoded_surfaces.h"
 
 namespace kilolux {
@@ -17,5 +17,8 @@ SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bo
 /// A decoded G-buffer as input of a reference. Normals are not renormalised, as in the kernels.
 /// Depth 0 is background.
 SurfaceSamples surface_samples(const DecodedSurfaces& decoded);
+
+/// The reference of what a renderer shaded: its stored surfaces and float32 lights.
+ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options);
 
 }  // namespace kilolux

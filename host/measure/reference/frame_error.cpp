@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "host/measure/metrics/error_size.h"
-#include "host/measure/metrics/flip_hdr.h"
+#include "host/measure/metrics/flip.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "host/measure/reference/reference.h"
 
@@ -22,10 +22,8 @@ void make_small(RenderSettings& settings, std::uint64_t lights) {
 
 // The float64 reference of the surfaces of the renderer's last picture.
 ReferencePicture reference_of(Renderer& renderer, bool orthographic, const OnProgress& progress) {
-    const LitSurfaces lit = renderer.lit_surfaces();
-    return shade_reference(surface_samples(lit.surfaces),
-                           reference_lights(lit.lights, lit.directional),
-                           {.shading = static_cast<Shading>(renderer.plan().kernels.shading + 1),
+    return shade_reference(renderer.lit_surfaces(),
+                           {.shading = shading_of(renderer.plan().kernels),
                             .ambient = static_cast<double>(renderer.settings().ambient),
                             .orthographic = orthographic,
                             .progress = progress});
@@ -36,19 +34,6 @@ ReferenceError error_of(const RgbImage& picture, const ReferencePicture& referen
     return {.hdr = compare_hdr(picture, reference.radiance, {.scale = &reference.scale}),
             .flip_mean = flip.mean,
             .flip_max = flip.max};
-}
-
-// |x - r| / max(|r|, E) of each pixel, the largest of its channels; 0 where x = r.
-std::vector<double> relative_errors(const RgbImage& picture, const ReferencePicture& reference) {
-    std::vector<double> out(picture.pixel_count(), 0.0);
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
-        const double r = reference.radiance.rgb[i];
-        const double error = std::abs(picture.rgb[i] - r);
-        if (error == 0.0) continue;
-        double& worst = out[i / 3];
-        worst = std::max(worst, error / std::max(std::abs(r), reference.scale.rgb[i]));
-    }
-    return out;
 }
 
 }  // namespace
@@ -80,7 +65,7 @@ FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, cons
     renderer.render(camera, time);
     const ReferencePicture full = reference_of(renderer, camera.orthographic, part(first, 1.0));
     out.whole = error_of(picture, full);
-    out.relative = relative_errors(picture, full);
+    out.relative = pixel_errors(picture, full.radiance, &full.scale);
     out.lights_per_pixel = full.lights_per_pixel;
     return out;
 }

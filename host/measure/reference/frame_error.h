@@ -26,7 +26,7 @@ struct FrameError {
     std::optional<ReferenceError> kernels;
     ReferenceError whole;           // the reference shades surfaces stored in float32
     double lights_per_pixel = 0.0;  // k*, by the reference
-    std::vector<double> relative;   // of `whole`: the largest of each pixel, row 0 on top
+    std::vector<double> relative;   // of `whole`: see pixel_errors()
 };
 
 /// Renders with `settings`, at most 320 pixels wide so that the float64 reference takes seconds,

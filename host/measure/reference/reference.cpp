@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "host/measure/metrics/compensated_sum.h"
 #include "host/measure/reference/reference_brdf.h"
+#include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
 namespace {
@@ -28,7 +30,7 @@ class CompensatedSum3 {
 struct Pixel {
     CompensatedSum3 radiance;
     CompensatedSum3 scale;
-    double lights = 0.0;
+    std::uint32_t lights = 0;
     std::uint32_t reaching = 0;
 };
 
@@ -86,7 +88,7 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
     for (const ReferenceLight& light : lights.lights) {
         const Incidence in = incidence(light, surface.position, options.windowed);
         if (in.attenuation == 0.0) continue;
-        pixel.lights += 1.0;
+        ++pixel.lights;
         pixel.reaching += in.reaches;
         add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options);
     }
@@ -97,48 +99,39 @@ void store(RgbImage& image, std::size_t i, const glm::dvec3& value) {
     for (int c = 0; c < 3; ++c) image.rgb[3 * i + static_cast<std::size_t>(c)] = value[c];
 }
 
-// One row's part of lights_per_pixel.
-struct RowCount {
-    double lights = 0.0;
-    double pixels = 0.0;
-};
-
-RowCount shade_row(int y, const SurfaceSamples& surfaces, const ReferenceLights& lights,
-                   const ReferenceOptions& options, ReferencePicture& out) {
-    RowCount count;
-    for (int x = 0; x < surfaces.width; ++x) {
-        const SurfaceSample& surface = surfaces.at(x, y);
-        if (surface.kind == SurfaceKind::background) continue;
-        const Pixel pixel = shade(surface, lights, options);
-        store(out.radiance, surfaces.index(x, y), pixel.radiance.value());
-        store(out.scale, surfaces.index(x, y), pixel.scale.value());
-        out.reaching[surfaces.index(x, y)] = pixel.reaching;
-        count.lights += pixel.lights;
-        count.pixels += 1.0;
-    }
-    return count;
-}
-
 }  // namespace
+
+Shading shading_of(const KernelFeatures& kernels) {
+    // Shading has `automatic` before the models.
+    static_assert(static_cast<int>(Shading::lambert) == SHADING_LAMBERT + 1 &&
+                  static_cast<int>(Shading::blinn_phong) == SHADING_BLINN_PHONG + 1 &&
+                  static_cast<int>(Shading::pbr) == SHADING_PBR + 1);
+    return static_cast<Shading>(kernels.shading + 1);
+}
 
 ReferencePicture shade_reference(const SurfaceSamples& surfaces, const ReferenceLights& lights,
                                  const ReferenceOptions& options) {
     ReferencePicture out{.radiance = make_rgb_image(surfaces.width, surfaces.height),
                          .scale = make_rgb_image(surfaces.width, surfaces.height)};
     out.reaching.resize(surfaces.pixels.size());
-    std::vector<RowCount> counts(static_cast<std::size_t>(surfaces.height));
-    parallel_rows(
-        surfaces.height,
-        [&](int y) {
-            counts[static_cast<std::size_t>(y)] = shade_row(y, surfaces, lights, options, out);
-        },
-        options.progress);
-    RowCount total;
-    for (const RowCount& count : counts) {
-        total.lights += count.lights;
-        total.pixels += count.pixels;
-    }
-    if (total.pixels > 0.0) out.lights_per_pixel = total.lights / total.pixels;
+    std::vector<std::uint32_t> lights_of(surfaces.pixels.size());
+    const auto shade_row = [&](int y) {
+        for (int x = 0; x < surfaces.width; ++x) {
+            const std::size_t i = surfaces.index(x, y);
+            if (surfaces.pixels[i].kind == SurfaceKind::background) continue;
+            const Pixel pixel = shade(surfaces.pixels[i], lights, options);
+            store(out.radiance, i, pixel.radiance.value());
+            store(out.scale, i, pixel.scale.value());
+            out.reaching[i] = pixel.reaching;
+            lights_of[i] = pixel.lights;
+        }
+    };
+    parallel_rows(surfaces.height, shade_row, options.progress);
+    const auto hit =
+        static_cast<std::ptrdiff_t>(surfaces.pixels.size()) -
+        std::ranges::count(surfaces.pixels, SurfaceKind::background, &SurfaceSample::kind);
+    const double sum = std::accumulate(lights_of.begin(), lights_of.end(), 0.0);
+    if (hit > 0) out.lights_per_pixel = sum / static_cast<double>(hit);
     return out;
 }
 

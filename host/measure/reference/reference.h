@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/gpu/features.h"
 #include "host/measure/metrics/parallel_rows.h"
 #include "host/measure/metrics/rgb_image.h"
 #include "host/measure/reference/reference_lights.h"
@@ -16,6 +17,9 @@ namespace kilolux {
 /// of float32; the kernels make about ten.
 inline constexpr double kReachMargin = 1e-5;
 
+/// What the kernels compute, as a setting that is not automatic.
+Shading shading_of(const KernelFeatures& kernels);
+
 /// The model of a reference picture.
 struct ReferenceOptions {
     Shading shading = Shading::lambert;  // not automatic
@@ -27,8 +31,7 @@ struct ReferenceOptions {
 
 struct ReferencePicture {
     RgbImage radiance;
-    RgbImage
-        scale;  // E = sum |intensity * attenuation| over the lights: the unit of relative errors
+    RgbImage scale;  // E = sum |intensity * attenuation| of the lights: the unit of relative errors
     double lights_per_pixel = 0.0;  // k*: point and spot lights in reach, mean over hit pixels
     // Lights per pixel that are in reach in any rounding: (d/range)^2 < 1 - kReachMargin, and
     // inside a spot's cone by the same margin.
@@ -37,10 +40,12 @@ struct ReferencePicture {
 
 /// Shades every pixel with every light in double: brute force, no culling.
 ///
-/// pixel = emissive + ambient * occlusion * albedo + sum brdf * intensity * attenuation * max(n.l,
-/// 0) attenuation = clamp(1 - (d/range)^4, 0, 1) / max(d, 1 cm)^2 * clamp((cos - cos_out) scale, 0,
-/// 1)^2 The direction to a light at distance d is v / max(d, 1 cm); a light at the shading point
-/// adds 0. Relative error of the sums below 1e-14 for any number and order of lights.
+///   pixel = emissive + ambient * occlusion * albedo
+///           + sum of brdf * intensity * attenuation * max(n.l, 0)
+///   attenuation = clamp(1 - (d/range)^4, 0, 1) / max(d, 1 cm)^2
+///                 * clamp((cos - cos_out) scale, 0, 1)^2
+/// The direction to a light at distance d is v / max(d, 1 cm); a light at the shading point adds 0.
+/// Relative error of the sums below 1e-14 for any number and order of lights.
 ///
 /// R1, the kernels' error: `surfaces` decoded from the G-buffer, `lights` from its float32 rows.
 /// R2, the G-buffer's: `surfaces` from RayCaster. R3, the error of limited ranges: `windowed` =

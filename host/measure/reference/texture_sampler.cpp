@@ -42,7 +42,64 @@ TexelCoordinate split(double coordinate) {
     return {static_cast<int>(whole), clamped - whole};
 }
 
-std::size_t slot(TextureEncoding encoding) { return encoding == TextureEncoding::srgb ? 1 : 0; }
+std::size_t slot(TextureEncoding encoding) { return static_cast<std::size_t>(encoding); }
+
+// Linear values of the sRGB codes.
+const std::array<double, 256>& linear_from_code() {
+    static const auto table = [] {
+        std::array<double, 256> out{};
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            out[i] = srgb_to_linear(static_cast<double>(i) / 255.0);
+        }
+        return out;
+    }();
+    return table;
+}
+
+glm::dvec4 nearest(const MipLevel& level, const Sampler& sampler, const glm::dvec2& uv) {
+    return level.texel(wrapped(split(uv.x * level.width).index, level.width, sampler.wrap_s),
+                       wrapped(split(uv.y * level.height).index, level.height, sampler.wrap_t));
+}
+
+glm::dvec4 bilinear(const MipLevel& level, const Sampler& sampler, const glm::dvec2& uv) {
+    const TexelCoordinate s = split(uv.x * level.width - 0.5);
+    const TexelCoordinate t = split(uv.y * level.height - 0.5);
+    const auto at = [&](int i, int j) {
+        return level.texel(wrapped(s.index + i, level.width, sampler.wrap_s),
+                           wrapped(t.index + j, level.height, sampler.wrap_t));
+    };
+    return glm::mix(glm::mix(at(0, 0), at(1, 0), s.fraction),
+                    glm::mix(at(0, 1), at(1, 1), s.fraction), t.fraction);
+}
+
+glm::dvec4 filtered(Filter filter, const MipLevel& level, const Sampler& sampler,
+                    const glm::dvec2& uv) {
+    return filter == Filter::nearest ? nearest(level, sampler, uv) : bilinear(level, sampler, uv);
+}
+
+// A texel of the level after `above`.
+glm::dvec4 averaged(const MipLevel& above, const MipLevel& level, int x, int y) {
+    if (above.width % 2 == 0 && above.height % 2 == 0) {
+        return 0.25 * (above.texel(2 * x, 2 * y) + above.texel(2 * x + 1, 2 * y) +
+                       above.texel(2 * x, 2 * y + 1) + above.texel(2 * x + 1, 2 * y + 1));
+    }
+    Sampler clamping;
+    clamping.wrap_s = clamping.wrap_t = Wrap::clamp;
+    return bilinear(above, clamping, {(x + 0.5) / level.width, (y + 0.5) / level.height});
+}
+
+MipLevel next_level(const MipLevel& above) {
+    MipLevel level;
+    level.width = std::max(1, above.width / 2);
+    level.height = std::max(1, above.height / 2);
+    const auto width = static_cast<std::size_t>(level.width);
+    level.texels.resize(width * static_cast<std::size_t>(level.height));
+    parallel_rows(level.height, [&](int y) {
+        glm::vec4* const row = &level.texels[width * static_cast<std::size_t>(y)];
+        for (int x = 0; x < level.width; ++x) row[x] = glm::vec4(averaged(above, level, x, y));
+    });
+    return level;
+}
 
 double footprint_length(const glm::dvec2& uv_step, int width, int height) {
     return std::hypot(uv_step.x * width, uv_step.y * height);
@@ -57,10 +114,20 @@ TextureFootprint transformed(const TextureUse& use, const TextureFootprint& in) 
 
 }  // namespace
 
-TextureSampler::TextureSampler(const Scene& scene) : scene_(scene) {
-    for (std::size_t code = 0; code < linear_from_code_.size(); ++code) {
-        linear_from_code_[code] = srgb_to_linear(static_cast<double>(code) / 255.0);
+glm::dvec4 MipLevel::texel(int x, int y) const {
+    const std::size_t index =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    if (!image) return glm::dvec4(texels[index]);
+    const std::uint8_t* codes = &image->rgba[4 * index];
+    const double alpha = codes[3] / 255.0;
+    if (encoding == TextureEncoding::linear) {
+        return {codes[0] / 255.0, codes[1] / 255.0, codes[2] / 255.0, alpha};
     }
+    const auto& linear = linear_from_code();
+    return {linear[codes[0]], linear[codes[1]], linear[codes[2]], alpha};
+}
+
+TextureSampler::TextureSampler(const Scene& scene) : scene_(scene) {
     for (auto& by_image : levels_) by_image.resize(scene.images.size());
     for (const Material& material : scene.materials) {
         prepare(material.base_color_texture, TextureEncoding::srgb);
@@ -77,86 +144,11 @@ void TextureSampler::prepare(const TextureUse& use, TextureEncoding encoding) {
     if (!use.present()) return;
     const int image = scene_.textures[static_cast<std::size_t>(use.texture)].image;
     if (image < 0) return;
-    Levels& out = levels_[slot(encoding)][static_cast<std::size_t>(image)];
+    std::vector<MipLevel>& out = levels_[slot(encoding)][static_cast<std::size_t>(image)];
     if (!out.empty()) return;
     const Image& source = scene_.images[static_cast<std::size_t>(image)];
-    out.push_back({.width = source.width, .height = source.height, .texels = {}});
-    while (out.back().width > 1 || out.back().height > 1) {
-        const Level& above = out.back();
-        Level level{.width = std::max(1, above.width / 2),
-                    .height = std::max(1, above.height / 2),
-                    .texels = {}};
-        level.texels.resize(static_cast<std::size_t>(level.width) *
-                            static_cast<std::size_t>(level.height));
-        parallel_rows(level.height, [&](int y) {
-            for (int x = 0; x < level.width; ++x) {
-                level.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
-                             static_cast<std::size_t>(x)] =
-                    glm::vec4(averaged(image, encoding, above, x, y));
-            }
-        });
-        out.push_back(std::move(level));
-    }
-}
-
-glm::dvec4 TextureSampler::averaged(int image, TextureEncoding encoding, const Level& above, int x,
-                                    int y) const {
-    if (above.width % 2 == 0 && above.height % 2 == 0) {
-        return 0.25 * (texel(image, encoding, above, 2 * x, 2 * y) +
-                       texel(image, encoding, above, 2 * x + 1, 2 * y) +
-                       texel(image, encoding, above, 2 * x, 2 * y + 1) +
-                       texel(image, encoding, above, 2 * x + 1, 2 * y + 1));
-    }
-    Texture clamping;
-    clamping.image = image;
-    clamping.sampler.wrap_s = clamping.sampler.wrap_t = Wrap::clamp;
-    const int width = std::max(1, above.width / 2);
-    const int height = std::max(1, above.height / 2);
-    return bilinear(clamping, encoding, above, {(x + 0.5) / width, (y + 0.5) / height});
-}
-
-const TextureSampler::Levels& TextureSampler::levels(int image, TextureEncoding encoding) const {
-    return levels_[slot(encoding)][static_cast<std::size_t>(image)];
-}
-
-glm::dvec4 TextureSampler::texel(int image, TextureEncoding encoding, const Level& level, int x,
-                                 int y) const {
-    const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) +
-                              static_cast<std::size_t>(x);
-    if (!level.texels.empty()) return glm::dvec4(level.texels[index]);
-    const std::uint8_t* codes = &scene_.images[static_cast<std::size_t>(image)].rgba[4 * index];
-    const double alpha = codes[3] / 255.0;
-    if (encoding == TextureEncoding::linear) {
-        return {codes[0] / 255.0, codes[1] / 255.0, codes[2] / 255.0, alpha};
-    }
-    return {linear_from_code_[codes[0]], linear_from_code_[codes[1]], linear_from_code_[codes[2]],
-            alpha};
-}
-
-glm::dvec4 TextureSampler::bilinear(const Texture& texture, TextureEncoding encoding,
-                                    const Level& level, const glm::dvec2& uv) const {
-    const TexelCoordinate s = split(uv.x * level.width - 0.5);
-    const TexelCoordinate t = split(uv.y * level.height - 0.5);
-    const auto at = [&](int i, int j) {
-        return texel(texture.image, encoding, level,
-                     wrapped(s.index + i, level.width, texture.sampler.wrap_s),
-                     wrapped(t.index + j, level.height, texture.sampler.wrap_t));
-    };
-    return glm::mix(glm::mix(at(0, 0), at(1, 0), s.fraction),
-                    glm::mix(at(0, 1), at(1, 1), s.fraction), t.fraction);
-}
-
-glm::dvec4 TextureSampler::nearest(const Texture& texture, TextureEncoding encoding,
-                                   const Level& level, const glm::dvec2& uv) const {
-    return texel(texture.image, encoding, level,
-                 wrapped(split(uv.x * level.width).index, level.width, texture.sampler.wrap_s),
-                 wrapped(split(uv.y * level.height).index, level.height, texture.sampler.wrap_t));
-}
-
-glm::dvec4 TextureSampler::filtered(Filter filter, const Texture& texture, TextureEncoding encoding,
-                                    const Level& level, const glm::dvec2& uv) const {
-    return filter == Filter::nearest ? nearest(texture, encoding, level, uv)
-                                     : bilinear(texture, encoding, level, uv);
+    out.push_back({source.width, source.height, &source, encoding, {}});
+    while (out.back().width > 1 || out.back().height > 1) out.push_back(next_level(out.back()));
 }
 
 glm::dvec4 TextureSampler::sample(const TextureUse& use, TextureEncoding encoding,
@@ -165,22 +157,23 @@ glm::dvec4 TextureSampler::sample(const TextureUse& use, TextureEncoding encodin
     const Texture& texture = scene_.textures[static_cast<std::size_t>(use.texture)];
     if (texture.image < 0) return glm::dvec4(1.0);
     const Sampler& sampler = texture.sampler;
-    const Levels& mips = levels(texture.image, encoding);
+    const auto& mips = levels_[slot(encoding)][static_cast<std::size_t>(texture.image)];
     const TextureFootprint at = transformed(use, uv_sets[use.uv_set == 1 ? 1 : 0]);
     const double texels = std::max(footprint_length(at.uv_dx, mips[0].width, mips[0].height),
                                    footprint_length(at.uv_dy, mips[0].width, mips[0].height));
     const double lambda = std::log2(texels);
-    if (!(lambda > 0.0)) return filtered(sampler.magnify, texture, encoding, mips[0], at.uv);
-    if (!sampler.mipmaps) return filtered(sampler.minify, texture, encoding, mips[0], at.uv);
+    const auto read = [&](Filter filter, std::size_t level) {
+        return filtered(filter, mips[level], sampler, at.uv);
+    };
+    if (!(lambda > 0.0)) return read(sampler.magnify, 0);
+    if (!sampler.mipmaps) return read(sampler.minify, 0);
     const double level = std::min(lambda, static_cast<double>(mips.size() - 1));
     if (sampler.between_mipmaps == Filter::nearest) {
-        const auto rounded = static_cast<std::size_t>(std::ceil(level + 0.5) - 1.0);
-        return filtered(sampler.minify, texture, encoding, mips[rounded], at.uv);
+        return read(sampler.minify, static_cast<std::size_t>(std::ceil(level + 0.5) - 1.0));
     }
     const auto lower = static_cast<std::size_t>(level);
     const std::size_t upper = std::min(lower + 1, mips.size() - 1);
-    return glm::mix(filtered(sampler.minify, texture, encoding, mips[lower], at.uv),
-                    filtered(sampler.minify, texture, encoding, mips[upper], at.uv),
+    return glm::mix(read(sampler.minify, lower), read(sampler.minify, upper),
                     level - static_cast<double>(lower));
 }
 

@@ -18,6 +18,17 @@ struct TextureFootprint {
     glm::dvec2 uv_dy{0.0};  // per pixel down
 };
 
+/// A mip level of an image, decoded to linear values.
+struct MipLevel {
+    int width = 0;
+    int height = 0;
+    const Image* image = nullptr;  // of level 0
+    TextureEncoding encoding = TextureEncoding::linear;
+    std::vector<glm::vec4> texels;  // of the other levels
+
+    glm::dvec4 texel(int x, int y) const;
+};
+
 /// Reads a scene's textures as OpenGL 4.5 does (8.14), in double, without its approximations.
 ///
 /// The mip level is log2 of the longer side of the pixel's footprint in texels, without anisotropy;
@@ -35,28 +46,10 @@ class TextureSampler {
                       const std::array<TextureFootprint, 2>& uv_sets) const;
 
  private:
-    struct Level {
-        int width = 0;
-        int height = 0;
-        std::vector<glm::vec4> texels;  // empty for level 0, which is the image itself
-    };
-    using Levels = std::vector<Level>;
-
     void prepare(const TextureUse& use, TextureEncoding encoding);
-    glm::dvec4 texel(int image, TextureEncoding encoding, const Level& level, int x, int y) const;
-    glm::dvec4 averaged(int image, TextureEncoding encoding, const Level& above, int x,
-                        int y) const;
-    glm::dvec4 bilinear(const Texture& texture, TextureEncoding encoding, const Level& level,
-                        const glm::dvec2& uv) const;
-    glm::dvec4 nearest(const Texture& texture, TextureEncoding encoding, const Level& level,
-                       const glm::dvec2& uv) const;
-    glm::dvec4 filtered(Filter filter, const Texture& texture, TextureEncoding encoding,
-                        const Level& level, const glm::dvec2& uv) const;
-    const Levels& levels(int image, TextureEncoding encoding) const;
 
     const Scene& scene_;
-    std::array<std::vector<Levels>, 2> levels_;  // by encoding, by image
-    std::array<double, 256> linear_from_code_{};
+    std::array<std::vector<std::vector<MipLevel>>, 2> levels_;  // by encoding, by image
 };
 
 }  // namespace kilolux

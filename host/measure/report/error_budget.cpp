@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/gpu/device_cache.h"
 
 namespace kilolux {
@@ -34,46 +35,43 @@ struct Against {
 constexpr Against kReferences[] = {
     {"", &ReportRow::surfaces}, {"r1-", &ReportRow::kernels}, {"r3-", &ReportRow::unbounded}};
 
-// FNV-1a.
-std::uint64_t hash_of(const std::string& text) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return hash;
+std::string name_of(const Against& against, const Metric& metric) {
+    return fmt::format("{}{}", against.prefix, metric.name);
 }
 
 constexpr int kVersion = 2;
 
 // The kind of a cache entry is part of its file's name.
-std::string kind_name(const BudgetKey& key) { return fmt::format("choice-{:x}", hash_of(key)); }
+std::string kind_name(const BudgetKey& key) {
+    return fmt::format("choice-{:x}", Fnv1a().add(key).value());
+}
 
 // Cache values are numbers: 48 bits of the hash of a setting's name identify it.
-double name_number(const std::string& name) { return static_cast<double>(hash_of(name) >> 16); }
+double name_number(const std::string& name) {
+    return static_cast<double>(Fnv1a().add(name).value() >> 16);
+}
 
 }  // namespace
 
 std::vector<std::string> error_metric_names() {
     std::vector<std::string> names;
     for (const Against& against : kReferences) {
-        for (const Metric& metric : kMetrics) {
-            names.push_back(std::string(against.prefix) + metric.name);
-        }
+        for (const Metric& metric : kMetrics) names.push_back(name_of(against, metric));
     }
     return names;
 }
 
-double error_of(const ReportRow& row, const std::string& metric) {
+double error_of(const ReportRow& row, const std::string& name) {
     for (const Against& against : kReferences) {
-        for (const Metric& known : kMetrics) {
-            if (metric == std::string(against.prefix) + known.name) {
-                return known.value(row.*against.errors);
-            }
+        for (const Metric& metric : kMetrics) {
+            if (name == name_of(against, metric)) return metric.value(row.*against.errors);
         }
     }
-    throw UsageError("unknown error metric '" + metric + "'");
+    throw UsageError(fmt::format("unknown error metric '{}'", name));
 }
 
 bool is_candidate(const ReportSetting& setting, const ErrorBudget& budget) {
-    return setting.axis != SettingAxis::cut_off || budget.metric.starts_with("r3-");
+    return keeps_ranges(setting.axis) || budget.metric.starts_with("r3-");
 }
 
 BudgetChoice choose_within(std::span<const ReportRow> rows, const ErrorBudget& budget) {

@@ -26,6 +26,20 @@ struct Codes {
     int width, height;
 };
 
+// A reference with the row's errors against it.
+struct Comparison {
+    const char* name;
+    const ComparedReference& reference;
+    const PictureErrors& errors;
+};
+
+std::array<Comparison, 3> comparisons(const ReportRow& row,
+                                      const ReportReferences::All& references) {
+    return {{{"R1", references.kernels, row.kernels},
+             {"R2", references.surfaces, row.surfaces},
+             {"R3", references.unbounded, row.unbounded}}};
+}
+
 struct Region {
     int x, y, width, height;
 };
@@ -109,16 +123,15 @@ std::vector<std::uint8_t> error_codes(const ReportRow& row, const ReferencePictu
     return heat_map(errors, row.picture.width, row.picture.height, kScale).rgba;
 }
 
-void draw_worst(Sheet& sheet, const char* name, const ReportRow& row,
-                const ComparedReference& reference, const PictureErrors& errors) {
-    const ErrorDistribution& worst = errors.hdr.relative;
+void draw_worst(Sheet& sheet, const ReportRow& row, const Comparison& against) {
+    const ErrorDistribution& worst = against.errors.hdr.relative;
     draw_text(sheet.canvas, kGap, sheet.top, 1,
-              fmt::format("{}: {:.1e} at {}. picture - reference - error", name, worst.max,
+              fmt::format("{}: {:.1e} at {}. picture - reference - error", against.name, worst.max,
                           pixel_text(worst)));
     sheet.top += kLine;
-    const auto map = error_codes(row, reference.picture);
+    const auto map = error_codes(row, against.reference.picture);
     int left = kGap;
-    for (const auto* codes : {&row.display, &reference.display, &map}) {
+    for (const auto* codes : {&row.display, &against.reference.display, &map}) {
         draw_region(sheet.canvas, left, sheet.top, kZoom,
                     {*codes, row.picture.width, row.picture.height},
                     {worst.x - kHalf, worst.y - kHalf, kCrop, kCrop});
@@ -135,9 +148,7 @@ Canvas worst_pixel_sheet(const ReportRow& row, const ReportReferences::All& refe
     constexpr int kPanel = kZoom * kCrop;
     Sheet sheet =
         make_sheet(3 * kPanel + 4 * kGap, 3 * (kLine + kPanel + kGap), row.setting.name, caption);
-    draw_worst(sheet, "R1", row, references.kernels, row.kernels);
-    draw_worst(sheet, "R2", row, references.surfaces, row.surfaces);
-    draw_worst(sheet, "R3", row, references.unbounded, row.unbounded);
+    for (const Comparison& against : comparisons(row, references)) draw_worst(sheet, row, against);
     draw_legend_bar(sheet.canvas);
     return std::move(sheet.canvas);
 }
@@ -158,17 +169,13 @@ Canvas error_map_sheet(const ReportRow& row, const ReportReferences::All& refere
                     whole);
         ++panel;
     };
-    const auto draw_map = [&](const char* name, const ComparedReference& reference,
-                              const PictureErrors& errors) {
+    draw("picture", row.display);
+    for (const auto& [name, reference, errors] : comparisons(row, references)) {
         const HdrMetrics& h = errors.hdr;
         draw(fmt::format("{}: max {:.1e} at {}, RMSE {:.1e}", name, h.relative.max,
                          pixel_text(h.relative), h.rmse),
              error_codes(row, reference.picture));
-    };
-    draw("picture", row.display);
-    draw_map("R1", references.kernels, row.kernels);
-    draw_map("R2", references.surfaces, row.surfaces);
-    draw_map("R3", references.unbounded, row.unbounded);
+    }
     draw_legend_bar(sheet.canvas);
     return std::move(sheet.canvas);
 }

@@ -5,13 +5,17 @@
 #include <optional>
 #include <vector>
 
-#include "host/measure/metrics/flip_ldr.h"
+#include "host/measure/metrics/flip.h"
 #include "host/measure/metrics/metrics.h"
 #include "host/measure/reference/reference.h"
 #include "host/picture/frame.h"
 #include "host/render/settings.h"
 
 namespace kilolux {
+
+/// The sRGB codes, 4 per pixel, opaque, that the renderer would show for a linear picture without
+/// bloom: exposure, tone curve, IEC 61966-2-1 rounded to the nearest code.
+std::vector<std::uint8_t> display_codes(const RgbImage& image, float exposure_ev, ToneCurve curve);
 
 /// A float64 reference, linear and as displayed.
 struct ComparedReference {

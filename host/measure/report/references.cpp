@@ -10,16 +10,9 @@
 #include "host/render/light_source.h"
 #include "host/render/renderer.h"
 #include "host/render/scene_plan.h"
-#include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
 namespace {
-
-// A plan's SHADING_* as the setting's enumerator, which has `automatic` before them.
-Shading shading_of_plan(int shading) { return static_cast<Shading>(shading + 1); }
-static_assert(static_cast<int>(Shading::lambert) == SHADING_LAMBERT + 1 &&
-              static_cast<int>(Shading::blinn_phong) == SHADING_BLINN_PHONG + 1 &&
-              static_cast<int>(Shading::pbr) == SHADING_PBR + 1);
 
 std::string ranges_key(const RenderSettings& s) {
     return fmt::format("{} {} {}", s.range_budget, s.lights.radius, s.lights.intensity);
@@ -50,7 +43,7 @@ ReportReferences::ReportReferences(const ReportView& view, const RenderSettings&
 
 ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bool windowed) const {
     const auto& plan = make_scene_plan(view_.scene, settings, 0).kernels;
-    return {.shading = shading_of_plan(plan.shading),
+    return {.shading = shading_of(plan),
             .ambient = settings.ambient,
             .orthographic = view_.camera.orthographic,
             .windowed = windowed,
@@ -66,11 +59,8 @@ const ComparedReference& ReportReferences::kernels(const RenderSettings& setting
     exact.kernels = {};
     Renderer renderer(view_.scene, exact);
     renderer.render(view_.camera, view_.time);
-    const LitSurfaces lit = renderer.lit_surfaces();
     found->second = compared_reference(
-        shade_reference(surface_samples(lit.surfaces),
-                        reference_lights(lit.lights, lit.directional), options_of(decoded, true)),
-        asked_);
+        shade_reference(renderer.lit_surfaces(), options_of(decoded, true)), asked_);
     return found->second;
 }
 

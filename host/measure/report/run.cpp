@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "host/measure/metrics/pareto.h"
@@ -20,29 +19,22 @@ double pixels(const RenderSettings& s) { return static_cast<double>(s.width) * s
 
 std::vector<ReportStage> stages_of(const std::vector<StageTime>& times, double scale) {
     std::vector<ReportStage> out;
-    std::vector<std::vector<double>> values;
     for (const StageTime& time : times) {
-        auto found = std::find_if(out.begin(), out.end(),
-                                  [&](const ReportStage& s) { return s.name == time.name; });
-        if (found == out.end()) {
-            out.push_back({time.name, {}});
-            values.emplace_back();
-            found = out.end() - 1;
+        if (std::ranges::count(out, time.name, &ReportStage::name) > 0) continue;
+        std::vector<double> ms;
+        for (const StageTime& same : times) {
+            if (same.name == time.name) ms.push_back(scale * same.ms);
         }
-        values[static_cast<std::size_t>(found - out.begin())].push_back(scale * time.ms);
+        out.push_back({time.name, statistics(ms)});
     }
-    for (std::size_t i = 0; i < out.size(); ++i) out[i].ms = statistics(values[i]);
     return out;
 }
 
-// Relative half width of a notch by McGill, Tukey and Larsen 1978, "Variations of Box Plots":
-// medians whose notches do not overlap differ with 95 % confidence.
+// Relative half width of the notch.
 double noise_of(std::vector<double> times) {
-    std::sort(times.begin(), times.end());
-    const double spread = quantile(times, 0.75) - quantile(times, 0.25);
+    std::ranges::sort(times);
     const double median = quantile(times, 0.5);
-    if (!(median > 0.0)) return 0.0;
-    return 1.57 * spread / std::sqrt(static_cast<double>(times.size())) / median;
+    return median > 0.0 ? notch(times) / median : 0.0;
 }
 
 double shading_ms(const ReportSpeed& speed) {
@@ -58,15 +50,21 @@ std::string coverage_key(const RenderSettings& s) {
     return fmt::format("{} {} {} {}", s.width, s.gbuffer, s.range_budget, s.lights.radius);
 }
 
-std::vector<std::size_t> front(const std::vector<const ReportRow*>& rows,
-                               PictureErrors ReportRow::*errors) {
+// The rows of a comparison that are in its Pareto set of time and RMSE.
+template <typename Compared>
+std::vector<ReportRow*> front(std::vector<ReportRow>& rows, PictureErrors ReportRow::*errors,
+                              Compared compared) {
+    std::vector<ReportRow*> all, out;
     std::vector<CostAndError> points;
     std::vector<double> noises;
-    for (const ReportRow* row : rows) {
-        points.push_back({row->speed.relative, (row->*errors).hdr.rmse});
-        noises.push_back(row->speed.noise);
+    for (ReportRow& row : rows) {
+        if (!compared(row.setting.axis)) continue;
+        all.push_back(&row);
+        points.push_back({row.speed.relative, (row.*errors).hdr.rmse});
+        noises.push_back(row.speed.noise);
     }
-    return pareto_set(points, noises);
+    for (const std::size_t i : pareto_set(points, noises)) out.push_back(all[i]);
+    return out;
 }
 
 }  // namespace
@@ -242,21 +240,11 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
 }
 
 void mark_fronts(std::vector<ReportRow>& rows) {
-    if (rows.empty()) return;
-    std::vector<const ReportRow*> alike, cut_offs;
-    for (const ReportRow& row : rows) {
-        const bool is_default = &row == &rows.front();
-        if (is_default || row.setting.axis == SettingAxis::cut_off) cut_offs.push_back(&row);
-        if (row.setting.axis != SettingAxis::cut_off) alike.push_back(&row);
+    for (ReportRow* row : front(rows, &ReportRow::surfaces, keeps_ranges)) {
+        row->surfaces_front = true;
     }
-    const auto row_at = [&](const ReportRow* row) -> ReportRow& {
-        return rows[static_cast<std::size_t>(row - rows.data())];
-    };
-    for (const std::size_t i : front(alike, &ReportRow::surfaces)) {
-        row_at(alike[i]).surfaces_front = true;
-    }
-    for (const std::size_t i : front(cut_offs, &ReportRow::unbounded)) {
-        row_at(cut_offs[i]).unbounded_front = true;
+    for (ReportRow* row : front(rows, &ReportRow::unbounded, compares_cut_offs)) {
+        row->unbounded_front = true;
     }
 }
 

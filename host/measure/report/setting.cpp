@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/report/setting.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numbers>
+#include <span>
 
 #include "host/base/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
+#include "host/measure/reference/reference.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/scene_plan.h"
-#include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
 namespace {
@@ -20,125 +20,112 @@ constexpr const char* kAxisNames[] = {"default", "gbuffer",  "lanes",   "math",
                                       "grid",    "renderer", "shading", "cut-off"};
 
 // Collects settings that differ from a base.
-class Variants {
- public:
-    Variants(const RenderSettings& base, bool quick) : base_(base), quick_(quick) {
-        out_.push_back({SettingAxis::none, "default", "", base});
-    }
+struct Variants {
+    const RenderSettings& base;
+    bool quick;
+    std::vector<ReportSetting> settings;
 
-    // Adds what `change` makes of the base; `name` is also the option without its dashes.
-    template <typename Change>
-    void add(SettingAxis axis, const std::string& name, Change&& change) {
-        add(axis, name, "--" + name, change);
-    }
+    // Adds what `change` makes of the base.
     template <typename Change>
     void add(SettingAxis axis, const std::string& name, const std::string& options,
-             Change&& change) {
-        out_.push_back({axis, name, options, base_});
-        change(out_.back().settings);
+             const Change& change) {
+        settings.push_back({axis, name, options, base});
+        change(settings.back().settings);
     }
-    const RenderSettings& base() const { return base_; }
-    bool quick() const { return quick_; }
-    std::vector<ReportSetting> take() { return std::move(out_); }
 
- private:
-    RenderSettings base_;
-    bool quick_;
-    std::vector<ReportSetting> out_;
+    // Adds the base with another value of the axis' option.
+    template <typename Change>
+    void add_option(SettingAxis axis, std::string_view value, const Change& change) {
+        const std::string name = fmt::format("{} {}", axis_name(axis), value);
+        add(axis, name, "--" + name, change);
+    }
 };
 
 void add_gbuffers(Variants& v) {
-    for (const uint layout : std::initializer_list<uint>{GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF,
-                                                         GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
-        if (layout == v.base().gbuffer) continue;
-        v.add(SettingAxis::gbuffer, std::string("gbuffer ") + gbuffer_layout_name(layout),
-              [&](RenderSettings& s) { s.gbuffer = layout; });
+    for (const uint layout : {uint{GBUFFER_PACKED}, uint{GBUFFER_FULL}, uint{GBUFFER_HALF},
+                              uint{GBUFFER_NORMAL_XY}, uint{GBUFFER_OCT_2X4}}) {
+        if (layout == v.base.gbuffer) continue;
+        v.add_option(SettingAxis::gbuffer, gbuffer_layout_name(layout),
+                     [&](RenderSettings& s) { s.gbuffer = layout; });
     }
 }
 
 void add_lanes(Variants& v, const DeviceInfo& device) {
-    const int chosen = choose_tuning(device, v.base().kernels).lanes;
+    const int chosen = choose_tuning(device, v.base.kernels).lanes;
     for (const int lanes : {1, 2, 4, 8, 16}) {
-        if (lanes == chosen || (v.quick() && lanes != 1 && lanes != 16)) continue;
-        v.add(SettingAxis::lanes, fmt::format("lanes {}", lanes),
-              [&](RenderSettings& s) { s.kernels.lanes = lanes; });
+        if (lanes == chosen || (v.quick && lanes != 1 && lanes != 16)) continue;
+        v.add_option(SettingAxis::lanes, fmt::to_string(lanes),
+                     [&](RenderSettings& s) { s.kernels.lanes = lanes; });
     }
 }
 
 void add_math(Variants& v) {
-    constexpr std::pair<MathMode, const char*> kModes[] = {
-        {MathMode::exact, "math exact"},
-        {MathMode::fast_relaxed, "math fast-relaxed"},
-        {MathMode::native, "math native"}};
+    constexpr std::pair<MathMode, const char*> kModes[] = {{MathMode::exact, "exact"},
+                                                           {MathMode::fast_relaxed, "fast-relaxed"},
+                                                           {MathMode::native, "native"}};
     for (const auto& [math, name] : kModes) {
-        if (math == v.base().kernels.math) continue;
-        v.add(SettingAxis::math, name, [mode = math](RenderSettings& s) { s.kernels.math = mode; });
+        if (math == v.base.kernels.math) continue;
+        v.add_option(SettingAxis::math, name,
+                     [mode = math](RenderSettings& s) { s.kernels.math = mode; });
     }
-    const bool half = v.base().kernels.light_colors == LightColors::half;
-    v.add(SettingAxis::math, half ? "light-colors float" : "light-colors half",
-          [&](RenderSettings& s) {
-              s.kernels.light_colors = half ? LightColors::single : LightColors::half;
-          });
+    const bool half = v.base.kernels.light_colors == LightColors::half;
+    const std::string name = half ? "light-colors float" : "light-colors half";
+    v.add(SettingAxis::math, name, "--" + name, [&](RenderSettings& s) {
+        s.kernels.light_colors = half ? LightColors::single : LightColors::half;
+    });
 }
 
 void add_grids(Variants& v) {
-    constexpr std::array<std::array<int, 3>, 6> kGrids = {
-        {{4, 4, 1}, {30, 17, 16}, {8, 5, 2}, {16, 9, 1}, {16, 9, 16}, {60, 34, 4}}};
-    const GridSettings& g = v.base().grid;
-    const std::size_t count = v.quick() ? 2 : kGrids.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto& [x, y, slices] = kGrids[i];
-        if (x == g.tiles_x && y == g.tiles_y && slices == g.slices_per_octave) continue;
-        v.add(SettingAxis::grid, fmt::format("grid {},{},{}", x, y, slices),
-              [&grid = kGrids[i]](RenderSettings& s) {
-                  s.grid.tiles_x = grid[0];
-                  s.grid.tiles_y = grid[1];
-                  s.grid.slices_per_octave = grid[2];
-              });
+    constexpr int kGrids[][3] = {{4, 4, 1},  {30, 17, 16}, {8, 5, 2},
+                                 {16, 9, 1}, {16, 9, 16},  {60, 34, 4}};
+    const GridSettings& base = v.base.grid;
+    for (const auto& [x, y, slices] : std::span(kGrids).first(v.quick ? 2 : std::size(kGrids))) {
+        GridSettings grid = base;
+        grid.tiles_x = x;
+        grid.tiles_y = y;
+        grid.slices_per_octave = slices;
+        if (grid == base) continue;
+        v.add_option(SettingAxis::grid, fmt::format("{},{},{}", x, y, slices),
+                     [&](RenderSettings& s) { s.grid = grid; });
     }
 }
 
 void add_renderers(Variants& v) {
     for (const RendererKind renderer : {RendererKind::deferred, RendererKind::deferred_all,
                                         RendererKind::forward_plus, RendererKind::forward}) {
-        const bool too_slow = v.quick() && renderer == RendererKind::forward;
-        if (renderer == v.base().renderer || too_slow) continue;
-        v.add(SettingAxis::renderer, "renderer " + renderer_name(renderer),
-              [&](RenderSettings& s) { s.renderer = renderer; });
+        const bool too_slow = v.quick && renderer == RendererKind::forward;
+        if (renderer == v.base.renderer || too_slow) continue;
+        v.add_option(SettingAxis::renderer, renderer_name(renderer),
+                     [&](RenderSettings& s) { s.renderer = renderer; });
     }
 }
 
 void add_shadings(Variants& v, const Scene& scene) {
-    struct Model {
-        int value;
-        Shading shading;
-        const char* name;
-    };
-    constexpr Model kModels[] = {{SHADING_LAMBERT, Shading::lambert, "lambert"},
-                                 {SHADING_BLINN_PHONG, Shading::blinn_phong, "blinn-phong"},
-                                 {SHADING_PBR, Shading::pbr, "pbr"}};
-    const int chosen = make_scene_plan(scene, v.base(), 0).kernels.shading;
-    for (const Model& model : kModels) {
-        if (model.value == chosen) continue;
-        v.add(SettingAxis::shading, std::string("shading ") + model.name,
-              [&](RenderSettings& s) { s.shading = model.shading; });
+    constexpr std::pair<Shading, const char*> kModels[] = {{Shading::lambert, "lambert"},
+                                                           {Shading::blinn_phong, "blinn-phong"},
+                                                           {Shading::pbr, "pbr"}};
+    const Shading chosen = shading_of(make_scene_plan(scene, v.base, 0).kernels);
+    for (const auto& [model, name] : kModels) {
+        if (model == chosen) continue;
+        v.add_option(SettingAxis::shading, name,
+                     [shading = model](RenderSettings& s) { s.shading = shading; });
     }
 }
 
 bool lacks_ranges(const Scene& scene) {
-    return std::any_of(scene.lights.begin(), scene.lights.end(), [](const SceneLight& light) {
+    return std::ranges::any_of(scene.lights, [](const SceneLight& light) {
         return light.type != LightType::directional && !(light.range > 0.0f);
     });
 }
 
 void add_cut_offs(Variants& v, const Scene& scene) {
-    const bool generated = v.base().lights.count > 0;
+    const bool generated = v.base.lights.count > 0;
     if (!generated && !lacks_ranges(scene)) return;
-    const double intensity = automatic_light_scale(v.base().lights, scene).intensity;
+    const double intensity = automatic_light_scale(v.base.lights, scene).intensity;
     for (const int divisor : {4, 16, 64, 256, 1024}) {
-        if (v.quick() && divisor != 16 && divisor != 256) continue;
+        if (v.quick && divisor != 16 && divisor != 256) continue;
         const double budget = 1.0 / divisor;
-        if (!generated && budget == v.base().range_budget) continue;
+        if (!generated && budget == v.base.range_budget) continue;
         const double radius = range_of_light(intensity, budget);
         std::string options = fmt::format("--range-budget {}", budget);
         if (generated) {
@@ -164,7 +151,7 @@ std::vector<std::string> setting_axis_names() {
 
 std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSettings& base,
                                            const DeviceInfo& device, bool quick) {
-    Variants variants(base, quick);
+    Variants variants{base, quick, {{SettingAxis::none, "default", "", base}}};
     if (!is_forward(base.renderer)) {
         add_gbuffers(variants);
         add_lanes(variants, device);
@@ -174,7 +161,7 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
     add_renderers(variants);
     add_shadings(variants, scene);
     add_cut_offs(variants, scene);
-    return variants.take();
+    return std::move(variants.settings);
 }
 
 double cut_off_of(const Scene& scene, const RenderSettings& settings) {

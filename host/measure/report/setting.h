@@ -13,6 +13,13 @@ namespace kilolux {
 /// What a setting of a report changes against the one asked for.
 enum class SettingAxis { none, gbuffer, lanes, math, grid, renderer, shading, cut_off };
 
+/// Whether its settings are compared with R2, as their lights have the ranges asked for, and with
+/// R3: the cut-offs beside the default.
+constexpr bool keeps_ranges(SettingAxis axis) { return axis != SettingAxis::cut_off; }
+constexpr bool compares_cut_offs(SettingAxis axis) {
+    return axis == SettingAxis::cut_off || axis == SettingAxis::none;
+}
+
 /// "default" for none, else as --axes takes it.
 const char* axis_name(SettingAxis axis);
 /// All but "default".

@@ -8,187 +8,173 @@
 namespace kilolux {
 namespace {
 
-// Appends cells to the last row, and to the columns if it is the first one.
-class Line {
- public:
-    explicit Line(Table& table) : table_(table), first_(table.rows.empty()) {
-        table_.rows.emplace_back();
-    }
-    Line& add(const std::string& column, Cell cell) {
-        if (first_) table_.columns.push_back(column);
-        table_.rows.back().push_back(std::move(cell));
-        return *this;
-    }
-    Line& counted(const std::string& column, double value) {
-        return add(column, value < 0.0 ? Cell() : Cell(value));
-    }
-    Line& whole(const std::string& column, std::optional<std::uint64_t> value) {
-        return add(column, value ? Cell(static_cast<std::int64_t>(*value)) : Cell());
-    }
-
- private:
-    Table& table_;
-    bool first_;
-};
+using Row = ReportRow;
+using Errors = PictureErrors;
 
 std::string size_text(int width, int height) { return fmt::format("{}x{}", width, height); }
 
-std::vector<std::string> stage_names(const std::vector<ReportRow>& rows) {
+std::string error_size_text(const Row& row) {
+    return size_text(row.picture.width, row.picture.height);
+}
+
+std::vector<std::string> stage_names(const std::vector<Row>& rows) {
     std::vector<std::string> names;
-    for (const ReportRow& row : rows) {
+    for (const Row& row : rows) {
         for (const ReportStage& stage : row.speed.stages) {
-            if (std::find(names.begin(), names.end(), stage.name) == names.end()) {
-                names.push_back(stage.name);
-            }
+            if (std::ranges::count(names, stage.name) == 0) names.push_back(stage.name);
         }
     }
     return names;
 }
 
-// Sum of the named stages' medians; empty if none of them ran.
-Cell sum_of(const ReportSpeed& speed, const std::vector<std::string>& names) {
-    double sum = 0.0;
-    bool any = false;
-    for (const ReportStage& stage : speed.stages) {
-        if (std::find(names.begin(), names.end(), stage.name) == names.end()) continue;
-        sum += stage.ms.median;
-        any = true;
-    }
-    return any ? Cell(sum) : Cell();
+// A column of the sum of the named stages' medians; empty where none of them ran.
+Column<Row> stage_column(const std::string& name, const std::vector<std::string>& stages) {
+    return {name, [stages](const Row& row) {
+                std::optional<double> sum;
+                for (const ReportStage& stage : row.speed.stages) {
+                    if (std::ranges::count(stages, stage.name) == 0) continue;
+                    sum = sum.value_or(0.0) + stage.ms.median;
+                }
+                return sum;
+            }};
 }
 
-Cell optional_cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
+// A column of a count that is negative where nothing was counted.
+Column<Row> count_column(const char* name, double ReportSpeed::*count) {
+    return {name, [count](const Row& row) {
+                const double value = row.speed.*count;
+                return value < 0.0 ? Cell() : Cell(value);
+            }};
+}
 
-Cell useful_share(const ReportSpeed& s) {
+Cell useful_share(const Row& row) {
+    const ReportSpeed& s = row.speed;
     return s.k > 0.0 && s.useful_k >= 0.0 ? Cell(s.useful_k / s.k) : Cell();
 }
 
-void add_errors(Line& line, const std::string& of, const PictureErrors& e) {
-    const HdrMetrics& h = e.hdr;
-    line.add(of + " max abs", h.absolute.max)
-        .add(of + " mean abs", h.absolute.mean)
-        .add(of + " 99.9 % abs", h.absolute.percentile_99_9)
-        .add(of + " worst pixel", pixel_text(h.absolute))
-        .add(of + " max rel", h.relative.max)
-        .add(of + " 99.9 % rel", h.relative.percentile_99_9)
-        .add(of + " worst rel pixel", pixel_text(h.relative))
-        .add(of + " rmse", h.rmse)
-        .add(of + " psnr [dB]", h.psnr_db)
-        .add(of + " psnr peak", h.psnr_peak)
-        .add(of + " relmse", h.rel_mse)
-        .whole(of + " nan pixels", h.nan_pixels)
-        .whole(of + " infinite pixels", h.infinite_pixels)
-        .whole(of + " negative pixels", h.negative_pixels)
-        .whole(of + " bit-different pixels", h.different_pixels)
-        .add(of + " max codes", e.codes.difference.max)
-        .whole(of + " code-different pixels", e.codes.different_pixels)
-        .add(of + " ssim", optional_cell(e.ssim))
-        .add(of + " flip mean", e.flip.mean)
-        .add(of + " flip 99.9 %", e.flip.percentile_99_9)
-        .add(of + " ldr-flip mean", e.flip_display.mean);
-}
-
-std::string front_text(const ReportRow& row) {
+std::string front_text(const Row& row) {
     if (row.surfaces_front && row.unbounded_front) return "R2 R3";
     return row.surfaces_front ? "R2" : (row.unbounded_front ? "R3" : "");
 }
 
-Plot time_plot(const char* title, const char* y_label, const std::string& caption) {
-    Plot plot;
-    plot.title = title;
-    plot.subtitle = caption;
-    plot.x_label = "frame [ms] (ratio to the default's in pairs of frames; bars: 5 % to 95 %)";
-    plot.y_label = y_label;
-    plot.log_x = plot.log_y = true;
-    plot.pareto_front = true;
-    return plot;
+// The errors against one reference.
+std::vector<Column<Errors>> error_columns() {
+    return {{"max abs", [](const Errors& e) { return e.hdr.absolute.max; }},
+            {"mean abs", [](const Errors& e) { return e.hdr.absolute.mean; }},
+            {"99.9 % abs", [](const Errors& e) { return e.hdr.absolute.percentile_99_9; }},
+            {"worst pixel", [](const Errors& e) { return pixel_text(e.hdr.absolute); }},
+            {"max rel", [](const Errors& e) { return e.hdr.relative.max; }},
+            {"99.9 % rel", [](const Errors& e) { return e.hdr.relative.percentile_99_9; }},
+            {"worst rel pixel", [](const Errors& e) { return pixel_text(e.hdr.relative); }},
+            {"rmse", [](const Errors& e) { return e.hdr.rmse; }},
+            {"psnr [dB]", [](const Errors& e) { return e.hdr.psnr_db; }},
+            {"psnr peak", [](const Errors& e) { return e.hdr.psnr_peak; }},
+            {"relmse", [](const Errors& e) { return e.hdr.rel_mse; }},
+            {"nan pixels", [](const Errors& e) { return e.hdr.nan_pixels; }},
+            {"infinite pixels", [](const Errors& e) { return e.hdr.infinite_pixels; }},
+            {"negative pixels", [](const Errors& e) { return e.hdr.negative_pixels; }},
+            {"bit-different pixels", [](const Errors& e) { return e.hdr.different_pixels; }},
+            {"max codes", [](const Errors& e) { return e.codes.difference.max; }},
+            {"code-different pixels", [](const Errors& e) { return e.codes.different_pixels; }},
+            {"ssim", &Errors::ssim},
+            {"flip mean", [](const Errors& e) { return e.flip.mean; }},
+            {"flip 99.9 %", [](const Errors& e) { return e.flip.percentile_99_9; }},
+            {"ldr-flip mean", [](const Errors& e) { return e.flip_display.mean; }}};
 }
 
-void add_point(Plot& plot, const ReportRow& row, double standard_ms, double error) {
-    const std::string name = axis_name(row.setting.axis);
-    auto found = std::find_if(plot.series.begin(), plot.series.end(),
-                              [&](const PlotSeries& s) { return s.name == name; });
-    if (found == plot.series.end()) {
-        plot.series.push_back({name, {}, PlotStyle::points});
-        found = plot.series.end() - 1;
+void add_errors(std::vector<Column<Row>>& columns, const std::string& of, Errors Row::*errors) {
+    for (const Column<Errors>& column : error_columns()) {
+        columns.push_back({fmt::format("{} {}", of, column.name),
+                           [=](const Row& row) { return column.cell(row.*errors); }});
     }
-    const ReportSpeed& s = row.speed;
-    PlotPoint point{s.relative * standard_ms, error, row.setting.name};
-    point.x_low = s.relative_p5 * standard_ms;
-    point.x_high = s.relative_p95 * standard_ms;
-    found->points.push_back(std::move(point));
+}
+
+// Frame time against the RMSE against one reference, of the rows that `shown` takes.
+template <typename Shown>
+Plot error_plot(const std::vector<Row>& rows, const std::string& caption, Errors Row::*errors,
+                Shown shown) {
+    Plot plot;
+    plot.subtitle = caption;
+    plot.x_label = "frame [ms] (ratio to the default's in pairs of frames; bars: 5 % to 95 %)";
+    plot.log_x = plot.log_y = true;
+    plot.pareto_front = true;
+    const double standard_ms = rows.empty() ? 0.0 : rows.front().speed.frame_ms.median;
+    for (const Row& row : rows) {
+        if (!shown(row.setting.axis)) continue;
+        const ReportSpeed& s = row.speed;
+        PlotPoint point{s.relative * standard_ms, (row.*errors).hdr.rmse, row.setting.name};
+        point.x_low = s.relative_p5 * standard_ms;
+        point.x_high = s.relative_p95 * standard_ms;
+        series_of(plot, axis_name(row.setting.axis), PlotStyle::points).push_back(std::move(point));
+    }
+    return plot;
 }
 
 }  // namespace
 
-Table report_table(const std::vector<ReportRow>& rows) {
-    Table table;
-    const std::vector<std::string> stages = stage_names(rows);
-    for (const ReportRow& row : rows) {
-        const ReportSpeed& s = row.speed;
-        Line line(table);
-        line.add("setting", row.setting.name)
-            .add("axis", std::string(axis_name(row.setting.axis)))
-            .add("options", row.setting.options)
-            .add("pareto", front_text(row))
-            .add("frame [ms]", s.frame_ms.median)
-            .add("times default", s.relative)
-            .add("times default 5 %", s.relative_p5)
-            .add("times default 95 %", s.relative_p95)
-            .add("noise", s.noise)
-            .whole("frames", s.frame_ms.count)
-            .add("scaled", std::string(s.scaled ? "by pixels" : ""));
-        for (const std::string& stage : stages) line.add(stage + " [ms]", sum_of(s, {stage}));
-        line.counted("k", s.k)
-            .counted("k*", s.useful_k)
-            .add("k*/k", useful_share(s))
-            .add("G evaluations/s", 1e-9 * s.evaluations_per_s)
-            .add("cut-off", row.cut_off)
-            .whole("missed lights", row.missed_lights)
-            .add("error size", size_text(row.picture.width, row.picture.height));
-        add_errors(line, "R1", row.kernels);
-        add_errors(line, "R2", row.surfaces);
-        add_errors(line, "R3", row.unbounded);
-        line.add("drawn rmse", row.drawn.rmse)
-            .add("drawn 99.9 % rel", row.drawn.relative.percentile_99_9)
-            .add("drawn max rel", row.drawn.relative.max);
+Table report_table(const std::vector<Row>& rows) {
+    std::vector<Column<Row>> columns = {
+        {"setting", [](const Row& row) { return row.setting.name; }},
+        {"axis", [](const Row& row) { return axis_name(row.setting.axis); }},
+        {"options", [](const Row& row) { return row.setting.options; }},
+        {"pareto", front_text},
+        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
+        {"times default", [](const Row& row) { return row.speed.relative; }},
+        {"times default 5 %", [](const Row& row) { return row.speed.relative_p5; }},
+        {"times default 95 %", [](const Row& row) { return row.speed.relative_p95; }},
+        {"noise", [](const Row& row) { return row.speed.noise; }},
+        {"frames", [](const Row& row) { return row.speed.frame_ms.count; }},
+        {"scaled", [](const Row& row) { return row.speed.scaled ? "by pixels" : ""; }}};
+    for (const std::string& stage : stage_names(rows)) {
+        columns.push_back(stage_column(stage + " [ms]", {stage}));
     }
-    return table;
+    columns.insert(
+        columns.end(),
+        {count_column("k", &ReportSpeed::k),
+         count_column("k*", &ReportSpeed::useful_k),
+         {"k*/k", useful_share},
+         {"G evaluations/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
+         {"cut-off", &Row::cut_off},
+         {"missed lights", &Row::missed_lights},
+         {"error size", error_size_text}});
+    add_errors(columns, "R1", &Row::kernels);
+    add_errors(columns, "R2", &Row::surfaces);
+    add_errors(columns, "R3", &Row::unbounded);
+    columns.insert(
+        columns.end(),
+        {{"drawn rmse", [](const Row& row) { return row.drawn.rmse; }},
+         {"drawn 99.9 % rel", [](const Row& row) { return row.drawn.relative.percentile_99_9; }},
+         {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }}});
+    return make_table(columns, rows);
 }
 
-Table report_summary(const std::vector<ReportRow>& rows) {
-    Table table;
-    for (const ReportRow& row : rows) {
-        const ReportSpeed& s = row.speed;
-        const PictureErrors& e = row.surfaces;
-        Line line(table);
-        line.add("setting", row.setting.name)
-            .add("Pareto", front_text(row))
-            .add("frame [ms]", s.frame_ms.median)
-            .add("x default", s.relative)
-            .add("draw", sum_of(s, {"geometry", "gbuffer_bridge"}))
-            .add("lists", sum_of(s, {"prepare_lights", "build_clusters", "cull_lights",
-                                     "bin_pixels", "refine_lights"}))
-            .add("shade", sum_of(s, {"shade", "forward", "forward_plus"}))
-            .counted("k", s.k)
-            .add("k*/k", useful_share(s))
-            .add("G eval/s", 1e-9 * s.evaluations_per_s)
-            .add("R1 max rel", row.kernels.hdr.relative.max)
-            .add("R1 RMSE", row.kernels.hdr.rmse)
-            .add("drawn RMSE", row.drawn.rmse)
-            .add("R2 RMSE", e.hdr.rmse)
-            .add("R2 PSNR [dB]", e.hdr.psnr_db)
-            .add("R2 SSIM", optional_cell(e.ssim))
-            .add("R2 FLIP", e.flip.mean)
-            .add("R3 RMSE", row.unbounded.hdr.rmse)
-            .add("R3 FLIP", row.unbounded.flip.mean);
-    }
-    return table;
+Table report_summary(const std::vector<Row>& rows) {
+    return make_table<Row>(
+        {{"setting", [](const Row& row) { return row.setting.name; }},
+         {"Pareto", front_text},
+         {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
+         {"x default", [](const Row& row) { return row.speed.relative; }},
+         stage_column("draw", {"geometry", "gbuffer_bridge"}),
+         stage_column("lists", {"prepare_lights", "build_clusters", "cull_lights", "bin_pixels",
+                                "refine_lights"}),
+         stage_column("shade", {"shade", "forward", "forward_plus"}),
+         count_column("k", &ReportSpeed::k),
+         {"k*/k", useful_share},
+         {"G eval/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
+         {"R1 max rel", [](const Row& row) { return row.kernels.hdr.relative.max; }},
+         {"R1 RMSE", [](const Row& row) { return row.kernels.hdr.rmse; }},
+         {"drawn RMSE", [](const Row& row) { return row.drawn.rmse; }},
+         {"R2 RMSE", [](const Row& row) { return row.surfaces.hdr.rmse; }},
+         {"R2 PSNR [dB]", [](const Row& row) { return row.surfaces.hdr.psnr_db; }},
+         {"R2 SSIM", [](const Row& row) { return row.surfaces.ssim; }},
+         {"R2 FLIP", [](const Row& row) { return row.surfaces.flip.mean; }},
+         {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }},
+         {"R3 FLIP", [](const Row& row) { return row.unbounded.flip.mean; }}},
+        rows);
 }
 
-std::string report_notes(const std::vector<ReportRow>& rows) {
+std::string report_notes(const std::vector<Row>& rows) {
     const RenderSettings& s = rows.front().setting.settings;
-    const RgbImage& picture = rows.front().picture;
     return fmt::format(
         "Errors are measured on pictures of {} pixels (--error-width sets this), times on {}.\n"
         "x default: frame time relative to the default's, median over pairs of frames.\n"
@@ -197,26 +183,20 @@ std::string report_notes(const std::vector<ReportRow>& rows) {
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
         "of unlimited range.\n",
-        size_text(picture.width, picture.height), size_text(s.width, s.height));
+        error_size_text(rows.front()), size_text(s.width, s.height));
 }
 
-Plot surfaces_plot(const std::vector<ReportRow>& rows, const std::string& caption) {
-    Plot plot = time_plot("Speed against error: the picture asked for, in float64 (R2)",
-                          "RMSE against R2 [radiance]", caption);
-    for (const ReportRow& row : rows) {
-        if (row.setting.axis == SettingAxis::cut_off) continue;
-        add_point(plot, row, rows.front().speed.frame_ms.median, row.surfaces.hdr.rmse);
-    }
+Plot surfaces_plot(const std::vector<Row>& rows, const std::string& caption) {
+    Plot plot = error_plot(rows, caption, &Row::surfaces, keeps_ranges);
+    plot.title = "Speed against error: the picture asked for, in float64 (R2)";
+    plot.y_label = "RMSE against R2 [radiance]";
     return plot;
 }
 
-Plot unbounded_plot(const std::vector<ReportRow>& rows, const std::string& caption) {
-    Plot plot = time_plot("Speed against error: lights without a range, in float64 (R3)",
-                          "RMSE against R3 [radiance]", caption);
-    for (const ReportRow& row : rows) {
-        if (row.setting.axis != SettingAxis::cut_off && &row != &rows.front()) continue;
-        add_point(plot, row, rows.front().speed.frame_ms.median, row.unbounded.hdr.rmse);
-    }
+Plot unbounded_plot(const std::vector<Row>& rows, const std::string& caption) {
+    Plot plot = error_plot(rows, caption, &Row::unbounded, compares_cut_offs);
+    plot.title = "Speed against error: lights without a range, in float64 (R3)";
+    plot.y_label = "RMSE against R3 [radiance]";
     return plot;
 }
 

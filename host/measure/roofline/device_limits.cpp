@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/roofline/device_limits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -113,14 +115,10 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         limits.cached_read_bandwidth = std::max(small.read, large.read);
         limits.cached_write_bandwidth = std::max(small.write, large.write);
         limits.cached_copy_bandwidth = std::max(small.copy, large.copy);
-        const TransferRates transfer = kernels.transfer_rates();
-        limits.upload_bandwidth = transfer.upload;
-        limits.download_bandwidth = transfer.download;
+        kernels.measure_transfers(limits);
         // Once more, now that the clock rates have risen.
         raise_arithmetic_limits(limits, kernels);
-        const LaunchTimes launch = kernels.launch_times();
-        limits.launch_latency_ms = launch.finish_ms;
-        limits.launch_event_ms = launch.event_ms;
+        kernels.measure_launch(limits);
         return limits;
     });
 }
@@ -141,8 +139,21 @@ void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits) {
     try {
         write_device_cache(device, kKind, values_of(limits));
     } catch (const Error& error) {
-        warn(std::string(error.what()) + "; the device's limits will be measured again");
+        warn(fmt::format("{}; the device's limits will be measured again", error.what()));
     }
+}
+
+LimitWatch::LimitWatch(const cl::Device& device)
+    : gpu_(device, describe(device).vector_width),
+      kernels_(gpu_),
+      limits_(cached_device_limits(gpu_)) {
+    const DeviceLimits before = limits_;
+    settle_arithmetic_limits(limits_, kernels_);
+    if (limits_ != before) keep_device_limits(gpu_.info, limits_);
+}
+
+void LimitWatch::look_again() {
+    if (raise_arithmetic_limits(limits_, kernels_)) keep_device_limits(gpu_.info, limits_);
 }
 
 }  // namespace kilolux

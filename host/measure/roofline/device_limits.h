@@ -54,11 +54,11 @@ std::span<const LimitField> limit_fields();
 DeviceLimits measure_device_limits(const Gpu& gpu);
 
 /// Measures the arithmetic again and keeps higher rates. Called between the runs of a benchmark, so
-/// that limits and runs meet the same load. Returns whether a rate rose by more than 1 %.
+/// that other load slows limits and runs alike. Returns whether a rate rose by more than 1 %.
 bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
 
 /// The same until it converges: no rate rises three times in a row, or three seconds have passed.
-/// On a busy machine a single measurement was too low by a factor of 1.9.
+/// A single measurement on a busy machine may be too low by a factor of 1.9.
 void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
 
 /// Keeps limits in the user's cache folder; warns where that fails.

@@ -139,40 +139,35 @@ MemoryRates LimitKernels::memory_rates(std::uint64_t bytes) {
     return rates;
 }
 
-TransferRates LimitKernels::transfer_rates() {
+void LimitKernels::measure_transfers(DeviceLimits& limits) {
     constexpr std::size_t kBytes = 16 << 20;
-    const std::vector<char> source(kBytes, 1);
-    std::vector<char> target(kBytes, 0);
+    std::vector<char> memory(kBytes, 1);
     const cl::Buffer buffer(gpu_.context, CL_MEM_READ_WRITE, kBytes);
-    const double unit = static_cast<double>(kBytes);
-    TransferRates rates;
-    rates.upload = best_rate(unit, 1, [&](uint) {
-        const Clock::time_point start = Clock::now();
-        gpu_.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, kBytes, source.data());
-        return seconds_since(start);
-    });
-    rates.download = best_rate(unit, 1, [&](uint) {
-        const Clock::time_point start = Clock::now();
-        gpu_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, kBytes, target.data());
-        return seconds_since(start);
-    });
-    return rates;
+    const auto rate = [&](const auto& transfer) {
+        return best_rate(static_cast<double>(kBytes), 1, [&](uint) {
+            const Clock::time_point start = Clock::now();
+            transfer();
+            return seconds_since(start);
+        });
+    };
+    limits.upload_bandwidth =
+        rate([&] { gpu_.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, kBytes, memory.data()); });
+    limits.download_bandwidth =
+        rate([&] { gpu_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, kBytes, memory.data()); });
 }
 
-LaunchTimes LimitKernels::launch_times() {
+void LimitKernels::measure_launch(DeviceLimits& limits) {
     constexpr int kLaunches = 200;
     cl::KernelFunctor<cl::Buffer> nothing(program_, "launch_nothing");
     const cl::EnqueueArgs one(gpu_.queue, cl::NDRange(group_), cl::NDRange(group_));
-    LaunchTimes best{std::numeric_limits<double>::infinity(),
-                     std::numeric_limits<double>::infinity()};
+    limits.launch_latency_ms = limits.launch_event_ms = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kLaunches; ++i) {
         const Clock::time_point start = Clock::now();
         const cl::Event event = nothing(one, out_);
         gpu_.queue.finish();
-        best.finish_ms = std::min(best.finish_ms, 1e3 * seconds_since(start));
-        best.event_ms = std::min(best.event_ms, 1e3 * event_seconds(event));
+        limits.launch_latency_ms = std::min(limits.launch_latency_ms, 1e3 * seconds_since(start));
+        limits.launch_event_ms = std::min(limits.launch_event_ms, 1e3 * event_seconds(event));
     }
-    return best;
 }
 
 }  // namespace kilolux

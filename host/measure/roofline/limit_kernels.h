@@ -6,6 +6,7 @@
 
 #include "host/gpu/buffer.h"
 #include "host/gpu/program.h"
+#include "host/measure/roofline/device_limits.h"
 
 namespace kilolux {
 
@@ -15,30 +16,18 @@ inline constexpr int kAddChains = 4;
 /// Of devices that do not report theirs [byte].
 inline constexpr std::uint64_t kSmallestCache = 1 << 20;
 
+/// Size of a buffer larger than every cache, as far as the device's memory allows [byte].
+std::uint64_t large_buffer_bytes(const DeviceInfo& device);
+
+/// Size of one of two buffers that fit the last cache but not the nearer ones [byte].
+std::uint64_t cached_buffer_bytes(const DeviceInfo& device);
+
 /// [byte/s]; copy counts both ways.
 struct MemoryRates {
     double read = 0.0;
     double write = 0.0;
     double copy = 0.0;
 };
-
-/// [byte/s] between host memory and the device.
-struct TransferRates {
-    double upload = 0.0;
-    double download = 0.0;
-};
-
-/// Of an empty kernel [ms].
-struct LaunchTimes {
-    double finish_ms = 0.0;  // enqueued and waited for, on the host's clock
-    double event_ms = 0.0;   // from start to end by its own event
-};
-
-/// Size of a buffer larger than every cache, as far as the device's memory allows [byte].
-std::uint64_t large_buffer_bytes(const DeviceInfo& device);
-
-/// Size of one of two buffers that fit the last cache but not the nearer ones [byte].
-std::uint64_t cached_buffer_bytes(const DeviceInfo& device);
 
 /// Runs kernels/measure_limits.cl; each rate is the best of several runs. Memory at the Gpu's lane
 /// width; arithmetic, where that is a CPU's own, also at twice the width, which shading uses and
@@ -50,11 +39,12 @@ class LimitKernels {
     /// Of a *_rate kernel that does `operations` a lane and iteration.
     double lane_operations_per_s(const char* kernel, int operations);
 
-    /// Of two filled buffers of `bytes` each.
+    /// Of two filled buffers of `bytes` each: what reading, writing and copying one takes.
     MemoryRates memory_rates(std::uint64_t bytes);
 
-    TransferRates transfer_rates();
-    LaunchTimes launch_times();
+    /// Set their fields: bandwidths between host and device; times of an empty kernel.
+    void measure_transfers(DeviceLimits& limits);
+    void measure_launch(DeviceLimits& limits);
 
  private:
     struct Walk;
@@ -71,6 +61,25 @@ class LimitKernels {
     std::size_t items_;          // work-items of the *_rate kernels
     std::size_t walkers_;        // work-items that share a buffer
     cl::Buffer out_;
+};
+
+/// A device's limits during a benchmark: those kept from before, measured again until they converge
+/// and whenever the benchmark asks. Higher rates are kept for later runs, as other work on the
+/// machine only makes a rate too low.
+class LimitWatch {
+ public:
+    /// Takes up to three seconds, and one more where no limits are kept.
+    explicit LimitWatch(const cl::Device& device);
+
+    /// Measures the arithmetic once more, in 0.1 to 0.4 s.
+    void look_again();
+
+    const DeviceLimits& limits() const { return limits_; }
+
+ private:
+    Gpu gpu_;  // with the device's own lane width
+    LimitKernels kernels_;
+    DeviceLimits limits_;
 };
 
 }  // namespace kilolux

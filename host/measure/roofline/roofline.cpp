@@ -22,11 +22,9 @@ double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8
 
 // Reads each count twice, writes each offset.
 StageWork prefix_sum_work(double counts) {
-    StageWork work;
-    work.bytes_read = 2.0 * kCounterBytes * counts;
-    work.bytes_written = kCounterBytes * counts;
-    work.launches = kPrefixSumLaunches;
-    return work;
+    return {.bytes_read = 2.0 * kCounterBytes * counts,
+            .bytes_written = kCounterBytes * counts,
+            .launches = kPrefixSumLaunches};
 }
 
 // The part of cone_reaches() that every light pays, point lights too: q 9, radius 7 and a square
@@ -48,12 +46,10 @@ StageWork prepare_work(const StageCounts& c) {
 }
 
 StageWork build_work(const StageCounts& c) {
-    StageWork work;
-    work.bytes_written = c.box_intervals * 2.0 * sizeof(float);
     // Two edges 2, pad 3, ends 4, products with the depths 4 and their extremes 2, padding 2.
-    work.instructions = c.box_intervals * InstructionCounts{17.0};
-    work.launches = 1;
-    return work;
+    return {.bytes_written = c.box_intervals * 2.0 * sizeof(float),
+            .instructions = c.box_intervals * InstructionCounts{17.0},
+            .launches = 1};
 }
 
 // Counting and filling walk the lights once each; then a cursor, an offset and a total a cluster.
@@ -127,13 +123,12 @@ InstructionCounts shading_instructions(const StageCounts& c) {
 }
 
 StageWork shade_work(const StageCounts& c) {
-    StageWork work;
-    work.bytes_read = (c.gbuffer_bytes_per_pixel + kOrderBytes) * c.drawn_pixels +
-                      sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
-    work.bytes_written = kRadianceBytes * c.pixels;
-    work.instructions = shading_instructions(c);
-    work.launches = 1;
-    return work;
+    const double lists =
+        sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
+    return {.bytes_read = (c.gbuffer_bytes_per_pixel + kOrderBytes) * c.drawn_pixels + lists,
+            .bytes_written = kRadianceBytes * c.pixels,
+            .instructions = shading_instructions(c),
+            .launches = 1};
 }
 
 // The two finest levels of the pyramid, which move 0.94 of all its bytes: down reads a level and
@@ -152,35 +147,24 @@ StageWork bloom_work(const StageCounts& c) {
 }
 
 StageWork tonemap_work(const StageCounts& c) {
-    StageWork work;
-    work.bytes_read = kRadianceBytes * c.pixels;
-    work.bytes_written = kDisplayBytes * c.pixels;
     // Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest
     // 6); packing 5. Tone curves differ: none is counted.
-    work.instructions = c.pixels * InstructionCounts{74.0, 0.0, 6.0};
-    work.launches = 1;
-    return work;
+    return {.bytes_read = kRadianceBytes * c.pixels,
+            .bytes_written = kDisplayBytes * c.pixels,
+            .instructions = c.pixels * InstructionCounts{74.0, 0.0, 6.0},
+            .launches = 1};
 }
 
 // The fragments of the forward renderers. `evaluations` are of all fragments, hidden ones too; the
 // surfaces of hidden ones are not counted.
 StageWork forward_work(const StageCounts& c) {
-    StageWork work;
-    work.bytes_written = kRadianceBytes * c.pixels;
-    work.instructions = shading_instructions(c);
-    return work;
+    return {.bytes_written = kRadianceBytes * c.pixels, .instructions = shading_instructions(c)};
 }
 
 StageWork bridge_work(const StageCounts& c) {
     const double bytes = c.gbuffer_bytes_per_pixel * c.pixels;
-    StageWork work;
-    if (c.device_is_host) {
-        work.bytes_read = bytes;
-        work.bytes_written = bytes;
-    } else {
-        work.bytes_uploaded = bytes;
-    }
-    return work;
+    if (c.device_is_host) return {.bytes_read = bytes, .bytes_written = bytes};
+    return {.bytes_uploaded = bytes};
 }
 
 struct Model {
@@ -199,7 +183,7 @@ constexpr Model kModels[] = {
 
 // Work that fits the cache moves at the cache's rates.
 double bytes_seconds(const StageWork& work, const DeviceLimits& limits) {
-    const double bytes = work.bytes_read + work.bytes_written;
+    const double bytes = work.bytes();
     const bool cached = bytes <= limits.cache_bytes;
     const double read = cached ? limits.cached_read_bandwidth : limits.read_bandwidth;
     const double write = cached ? limits.cached_write_bandwidth : limits.write_bandwidth;
@@ -222,8 +206,7 @@ const char* bound_name(Bound bound) {
 }
 
 std::optional<StageWork> stage_work(std::string_view stage, const StageCounts& counts) {
-    const auto* found = std::find_if(std::begin(kModels), std::end(kModels),
-                                     [&](const Model& m) { return m.stage == stage; });
+    const auto* found = std::ranges::find(kModels, stage, &Model::stage);
     if (found == std::end(kModels)) return std::nullopt;
     return found->work(counts);
 }

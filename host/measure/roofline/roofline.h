@@ -43,8 +43,10 @@ struct StageWork {
     double bytes_read = 0.0;
     double bytes_written = 0.0;
     double bytes_uploaded = 0.0;  // from host memory to a device with its own
-    InstructionCounts instructions;
+    InstructionCounts instructions{};
     int launches = 0;
+
+    double bytes() const { return bytes_read + bytes_written; }  // in the device's memory
 };
 
 /// The work of a stage by its name in FrameStats::stages; none for a stage without a model.

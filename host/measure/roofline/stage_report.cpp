@@ -11,9 +11,6 @@ double evaluations_of(const std::string& stage, const StageCounts& counts) {
     return 0.0;
 }
 
-// In 1e9 a second.
-double giga_rate(double amount, double ms) { return ms > 0.0 ? amount / ms * 1e-6 : 0.0; }
-
 }  // namespace
 
 std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimits& limits,
@@ -27,13 +24,10 @@ std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimi
         if (const auto work = stage_work(stage.name, counts)) {
             const StageLimit limit = stage_limit(*work, limits);
             report.limit_ms = limit.ms;
-            report.ratio = stage.ms > 0.0 ? limit.ms / stage.ms : 0.0;
             report.bound = bound_name(limit.bound);
-            report.bytes = work->bytes_read + work->bytes_written + work->bytes_uploaded;
-            report.gigabytes_per_s = giga_rate(report.bytes, stage.ms);
+            report.bytes = work->bytes() + work->bytes_uploaded;
         }
         report.evaluations = evaluations_of(stage.name, counts);
-        report.giga_evaluations_per_s = giga_rate(report.evaluations, stage.ms);
         reports.push_back(std::move(report));
     }
     return reports;

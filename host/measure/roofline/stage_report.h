@@ -13,12 +13,9 @@ struct StageReport {
     std::string stage;
     double ms = 0.0;
     double limit_ms = 0.0;  // 0: no model
-    double ratio = 0.0;     // limit_ms / ms: 1 is perfect; 0: no model
     double bytes = 0.0;     // that it must at least move
-    double gigabytes_per_s = 0.0;
     // Of shading: lights evaluated in full at a pixel; of refine_lights: lights against boxes.
     double evaluations = 0.0;
-    double giga_evaluations_per_s = 0.0;
     std::string bound;  // as bound_name() says; empty: no model
 };
 
@@ -27,7 +24,6 @@ struct StageReport {
 struct Efficiency {
     double hardware = 0.0;   // limits / times of the stages that have both
     double algorithm = 0.0;  // k* / k; < 0: k* not counted
-    double overall() const { return algorithm < 0.0 ? -1.0 : hardware * algorithm; }
 };
 
 /// One row a stage, in the frame's order.
