@@ -23,8 +23,8 @@ kernel void mip_first(global const uchar4* restrict image,    // [count]
     if (i >= count) return;
     uchar4 code = image[i];
     // 257: 255 is 65535.
-    texels[first + i] = texel_of((uint4)(decoded[code.x], decoded[code.y], decoded[code.z],
-                                         257u * (uint)code.w));
+    texels[first + i] =
+        texel_of((uint4)(decoded[code.x], decoded[code.y], decoded[code.z], 257u * (uint)code.w));
 }
 
 // Neighbours of a coordinate in a level and their weights.

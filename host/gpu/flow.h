@@ -20,6 +20,7 @@ struct GBuffer {
     DeviceArray<std::byte> bytes;
     GBufferLayout layout{};
     View view{};
+    std::uint64_t version = 0;  // the same only where the planes and the view are; 0: not known
 };
 
 /// Lights as the host hands them over.

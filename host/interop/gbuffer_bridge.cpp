@@ -92,8 +92,8 @@ void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> 
                                                    CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes);
         gpu_.queue.enqueueUnmapMemObject(staging_->device, mapped);
     }
-    last_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-                   .count();
+    last_ms_ =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs,

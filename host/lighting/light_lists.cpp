@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/light_lists.h"
 
+#include <cstring>
+
 namespace kilolux {
 namespace {
 
@@ -31,8 +33,14 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
             count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, lists.clusters, true,
                            timer);
             counts_ = count_.read();  // the frame's one wait
-            if (is_complete(lists, counts_)) return lists;
+            if (is_complete(lists, counts_)) {
+                binned_version_ = gbuffer.version;
+                binned_grid_ = grid;
+                return lists;
+            }
         }  // the arrays that had no room go before those that have
+        active_ = {};
+        binned_version_ = 0;
         grow();
         timer = before;  // without the lists that had no room
     }
@@ -45,9 +53,19 @@ void LightLists::grow() {
     if (coarse && active) refine_.fits(counts_.refine_tests);
 }
 
+// Those of the last run where pixels and grid are the same.
+ActiveClusters LightLists::active_of(const GBuffer& gbuffer, const ClusterGrid& grid,
+                                     StageTimer& timer) {
+    const bool same_grid = std::memcmp(&grid, &binned_grid_, sizeof(grid)) == 0;
+    if (binned_version_ != 0 && binned_version_ == gbuffer.version && same_grid) return active_;
+    binned_version_ = 0;  // until they are complete
+    active_ = bin_.enqueue(gbuffer, grid, timer);
+    return active_;
+}
+
 ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
                                  const ClusterGrid& grid, StageTimer& timer) {
-    const ActiveClusters active = bin_.enqueue(gbuffer, grid, timer);
+    const ActiveClusters active = active_of(gbuffer, grid, timer);
     const CoarseLighting coarse =
         coarse_.enqueue(input, gbuffer.view, grid, timer,
                         everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);

@@ -42,7 +42,8 @@ class LightLists {
 
     /// Makes the lists. `then` enqueues what reads them; it runs before the lists are known to be
     /// complete, and once more for each time that they had to grow, so the frame waits for the
-    /// device once. Blocks. Throws Error when the device cannot hold the lists.
+    /// device once. Active clusters are kept while gbuffer.version and the grid stay. Blocks.
+    /// Throws Error when the device cannot hold the lists.
     ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                      StageTimer& timer, const std::function<void(const ListedLights&)>& then = {});
 
@@ -62,6 +63,7 @@ class LightLists {
  private:
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer);
+    ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
     void grow();
 
     Gpu gpu_;
@@ -72,6 +74,10 @@ class LightLists {
     RefineLights refine_;
     CountPairs count_;
     PairCounts counts_{};
+    // Of the last run that was complete.
+    std::uint64_t binned_version_ = 0;
+    ClusterGrid binned_grid_{};
+    ActiveClusters active_;
 };
 
 }  // namespace kilolux

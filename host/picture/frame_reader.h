@@ -2,39 +2,63 @@
 #pragma once
 
 #include <exception>
+#include <list>
+#include <span>
 #include <vector>
 
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
 #include "host/picture/frame.h"
+#include "host/picture/pinned_memory.h"
 
 namespace kilolux {
 
-/// Brings bands of a frame from the device to the host, without waiting for the device. What is
-/// read twice is the later one.
+/// Brings bands of a frame from the device to the host, without waiting for the device: through
+/// pinned memory where the device has memory of its own. What is read twice is the later one.
 class FrameReader {
  public:
     explicit FrameReader(const Gpu& gpu) : gpu_(gpu) {}
 
-    /// Enqueues the read of a band's sRGB pixels, uint[height][stride], into the rows of
-    /// `frame.display` that `view` names.
-    void read_display(const cl::Buffer& display, const View& view, Frame& frame);
+    /// Enqueues the read of a band's sRGB pixels, uint[height][stride]. finish() puts them into
+    /// `pixels`, rows `to_stride` apart, which must outlive it.
+    void read_display(const cl::Buffer& display, const View& view, std::span<uint> pixels,
+                      std::size_t to_stride);
 
     /// Enqueues the read of a band's light. finish() puts it into `rgb`, the interleaved light of
     /// the whole frame.
     void read_light(const Radiance& radiance, std::vector<float>& rgb);
 
+    /// Forgets what was read and not finished: that of a frame that failed.
+    void reset();
+
     /// Waits for the device; then all that was read is in its place.
     void finish();
 
  private:
-    struct Light {
+    // Where a band's planes are staged, and where they go.
+    struct Staged {
+        explicit Staged(const Gpu& gpu) : pinned(gpu) {}
+        PinnedMemory pinned;
+        const std::byte* source = nullptr;
         View view{};
-        std::vector<float> planes;
-        std::vector<float>* rgb = nullptr;
     };
+    struct Display : Staged {
+        using Staged::Staged;
+        uint* pixels = nullptr;  // of the band; null: nothing was read
+        std::size_t stride = 0;
+    };
+    struct Light : Staged {
+        using Staged::Staged;
+        std::vector<float>* rgb = nullptr;  // null: nothing was read
+    };
+
+    void stage(Staged& staged, const cl::Buffer& buffer, const View& view, std::size_t bytes);
+    static void place(const Display& display);
+    static void place(const Light& light);
+
     Gpu gpu_;
-    std::vector<Light> lights_;
+    std::list<Light> lights_;
+    std::list<Display> displays_;
 };
 
 /// Waits for a queue when an exception leaves its scope: memory that the queue still writes must

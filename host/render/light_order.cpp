@@ -97,15 +97,22 @@ void sort_places(std::vector<Place>& places) {
 
 }  // namespace
 
-void sort_by_place(std::vector<SceneLight>& lights) {
+std::vector<std::uint32_t> order_by_place(std::span<const SceneLight> lights) {
     std::vector<Place> places(lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) {
         places[i] = place_of(lights[i], static_cast<std::uint32_t>(i));
     }
     sort_places(places);
+    std::vector<std::uint32_t> order(lights.size());
+    std::transform(places.begin(), places.end(), order.begin(),
+                   [](const Place& place) { return place.light; });
+    return order;
+}
+
+void sort_by_place(std::vector<SceneLight>& lights) {
     std::vector<SceneLight> sorted;
     sorted.reserve(lights.size());
-    for (const Place& place : places) sorted.push_back(lights[place.light]);
+    for (const std::uint32_t light : order_by_place(lights)) sorted.push_back(lights[light]);
     lights = std::move(sorted);
 }
 

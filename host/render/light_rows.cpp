@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/stages/move_lights.h"
+
 namespace kilolux {
 namespace {
 
@@ -61,6 +63,18 @@ bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
     return is_usable_at(light, light.position - camera_position);
 }
 
+WorldLight world_light(const SceneLight& light) {
+    const glm::dvec3& p = light.position;
+    const PointPair pair = point_pair(p.x, p.y, p.z);
+    return {row_of(light, p), pair.low};
+}
+
+DirectionalLight directional_row(const SceneLight& light) {
+    const glm::vec3 to_light(-glm::normalize(light.direction));
+    return {{to_light.x, to_light.y, to_light.z, 0.0f},
+            {light.intensity.x, light.intensity.y, light.intensity.z, 0.0f}};
+}
+
 LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& camera_position) {
     LightRows rows;
     rows.local.reserve(lights.size());
@@ -69,10 +83,7 @@ LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& 
         if (!is_usable_at(light, relative)) {
             ++rows.rejected;
         } else if (light.type == LightType::directional) {
-            const glm::vec3 to_light(-glm::normalize(light.direction));
-            rows.directional.push_back(
-                {{to_light.x, to_light.y, to_light.z, 0.0f},
-                 {light.intensity.x, light.intensity.y, light.intensity.z, 0.0f}});
+            rows.directional.push_back(directional_row(light));
         } else {
             rows.local.push_back(row_of(light, relative));
             rows.has_spot = rows.has_spot || light.type == LightType::spot;

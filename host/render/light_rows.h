@@ -22,6 +22,12 @@ struct LightRows {
 /// Whether a light can be used from this camera position: finite, with a range, and giving light.
 bool is_usable(const SceneLight& light, const glm::dvec3& camera_position);
 
+/// A point or spot light that is_usable(), in the world: MoveLights makes its row.
+WorldLight world_light(const SceneLight& light);
+
+/// A directional light's row, world axes.
+DirectionalLight directional_row(const SceneLight& light);
+
 /// Positions meet the camera in double, so that a scene far from the origin keeps float32's
 /// accuracy about the camera: 1e6 m away, float32 world positions would be 6 cm apart. A light that
 /// cannot be used is left out and counted; the others are unaffected. Lights without a range must

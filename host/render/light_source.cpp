@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/light_source.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "host/base/log.h"
 #include "host/render/light_order.h"
 #include "host/scene/lights/light_ranges.h"
 
 namespace kilolux {
 namespace {
+
+// Generated lights are ordered anew this often [s]: they move at most 1.2 m/s, so neighbours stay
+// neighbours. The order at a time does not depend on the times before it.
+constexpr double kOrderInterval = 0.5;
+// Within this of the origin [m] no light is too far from the camera to be used.
+constexpr double kNear = 4e14;
+
+double order_time(double time) { return std::floor(time / kOrderInterval) * kOrderInterval; }
 
 std::vector<SceneLight> lights_with_ranges(const Scene& scene, double budget) {
     std::vector<SceneLight> lights = scene.lights;
@@ -18,36 +31,46 @@ std::vector<SceneLight> lights_with_ranges(const Scene& scene, double budget) {
     return lights;
 }
 
-std::vector<SceneLight> with_generated(std::vector<SceneLight> lights, const LightOptions& options,
-                                       const Scene& scene, double time) {
+bool is_near(const glm::dvec3& p) {
+    return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(kNear)));
+}
+
+std::vector<SceneLight> all_lights(const std::vector<SceneLight>& own, const LightOptions& options,
+                                   const Scene& scene, double time) {
+    std::vector<SceneLight> out = own;
     const std::vector<SceneLight> generated = generate_lights(options, scene, time);
-    lights.insert(lights.end(), generated.begin(), generated.end());
-    sort_by_place(lights);
-    return lights;
+    out.insert(out.end(), generated.begin(), generated.end());
+    return out;
 }
 
 }  // namespace
 
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time) {
-    std::vector<SceneLight> lights = scene.lights;
-    fill_missing_ranges(lights, settings.range_budget);
-    return with_generated(std::move(lights), settings.lights, scene, time);
+    std::vector<SceneLight> own = scene.lights;
+    fill_missing_ranges(own, settings.range_budget);
+    const std::vector<SceneLight> now = all_lights(own, settings.lights, scene, time);
+    const auto ordered = all_lights(own, settings.lights, scene, order_time(time));
+    std::vector<SceneLight> out;
+    for (const std::uint32_t number : order_by_place(ordered)) out.push_back(now[number]);
+    return out;
 }
 
-LightSource::LightSource(const Gpu& gpu, const Scene& scene, const RenderSettings& settings)
+LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
+                         const RenderSettings& settings)
     : gpu_(gpu),
       scene_(scene),
       revision_(scene.revision),
       range_budget_(settings.range_budget),
       generated_(settings.lights),
       own_(lights_with_ranges(scene, settings.range_budget)),
-      local_(gpu, "lights"),
+      move_(gpu, tuning),
       directional_(gpu, "lights") {}
 
 void LightSource::set_generated(const LightOptions& generated) {
     if (generated == generated_) return;
     generated_ = generated;
     time_.reset();
+    order_time_.reset();
 }
 
 // The scene's own lights anew where they moved.
@@ -57,32 +80,78 @@ void LightSource::take_up_changes() {
     own_ = scene_.lights;
     fill_missing_ranges(own_, range_budget_);
     time_.reset();
+    order_time_.reset();
 }
 
-LightRows LightSource::at(double time, const glm::dvec3& camera_position, FrameStats& stats) {
-    take_up_changes();
-    if (time_ != time) {
-        lights_ = with_generated(own_, generated_, scene_, time);
-        time_ = time;
+SceneLight LightSource::light(std::uint32_t number) const {
+    return number < own_.size() ? own_[number] : (*at_time_)[number - own_.size()];
+}
+
+void LightSource::find_order(const glm::dvec3& camera_position) {
+    order_.clear();
+    directional_order_.clear();
+    order_camera_.reset();
+    const auto lights = all_lights(own_, generated_, scene_, *order_time_);
+    bool all_near = is_near(camera_position);
+    for (const std::uint32_t number : order_by_place(lights)) {
+        const SceneLight& light = lights[number];
+        const bool is_directional = light.type == LightType::directional;
+        all_near = all_near && (is_directional || is_near(light.position));
+        if (!is_usable(light, camera_position)) continue;
+        (is_directional ? directional_order_ : order_).push_back(number);
     }
-    LightRows rows = make_light_rows(lights_, camera_position);
-    stats.lights_given = lights_.size();
-    stats.lights_rejected = rows.rejected;
-    stats.lights_used = rows.local.size() + rows.directional.size();
-    stats.directional_lights = rows.directional.size();
-    stats.lights_dropped = lights_.size() - rows.rejected - stats.lights_used;
-    return rows;
+    if (!all_near) order_camera_ = camera_position;
 }
 
-LightInput LightSource::upload(const LightRows& rows) {
-    LightInput input;
-    input.count = static_cast<uint>(rows.local.size());
-    input.directional_count = static_cast<uint>(rows.directional.size());
-    input.lights = local_.reserve(rows.local.size());
-    input.directional = directional_.reserve(rows.directional.size());
-    kilolux::upload<Light>(gpu_, input.lights, rows.local);
-    kilolux::upload<DirectionalLight>(gpu_, input.directional, rows.directional);
-    return input;
+void LightSource::upload() {
+    std::vector<WorldLight> rows(order_.size());
+    tbb::parallel_for(std::size_t{0}, order_.size(),
+                      [&](std::size_t i) { rows[i] = world_light(light(order_[i])); });
+    move_.upload(rows);
+    std::vector<DirectionalLight> directional;
+    for (const std::uint32_t number : directional_order_) {
+        directional.push_back(directional_row(own_[number]));
+    }
+    kilolux::upload<DirectionalLight>(gpu_, directional_.reserve(directional.size()), directional);
+    input_camera_.reset();
+}
+
+void LightSource::update(double time, const glm::dvec3& camera_position, FrameStats& stats) {
+    take_up_changes();
+    const bool out_of_order = order_time_ != order_time(time) ||
+                              (order_camera_ && *order_camera_ != camera_position) ||
+                              (!order_camera_ && !is_near(camera_position));
+    if (out_of_order || time_ != time) {
+        at_time_.emplace(generated_, scene_, time);
+        time_ = time;
+        order_time_ = order_time(time);
+        if (out_of_order) find_order(camera_position);
+        upload();
+    }
+    stats.lights_given = own_.size() + generated_.count;
+    stats.lights_used = order_.size() + directional_order_.size();
+    stats.lights_rejected = stats.lights_given - stats.lights_used;
+    stats.directional_lights = directional_order_.size();
+    stats.lights_dropped = 0;
+}
+
+LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, StageTimer& timer) {
+    if (reuse && input_camera_ == camera_position) return input_;
+    const glm::dvec3& p = camera_position;
+    input_.lights = move_.enqueue(point_pair(p.x, p.y, p.z), timer);
+    input_.count = static_cast<uint>(order_.size());
+    input_.directional = directional_.get();
+    input_.directional_count = static_cast<uint>(directional_order_.size());
+    input_camera_ = camera_position;
+    return input_;
+}
+
+LightRows LightSource::rows(const glm::dvec3& camera_position) const {
+    std::vector<SceneLight> lights(order_.size());
+    tbb::parallel_for(std::size_t{0}, order_.size(),
+                      [&](std::size_t i) { lights[i] = light(order_[i]); });
+    for (const std::uint32_t number : directional_order_) lights.push_back(own_[number]);
+    return make_light_rows(lights, camera_position);
 }
 
 }  // namespace kilolux

@@ -10,6 +10,7 @@
 #include "host/render/light_rows.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
+#include "host/stages/move_lights.h"
 
 namespace kilolux {
 
@@ -17,35 +18,52 @@ namespace kilolux {
 /// order in which kernels go through them (light_order.h).
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time);
 
-/// All lights of a scene, its own and the generated ones, at any time.
+/// All lights of a scene, its own and the generated ones, at any time. They are on the device in
+/// the world's coordinates: a camera that moves costs one kernel, lights that stay are not uploaded
+/// again.
 class LightSource {
  public:
     /// Lights of the scene without a range get one within settings.range_budget; says so. The scene
     /// must outlive this.
-    LightSource(const Gpu& gpu, const Scene& scene, const RenderSettings& settings);
+    LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
+                const RenderSettings& settings);
 
     /// Other generated lights from now on.
     void set_generated(const LightOptions& generated);
 
-    /// Rows relative to the camera at `time` [s], of the scene as it is now; sets the counts of
-    /// lights.
-    LightRows at(double time, const glm::dvec3& camera_position, FrameStats& stats);
+    /// The lights at `time` [s] of the scene as it is now; sets their counts. The camera's place
+    /// decides only which are too far away to be used.
+    void update(double time, const glm::dvec3& camera_position, FrameStats& stats);
 
-    /// The rows on the device, until the next call.
-    LightInput upload(const LightRows& rows);
+    /// Those of the last update() relative to the camera, on the device until the next call.
+    /// `reuse`: the last call's where nothing changed. Enqueues only.
+    LightInput input(const glm::dvec3& camera_position, bool reuse, StageTimer& timer);
+
+    /// The same rows on the host, made in double.
+    LightRows rows(const glm::dvec3& camera_position) const;
 
  private:
     void take_up_changes();
+    SceneLight light(std::uint32_t number) const;
+    void find_order(const glm::dvec3& camera_position);
+    void upload();
 
     Gpu gpu_;
     const Scene& scene_;
     std::uint32_t revision_;  // of the scene that own_ are of
     double range_budget_;
     LightOptions generated_;
-    std::vector<SceneLight> own_;     // with ranges
-    std::vector<SceneLight> lights_;  // all of them at time_
-    std::optional<double> time_;      // none: not made yet
-    GrowingArray<Light> local_;
+    std::vector<SceneLight> own_;            // with ranges
+    std::optional<double> time_;             // none: not made yet
+    std::optional<LightGenerator> at_time_;  // of time_
+    // Numbers of the lights, own_ before generated ones: usable point and spot lights in the order
+    // of the kernels; directional ones.
+    std::vector<std::uint32_t> order_, directional_order_;
+    std::optional<double> order_time_;        // at which the generated ones were ordered
+    std::optional<glm::dvec3> order_camera_;  // from where they were, if that matters
+    std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made
+    LightInput input_;
+    MoveLights move_;
     GrowingArray<DirectionalLight> directional_;
 };
 

@@ -61,6 +61,10 @@ class Pipeline {
     bool is_built_for(const RenderSettings& other) const;
     void take(const RenderSettings& next);
     void make_optional_parts();
+    // Whether OpenGL's fragments are lit.
+    bool lights_on_host() const {
+        return is_forward(settings.renderer) || has_blended_surfaces(scene->scene());
+    }
     bool blooms_at_end() const { return settings.bloom > 0.0f && !is_whole(); }
 
     LightInput begin(const Camera& camera, double time, Frame& frame);

@@ -49,7 +49,8 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
     scene->make_current();
     scene->take_up_changes();
     const Clock::time_point start = Clock::now();
-    timer_ = StageTimer();  // without the events of a frame that failed
+    timer_ = StageTimer();  // without what a frame that failed left
+    reader_.reset();
     camera_ = camera;
     const FrameRequest& want = settings.want;
     frame.width = settings.width;
@@ -67,9 +68,11 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
         whole_light_.reserve(std::size_t{3} * view.stride * view.height);
     }
     frame.stats.zero_normals = scene->zero_normals();
-    rows_ = lights_.at(time, camera.position, frame.stats);
-    add_stage_time(frame.stats.stages, "light_input", ms_since(start));
-    const LightInput input = lights_.upload(rows_);
+    const Clock::time_point lights_start = Clock::now();
+    lights_.update(time, camera.position, frame.stats);
+    if (lights_on_host()) rows_ = lights_.rows(camera.position);
+    add_stage_time(frame.stats.stages, "light_input", ms_since(lights_start));
+    const LightInput input = lights_.input(camera.position, !settings.no_reuse, timer_);
     frame.stats.frame_ms = ms_since(start);
     return input;
 }
@@ -135,14 +138,16 @@ void Pipeline::read_display(const Radiance& radiance, Frame& frame) {
     if (!frame.bloomed.empty()) reader_.read_light(glowing, frame.bloomed);
     if (display_memory_.empty()) {
         if (frame.display.empty()) return;
+        const std::span<uint> pixels(reinterpret_cast<uint*>(frame.display.data()),
+                                     frame.display.size() / sizeof(uint));
         reader_.read_display(tonemap_.enqueue(glowing, settings.exposure, timer_), glowing.view,
-                             frame);
+                             pixels, static_cast<std::size_t>(frame.width));
         return;
     }
     const std::size_t bytes = display_memory_.size_bytes();
     if (!gpu.info.is_cpu) {
-        gpu.queue.enqueueReadBuffer(tonemap_.enqueue(glowing, settings.exposure, timer_), CL_FALSE,
-                                    0, bytes, display_memory_.data());
+        reader_.read_display(tonemap_.enqueue(glowing, settings.exposure, timer_), glowing.view,
+                             display_memory_, glowing.view.stride);
         return;
     }
     const cl::Buffer display(gpu.context, CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR, bytes,
@@ -191,8 +196,9 @@ void Pipeline::require_whole(const char* what) const {
 PixelProbe Pipeline::probe(int x, int y) {
     PixelProbe out = std::visit([&](auto& path) { return path.probe(camera_, x, y); }, path());
     const View view = view_of(camera_, settings.width, settings.height);
+    const LightRows rows = lights_.rows(camera_.position);
     for (ProbedLight& light : out.lights) {
-        light.light = rows_.local.at(light.index);
+        light.light = rows.local.at(light.index);
         light.shade = shade_light(view, light.light);
     }
     return out;

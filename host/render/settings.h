@@ -70,6 +70,7 @@ struct RenderSettings {
     Geometry geometry = Geometry::automatic;
     int anisotropy = 0;  // texture samples along a footprint's longer side at most, 1..16; 0: 1 on
                          // CPUs, 8 on GPUs
+    bool no_reuse = false;  // also makes what did not change since the last frame; no other bits
     Shading shading = Shading::automatic;
     float ambient = 0.02f;  // radiance that falls in from everywhere
     float bloom = 0.0f;     // share of the light that blooms, 0..1

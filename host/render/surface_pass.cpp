@@ -33,7 +33,16 @@ SurfacePass::SurfacePass(const PathContext& context)
 }
 
 GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
-    return planes_ ? draw_planes(sample, out.stats.stages) : draw_ids(sample, out);
+    const RenderSettings& settings = context_.settings;
+    const Source source{sample.camera, sample.band, settings.width, settings.height,
+                        context_.scene.scene().revision};
+    if (!settings.no_reuse && source_ == source) return gbuffer_;
+    source_.reset();  // until it is made
+    const std::uint64_t version = gbuffer_.version + 1;
+    gbuffer_ = planes_ ? draw_planes(sample, out.stats.stages) : draw_ids(sample, out);
+    gbuffer_.version = version;
+    source_ = source;
+    return gbuffer_;
 }
 
 GBuffer SurfacePass::draw_planes(const Sample& sample, std::vector<StageTime>& stages) {
@@ -44,9 +53,10 @@ GBuffer SurfacePass::draw_planes(const Sample& sample, std::vector<StageTime>& s
         planes_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows);
         add_stage_time(stages, "geometry", planes_->last_ms());
     }
-    GBuffer gbuffer = bridge_.transfer(planes_->targets(), context_.plan.gbuffer,
-                                       view_of(sample.camera, settings.width, settings.height, band),
-                                       band.first_row - tile.first_row);
+    GBuffer gbuffer =
+        bridge_.transfer(planes_->targets(), context_.plan.gbuffer,
+                         view_of(sample.camera, settings.width, settings.height, band),
+                         band.first_row - tile.first_row);
     add_stage_time(stages, "gbuffer_bridge", bridge_.last_ms());
     return gbuffer;
 }
@@ -106,8 +116,8 @@ PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, i
 ClusterGrid coarse_grid(const PathContext& context, const Camera& camera, FrameStats& stats) {
     const RenderSettings& settings = context.settings;
     const uint layout = is_forward(settings.renderer) ? GBUFFER_PACKED : settings.gbuffer;
-    const GridRequest request =
-        grid_request(settings.grid, camera, context.scene.box(), position_pad(layout, context.scene.box(), camera));
+    const GridRequest request = grid_request(settings.grid, camera, context.scene.box(),
+                                             position_pad(layout, context.scene.box(), camera));
     const ClusterGrid grid = make_cluster_grid(request, static_cast<uint>(settings.width),
                                                static_cast<uint>(settings.height));
     stats.grid[0] = grid.tiles_x;

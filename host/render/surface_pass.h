@@ -24,7 +24,8 @@ class SurfacePass {
 
     /// Draws the band's raster tile, unless it is there from the last call, and makes the band's
     /// G-buffer on the device, valid until the next call; lights are not read. Waits for OpenGL.
-    /// Adds the stages geometry and gbuffer_bridge; resolve_surfaces goes to the timer.
+    /// Adds the stages geometry and gbuffer_bridge; resolve_surfaces goes to the timer. Does
+    /// nothing where the last call made the same, unless settings.no_reuse.
     GBuffer draw(const Sample& sample, Measured out);
 
     /// The surfaces of the last draw() on the host. Blocks.
@@ -36,15 +37,25 @@ class SurfacePass {
     const GBufferTargets& targets() const { return planes_ ? planes_->targets() : ids_->targets(); }
 
  private:
+    // What a G-buffer is made of, beside what the path is made for.
+    struct Source {
+        Camera camera;
+        Band band;
+        int width, height;
+        std::uint32_t revision;  // of the scene
+        bool operator==(const Source&) const = default;
+    };
     GBuffer draw_planes(const Sample& sample, std::vector<StageTime>& stages);
     GBuffer draw_ids(const Sample& sample, Measured out);
 
     PathContext context_;
     std::optional<GeometryPass> planes_;
-    std::optional<IdsPass> ids_;               // else
+    std::optional<IdsPass> ids_;              // else
     std::optional<ResolveSurfaces> resolve_;  // of ids_
     GBufferBridge bridge_;
     DecodeGBuffer decode_;
+    std::optional<Source> source_;  // of gbuffer_
+    GBuffer gbuffer_;
 };
 
 /// The coarse grid of a frame.

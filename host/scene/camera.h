@@ -19,6 +19,7 @@ struct Camera {
     double z_far = std::numeric_limits<double>::infinity();  // [m]; > z_near; orthographic: finite
     glm::dvec2 shear{0.0};   // off-centre: added to ndc x, y (stereo, tiles)
     glm::dvec2 jitter{0.0};  // sub-pixel offset of the sample from the pixel's centre [pixel]
+    bool operator==(const Camera&) const = default;
 };
 
 /// Camera at `position` looking at `focal_point`; throws Error when the two or `up` are degenerate.

@@ -17,7 +17,7 @@ struct SurfaceFeatures {
     bool nearest = false;       // filters other than linear between texels and between mip levels
     bool wraps = false;         // other than repeat
     bool uv_transform = false;  // KHR_texture_transform
-    int anisotropy = 1;  // samples along a footprint's longer side at most
+    int anisotropy = 1;         // samples along a footprint's longer side at most
     bool operator==(const SurfaceFeatures&) const = default;
 };
 

@@ -140,8 +140,8 @@ void SurfaceScene::upload_meshes() {
         MeshRow row = vertex_layout(mesh, features_);
         row.first_float = checked_count(vertices.size(), scene_);
         row.first_index = checked_count(indices.size(), scene_);
-        row.material = static_cast<uint>(mesh.material < 0 ? scene_.materials.size()
-                                                           : static_cast<std::size_t>(mesh.material));
+        row.material = static_cast<uint>(
+            mesh.material < 0 ? scene_.materials.size() : static_cast<std::size_t>(mesh.material));
         if (material_of(scene_, mesh).alpha_mode != AlphaMode::blend) {
             append_vertices(mesh, row, vertices);
             indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -178,8 +178,8 @@ SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
     for (const Draw& draw : draws) rows.push_back(draw.row);
     const DeviceArray<InstanceRow> instances = instances_.reserve(rows.size());
     upload<InstanceRow>(gpu_, instances, rows);
-    return {instances,         meshes_.get(),   vertices_.get(), indices_.get(),
-            materials_.get(),  textures_.get(), texels_.get()};
+    return {instances,        meshes_.get(),   vertices_.get(), indices_.get(),
+            materials_.get(), textures_.get(), texels_.get()};
 }
 
 }  // namespace kilolux

@@ -41,8 +41,8 @@ class SurfaceScene {
     Gpu gpu_;
     const Scene& scene_;
     SurfaceFeatures features_;
-    std::vector<MeshRow> rows_;              // by mesh
-    std::vector<std::uint32_t> revisions_;   // of the vertices on the device, by mesh
+    std::vector<MeshRow> rows_;             // by mesh
+    std::vector<std::uint32_t> revisions_;  // of the vertices on the device, by mesh
     GrowingArray<InstanceRow> instances_;
     GrowingArray<MeshRow> meshes_;
     GrowingArray<float> vertices_;

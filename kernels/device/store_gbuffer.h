@@ -45,9 +45,7 @@ static inline UV unorm_code(FV v, float largest) {
     return lane_to_uint(fma(min(max(v, fv(0.0f)), fv(1.0f)), fv(largest), fv(0.5f)));
 }
 
-static inline UV pack_color(UV r, UV g, UV b, UV a) {
-    return r | (g << 8) | (b << 16) | (a << 24);
-}
+static inline UV pack_color(UV r, UV g, UV b, UV a) { return r | (g << 8) | (b << 16) | (a << 24); }
 
 static inline UV pack_linear(FV3 c, UV a) {
     return pack_color(unorm_code(c.x, 255.0f), unorm_code(c.y, 255.0f), unorm_code(c.z, 255.0f), a);
@@ -69,8 +67,7 @@ static inline UV pack_normal(FV x, FV y) {
 static inline void store_optional_planes(GBufferTarget to, Surface s) {
 #if HAS_MATERIAL
     FV3 emissive = scale3(s.emissive, fv(1.0f / to.layout.emissive_scale));
-    store_plane_uint(to, PLANE_MATERIAL,
-                     pack_srgb(to, emissive, unorm_code(s.metallic, 255.0f)));
+    store_plane_uint(to, PLANE_MATERIAL, pack_srgb(to, emissive, unorm_code(s.metallic, 255.0f)));
 #endif
 #if HAS_OCCLUSION
     UV code = select((UV)(0u), unorm_code(s.occlusion, 255.0f), to.drawn);

@@ -235,8 +235,7 @@ static inline FV3 interpolate_tangent(Weights w, Triangle t, FV* handedness) {
         sign[i] = object.w;
     }
     // A mirror turns a right-handed basis into a left-handed one.
-    *handedness =
-        interpolate(w, sign[0], sign[1], sign[2]) * t.instance->normal_from_object[0].w;
+    *handedness = interpolate(w, sign[0], sign[1], sign[2]) * t.instance->normal_from_object[0].w;
     return interpolate3(w, tangent);
 }
 #endif
@@ -270,8 +269,8 @@ static inline void interpolate_triangle(SurfaceScene scene, View view, Pixels pi
 #if HAS_VERTEX_COLOR
     float3 color[3];
     for (uint i = 0; i < 3; ++i) {
-        color[i] = t.mesh.color == SURFACE_ABSENT ? (float3)(1.0f)
-                                                  : vload3(0, t.vertex[i] + t.mesh.color);
+        color[i] =
+            t.mesh.color == SURFACE_ABSENT ? (float3)(1.0f) : vload3(0, t.vertex[i] + t.mesh.color);
     }
     out->color = take3(mask, interpolate3(w, color), out->color);
 #endif

@@ -16,6 +16,13 @@ SHARED_STRUCT(Light) {
 };
 SHARED_ASSERT(light_size, sizeof(Light) == 48);
 
+// A point or spot light in the world: positions as pairs of floats, 48 bits of a double's 53.
+SHARED_STRUCT(WorldLight) {
+    Light light;          // its position in the world, rounded
+    float4 position_low;  // xyz: what rounding lost
+};
+SHARED_ASSERT(world_light_size, sizeof(WorldLight) == 64);
+
 // A light in view space, as shading reads it.
 SHARED_STRUCT(ShadeLight) {
     float4 position_inv_range2;  // xyz: p_view [m]; w: 1/range^2 [1/m^2]

@@ -50,6 +50,14 @@ const Choices& choices_of(Geometry) {
     return choices;
 }
 
+const Choices& choices_of(BenchMotion) {
+    static const Choices choices = {
+        {"camera", "camera and lights move a little: nothing can be kept of the last frame"},
+        {"lights", "the camera stands: surfaces are kept"},
+        {"none", "nothing moves"}};
+    return choices;
+}
+
 const Choices& choices_of(Shading) {
     static const Choices choices = {{"auto", "what the scene's materials ask for"},
                                     {"lambert", "matt: albedo / pi"},

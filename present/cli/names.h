@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/measure/bench/run.h"
 #include "host/render/settings.h"
 
 namespace kilolux {
@@ -22,6 +23,7 @@ struct Choices {
 const Choices& choices_of(RendererKind);
 const Choices& choices_of(Geometry);
 const Choices& choices_of(Shading);
+const Choices& choices_of(BenchMotion);
 const Choices& choices_of(ToneCurve);
 const Choices& choices_of(MathMode);
 const Choices& choices_of(LightColors);

@@ -60,6 +60,7 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
         .choice({"--geometry", "", "auto", "How surfaces get into the G-buffer"}, s.geometry)
         .count({"--anisotropy", "N", "1 on CPUs, 8 on GPUs", "Texture samples along a footprint"},
                s.anisotropy, kAnisotropyRange)
+        .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame")
         .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading)
         .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,
                 kAmbientRange);

@@ -33,6 +33,7 @@ struct BenchOptions {
     BenchAxes axes;
     std::optional<int> warm_up;
     std::optional<int> frames;
+    BenchMotion motion = BenchMotion::camera;
     std::filesystem::path output;     // folder; empty: the table on standard output only
     std::vector<std::string> tables;  // --table: CSV files to print instead of measuring
     bool resume = false;

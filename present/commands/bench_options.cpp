@@ -113,6 +113,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
                {0, 1'000'000})
         .count({"--frames", "N", "120", "Frames that count; runs with --shade and --tune"},
                options.frames, {1, 1'000'000})
+        .choice({"--motion", "", "camera", "What moves from frame to frame"}, options.motion)
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON and plots"}, options.output)
         .flag("--resume", options.resume,
               "Go on with the CSV in the folder, which the same program, device, tuning, scene and "

@@ -168,7 +168,8 @@ std::vector<SweepPoint> bench_points(const BenchOptions& options) {
 
 BenchFrames bench_frames(const BenchOptions& options) {
     const BenchFrames standard = options.quick ? BenchFrames{1, 5} : BenchFrames{};
-    return {options.warm_up.value_or(standard.warm_up), options.frames.value_or(standard.measured)};
+    return {options.warm_up.value_or(standard.warm_up), options.frames.value_or(standard.measured),
+            options.motion};
 }
 
 // With --max-error: the setting that is within the budget for the first point, on every axis for

@@ -104,8 +104,8 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
     fs::remove(elsewhere_ / "kernels/shade.cl");
     expect_refused(developer, "kernels/shade.cl: cannot be read");
     write_text(elsewhere_ / "kernels/shade.cl", shade);
-    write_text(elsewhere_ / "raster/shaders/geometry.frag", "#version 450\nthis is no GLSL\n");
-    expect_refused(developer, "raster/shaders/geometry.frag");
+    write_text(elsewhere_ / "raster/shaders/ids.frag", "#version 450\nthis is no GLSL\n");
+    expect_refused(developer, "raster/shaders/ids.frag");
 }
 
 TEST_F(Faults, FileSizeLimitAndFullDisk) {

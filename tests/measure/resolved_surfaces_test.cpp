@@ -65,8 +65,8 @@ class Resolving {
     void name_triangles(const std::vector<uint>& ids, const View& view, SurfaceSamples& out) const {
         for (int y = 0; y < out.height; ++y) {
             for (int x = 0; x < out.width; ++x) {
-                const uint id = ids[static_cast<std::size_t>(y) * view.stride +
-                                    static_cast<std::size_t>(x)];
+                const uint id =
+                    ids[static_cast<std::size_t>(y) * view.stride + static_cast<std::size_t>(x)];
                 if (id == 0) continue;
                 for (const Draw& draw : ids_.draws()) {
                     if (draw.row.first_triangle > id - 1) break;

@@ -53,10 +53,12 @@ LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
       device_(describe(gpu_.device)),
       context_(GlContext::headless()),
       gpu_scene_(scene),
-      bridge_(gpu_) {
+      bridge_(gpu_),
+      light_source_(gpu_, choose_tuning(device_, settings.kernels).tuning, scene, settings_) {
     in_stage("lighting bench", [&] {
-        LightSource source(gpu_, scene_, settings_);
-        lights_ = source.upload(source.at(time, camera_.position, light_stats_));
+        StageTimer untimed;
+        light_source_.update(time, camera_.position, light_stats_);
+        lights_ = light_source_.input(camera_.position, true, untimed);
     });
 }
 

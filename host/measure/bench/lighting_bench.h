@@ -9,6 +9,7 @@
 #include "host/gpu/tuning_store.h"
 #include "host/interop/gbuffer_bridge.h"
 #include "host/picture/frame.h"
+#include "host/render/light_source.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
@@ -73,6 +74,7 @@ class LightingBench {
     std::optional<GeometryPass> geometry_;
     GBufferBridge bridge_;
     GBuffer gbuffer_;
+    LightSource light_source_;
     LightInput lights_;
     FrameStats light_stats_;  // counts of the lights
     StageTimer timer_;

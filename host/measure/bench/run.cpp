@@ -73,6 +73,20 @@ BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera
     base_.want.aovs.clear();
 }
 
+// Frame i's camera: to the right by a millionth of the scene's size a frame, far less than a pixel.
+Camera BenchRun::camera_at(BenchMotion motion, int i) const {
+    Camera camera = camera_;
+    if (motion != BenchMotion::camera) return camera;
+    const double step = 1e-6 * glm::length(bounds(scene_).size());
+    camera.position += i * step * camera.world_from_view[0];
+    return camera;
+}
+
+double BenchRun::time_at(BenchMotion motion, int i) const {
+    constexpr double kFrame = 1.0 / 60.0;  // [s]
+    return motion == BenchMotion::none ? time_ : time_ + i * kFrame;
+}
+
 std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFrames& frames) {
     watch_.look_again();
     const RenderSettings settings = settings_at(base_, point);
@@ -85,7 +99,8 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
         std::vector<uint> picture(display_stride(settings.width) *
                                   static_cast<std::size_t>(settings.height));
         for (int i = 0; i < frames.warm_up + frames.measured; ++i) {
-            Frame frame = renderer.render_to(picture, camera_, time_);
+            Frame frame =
+                renderer.render_to(picture, camera_at(frames.motion, i), time_at(frames.motion, i));
             if (i >= frames.warm_up) measured.push_back(std::move(frame.stats));
             on_frame_();
         }

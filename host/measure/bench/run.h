@@ -20,10 +20,18 @@
 
 namespace kilolux {
 
-/// How often a point is rendered.
+/// What changes from frame to frame, and so what a frame cannot keep of the last one.
+enum class BenchMotion {
+    camera,  // camera and lights move a little: nothing is kept
+    lights,  // the camera stands
+    none,
+};
+
+/// How often a point is rendered, and what moves.
 struct BenchFrames {
     int warm_up = 30;
     int measured = 120;
+    BenchMotion motion = BenchMotion::camera;
 };
 
 /// Of the pictures whose error a sweep measures: deferred-all takes a few seconds of a small CPU.
@@ -64,6 +72,8 @@ class BenchRun {
     };
     using SceneKey = std::tuple<std::array<int, 2>, std::uint64_t, uint>;
 
+    Camera camera_at(BenchMotion motion, int i) const;
+    double time_at(BenchMotion motion, int i) const;
     static SceneKey key_of(const SweepPoint& point);
     SweepPoint error_point(SweepPoint point) const;
     Frame render(const RenderSettings& settings);

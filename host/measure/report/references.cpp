@@ -18,15 +18,20 @@ std::string ranges_key(const RenderSettings& s) {
     return fmt::format("{} {} {}", s.range_budget, s.lights.radius, s.lights.intensity);
 }
 
-// The settings whose G-buffer R1 shades: forward shading quantises nothing, like the layout `full`.
+// The settings whose G-buffer R1 shades: forward shading quantises nothing, like the layout `full`,
+// and lights what OpenGL filters.
 RenderSettings decoded_settings(RenderSettings settings) {
-    if (is_forward(settings.renderer)) settings.gbuffer = GBUFFER_FULL;
+    if (is_forward(settings.renderer)) {
+        settings.gbuffer = GBUFFER_FULL;
+        settings.geometry = Geometry::planes;
+    }
     settings.renderer = RendererKind::deferred;
     return settings;
 }
 
 std::string kernels_key(const RenderSettings& s) {
-    return fmt::format("{} {} {}", s.gbuffer, static_cast<int>(s.shading), ranges_key(s));
+    return fmt::format("{} {} {} {}", s.gbuffer, resolves_ids(s.geometry),
+                       static_cast<int>(s.shading), ranges_key(s));
 }
 
 ReferenceLights usable_lights(const ReportView& view, const RenderSettings& settings) {

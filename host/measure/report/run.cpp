@@ -67,6 +67,13 @@ std::vector<ReportRow*> front(std::vector<ReportRow>& rows, PictureErrors Report
     return out;
 }
 
+// What is timed stands for frames in which everything moves.
+RenderSettings whole_frames(const ReportSetting& setting) {
+    RenderSettings out = setting.settings;
+    out.no_reuse = true;
+    return out;
+}
+
 }  // namespace
 
 // A setting's frames before they are summarised.
@@ -106,7 +113,7 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
         rows.push_back(compare(settings[i], timings[i]));
         on_progress_();
     }
-    if (!timings.front().scaled) standard_.emplace(view_.scene, settings.front().settings);
+    if (!timings.front().scaled) standard_.emplace(view_.scene, whole_frames(settings.front()));
     for (int round = 0; round < kRounds; ++round) {
         for (std::size_t i = 0; i < settings.size(); ++i) {
             if (i == 0 || time_only_(rows[i])) {
@@ -179,7 +186,7 @@ void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& fra
     const int measured =
         std::clamp((frames.measured + kRounds - 1) / kRounds, 1, std::max(1, affordable));
     std::optional<Renderer> other;
-    if (standard || !standard_) other.emplace(view_.scene, setting.settings);
+    if (standard || !standard_) other.emplace(view_.scene, whole_frames(setting));
     Renderer& renderer = other ? *other : *standard_;
     for (int i = 0; i < std::min(frames.warm_up, affordable); ++i) {
         on_step_();

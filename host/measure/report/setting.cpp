@@ -16,8 +16,8 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kAxisNames[] = {"default", "gbuffer",  "lanes",   "math",
-                                      "grid",    "renderer", "shading", "cut-off"};
+constexpr const char* kAxisNames[] = {"default", "gbuffer",  "geometry", "lanes",  "math",
+                                      "grid",    "renderer", "shading",  "cut-off"};
 
 // Collects settings that differ from a base.
 struct Variants {
@@ -48,6 +48,12 @@ void add_gbuffers(Variants& v) {
         v.add_option(SettingAxis::gbuffer, gbuffer_layout_name(layout),
                      [&](RenderSettings& s) { s.gbuffer = layout; });
     }
+}
+
+void add_geometry(Variants& v) {
+    const bool ids = resolves_ids(v.base.geometry);
+    v.add_option(SettingAxis::geometry, ids ? "planes" : "ids",
+                 [&](RenderSettings& s) { s.geometry = ids ? Geometry::planes : Geometry::ids; });
 }
 
 void add_lanes(Variants& v, const DeviceInfo& device) {
@@ -154,6 +160,7 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
     Variants variants{base, quick, {{SettingAxis::none, "default", "", base}}};
     if (!is_forward(base.renderer)) {
         add_gbuffers(variants);
+        add_geometry(variants);
         add_lanes(variants, device);
         add_math(variants);
     }

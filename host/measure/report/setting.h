@@ -11,7 +11,7 @@
 namespace kilolux {
 
 /// What a setting of a report changes against the one asked for.
-enum class SettingAxis { none, gbuffer, lanes, math, grid, renderer, shading, cut_off };
+enum class SettingAxis { none, gbuffer, geometry, lanes, math, grid, renderer, shading, cut_off };
 
 /// Whether its settings are compared with R2, as their lights have the ranges asked for, and with
 /// R3: the cut-offs beside the default.

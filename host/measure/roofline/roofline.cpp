@@ -31,6 +31,26 @@ StageWork prefix_sum_work(double counts) {
 // root, q^2 3, the guard 4.
 InstructionCounts cone_guard_instructions() { return {24.0, 0.0, 1.0, 0.0}; }
 
+// Three differences of 7.
+StageWork move_work(const StageCounts& c) {
+    return {.bytes_read = c.lights * sizeof(WorldLight),
+            .bytes_written = c.lights * sizeof(Light),
+            .instructions = c.lights * InstructionCounts{21.0},
+            .launches = 1};
+}
+
+// Textures are left out: which a pixel reads, and at how many levels, differs by material.
+StageWork resolve_work(const StageCounts& c) {
+    StageWork work;
+    work.bytes_read = sizeof(uint) * c.pixels;
+    work.bytes_written = c.gbuffer_bytes_per_pixel * c.pixels;
+    // Ray 2, weights 22 and a division, depth 2, its buffer value 3 and 2 divisions, normal 6, its
+    // unit vector 9 with a root and a division, octahedral 18 and a division, packing 8.
+    work.instructions = c.drawn_pixels * InstructionCounts{70.0, 0.0, 1.0, 5.0};
+    work.launches = 1;
+    return work;
+}
+
 StageWork prepare_work(const StageCounts& c) {
     StageWork work;
     const double directional = c.directional_lights * sizeof(DirectionalLight);
@@ -162,7 +182,7 @@ StageWork forward_work(const StageCounts& c) {
 }
 
 StageWork bridge_work(const StageCounts& c) {
-    const double bytes = c.gbuffer_bytes_per_pixel * c.pixels;
+    const double bytes = c.bridge_bytes_per_pixel * c.pixels;
     if (c.device_is_host) return {.bytes_read = bytes, .bytes_written = bytes};
     return {.bytes_uploaded = bytes};
 }
@@ -173,7 +193,8 @@ struct Model {
 };
 
 constexpr Model kModels[] = {
-    {"gbuffer_bridge", bridge_work}, {"prepare_lights", prepare_work},
+    {"gbuffer_bridge", bridge_work}, {"resolve_surfaces", resolve_work},
+    {"move_lights", move_work},      {"prepare_lights", prepare_work},
     {"build_clusters", build_work},  {"cull_lights", cull_work},
     {"bin_pixels", bin_work},        {"refine_lights", refine_work},
     {"shade", shade_work},           {"bloom", bloom_work},
@@ -229,8 +250,14 @@ StageLimit stage_limit(const StageWork& work, const DeviceLimits& limits) {
 
 FrameSetup frame_setup(const RenderSettings& settings, const ScenePlan& plan,
                        const DeviceInfo& device) {
-    return {settings.width,    settings.height, plan.kernels, plan.gbuffer_bytes_per_pixel,
-            settings.renderer, device.is_cpu};
+    const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
+    return {settings.width,
+            settings.height,
+            plan.kernels,
+            plan.gbuffer_bytes_per_pixel,
+            ids ? static_cast<int>(sizeof(uint)) : plan.gbuffer_bytes_per_pixel,
+            settings.renderer,
+            device.is_cpu};
 }
 
 StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
@@ -255,6 +282,7 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     c.full_evaluations =
         leaves_early(setup.kernels) ? std::min(in_range, c.evaluations) : c.evaluations;
     c.gbuffer_bytes_per_pixel = setup.gbuffer_bytes_per_pixel;
+    c.bridge_bytes_per_pixel = setup.bridge_bytes_per_pixel;
     c.device_is_host = setup.device_is_host;
     c.kernels = setup.kernels;
     return c;

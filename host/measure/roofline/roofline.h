@@ -34,7 +34,8 @@ struct StageCounts {
     double evaluations = 0.0;       // of lights at pixels: k * drawn_pixels
     double full_evaluations = 0.0;  // of those that do not leave early; not counted: 0
     double gbuffer_bytes_per_pixel = 12.0;
-    bool device_is_host = true;  // the device reads the G-buffer where OpenGL left it
+    double bridge_bytes_per_pixel = 12.0;  // that OpenGL hands over: the G-buffer, or ids
+    bool device_is_host = true;            // the device reads them where OpenGL left them
     KernelFeatures kernels;
 };
 
@@ -70,6 +71,7 @@ struct FrameSetup {
     int height = 0;
     KernelFeatures kernels;
     int gbuffer_bytes_per_pixel = 12;
+    int bridge_bytes_per_pixel = 12;
     RendererKind renderer = RendererKind::deferred;
     bool device_is_host = true;
 };

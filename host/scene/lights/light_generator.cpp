@@ -143,19 +143,25 @@ LightScale automatic_light_scale(const LightOptions& options, const Scene& scene
     return scale;
 }
 
+LightGenerator::LightGenerator(const LightOptions& options, const Scene& scene, double time)
+    : options_(options), time_(time) {
+    options_.box = light_box(options, scene);
+    check(options, options_.box, time);
+    const LightScale scale = automatic_light_scale(options_, scene);
+    options_.radius = scale.radius;
+    options_.intensity = scale.intensity;
+}
+
+SceneLight LightGenerator::operator[](std::uint64_t light) const {
+    return make_light(options_, options_.box, light, time_);
+}
+
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
                                         double time) {
-    LightOptions scaled = options;
-    scaled.box = light_box(options, scene);
-    check(options, scaled.box, time);
-    const LightScale scale = automatic_light_scale(scaled, scene);
-    scaled.radius = scale.radius;
-    scaled.intensity = scale.intensity;
+    const LightGenerator generator(options, scene, time);
     std::vector<SceneLight> lights(options.count);
     const auto fill = [&](const tbb::blocked_range<std::uint64_t>& range) {
-        for (std::uint64_t i = range.begin(); i < range.end(); ++i) {
-            lights[i] = make_light(scaled, scaled.box, i, time);
-        }
+        for (std::uint64_t i = range.begin(); i < range.end(); ++i) lights[i] = generator[i];
     };
     tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, options.count, kLightsAtOnce), fill);
     return lights;

@@ -25,6 +25,18 @@ struct LightOptions {
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
                                         double time);
 
+/// Single lights of `options` at a time [s], as generate_lights() makes them.
+class LightGenerator {
+ public:
+    /// Throws Error when the box, the radius, the intensity or the time is not finite.
+    LightGenerator(const LightOptions& options, const Scene& scene, double time);
+    SceneLight operator[](std::uint64_t light) const;
+
+ private:
+    LightOptions options_;  // nothing automatic
+    double time_;
+};
+
 /// Range [m] and intensity [cd] that `options` stands for when they are automatic.
 struct LightScale {
     double radius = 0.0;
