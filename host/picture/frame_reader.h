@@ -9,7 +9,7 @@
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
 #include "host/picture/frame.h"
-#include "host/picture/pinned_memory.h"
+#include "host/gpu/pinned_memory.h"
 
 namespace kilolux {
 

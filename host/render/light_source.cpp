@@ -104,10 +104,10 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
 }
 
 void LightSource::upload() {
-    std::vector<WorldLight> rows(order_.size());
+    const std::span<WorldLight> rows = move_.stage(order_.size());
     tbb::parallel_for(std::size_t{0}, order_.size(),
                       [&](std::size_t i) { rows[i] = world_light(light(order_[i])); });
-    move_.upload(rows);
+    move_.upload();
     std::vector<DirectionalLight> directional;
     for (const std::uint32_t number : directional_order_) {
         directional.push_back(directional_row(own_[number]));

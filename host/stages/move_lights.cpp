@@ -18,11 +18,23 @@ MoveLights::MoveLights(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
       kernel_(gpu, build_program(gpu, kStage), kStage, "move_lights"),
+      staging_(gpu),
       world_(gpu, "lights"),
       lights_(gpu, "lights") {}
 
-void MoveLights::upload(std::span<const WorldLight> lights) {
-    kilolux::upload<WorldLight>(gpu_, world_.reserve(lights.size()), lights);
+std::span<WorldLight> MoveLights::stage(std::size_t count) {
+    gpu_.queue.finish();
+    staged_ = count;
+    if (count == 0) return {};
+    std::byte* bytes = staging_.reserve(count * sizeof(WorldLight));
+    return {reinterpret_cast<WorldLight*>(bytes), count};
+}
+
+void MoveLights::upload() {
+    const DeviceArray<WorldLight> world = world_.reserve(staged_);
+    if (staged_ == 0) return;
+    const std::size_t bytes = staged_ * sizeof(WorldLight);
+    gpu_.queue.enqueueWriteBuffer(world, CL_FALSE, 0, bytes, staging_.reserve(bytes));
 }
 
 DeviceArray<Light> MoveLights::enqueue(const PointPair& eye, StageTimer& timer) {

@@ -6,6 +6,7 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/pinned_memory.h"
 
 namespace kilolux {
 
@@ -20,8 +21,12 @@ class MoveLights {
  public:
     MoveLights(const Gpu& gpu, const Tuning& tuning);
 
-    /// The lights from now on. Returns when `lights` were read.
-    void upload(std::span<const WorldLight> lights);
+    /// Room for `count` lights, which the caller fills before upload(). Blocks until the last
+    /// upload() is done.
+    std::span<WorldLight> stage(std::size_t count);
+
+    /// What was staged is the lights from now on. Enqueues only.
+    void upload();
 
     /// The lights relative to the eye. Enqueues only.
     DeviceArray<Light> enqueue(const PointPair& eye, StageTimer& timer);
@@ -30,6 +35,8 @@ class MoveLights {
     Gpu gpu_;
     Tuning tuning_;
     Kernel kernel_;
+    PinnedMemory staging_;
+    std::size_t staged_ = 0;  // lights
     GrowingArray<WorldLight> world_;
     GrowingArray<Light> lights_;
 };

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -27,11 +28,10 @@ WorldLight light_at(const Point& p) {
 }
 
 std::vector<Light> moved(const std::vector<Point>& points, const Point& eye) {
-    std::vector<WorldLight> world;
-    for (const Point& p : points) world.push_back(light_at(p));
     const Gpu gpu = test_gpu();
     MoveLights move(gpu, default_tuning(gpu.info));
-    move.upload(world);
+    std::ranges::transform(points, move.stage(points.size()).begin(), light_at);
+    move.upload();
     StageTimer timer;
     return download(gpu, move.enqueue(point_pair(eye[0], eye[1], eye[2]), timer));
 }
