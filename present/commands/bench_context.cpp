@@ -36,6 +36,9 @@ Json settings_json(const SharedOptions& shared) {
                               ? Json(nullptr)
                               : Json{s.lights.box.min.x, s.lights.box.min.y, s.lights.box.min.z,
                                      s.lights.box.max.x, s.lights.box.max.y, s.lights.box.max.z}},
+            {"geometry", name_of(s.geometry)},
+            {"anisotropy", s.anisotropy},
+            {"reuse", !s.no_reuse},
             {"shading", name_of(s.shading)},
             {"ambient", s.ambient},
             {"math", name_of(s.kernels.math)},

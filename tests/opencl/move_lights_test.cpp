@@ -71,7 +71,7 @@ TEST(MoveLights, IsTheDifferenceOfDoubles) {
         for (const double size : {1e-3, 1.0, 1e3}) {
             const Point centre = {far, -0.3 * far, 0.7 * far};
             const Point eye = {centre[0] + 0.37, centre[1] - 1.61, centre[2] + 0.11};
-            EXPECT_LE(largest_error(points_about(centre, size), eye), 1.0) << far << ' ' << size;
+            EXPECT_LE(largest_error(points_about(centre, size), eye), 0.51) << far << ' ' << size;
         }
     }
 }

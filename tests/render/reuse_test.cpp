@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame keeps of the last one changes no byte.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/support/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+// A viewer's edits, any of which may leave the picture as it is.
+class Script {
+ public:
+    Script(const Scene& scene, std::uint32_t seed)
+        : random_(seed), camera(first_camera(scene)), settings(small_settings(64, 48, 200)) {}
+
+    void edit() {
+        switch (random_() % 8) {
+            case 0:
+                camera.position.x += 0.1 * static_cast<double>(random_() % 3);
+                break;
+            case 1:
+            case 2:
+                time += 0.3 * static_cast<double>(random_() % 3);
+                break;
+            case 3:
+                settings.exposure = static_cast<float>(random_() % 2);
+                break;
+            case 4:
+                settings.lights.count = 150 + 50 * (random_() % 2);
+                break;
+            case 5:
+                settings.height = 32 + 16 * static_cast<int>(random_() % 2);
+                break;
+            case 6:
+                settings.renderer =
+                    random_() % 2 == 0 ? RendererKind::deferred : RendererKind::deferred_all;
+                break;
+            default:
+                settings.grid.slices_per_octave = 4 << (random_() % 2);
+        }
+    }
+
+ private:
+    std::mt19937 random_;
+
+ public:
+    Camera camera;
+    RenderSettings settings;
+    double time = 0.0;
+};
+
+bool has_stage(const Frame& frame, const std::string& name) {
+    return std::ranges::any_of(frame.stats.stages,
+                               [&](const StageTime& stage) { return stage.name == name; });
+}
+
+TEST(Reuse, ChangesNoByteOfRandomScripts) {
+    const Scene scene = grid_with_every_light();
+    Script script(scene, 5);
+    RenderSettings anew = script.settings;
+    anew.no_reuse = true;
+    Renderer keeping(scene, script.settings);
+    Renderer making(scene, anew);
+    int kept = 0;
+    for (int i = 0; i < 60; ++i) {
+        script.edit();
+        anew = script.settings;
+        anew.no_reuse = true;
+        keeping.change(script.settings);
+        making.change(anew);
+        const Frame a = keeping.render(script.camera, script.time);
+        const Frame b = making.render(script.camera, script.time);
+        ASSERT_EQ(a.display, b.display) << i;
+        ASSERT_EQ(a.radiance, b.radiance) << i;
+        EXPECT_TRUE(has_stage(b, "geometry")) << i;
+        if (!has_stage(a, "geometry")) ++kept;
+    }
+    EXPECT_GT(kept, 10) << "surfaces were never kept";
+}
+
+TEST(Reuse, AStillCameraKeepsSurfacesAndBins) {
+    const Scene scene = make_generated_scene("grid");
+    Renderer renderer(scene, small_settings());
+    const Camera camera = first_camera(scene);
+    renderer.render(camera, 0.0);
+    renderer.render(camera, 0.0);  // lists have their room
+    const Frame moved = renderer.render(camera, 0.1);
+    for (const char* stage : {"geometry", "gbuffer_bridge", "resolve_surfaces", "bin_pixels"}) {
+        EXPECT_FALSE(has_stage(moved, stage)) << stage;
+    }
+    EXPECT_TRUE(has_stage(moved, "move_lights"));
+    EXPECT_FALSE(has_stage(renderer.render(camera, 0.1), "move_lights"));
+}
+
+}  // namespace
+}  // namespace kilolux
