@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lights of the world -> camera-relative lights. Positions and camera are pairs of floats; their
-// difference is that of doubles to the last bit or one, on every device: only sums, no products.
+// difference is that of doubles within 0.51 units in the last place, the same on every device: only
+// sums, no products.
 // One work-item moves one light.
 #include "kernels/shared/light.h"
 

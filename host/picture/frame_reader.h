@@ -8,8 +8,8 @@
 
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
-#include "host/picture/frame.h"
 #include "host/gpu/pinned_memory.h"
+#include "host/picture/frame.h"
 
 namespace kilolux {
 

@@ -6,6 +6,7 @@
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/picture/bands.h"
+#include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/surface_planes.h"
 #include "raster/forward_pass.h"
@@ -28,6 +29,8 @@ constexpr Bytes kBandPixel = 3 * (3 * sizeof(float) + 4);
 constexpr Bytes kListsPixel = 2;
 // Kernels count the elements of a picture's planes in 32 bits.
 constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULAR - 1;
+// No texture takes more memory for it.
+constexpr int kAnyAnisotropy = 1;
 // OpenCL drivers and images of the files leave a share of what is available unused.
 constexpr double kAvailableShare = 0.8;
 
@@ -42,16 +45,18 @@ std::string limit_text(const RenderSettings& settings) {
                : "there are " + mebibytes(limit_of(settings)) + " to use (--max-memory)";
 }
 
-// Twice: for OpenGL, too.
-Bytes scene_bytes(const Scene& scene) {
+// On the host; and for OpenGL, where its fragments sample the images, once more.
+Bytes scene_bytes(const Scene& scene, bool sampled_by_gl) {
     Bytes bytes = 0;
     for (const Mesh& mesh : scene.meshes) {
         constexpr Bytes kVertex =
             2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec4) + 2 * sizeof(glm::vec2);
         bytes += mesh.positions.size() * kVertex + mesh.indices.size() * sizeof(std::uint32_t);
     }
-    for (const Image& image : scene.images) bytes += image.rgba.size() * 4 / 3;
-    return 2 * bytes + scene.instances.size() * 2 * sizeof(Instance);
+    Bytes images = 0;
+    for (const Image& image : scene.images) images += image.rgba.size() * 4 / 3;
+    return 2 * bytes + (sampled_by_gl ? 2 : 1) * images +
+           scene.instances.size() * 2 * sizeof(Instance);
 }
 
 // Of OpenGL's targets for a G-buffer, depth included.
@@ -99,9 +104,14 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const bool blends = has_blended_surfaces(scene);
     const bool decodes = settings.want.pixels();
     Need need;
+    const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     need.device_fixed = (settings.lights.count + scene.lights.size()) * kLight +
                         width * height * bloom_pixel_bytes(settings);
-    need.fixed = kProgram + scene_bytes(scene) + need.device_fixed +
+    if (ids) {
+        need.device_fixed +=
+            surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
+    }
+    need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
     constexpr Bytes kForwardTarget = 20;
     if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);

@@ -9,6 +9,7 @@
 #include "host/base/source.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
+#include "kernels/shared/surface_scene.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -36,6 +37,28 @@ std::vector<Measure> light_measures() {
             SIZE_OF(DirectionalLight),
             OFFSET_OF(DirectionalLight, to_light),
             OFFSET_OF(DirectionalLight, color)};
+}
+
+std::vector<Measure> surface_measures() {
+    return {SIZE_OF(WorldLight),
+            OFFSET_OF(WorldLight, light),
+            OFFSET_OF(WorldLight, position_low),
+            SIZE_OF(MeshRow),
+            OFFSET_OF(MeshRow, material),
+            OFFSET_OF(MeshRow, color),
+            SIZE_OF(InstanceRow),
+            OFFSET_OF(InstanceRow, normal_from_object),
+            OFFSET_OF(InstanceRow, eye_high),
+            OFFSET_OF(InstanceRow, first_triangle),
+            OFFSET_OF(InstanceRow, is_similarity),
+            SIZE_OF(SurfaceMaterial),
+            OFFSET_OF(SurfaceMaterial, textures),
+            OFFSET_OF(SurfaceMaterial, flags),
+            OFFSET_OF(SurfaceMaterial, lookup_use),
+            SIZE_OF(TextureRow),
+            OFFSET_OF(TextureRow, filter),
+            OFFSET_OF(TextureRow, first_texel),
+            OFFSET_OF(TextureRow, level_offset)};
 }
 
 std::vector<Measure> view_measures() {
@@ -86,9 +109,9 @@ std::vector<Measure> cluster_measures() {
             OFFSET_OF(ActiveCluster, list_count)};
 }
 
-constexpr std::string_view kHeaders[] = {"kernels/shared/cluster_grid.h",
-                                         "kernels/shared/clusters.h", "kernels/shared/gbuffer.h",
-                                         "kernels/shared/light.h", "kernels/shared/view.h"};
+constexpr std::string_view kHeaders[] = {
+    "kernels/shared/cluster_grid.h", "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
+    "kernels/shared/light.h",        "kernels/shared/surface_scene.h", "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {
     Gpu gpu = test_gpu();
@@ -109,6 +132,8 @@ void expect_equal(const std::vector<Measure>& measures) {
 }
 
 TEST(Layout, LightsAgreeWithTheDevice) { expect_equal(light_measures()); }
+
+TEST(Layout, SurfacesAgreeWithTheDevice) { expect_equal(surface_measures()); }
 
 TEST(Layout, ViewAndGBufferAgreeWithTheDevice) { expect_equal(view_measures()); }
 

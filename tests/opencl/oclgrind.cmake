@@ -5,11 +5,13 @@
 #   the optimiser left undefined on purpose;
 # - one test a process: it takes reused buffers for uninitialised;
 # - at most 8 lanes: it takes vectors of 16 for uninitialised in the arguments of functions;
+# - no check for uninitialised values (UNINITIALIZED empty) where kernels use float3: the check crashes on
+#   shuffles that widen vectors, which its compiler makes of them;
 # - the tests' own verdict: it crashes at exit when programs live as long as the process.
 set(log ${CMAKE_CURRENT_BINARY_DIR}/oclgrind_${FILTER}.log)
 file(REMOVE ${log})
 execute_process(
-  COMMAND ${OCLGRIND} --build-options -cl-opt-disable --data-races --uninitialized --check-api --max-errors 20
+  COMMAND ${OCLGRIND} --build-options -cl-opt-disable --data-races ${UNINITIALIZED} --check-api --max-errors 20
           --log ${log} ${TESTS} --gtest_filter=${FILTER}
   OUTPUT_VARIABLE output ERROR_VARIABLE output)
 message("${output}")
