@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/interop/gbuffer_bridge.h"
 
-#include <chrono>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "host/gpu/pinned_memory.h"
 #include "host/gpu/program.h"
 #include "raster/gl_debug.h"
 #include "raster/gl_object.h"
@@ -28,10 +33,12 @@ void wait_for(GLsync fence) {
 
 // The pixel buffer, its mapping, and the device's buffer over or beside it.
 struct GBufferBridge::Staging {
+    explicit Staging(const Gpu& gpu) : pinned(gpu) {}
     GlBuffer pixels;
     void* mapping = nullptr;
     std::size_t bytes = 0;
     cl::Buffer device;
+    PinnedMemory pinned;  // of a GPU, as large as the pixel buffer
 };
 
 void GBufferBridge::DeleteFence::operator()(GLsync fence) const { glDeleteSync(fence); }
@@ -43,7 +50,7 @@ GBufferBridge& GBufferBridge::operator=(GBufferBridge&&) noexcept = default;
 
 void GBufferBridge::make_staging(std::size_t bytes) {
     staging_ = nullptr;  // before the new one is there: both might not fit
-    auto staging = std::make_unique<Staging>();
+    auto staging = std::make_unique<Staging>(gpu_);
     constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     staging->pixels = make_buffer();
     glNamedBufferStorage(staging->pixels.name(), static_cast<GLsizeiptr>(bytes), nullptr,
@@ -62,10 +69,17 @@ void GBufferBridge::make_staging(std::size_t bytes) {
     staging_ = std::move(staging);
 }
 
-// While OpenGL reads the next plane.
+// While OpenGL reads the next plane. OpenCL copies at the bus' rate only from memory that it pinned
+// itself; all cores bring the plane there.
 void GBufferBridge::upload(const PlaneCopy& copy) {
-    const auto* plane = static_cast<const std::byte*>(staging_->mapping) + copy.offset;
-    gpu_.queue.enqueueWriteBuffer(staging_->device, CL_FALSE, copy.offset, copy.bytes, plane);
+    constexpr std::size_t kPiece = std::size_t{1} << 20;  // [byte]
+    const auto* from = static_cast<const std::byte*>(staging_->mapping) + copy.offset;
+    std::byte* to = staging_->pinned.reserve(staging_->bytes) + copy.offset;
+    tbb::parallel_for(std::size_t{0}, (copy.bytes + kPiece - 1) / kPiece, [&](std::size_t i) {
+        const std::size_t first = i * kPiece;
+        std::memcpy(to + first, from + first, std::min(kPiece, copy.bytes - first));
+    });
+    gpu_.queue.enqueueWriteBuffer(staging_->device, CL_FALSE, copy.offset, copy.bytes, to);
 }
 
 // OpenGL reads every plane into the pixel buffer; a GPU gets each when it is there.
