@@ -33,13 +33,13 @@ TEST(ReportSettings, CoverEveryAxisOnceEach) {
         const auto settings = report_settings(scene, {}, device(), quick);
         EXPECT_EQ(settings.front().name, "default");
         EXPECT_EQ(settings.front().options, "");
-        EXPECT_EQ(axes(settings).size(), 8u);
+        EXPECT_EQ(axes(settings).size(), 9u);
         std::set<std::string> names;
         for (const ReportSetting& s : settings) EXPECT_TRUE(names.insert(s.name).second) << s.name;
-        for (const char* name :
-             {"gbuffer full", "gbuffer half", "gbuffer normal-xy", "gbuffer oct-2x4",
-              "math fast-relaxed", "math native", "light-colors half", "renderer deferred-all",
-              "renderer forward-plus", "shading blinn-phong", "cut-off 1/256"}) {
+        for (const char* name : {"gbuffer full", "gbuffer half", "gbuffer normal-xy",
+                                 "gbuffer oct-2x4", "geometry planes", "math fast-relaxed",
+                                 "math native", "light-colors half", "renderer deferred-all",
+                                 "renderer forward-plus", "shading blinn-phong", "cut-off 1/256"}) {
             EXPECT_TRUE(names.count(name)) << name;
         }
         EXPECT_EQ(names.count("renderer forward"), quick ? 0u : 1u);
