@@ -4,15 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <filesystem>
 
 #include "host/measure/reference/decoded_samples.h"
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/scene/generated/scenes.h"
+#include "host/scene/gltf/load_scene.h"
 #include "host/stages/decode_gbuffer.h"
 #include "host/surfaces/surface_scene.h"
 #include "raster/gl_context.h"
 #include "raster/ids_pass.h"
+#include "tests/support/paths.h"
 #include "tests/support/quad_scene.h"
 #include "tests/support/render_fixture.h"
 #include "tests/support/test_gpu.h"
@@ -147,6 +149,15 @@ void expect_interior_like_rays(const Scene& scene, const Camera& camera, std::si
 TEST_F(ResolvedSurfaces, AtriumsInteriorIsThatOfTheRays) {
     const Scene scene = make_generated_scene("atrium");
     expect_interior_like_rays(scene, first_camera(scene), 4000);
+}
+
+TEST_F(ResolvedSurfaces, SponzasInteriorIsThatOfTheRays) {
+    const auto file =
+        std::filesystem::path(source_root()) / ".." / "shared/scenes/sponza/Sponza.gltf";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    const Scene scene = load_scene(file);
+    expect_interior_like_rays(scene, look_at({-7, 2, 0}, {0, 2, 0}, {0, 1, 0}, glm::radians(45.0)),
+                              2000);
 }
 
 // A textured quad, mirrored and turned, seen from both sides and by parallel rays.
