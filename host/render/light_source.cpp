@@ -83,8 +83,10 @@ void LightSource::take_up_changes() {
     order_time_.reset();
 }
 
-SceneLight LightSource::light(std::uint32_t number) const {
-    return number < own_.size() ? own_[number] : (*at_time_)[number - own_.size()];
+// The point or spot light at a place of order_.
+SceneLight LightSource::light(std::size_t place) const {
+    const std::uint32_t number = order_[place];
+    return number < own_.size() ? own_[number] : at_time_->at(tracks_[place]);
 }
 
 void LightSource::find_order(const glm::dvec3& camera_position) {
@@ -101,12 +103,16 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
         (is_directional ? directional_order_ : order_).push_back(number);
     }
     if (!all_near) order_camera_ = camera_position;
+    tracks_.resize(order_.size());
+    tbb::parallel_for(std::size_t{0}, order_.size(), [&](std::size_t i) {
+        if (order_[i] >= own_.size()) tracks_[i] = at_time_->track(order_[i] - own_.size());
+    });
 }
 
 void LightSource::upload() {
     const std::span<WorldLight> rows = move_.stage(order_.size());
     tbb::parallel_for(std::size_t{0}, order_.size(),
-                      [&](std::size_t i) { rows[i] = world_light(light(order_[i])); });
+                      [&](std::size_t i) { rows[i] = world_light(light(i)); });
     move_.upload();
     std::vector<DirectionalLight> directional;
     for (const std::uint32_t number : directional_order_) {
@@ -148,8 +154,7 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
 
 LightRows LightSource::rows(const glm::dvec3& camera_position) const {
     std::vector<SceneLight> lights(order_.size());
-    tbb::parallel_for(std::size_t{0}, order_.size(),
-                      [&](std::size_t i) { lights[i] = light(order_[i]); });
+    tbb::parallel_for(std::size_t{0}, order_.size(), [&](std::size_t i) { lights[i] = light(i); });
     for (const std::uint32_t number : directional_order_) lights.push_back(own_[number]);
     return make_light_rows(lights, camera_position);
 }

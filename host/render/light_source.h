@@ -44,7 +44,7 @@ class LightSource {
 
  private:
     void take_up_changes();
-    SceneLight light(std::uint32_t number) const;
+    SceneLight light(std::size_t place) const;
     void find_order(const glm::dvec3& camera_position);
     void upload();
 
@@ -59,6 +59,7 @@ class LightSource {
     // Numbers of the lights, own_ before generated ones: usable point and spot lights in the order
     // of the kernels; directional ones.
     std::vector<std::uint32_t> order_, directional_order_;
+    std::vector<LightTrack> tracks_;          // of order_'s generated lights, else unset
     std::optional<double> order_time_;        // at which the generated ones were ordered
     std::optional<glm::dvec3> order_camera_;  // from where they were, if that matters
     std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made

@@ -112,23 +112,6 @@ double drift_speed(double extent, double unit) {
     return (2.0 * unit - 1.0) * std::min(kMaxSpeed, extent / kMinCrossing);
 }
 
-SceneLight make_light(const LightOptions& options, const Box& box, std::uint64_t light,
-                      double time) {
-    const std::uint64_t key = item_key(options.seed, light);
-    const auto random = [&](std::uint64_t stream) { return unit_double(item_bits(key, stream)); };
-    SceneLight out;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto stream = static_cast<std::uint64_t>(axis);
-        const double extent = box.max[axis] - box.min[axis];
-        const double speed = drift_speed(extent, random(kSpeed + stream));
-        const double at = reflected_drift(extent, random(kPhase + stream), speed, time);
-        out.position[axis] = std::clamp(box.min[axis] + at, box.min[axis], box.max[axis]);
-    }
-    out.intensity = glm::vec3(colour(random(kHue)) * options.intensity);
-    out.range = static_cast<float>(options.radius);
-    return out;
-}
-
 }  // namespace
 
 LightScale automatic_light_scale(const LightOptions& options, const Scene& scene) {
@@ -152,8 +135,31 @@ LightGenerator::LightGenerator(const LightOptions& options, const Scene& scene, 
     options_.intensity = scale.intensity;
 }
 
-SceneLight LightGenerator::operator[](std::uint64_t light) const {
-    return make_light(options_, options_.box, light, time_);
+LightTrack LightGenerator::track(std::uint64_t light) const {
+    const std::uint64_t key = item_key(options_.seed, light);
+    const auto random = [&](std::uint64_t stream) { return unit_double(item_bits(key, stream)); };
+    LightTrack out;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto stream = static_cast<std::uint64_t>(axis);
+        const double extent = options_.box.max[axis] - options_.box.min[axis];
+        out.speed[axis] = drift_speed(extent, random(kSpeed + stream));
+        out.phase[axis] = random(kPhase + stream);
+    }
+    out.intensity = glm::vec3(colour(random(kHue)) * options_.intensity);
+    return out;
+}
+
+SceneLight LightGenerator::at(const LightTrack& track) const {
+    const Box& box = options_.box;
+    SceneLight out;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double extent = box.max[axis] - box.min[axis];
+        const double at = reflected_drift(extent, track.phase[axis], track.speed[axis], time_);
+        out.position[axis] = std::clamp(box.min[axis] + at, box.min[axis], box.max[axis]);
+    }
+    out.intensity = track.intensity;
+    out.range = static_cast<float>(options_.radius);
+    return out;
 }
 
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -25,12 +26,23 @@ struct LightOptions {
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
                                         double time);
 
+/// What of a generated light does not change with time.
+struct LightTrack {
+    glm::dvec3 phase{0.0};      // along each axis of the box, in turns
+    glm::dvec3 speed{0.0};      // [m/s]
+    glm::vec3 intensity{0.0f};  // [cd]
+};
+
 /// Single lights of `options` at a time [s], as generate_lights() makes them.
 class LightGenerator {
  public:
     /// Throws Error when the box, the radius, the intensity or the time is not finite.
     LightGenerator(const LightOptions& options, const Scene& scene, double time);
-    SceneLight operator[](std::uint64_t light) const;
+    SceneLight operator[](std::uint64_t light) const { return at(track(light)); }
+
+    /// A light in two steps: the first costs more, and is the same at any time.
+    LightTrack track(std::uint64_t light) const;
+    SceneLight at(const LightTrack& track) const;
 
  private:
     LightOptions options_;  // nothing automatic
