@@ -47,6 +47,11 @@
 #define lane_mask(m) (m)
 #endif
 
+static inline FV3 select3(MASK mask, FV3 a, FV3 b) {
+    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
+               lane_select(mask, a.z, b.z));
+}
+
 static inline float lane_min(FV v) {
 #if VW == 16
     float8 a = min(v.lo, v.hi);

@@ -3,11 +3,7 @@
 #ifndef KILOLUX_DEVICE_RADIANCE_H
 #define KILOLUX_DEVICE_RADIANCE_H
 #include "kernels/device/gbuffer.h"
-
-static inline FV3 select3(MASK mask, FV3 a, FV3 b) {
-    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
-               lane_select(mask, a.z, b.z));
-}
+#include "kernels/device/lanes.h"
 
 static inline void store_plane(global float* plane, Pixels pixels, FV value) {
 #if ORDERED_PIXELS

@@ -119,11 +119,11 @@ static inline FV3 shading_normal(const Textures* textures, const Fragment* f) {
         FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * f->tangent.x)),
                          fma(z, n.y, fma(y, bitangent.y, x * f->tangent.y)),
                          fma(z, n.z, fma(y, bitangent.z, x * f->tangent.z)));
-        n = take3(lane_mask(f->handedness != fv(0.0f)), mapped, n);
+        n = select3(lane_mask(f->handedness != fv(0.0f)), mapped, n);
     }
 #endif
     if ((material->flags & MATERIAL_DOUBLE_SIDED) != 0u) {
-        n = take3(f->front, n, fv3(-n.x, -n.y, -n.z));
+        n = select3(f->front, n, fv3(-n.x, -n.y, -n.z));
     }
     return unit_or_z(n);
 }
@@ -215,15 +215,15 @@ static inline Surface surface_of_material(const Textures* textures, const Fragme
 }
 
 static inline Surface take_surface(MASK mask, Surface a, Surface b) {
-    a.position = take3(mask, a.position, b.position);
-    a.normal = take3(mask, a.normal, b.normal);
-    a.albedo = take3(mask, a.albedo, b.albedo);
-    a.emissive = take3(mask, a.emissive, b.emissive);
+    a.position = select3(mask, a.position, b.position);
+    a.normal = select3(mask, a.normal, b.normal);
+    a.albedo = select3(mask, a.albedo, b.albedo);
+    a.emissive = select3(mask, a.emissive, b.emissive);
     a.roughness = lane_select(mask, a.roughness, b.roughness);
     a.metallic = lane_select(mask, a.metallic, b.metallic);
     a.occlusion = lane_select(mask, a.occlusion, b.occlusion);
 #if HAS_SPECULAR
-    a.specular = take3(mask, a.specular, b.specular);
+    a.specular = select3(mask, a.specular, b.specular);
     a.specular_f90 = lane_select(mask, a.specular_f90, b.specular_f90);
 #endif
     return a;

@@ -171,11 +171,6 @@ static inline FV3 interpolate3(Weights w, const float3* a) {
                interpolate(w, a[0].z, a[1].z, a[2].z));
 }
 
-static inline FV3 take3(MASK mask, FV3 a, FV3 b) {
-    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
-               lane_select(mask, a.z, b.z));
-}
-
 #if HAS_TEXCOORD0 || HAS_TEXCOORD1
 // An absent set is (0, 0), as OpenGL reads a disabled attribute.
 static inline Footprint interpolate_texcoord(Weights w, Triangle t, uint place) {
@@ -251,11 +246,11 @@ static inline void interpolate_triangle(SurfaceScene scene, View view, Pixels pi
     bool mirrored = t.instance->normal_from_object[0].w < 0.0f;
     out->front = (mask & (mirrored ? ~front : front)) | (~mask & out->front);
     out->z = lane_select(mask, interpolate(w, -v[0].z, -v[1].z, -v[2].z), out->z);
-    out->normal = take3(mask, interpolate_normal(w, t), out->normal);
+    out->normal = select3(mask, interpolate_normal(w, t), out->normal);
     out->material = select(out->material, (UV)(t.mesh.material), mask);
 #if HAS_TANGENT
     FV handedness;
-    out->tangent = take3(mask, interpolate_tangent(w, t, &handedness), out->tangent);
+    out->tangent = select3(mask, interpolate_tangent(w, t, &handedness), out->tangent);
     out->handedness = lane_select(mask, handedness, out->handedness);
 #endif
 #if HAS_TEXCOORD0
@@ -272,7 +267,7 @@ static inline void interpolate_triangle(SurfaceScene scene, View view, Pixels pi
         color[i] =
             t.mesh.color == SURFACE_ABSENT ? (float3)(1.0f) : vload3(0, t.vertex[i] + t.mesh.color);
     }
-    out->color = take3(mask, interpolate3(w, color), out->color);
+    out->color = select3(mask, interpolate3(w, color), out->color);
 #endif
 }
 
