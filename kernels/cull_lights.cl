@@ -9,7 +9,7 @@
 // A work-group walks one contiguous chunk of the lights in order and spreads one light's rows of
 // clusters over its work-items, so no two of them ever meet in a cluster: lists ascend by light
 // index without atomics, and are the same for every group size and number of chunks.
-#include "kernels/device/lanes.h"
+#include "kernels/device/chunk_starts.h"
 #include "kernels/device/light_index.h"
 #include "kernels/device/light_reach.h"
 #include "kernels/shared/clusters.h"
@@ -29,9 +29,6 @@ typedef struct PairSink {
     global LIGHT_INDEX* lists;   // fill only
     uint capacity;               // of lists
 } PairSink;
-
-// Cursors from one chunk to the next: as many vectors as hold its clusters.
-static inline uint cursor_stride(uint cluster_count) { return (cluster_count + VW - 1u) / VW * VW; }
 
 static inline void put_pair(PairSink sink, uint cluster, uint light, bool fill) {
     uint slot = sink.cursors[cluster]++;
@@ -183,37 +180,14 @@ kernel void cull_lights_count(
     walk_chunk(lights, bounds, extents, count, grid, boxes, sink, false);
 }
 
-#define CHUNKS_AT_ONCE 16
-
-// One work-item for VW clusters: chunk counts become chunk starts within the cluster. Chunks are
-// loaded CHUNKS_AT_ONCE before any of them is stored: else each load waits for the store before it,
-// which could be to the same place, and memory's latency is paid for every chunk.
+// One work-item for VW clusters: chunk counts become chunk starts within the cluster.
 kernel void cull_lights_offset(
     uint cluster_count, uint chunk_count,
     global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]
     global uint* restrict counts) {  // out [cursor_stride]: pairs of each cluster
     uint cluster = (uint)get_global_id(0) * VW;
-    if (cluster >= cluster_count) return;
-    uint stride = cursor_stride(cluster_count);
-    global uint* place = cursors + cluster;
-    UV sum = (UV)(0u);
-    for (uint chunk = 0; chunk < chunk_count; chunk += CHUNKS_AT_ONCE) {
-        uint here = min(chunk_count - chunk, (uint)CHUNKS_AT_ONCE);
-        UV pairs[CHUNKS_AT_ONCE];
-#pragma unroll
-        for (uint i = 0; i < CHUNKS_AT_ONCE; ++i) {
-            if (i < here) pairs[i] = lane_load(place + i * stride);
-        }
-#pragma unroll
-        for (uint i = 0; i < CHUNKS_AT_ONCE; ++i) {
-            if (i < here) {
-                lane_store(sum, place + i * stride);
-                sum += pairs[i];
-            }
-        }
-        place += CHUNKS_AT_ONCE * stride;
-    }
-    lane_store(sum, counts + cluster);
+    if (cluster < cluster_count)
+        chunk_starts(cursors, cluster_count, chunk_count, cluster, counts);
 }
 
 kernel void cull_lights_fill(

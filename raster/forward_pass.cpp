@@ -147,14 +147,4 @@ std::vector<float> ForwardPass::read_radiance(uint stride) const {
     return radiance;
 }
 
-bool has_blended_surfaces(const Scene& scene) {
-    return std::any_of(
-        scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
-            const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-            return material >= 0 &&
-                   scene.materials[static_cast<std::size_t>(material)].alpha_mode ==
-                       AlphaMode::blend;
-        });
-}
-
 }  // namespace kilolux

@@ -61,7 +61,4 @@ class ForwardPass {
     GlTimer timer_;
 };
 
-/// Whether any instance's material blends, so that draw_blended() would draw something.
-bool has_blended_surfaces(const Scene& scene);
-
 }  // namespace kilolux

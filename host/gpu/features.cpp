@@ -42,6 +42,9 @@ Tuning default_tuning(const DeviceInfo& device) {
     tuning.prefix_per_item = 8;
     tuning.tile_group = 64;
     tuning.light_group = 64;
+    tuning.raster_group = 256;
+    tuning.raster_tile_width = 32;
+    tuning.raster_tile_height = 32;
     return tuning;
 }
 

@@ -41,6 +41,9 @@ struct Tuning {
     int prefix_per_item = 16384;
     int tile_group = 1;   // work-items that share a tile's pixels
     int light_group = 1;  // work-items of prepare_lights, build_clusters and other maps
+    int raster_group = 1;        // work-items that share a tile's triangles
+    int raster_tile_width = 64;  // of triangles' tiles, powers of two of at least 16 [pixel]
+    int raster_tile_height = 64;
     bool operator==(const Tuning&) const = default;
 };
 

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 3};  // 3: with shade_prefetch
+constexpr CacheKind kKind = {"tuning", 4};  // 4: with raster_*
 
 constexpr TuningParameter kParameters[] = {
     {"shade_rows", &Tuning::shade_rows},           {"shade_stage", &Tuning::shade_stage},
@@ -17,6 +17,9 @@ constexpr TuningParameter kParameters[] = {
     {"refine_group", &Tuning::refine_group},       {"prefix_group", &Tuning::prefix_group},
     {"prefix_per_item", &Tuning::prefix_per_item}, {"tile_group", &Tuning::tile_group},
     {"light_group", &Tuning::light_group},         {"shade_prefetch", &Tuning::shade_prefetch},
+    {"raster_group", &Tuning::raster_group},
+    {"raster_tile_width", &Tuning::raster_tile_width},
+    {"raster_tile_height", &Tuning::raster_tile_height},
 };
 
 // Bounded by the local memory that every device has (CL_DEVICE_LOCAL_MEM_SIZE >= 32 KiB): 512 * 52
@@ -52,6 +55,11 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
         return false;
     if (t.shade_stage != 0 && t.shade_rows != FINE_TILE) return false;
     if (t.shade_prefetch != 0 && t.shade_prefetch != 1) return false;
+    constexpr int kMostTile = 128;
+    for (const int edge : {t.raster_tile_width, t.raster_tile_height}) {
+        if (!is_power_of_two(edge) || edge < FINE_TILE || edge > kMostTile) return false;
+    }
+    if (!is_group(t.raster_group)) return false;
     if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
     return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&
            is_group(t.tile_group) && is_group(t.light_group);

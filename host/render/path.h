@@ -29,6 +29,11 @@ struct PathContext {
     bool resolves() const {
         return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     }
+    /// Whether OpenCL draws the triangles, too: not where OpenGL blends surfaces over them.
+    bool draws_in_opencl() const {
+        return resolves() && settings.geometry == Geometry::compute &&
+               !has_blended_surfaces(scene.scene());
+    }
     /// The scene as this way's OpenGL passes need it.
     const GpuScene& meshes() const {
         return scene.meshes(resolves() ? GpuSceneUse::covered : GpuSceneUse::shaded,

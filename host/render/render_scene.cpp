@@ -10,9 +10,8 @@ RenderScene::RenderScene(const Scene& scene, bool own_context)
     : scene_(scene),
       revision_(scene.revision),
       box_(bounds(scene)),
-      zero_normals_(zero_normal_count(scene)) {
-    if (own_context) context_.emplace(GlContext::headless());
-}
+      zero_normals_(zero_normal_count(scene)),
+      own_context_(own_context) {}
 
 RenderScene::~RenderScene() { make_current_or_lost(); }
 
@@ -36,6 +35,7 @@ void RenderScene::take_up_changes() {
 }
 
 const GpuScene& RenderScene::meshes(GpuSceneUse use, int anisotropy) const {
+    if (own_context_ && !context_) context_.emplace(GlContext::headless());
     return meshes_.try_emplace({use, anisotropy}, scene_, static_cast<float>(anisotropy), use)
         .first->second;
 }

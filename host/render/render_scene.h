@@ -15,8 +15,8 @@ namespace kilolux {
 /// A scene on the OpenGL side: what stays while settings change.
 class RenderScene {
  public:
-    /// `own_context`: in an OpenGL context of its own, else in the current one. The scene must
-    /// outlive this.
+    /// `own_context`: in an OpenGL context of its own, made when something is drawn, else in the
+    /// current one. The scene must outlive this.
     RenderScene(const Scene& scene, bool own_context);
     ~RenderScene();
     RenderScene(const RenderScene&) = delete;
@@ -34,7 +34,8 @@ class RenderScene {
 
     const Scene& scene() const { return scene_; }
     const Box& box() const { return box_; }  // world space [m]
-    /// The meshes for this use, uploaded when first asked for. `anisotropy`: see GpuScene.
+    /// The meshes for this use, uploaded when first asked for. `anisotropy`: see GpuScene. Throws
+    /// Error where there is no OpenGL.
     const GpuScene& meshes(GpuSceneUse use, int anisotropy = 0) const;
     std::size_t zero_normals() const { return zero_normals_; }  // vertices
 
@@ -43,7 +44,8 @@ class RenderScene {
     std::uint32_t revision_;  // of the scene that was taken up
     Box box_;
     std::size_t zero_normals_;
-    std::optional<GlContext> context_;
+    bool own_context_;
+    mutable std::optional<GlContext> context_;
     // Gone before the context is.
     mutable std::map<std::pair<GpuSceneUse, int>, GpuScene> meshes_;
 };

@@ -20,9 +20,9 @@ constexpr bool is_forward(RendererKind renderer) {
     return renderer == RendererKind::forward || renderer == RendererKind::forward_plus;
 }
 
-/// How surfaces get into the G-buffer: OpenGL draws triangle ids and OpenCL makes the surfaces, or
-/// OpenGL's fragments write the planes. `automatic` is `ids`.
-enum class Geometry { automatic, ids, planes };
+/// How surfaces get into the G-buffer: OpenGL (`ids`) or OpenCL (`compute`) draws triangle ids and
+/// OpenCL makes the surfaces, or OpenGL's fragments write the planes. `automatic` is `ids`.
+enum class Geometry { automatic, ids, compute, planes };
 
 /// Whether OpenCL makes the surfaces.
 constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::planes; }

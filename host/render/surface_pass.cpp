@@ -28,7 +28,11 @@ SurfacePass::SurfacePass(const PathContext& context)
         context.surfaces =
             std::make_shared<SurfaceScene>(context.gpu, context.tuning, scene, features);
     }
-    ids_.emplace(context.meshes());
+    if (context.draws_in_opencl()) {
+        triangles_.emplace(gpu, context.tuning, scene, features);
+    } else {
+        ids_.emplace(context.meshes());
+    }
     resolve_.emplace(gpu, context.tuning, context.plan.kernels, features);
 }
 
@@ -39,7 +43,11 @@ GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
     if (!settings.no_reuse && source_ == source) return gbuffer_;
     source_.reset();  // until it is made
     const std::uint64_t version = gbuffer_.version + 1;
-    gbuffer_ = planes_ ? draw_planes(sample, out.stats.stages) : draw_ids(sample, out);
+    if (planes_) {
+        gbuffer_ = draw_planes(sample, out.stats.stages);
+    } else {
+        gbuffer_ = triangles_ ? draw_in_opencl(sample, out) : draw_ids(sample, out);
+    }
     gbuffer_.version = version;
     source_ = source;
     return gbuffer_;
@@ -73,9 +81,23 @@ GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
     const DeviceArray<uint> ids =
         bridge_.transfer_ids(ids_->targets(), view, band.first_row - tile.first_row);
     add_stage_time(out.stats.stages, "gbuffer_bridge", bridge_.last_ms());
-    return resolve_->enqueue(ids, context_.surfaces->at(ids_->draws()),
+    return resolve(ids, context_.surfaces->at(ids_->draws()), view, out.timer);
+}
+
+GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
+    const RenderSettings& settings = context_.settings;
+    const View view = view_of(sample.camera, settings.width, settings.height, sample.band);
+    const std::vector<Draw> draws = triangles_->visible(
+        crop(sample.camera, settings.height, sample.band), settings.width, sample.band.rows);
+    const SurfaceBuffers scene = context_.surfaces->at(draws);
+    return resolve(triangles_->enqueue(scene, draws, view, out.timer), scene, view, out.timer);
+}
+
+GBuffer SurfacePass::resolve(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
+                             const View& view, StageTimer& timer) {
+    return resolve_->enqueue(ids, scene,
                              make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height),
-                             view, out.timer);
+                             view, timer);
 }
 
 DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& grid) {

@@ -8,6 +8,7 @@
 #include "host/picture/pixel_probe.h"
 #include "host/render/path.h"
 #include "host/stages/decode_gbuffer.h"
+#include "host/surfaces/triangle_ids.h"
 #include "raster/geometry_pass.h"
 #include "raster/ids_pass.h"
 
@@ -16,8 +17,8 @@ namespace kilolux {
 /// Texture samples along a footprint's longer side at most.
 int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device);
 
-/// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL draws triangle ids that OpenCL
-/// resolves, or the planes themselves (RenderSettings::geometry).
+/// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL or OpenCL draws triangle ids that
+/// OpenCL resolves, or OpenGL the planes themselves (RenderSettings::geometry).
 class SurfacePass {
  public:
     explicit SurfacePass(const PathContext& context);
@@ -34,6 +35,7 @@ class SurfacePass {
     /// The surface and the coarse cluster of one pixel of the last draw(). Blocks.
     PixelProbe probe(const GBuffer& gbuffer, const ClusterGrid& grid, int x, int y);
 
+    /// What OpenGL drew; not where OpenCL draws.
     const GBufferTargets& targets() const { return planes_ ? planes_->targets() : ids_->targets(); }
 
  private:
@@ -47,11 +49,15 @@ class SurfacePass {
     };
     GBuffer draw_planes(const Sample& sample, std::vector<StageTime>& stages);
     GBuffer draw_ids(const Sample& sample, Measured out);
+    GBuffer draw_in_opencl(const Sample& sample, Measured out);
+    GBuffer resolve(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
+                    StageTimer& timer);
 
     PathContext context_;
     std::optional<GeometryPass> planes_;
-    std::optional<IdsPass> ids_;              // else
-    std::optional<ResolveSurfaces> resolve_;  // of ids_
+    std::optional<IdsPass> ids_;            // else
+    std::optional<TriangleIds> triangles_;  // else
+    std::optional<ResolveSurfaces> resolve_;  // of ids_ or triangles_
     GBufferBridge bridge_;
     DecodeGBuffer decode_;
     std::optional<Source> source_;  // of gbuffer_

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace kilolux {
@@ -50,6 +51,16 @@ std::size_t triangle_count(const Scene& scene) {
         count += scene.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
     }
     return count;
+}
+
+bool has_blended_surfaces(const Scene& scene) {
+    return std::any_of(
+        scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
+            const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+            return material >= 0 &&
+                   scene.materials[static_cast<std::size_t>(material)].alpha_mode ==
+                       AlphaMode::blend;
+        });
 }
 
 }  // namespace kilolux

@@ -165,4 +165,7 @@ Box resting_bounds(const Scene& scene);
 /// Triangles that one frame draws: those of every instance.
 std::size_t triangle_count(const Scene& scene);
 
+/// Whether any instance's material blends: what OpenGL draws over the lit picture.
+bool has_blended_surfaces(const Scene& scene);
+
 }  // namespace kilolux

@@ -12,6 +12,14 @@ constexpr std::string_view kStage = "resolve_surfaces";
 cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces) {
     BuildOptions options = feature_options(features);
+    options.define("HAS_UNLIT_MATERIALS", features.unlit_materials);
+    define_surfaces(options, surfaces, tuning);
+    return build_program(gpu, kStage, options);
+}
+
+}  // namespace
+
+void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning) {
     options.define("TEXTURE_USES", static_cast<int>(surfaces.texture_uses))
         .define("HAS_TEXCOORD0", surfaces.texcoord0)
         .define("HAS_TEXCOORD1", surfaces.texcoord1)
@@ -21,12 +29,8 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeature
         .define("HAS_WRAPS", surfaces.wraps)
         .define("HAS_UV_TRANSFORM", surfaces.uv_transform)
         .define("HAS_TANGENT", (surfaces.texture_uses & (1u << USE_NORMAL)) != 0)
-        .define("HAS_UNLIT_MATERIALS", features.unlit_materials)
         .define("MAX_ANISOTROPY", surfaces.anisotropy);
-    return build_program(gpu, kStage, options);
 }
-
-}  // namespace
 
 ResolveSurfaces::ResolveSurfaces(const Gpu& gpu, const Tuning& tuning,
                                  const KernelFeatures& features, const SurfaceFeatures& surfaces)

@@ -17,9 +17,13 @@ struct SurfaceFeatures {
     bool nearest = false;       // filters other than linear between texels and between mip levels
     bool wraps = false;         // other than repeat
     bool uv_transform = false;  // KHR_texture_transform
+    bool masks = false;         // cut by alpha
     int anisotropy = 1;         // samples along a footprint's longer side at most
     bool operator==(const SurfaceFeatures&) const = default;
 };
+
+/// What kernels that read surfaces are compiled with.
+void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning);
 
 /// A scene's surfaces on the device, as kernels/shared/surface_scene.h has them.
 struct SurfaceBuffers {

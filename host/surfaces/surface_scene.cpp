@@ -62,6 +62,7 @@ SurfaceMaterial surface_material(const Material& material, const TextureTable& t
     out.row = material_row(material);
     if (material.double_sided) out.flags |= MATERIAL_DOUBLE_SIDED;
     if (material.unlit) out.flags |= MATERIAL_UNLIT;
+    if (material.alpha_mode == AlphaMode::mask) out.flags |= MATERIAL_MASKED;
     for (int use = 0; use < USE_COUNT; ++use) {
         out.textures[use] = textures.number_of(material, use);
         if (texture_use(material, use).uv_set == 1) out.flags |= 1u << use;
@@ -78,6 +79,7 @@ SurfaceFeatures surface_features(const Scene& scene, const GBufferNeeds& needs, 
     for (const Mesh& mesh : scene.meshes) {
         const Material& material = material_of(scene, mesh);
         if (material.alpha_mode == AlphaMode::blend) continue;
+        out.masks |= material.alpha_mode == AlphaMode::mask;
         out.vertex_color |= !mesh.colors.empty();
         for (int use = 0; use < USE_COUNT; ++use) {
             const TextureUse& texture = texture_use(material, use);

@@ -252,6 +252,24 @@ static inline FV4 fetch_texture(TextureBuffers buffers, global const TextureRow*
     return scale4(out, TEXEL_UNIT);
 }
 
+static inline FV fetch_level_alpha(global const ulong* texels, const LevelLookup* at) {
+    return mix_corners(gather_texels(texels, at->upper_left).high >> 16,
+                       gather_texels(texels, at->upper_right).high >> 16,
+                       gather_texels(texels, at->lower_left).high >> 16,
+                       gather_texels(texels, at->lower_right).high >> 16, at);
+}
+
+// The alpha of fetch_texture().
+static inline FV fetch_alpha(TextureBuffers buffers, global const TextureRow* row,
+                             const Lookup* at) {
+    global const ulong* texels = buffers.texels + row->first_texel;
+    FV out = fetch_level_alpha(texels, &at->level);
+    if (at->two_levels) {
+        out = lane_mix(out, fetch_level_alpha(texels, &at->coarser), at->coarser_share);
+    }
+    return out * TEXEL_UNIT;
+}
+
 // Asks the caches for the texels of a level.
 static inline void prefetch_level(global const ulong* texels, const LevelLookup* at) {
 #if PREFETCH && VW > 1

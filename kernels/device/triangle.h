@@ -148,7 +148,7 @@ static inline Weights weights_of(View view, Pixels pixels, const float3* v, MASK
     FV u1 = max(along_ray(e1, rx, ry) * sign, fv(0.0f));
     FV u2 = max(along_ray(e2, rx, ry) * sign, fv(0.0f));
     FV total = u0 + u1 + u2;
-    FV inv = lane_select(total > fv(0.0f), fv(1.0f) / total, fv(0.0f));
+    FV inv = lane_select(lane_mask(total > fv(0.0f)), lane_reciprocal(total), fv(0.0f));
     Weights w;
     w.b1 = u1 * inv;
     w.b2 = u2 * inv;

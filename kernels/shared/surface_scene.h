@@ -46,6 +46,7 @@ SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 // Bits of SurfaceMaterial::flags, beside those of uses.
 #define MATERIAL_DOUBLE_SIDED (1u << 8)
 #define MATERIAL_UNLIT (1u << 9)
+#define MATERIAL_MASKED (1u << 10)  // cut by its alpha
 // << USE_*: the use's texels are where those of the lookup's texture are.
 #define MATERIAL_SHARES_LOOKUP (1u << 16)
 

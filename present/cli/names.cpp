@@ -46,6 +46,7 @@ const Choices& choices_of(Geometry) {
     static const Choices choices = {
         {"auto", "ids"},
         {"ids", "OpenGL draws triangle ids, OpenCL makes the surfaces"},
+        {"compute", "OpenCL draws them, too: no OpenGL, the same ids on every device"},
         {"planes", "OpenGL's fragments write the surfaces, filtered as its driver likes"}};
     return choices;
 }

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/bin_triangles.h"
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kStage = "bin_triangles";
+constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room for from the start
+
+BuildOptions options_of(const Tuning& tuning) {
+    BuildOptions options;
+    options.define("GROUP", tuning.raster_group);
+    define_tiles(options, tuning);
+    return options;
+}
+
+}  // namespace
+
+void define_tiles(BuildOptions& options, const Tuning& tuning) {
+    options.define("TILE_WIDTH", tuning.raster_tile_width)
+        .define("TILE_HEIGHT", tuning.raster_tile_height);
+}
+
+uint raster_tile_count(const View& view, const Tuning& tuning) {
+    const auto width = static_cast<uint>(tuning.raster_tile_width);
+    const auto height = static_cast<uint>(tuning.raster_tile_height);
+    return (view.width + width - 1) / width * ((view.height + height - 1) / height);
+}
+
+BinTriangles::BinTriangles(const Gpu& gpu, const Tuning& tuning)
+    : gpu_(gpu),
+      tuning_(tuning),
+      program_(build_program(gpu, kStage, options_of(tuning))),
+      bounds_(gpu, program_, kStage, "bin_triangles_bounds"),
+      clear_(gpu, program_, kStage, "bin_triangles_clear"),
+      count_(gpu, program_, kStage, "bin_triangles_count"),
+      offset_(gpu, program_, kStage, "bin_triangles_offset"),
+      fill_(gpu, program_, kStage, "bin_triangles_fill"),
+      columns_(gpu, kStage),
+      rows_(gpu, kStage),
+      cursors_(gpu, kStage),
+      lists_(gpu, tuning, kStage, sizeof(uint)) {
+    lists_.reserve(kFirstPairs);
+}
+
+TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_count,
+                                    const View& view, StageTimer& timer) {
+    const auto lanes = static_cast<std::size_t>(gpu_.info.lane_width);
+    const bool by_group = tuning_.raster_group > 1;
+    TriangleLists out;
+    out.tile_count = raster_tile_count(view, tuning_);
+    const std::size_t stride = round_up(out.tile_count, lanes);
+    const std::size_t chunks =
+        by_group ? 1
+                 : std::clamp<std::size_t>(triangle_count, 1,
+                                           static_cast<std::size_t>(tuning_.cull_chunks));
+    const auto instances = static_cast<uint>(scene.instances.count());
+    const std::size_t some = std::max<std::size_t>(triangle_count, 1);
+    const DeviceArray<uint> columns = columns_.reserve(round_up(some, lanes));
+    const DeviceArray<uint> rows = rows_.reserve(round_up(some, lanes));
+    const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
+    const DeviceArray<uint> counts = lists_.counts(stride);
+    bounds_.enqueue(items((some + lanes - 1) / lanes, tuning_.light_group), timer, view,
+                    scene.instances, instances, scene.meshes, scene.vertices, scene.indices,
+                    scene.materials, triangle_count, columns, rows);
+    if (by_group) {
+        clear_.enqueue(items(stride, tuning_.raster_group), timer, static_cast<uint>(stride),
+                       cursors);
+    }
+    const WorkSize walk = by_group ? items(some, tuning_.raster_group) : groups(chunks, 1);
+    count_.enqueue(walk, timer, view, scene.instances, instances, scene.meshes, scene.vertices,
+                   scene.indices, scene.materials, triangle_count, columns, rows, cursors);
+    offset_.enqueue(items(stride / lanes, tuning_.light_group), timer, out.tile_count,
+                    static_cast<uint>(chunks), cursors, counts);
+    out.offsets = lists_.enqueue_offsets(out.tile_count, timer);
+    out.lists = lists_.entries<uint>();
+    out.capacity = lists_.capacity();
+    fill_.enqueue(walk, timer, view, scene.instances, instances, scene.meshes, scene.vertices,
+                  scene.indices, scene.materials, triangle_count, columns, rows, cursors,
+                  out.offsets, out.lists, out.capacity);
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/stages/bin_triangles.h"
+
+namespace kilolux {
+
+/// Tiles' triangles -> triangle ids.
+class RasterTriangles {
+ public:
+    RasterTriangles(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& features);
+
+    /// ids[view.height][view.stride]: 0 for background, else 1 + the triangle's number along the
+    /// instances; undefined past the width. Enqueues only; valid until the next call.
+    DeviceArray<uint> enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
+                              const View& view, StageTimer& timer);
+
+ private:
+    Tuning tuning_;
+    Kernel kernel_;
+    GrowingArray<uint> ids_;
+};
+
+}  // namespace kilolux

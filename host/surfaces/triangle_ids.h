@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/scene/camera.h"
+#include "host/scene/draw_list.h"
+#include "host/stages/bin_triangles.h"
+#include "host/stages/raster_triangles.h"
+
+namespace kilolux {
+
+/// Draws which triangle each pixel shows in OpenCL: what IdsPass does in OpenGL. Opaque and masked
+/// surfaces; materials that blend are left out.
+class TriangleIds {
+ public:
+    /// The scene must outlive this; its instances may move, its meshes must stay as many.
+    TriangleIds(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
+                const SurfaceFeatures& features);
+
+    /// What the camera sees, sorted front to back and numbered.
+    std::vector<Draw> visible(const Camera& camera, int width, int height) const;
+
+    /// ids[view.height][view.stride], as ResolveSurfaces reads them. `scene`: of `draws`. Waits for
+    /// the number of pairs of triangle and tile; valid until the next call.
+    DeviceArray<uint> enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
+                              const View& view, StageTimer& timer);
+
+ private:
+    const Scene& scene_;
+    DrawList draw_list_;
+    BinTriangles bin_;
+    RasterTriangles raster_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tiles' triangles -> the triangle that each pixel shows, by a work-group a tile: each item sets up
+// a triangle, then all items test their pixels against all of them. For GPUs, with one lane.
+#ifndef GROUP
+#define GROUP 256
+#endif
+#include "kernels/device/raster_tile.h"
+#include "kernels/device/raster_triangle.h"
+#if HAS_MASKS
+#include "kernels/device/alpha_mask.h"
+#endif
+
+// Pixels of an item. Neighbouring items have neighbouring pixels, in blocks.
+#define ROUNDS ((TILE_WIDTH * TILE_HEIGHT + GROUP - 1) / GROUP)
+#define BLOCK_WIDTH 8
+#define BLOCK_PIXELS 32
+
+// A triangle as the items share it.
+typedef struct SharedTriangle {
+    float3 edge[3];
+    float3 plane;
+    float farthest, nearest, sign;
+    uint columns, rows;  // first | last << 16, of the tile; first > last: none
+    uint number;
+    int masked;
+} SharedTriangle;
+
+// A pixel so far.
+typedef struct RasterPixel {
+    uint x, y;                // in the planes
+    uint tile_x, tile_y;      // in the tile
+    float ray_x, ray_y;
+    float key, nearest;  // so far; at the near plane
+    uint id;
+} RasterPixel;
+
+static inline RasterPixel first_pixel(View view, uint tile_x, uint tile_y, uint round) {
+    uint i = round * GROUP + (uint)get_local_id(0);
+    uint block = i / BLOCK_PIXELS;
+    uint in_block = i % BLOCK_PIXELS;
+    uint blocks_x = TILE_WIDTH / BLOCK_WIDTH;
+    RasterPixel p;
+    p.tile_x = block % blocks_x * BLOCK_WIDTH + in_block % BLOCK_WIDTH;
+    p.tile_y = block / blocks_x * (BLOCK_PIXELS / BLOCK_WIDTH) + in_block / BLOCK_WIDTH;
+    p.x = tile_x + p.tile_x;
+    p.y = tile_y + p.tile_y;
+    p.ray_x = ray_x(view, p.x);
+    p.ray_y = ray_y(view, p.y);
+    p.key = far_key(view, (float)p.x + 0.5f, (float)(p.y + view.first_row) + 0.5f);
+    p.nearest = p.key + near_from_far(view);
+    p.id = 0u;
+    return p;
+}
+
+// The part of first .. last that lies in a tile's `size` pixels from `start` on.
+static inline uint interval_in_tile(int first, int last, uint start, uint size) {
+    int from = max(first - (int)start, 0);
+    int to = min(last - (int)start, (int)size - 1);
+    return from > to ? EMPTY_INTERVAL : interval_of((uint)from, (uint)to);
+}
+
+static inline SharedTriangle shared_triangle(SurfaceScene scene, View view, float2 span,
+                                             uint tile_x, uint tile_y, uint number) {
+    ViewTriangles t = view_triangles(scene, number, -1);
+    RasterTriangles r = set_up_triangles(view, span, t);
+    PixelBounds b = pixel_bounds(view, t.v);
+    SharedTriangle out;
+    for (uint i = 0; i < 3; ++i) {
+        out.edge[i] = (float3)(r.edge[i].x, r.edge[i].y, r.edge[i].z);
+    }
+    out.plane = (float3)(r.plane.x, r.plane.y, r.plane.z);
+    out.farthest = r.farthest;
+    out.nearest = r.nearest;
+    out.sign = r.sign;
+    out.columns = interval_in_tile(b.x0, b.x1, tile_x, TILE_WIDTH);
+    out.rows = r.alive != 0 ? interval_in_tile(b.y0, b.y1, tile_y, TILE_HEIGHT) : EMPTY_INTERVAL;
+    out.number = number;
+    out.masked = t.masked;
+    return out;
+}
+
+static inline bool within(uint interval, uint i) {
+    return i >= (interval & 0xffffu) && i <= (interval >> 16);
+}
+
+// Where floats cannot tell, integers do.
+static inline bool decide_exactly(SurfaceScene scene, View view, uint number, float sign,
+                                  float2 ray) {
+    Triangle t = fetch_triangle(scene, number + 1u);
+    float3 seen[3];
+    for (uint i = 0; i < 3; ++i) {
+        seen[i] = view_vertex(t.instance, vload3(0, t.vertex[i]));
+        if (view.orthographic != 0u) seen[i].z = -1.0f;
+    }
+    return covers_exactly(seen, sign, ray);
+}
+
+static inline float along(float3 e, float x, float y) { return fma(e.x, x, fma(e.y, y, -e.z)); }
+
+static inline void draw_pixel(SurfaceScene scene, View view, local const SharedTriangle* t,
+                              RasterPixel* p) {
+    if (!within(t->columns, p->tile_x) || !within(t->rows, p->tile_y)) return;
+    float least = min(along(t->edge[0], p->ray_x, p->ray_y),
+                      min(along(t->edge[1], p->ray_x, p->ray_y),
+                          along(t->edge[2], p->ray_x, p->ray_y)));
+    if (least < -1.0f) return;
+    float key = min(max(along(t->plane, p->ray_x, p->ray_y), t->farthest), t->nearest);
+    bool nearer = key > p->key || (key == p->key && p->id != 0u && t->number + 1u < p->id);
+    if (!nearer || !(key <= p->nearest)) return;
+    if (!(least > 1.0f) &&
+        !decide_exactly(scene, view, t->number, t->sign, (float2)(p->ray_x, p->ray_y))) {
+        return;
+    }
+#if HAS_MASKS
+    if (t->masked != 0) {
+        MaskedTriangle masked = fetch_masked_triangle(scene, t->number);
+        if (passes_mask(scene, view, &masked, row_pixels(view, p->x, p->y)) == 0) return;
+    }
+#endif
+    p->key = key;
+    p->id = t->number + 1u;
+}
+
+kernel void raster_triangles(
+    View view,
+    global const InstanceRow* restrict instances,  // [instance_count], ascending first_triangle
+    uint instance_count,                           // at least 1
+    global const MeshRow* restrict meshes, global const float* restrict vertices,
+    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
+    global const TextureRow* restrict textures, global const ulong* restrict texels,
+    global const uint* restrict offsets,  // [tiles + 1]
+    global const uint* restrict lists,    // [capacity]: triangles of each tile, in any order
+    uint capacity,
+    global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
+    local SharedTriangle batch[GROUP];
+    SurfaceScene scene = {instances, instance_count, meshes,   vertices,
+                          indices,   materials,      textures, texels};
+    uint tiles_x = raster_tiles_x(view);
+    uint tile = get_group_id(0);
+    uint tile_x = tile % tiles_x * TILE_WIDTH;
+    uint tile_y = tile / tiles_x * TILE_HEIGHT;
+    RasterPixel pixels[ROUNDS];
+    for (uint i = 0; i < ROUNDS; ++i) pixels[i] = first_pixel(view, tile_x, tile_y, i);
+    float2 span = ray_span(view);
+    uint end = min(offsets[tile + 1], capacity);
+    for (uint first = offsets[tile]; first < end; first += GROUP) {
+        uint mine = first + (uint)get_local_id(0);
+        if (mine < end) {
+            batch[get_local_id(0)] =
+                shared_triangle(scene, view, span, tile_x, tile_y, lists[mine]);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
+        uint count = min(end - first, (uint)GROUP);
+        for (uint t = 0; t < count; ++t) {
+            for (uint i = 0; i < ROUNDS; ++i) draw_pixel(scene, view, batch + t, pixels + i);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);  // all are drawn before the next come
+    }
+    for (uint i = 0; i < ROUNDS; ++i) {
+        RasterPixel p = pixels[i];
+        if (p.x < view.width && p.y < view.height) ids[(size_t)p.y * view.stride + p.x] = p.id;
+    }
+}
