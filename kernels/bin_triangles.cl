@@ -42,8 +42,10 @@ kernel void bin_triangles_bounds(
     UV row_interval = (UV)(EMPTY_INTERVAL);
     if (lane_any(~outside)) {
         FV3 seen[3];
+        turn_from_longest(t.v);
         for (uint i = 0; i < 3; ++i) seen[i] = seen_vertex(view, t.v[i]);
-        MASK kept = ~outside & shows_side(facing_of(seen).sign, t.winding);
+        MASK kept =
+            ~outside & ~outside_view(view, seen) & shows_side(facing_of(seen).sign, t.winding);
         UV x0 = KX_CONCAT(as_, UV)(b.x0) / TILE_WIDTH;
         UV x1 = KX_CONCAT(as_, UV)(b.x1) / TILE_WIDTH;
         UV y0 = KX_CONCAT(as_, UV)(b.y0) / TILE_HEIGHT;
@@ -96,8 +98,8 @@ static inline Edges edges_of(TileWalk walk, uint triangle) {
     RasterTriangles r = set_up_triangles(walk.view, ray_span(walk.view), t);
     Edges out;
     for (uint i = 0; i < 3; ++i) {
-        out.e[i] = (float3)(first_lane(r.edge[i].x), first_lane(r.edge[i].y),
-                            first_lane(r.edge[i].z));
+        out.e[i] =
+            (float3)(first_lane(r.edge[i].x), first_lane(r.edge[i].y), first_lane(r.edge[i].z));
     }
     return out;
 }
@@ -193,9 +195,9 @@ kernel void bin_triangles_clear(uint count, global uint* restrict cursors) {
 #define CHUNK_CURSORS(view) \
     (cursors + get_group_id(0) * cursor_stride(raster_tiles_x(view) * raster_tiles_y(view)))
 #else
-#define WALK_CHUNK(walk)                                                 \
-    local uint many[GROUP];                                              \
-    local uint many_count;                                               \
+#define WALK_CHUNK(walk)    \
+    local uint many[GROUP]; \
+    local uint many_count;  \
     walk_chunk(walk, columns, rows, triangle_count, many, &many_count)
 #define CHUNK_CURSORS(view) cursors
 #endif

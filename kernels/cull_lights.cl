@@ -186,8 +186,7 @@ kernel void cull_lights_offset(
     global uint* restrict cursors,   // in: pairs, out: starts [chunk_count][cursor_stride]
     global uint* restrict counts) {  // out [cursor_stride]: pairs of each cluster
     uint cluster = (uint)get_global_id(0) * VW;
-    if (cluster < cluster_count)
-        chunk_starts(cursors, cluster_count, chunk_count, cluster, counts);
+    if (cluster < cluster_count) chunk_starts(cursors, cluster_count, chunk_count, cluster, counts);
 }
 
 kernel void cull_lights_fill(

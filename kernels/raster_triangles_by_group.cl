@@ -27,8 +27,8 @@ typedef struct SharedTriangle {
 
 // A pixel so far.
 typedef struct RasterPixel {
-    uint x, y;                // in the planes
-    uint tile_x, tile_y;      // in the tile
+    uint x, y;            // in the planes
+    uint tile_x, tile_y;  // in the tile
     float ray_x, ray_y;
     float key, nearest;  // so far; at the near plane
     uint id;
@@ -100,9 +100,9 @@ static inline float along(float3 e, float x, float y) { return fma(e.x, x, fma(e
 static inline void draw_pixel(SurfaceScene scene, View view, local const SharedTriangle* t,
                               RasterPixel* p) {
     if (!within(t->columns, p->tile_x) || !within(t->rows, p->tile_y)) return;
-    float least = min(along(t->edge[0], p->ray_x, p->ray_y),
-                      min(along(t->edge[1], p->ray_x, p->ray_y),
-                          along(t->edge[2], p->ray_x, p->ray_y)));
+    float least =
+        min(along(t->edge[0], p->ray_x, p->ray_y),
+            min(along(t->edge[1], p->ray_x, p->ray_y), along(t->edge[2], p->ray_x, p->ray_y)));
     if (least < -1.0f) return;
     float key = min(max(along(t->plane, p->ray_x, p->ray_y), t->farthest), t->nearest);
     bool nearer = key > p->key || (key == p->key && p->id != 0u && t->number + 1u < p->id);
@@ -113,7 +113,7 @@ static inline void draw_pixel(SurfaceScene scene, View view, local const SharedT
     }
 #if HAS_MASKS
     if (t->masked != 0) {
-        MaskedTriangle masked = fetch_masked_triangle(scene, t->number);
+        MaskedTriangle masked = fetch_masked_triangle(scene, view, t->number);
         if (passes_mask(scene, view, &masked, row_pixels(view, p->x, p->y)) == 0) return;
     }
 #endif

@@ -71,72 +71,134 @@ static inline void fill_batch(SurfaceScene scene, View view, const Tile* tile, f
     lane_store(t.masked, out->masked);
 }
 
-// Where floats cannot tell, integers do.
-static inline MASK decide_exactly(SurfaceScene scene, View view, uint number, float sign,
-                                  const float* rays_x, float ry, MASK unsure) {
-    Triangle t = fetch_triangle(scene, number + 1u);
+// A triangle on its way over the tile's rows.
+typedef struct DrawnTriangle {
+    uint number;  // along the instances
+    float sign;
+    FV edge_x[3], plane_x;  // of its affine functions; and what they are at the row's x = 0
+    FV edge_row[3], plane_row;
+    FV farthest, nearest;
+} DrawnTriangle;
+
+static inline void begin_row(const Batch* b, uint i, float ry, DrawnTriangle* t) {
+    for (uint e = 0; e < 3; ++e) {
+        t->edge_row[e] = fv(fma(b->edge[3 * e + 1][i], ry, -b->edge[3 * e + 2][i]));
+    }
+    t->plane_row = fv(fma(b->plane[1][i], ry, -b->plane[2][i]));
+}
+
+// Where floats cannot tell, integers do. Rare: inlined, it would keep its caller from that.
+__attribute__((noinline)) static MASK decide_exactly(SurfaceScene scene, View view,
+                                                     const DrawnTriangle* t, const float* rays_x,
+                                                     float ry, MASK unsure) {
+    Triangle triangle = fetch_triangle(scene, t->number + 1u);
     float3 seen[3];
     for (uint i = 0; i < 3; ++i) {
-        seen[i] = view_vertex(t.instance, vload3(0, t.vertex[i]));
+        seen[i] = view_vertex(triangle.instance, vload3(0, triangle.vertex[i]));
         if (view.orthographic != 0u) seen[i].z = -1.0f;
     }
     int inside[VW];
     lane_store(unsure, inside);
     for (uint i = 0; i < VW; ++i) {
         if (inside[i] != 0) {
-            inside[i] = covers_exactly(seen, sign, (float2)(rays_x[i], ry)) ? -1 : 0;
+            inside[i] = covers_exactly(seen, t->sign, (float2)(rays_x[i], ry)) ? -1 : 0;
         }
     }
     return lane_load(inside);
 }
 
-// One triangle of a batch.
-static inline void draw_triangle(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
-                                 uint number) {
-#if HAS_MASKS
-    MaskedTriangle mask_triangle;
-    if (b->masked[i] != 0) mask_triangle = fetch_masked_triangle(scene, number);
-#endif
-    float nearer = near_from_far(view);
+// The pixels of a strip that the triangle covers; past its box there are none.
+static inline MASK covered(SurfaceScene scene, View view, const DrawnTriangle* t,
+                           const float* rays_x, float ry) {
+    FV rx = lane_load(rays_x);
+    FV least = fma(t->edge_x[0], rx, t->edge_row[0]);
+    least = min(least, fma(t->edge_x[1], rx, t->edge_row[1]));
+    least = min(least, fma(t->edge_x[2], rx, t->edge_row[2]));
+    MASK inside = lane_mask(least > fv(1.0f));
+    MASK unsure = ~lane_mask(least < fv(-1.0f)) & ~inside;
+    if (lane_any(unsure)) inside |= decide_exactly(scene, view, t, rays_x, ry, unsure);
+    return inside;
+}
+
+static inline FV keys_of(const DrawnTriangle* t, const float* rays_x) {
+    FV key = fma(t->plane_x, lane_load(rays_x), t->plane_row);
+    return min(max(key, t->farthest), t->nearest);
+}
+
+static inline void store_strip(Tile* tile, uint place, MASK wins, FV key, uint number) {
+    lane_store(lane_select(wins, key, lane_load(tile->key + place)), tile->key + place);
+    lane_store(select(lane_load(tile->id + place), (UV)(number + 1u), wins), tile->id + place);
+}
+
+// Not nearer than the near plane.
+static inline MASK behind_near(View view, const Tile* tile, FV key, uint x, uint y) {
+    FV px = lane_to_float(lane_numbers + (tile->x + x)) + 0.5f;
+    FV py = fv((float)(tile->y + y + view.first_row) + 0.5f);
+    return lane_mask(key <= far_key(view, px, py) + near_from_far(view));
+}
+
+// Triangles that neither alpha nor the near plane cuts.
+static inline void draw_whole(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
+                              DrawnTriangle* t) {
     for (int y = b->y0[i]; y <= b->y1[i]; ++y) {
         float ry = ray_y(view, tile->y + (uint)y);
-        float row[4];
-        for (uint e = 0; e < 3; ++e) row[e] = fma(b->edge[3 * e + 1][i], ry, -b->edge[3 * e + 2][i]);
-        row[3] = fma(b->plane[1][i], ry, -b->plane[2][i]);
+        begin_row(b, i, ry, t);
         for (int x = b->x0[i]; x <= b->x1[i]; x += VW) {
-            FV rx = lane_load(tile->ray_x + x);
-            FV u0 = fma(fv(b->edge[0][i]), rx, fv(row[0]));
-            FV u1 = fma(fv(b->edge[3][i]), rx, fv(row[1]));
-            FV u2 = fma(fv(b->edge[6][i]), rx, fv(row[2]));
-            FV least = min(u0, min(u1, u2));
-            MASK within = lane_mask(lane_numbers <= (UV)((uint)(b->x1[i] - x)));
-            MASK possible = ~lane_mask(least < fv(-1.0f)) & within;
-            if (!lane_any(possible)) continue;
-            MASK inside = lane_mask(least > fv(1.0f)) & within;
-            MASK unsure = possible & ~inside;
-            if (lane_any(unsure)) {
-                inside |= decide_exactly(scene, view, number, b->sign[i], tile->ray_x + x, ry,
-                                         unsure);
-            }
-            FV key = fma(fv(b->plane[0][i]), rx, fv(row[3]));
-            key = min(max(key, fv(b->farthest[i])), fv(b->nearest[i]));
             uint place = (uint)y * TILE_STRIDE + (uint)x;
+            FV key = keys_of(t, tile->ray_x + x);
+            MASK wins = covered(scene, view, t, tile->ray_x + x, ry) &
+                        lane_mask(key > lane_load(tile->key + place));
+            store_strip(tile, place, wins, key, t->number);
+        }
+    }
+}
+
+// Triangles that alpha or the near plane cuts; in any order.
+static inline void draw_cut(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
+                            DrawnTriangle* t) {
+#if HAS_MASKS
+    MaskedTriangle masked;
+    if (b->masked[i] != 0) masked = fetch_masked_triangle(scene, view, t->number);
+#endif
+    for (int y = b->y0[i]; y <= b->y1[i]; ++y) {
+        float ry = ray_y(view, tile->y + (uint)y);
+        begin_row(b, i, ry, t);
+        for (int x = b->x0[i]; x <= b->x1[i]; x += VW) {
+            uint place = (uint)y * TILE_STRIDE + (uint)x;
+            FV key = keys_of(t, tile->ray_x + x);
             FV old = lane_load(tile->key + place);
-            MASK wins = inside & lane_mask(key > old);
-            FV px = lane_to_float(lane_numbers + (tile->x + (uint)x)) + 0.5f;
-            FV py = fv((float)(tile->y + (uint)y + view.first_row) + 0.5f);
-            wins &= lane_mask(key <= far_key(view, px, py) + nearer);
+            // Background has the number 0 - 1, which is not smaller.
+            MASK first = lane_mask(key == old) &
+                         lane_mask((UV)(t->number) < lane_load(tile->id + place) - 1u);
+            MASK wins = covered(scene, view, t, tile->ray_x + x, ry) &
+                        (lane_mask(key > old) | first) &
+                        behind_near(view, tile, key, (uint)x, (uint)y);
             if (!lane_any(wins)) continue;
 #if HAS_MASKS
             if (b->masked[i] != 0) {
-                Pixels pixels = row_pixels(view, tile->x + (uint)x, tile->y + (uint)y);
-                wins &= passes_mask(scene, view, &mask_triangle, pixels);
+                wins &= passes_mask(scene, view, &masked,
+                                    row_pixels(view, tile->x + (uint)x, tile->y + (uint)y));
             }
 #endif
-            lane_store(lane_select(wins, key, old), tile->key + place);
-            lane_store(select(lane_load(tile->id + place), (UV)(number + 1u), wins),
-                       tile->id + place);
+            store_strip(tile, place, wins, key, t->number);
         }
+    }
+}
+
+// One triangle of a batch. `sure_key`: no pixel's near plane has a smaller one.
+static inline void draw_triangle(SurfaceScene scene, View view, float sure_key, Tile* tile,
+                                 const Batch* b, uint i, uint number) {
+    DrawnTriangle t;
+    t.number = number;
+    t.sign = b->sign[i];
+    for (uint e = 0; e < 3; ++e) t.edge_x[e] = fv(b->edge[3 * e][i]);
+    t.plane_x = fv(b->plane[0][i]);
+    t.farthest = fv(b->farthest[i]);
+    t.nearest = fv(b->nearest[i]);
+    if (b->nearest[i] < sure_key && b->masked[i] == 0) {
+        draw_whole(scene, view, tile, b, i, &t);
+    } else {
+        draw_cut(scene, view, tile, b, i, &t);
     }
 }
 
@@ -149,6 +211,35 @@ static inline void store_tile(View view, const Tile* tile, global uint* ids) {
         }
     }
 }
+
+// Draws triangles of one tile, in their order. With `put_off` not null, those that alpha cuts are
+// appended to it instead, of which there are `put_off_count`, and room for VW more.
+static inline void draw_list(SurfaceScene scene, View view, Tile* tile, const uint* numbers,
+                             uint count, uint* put_off, uint* put_off_count) {
+    Batch batch;
+    fill_batch(scene, view, tile, ray_span(view), lane_load(numbers),
+               lane_mask(lane_numbers < (UV)(count)), &batch);
+    float sure_key = least_near_key(view);
+    for (uint i = 0; i < count; ++i) {
+        if (put_off && batch.masked[i] != 0) {
+            put_off[(*put_off_count)++] = numbers[i];
+        } else {
+            draw_triangle(scene, view, sure_key, tile, &batch, i, numbers[i]);
+        }
+    }
+}
+
+#if HAS_MASKS
+// Triangles that alpha cuts come after the others, which may hide them: samples cost most.
+#define MOST_PUT_OFF (64 * VW)
+
+static inline void draw_put_off(SurfaceScene scene, View view, Tile* tile, const uint* put_off,
+                                uint count) {
+    for (uint first = 0; first < count; first += VW) {
+        draw_list(scene, view, tile, put_off + first, min(count - first, (uint)VW), 0, 0);
+    }
+}
+#endif
 
 kernel void raster_triangles(
     View view,
@@ -171,15 +262,26 @@ kernel void raster_triangles(
     tile.width = min(view.width - tile.x, (uint)TILE_WIDTH);
     tile.height = min(view.height - tile.y, (uint)TILE_HEIGHT);
     clear_tile(view, &tile);
-    float2 span = ray_span(view);
     uint end = min(offsets[number + 1], capacity);
+#if HAS_MASKS
+    uint put_off[MOST_PUT_OFF + 2 * VW];
+    uint put_off_count = 0;
+#endif
     for (uint first = offsets[number]; first < end; first += VW) {
         uint triangles[VW];
         for (uint i = 0; i < VW; ++i) triangles[i] = lists[min(first + i, end - 1u)];
-        Batch batch;
-        fill_batch(scene, view, &tile, span, lane_load(triangles),
-                   lane_mask(lane_numbers < (UV)(end - first)), &batch);
-        for (uint i = 0; i < VW; ++i) draw_triangle(scene, view, &tile, &batch, i, triangles[i]);
+        uint count = min(end - first, (uint)VW);
+#if HAS_MASKS
+        draw_list(scene, view, &tile, triangles, count, put_off, &put_off_count);
+        if (put_off_count < MOST_PUT_OFF) continue;
+        draw_put_off(scene, view, &tile, put_off, put_off_count);
+        put_off_count = 0;
+#else
+        draw_list(scene, view, &tile, triangles, count, 0, 0);
+#endif
     }
+#if HAS_MASKS
+    draw_put_off(scene, view, &tile, put_off, put_off_count);
+#endif
     store_tile(view, &tile, ids);
 }

@@ -31,6 +31,8 @@ Tuning default_tuning(const DeviceInfo& device) {
         tuning.shade_prefetch = device.platform == "Oclgrind" ? 0 : 1;
         tuning.cull_chunks = 16 * device.compute_units;
         tuning.light_group = 16;
+        // Triangles are narrow: wider vectors are mostly empty.
+        tuning.raster_lanes = 8;
         return tuning;
     }
     tuning.shade_rows = 16;

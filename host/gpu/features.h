@@ -39,11 +39,12 @@ struct Tuning {
     int refine_group = 1;    // work-items that share a tile's lists
     int prefix_group = 1;    // work-items of a block of the prefix sum
     int prefix_per_item = 16384;
-    int tile_group = 1;   // work-items that share a tile's pixels
-    int light_group = 1;  // work-items of prepare_lights, build_clusters and other maps
+    int tile_group = 1;          // work-items that share a tile's pixels
+    int light_group = 1;         // work-items of prepare_lights, build_clusters and other maps
     int raster_group = 1;        // work-items that share a tile's triangles
     int raster_tile_width = 64;  // of triangles' tiles, powers of two of at least 16 [pixel]
     int raster_tile_height = 64;
+    int raster_lanes = 1;  // of triangles and their pixels; the device's lane width bounds them
     bool operator==(const Tuning&) const = default;
 };
 

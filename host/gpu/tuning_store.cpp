@@ -20,6 +20,7 @@ constexpr TuningParameter kParameters[] = {
     {"raster_group", &Tuning::raster_group},
     {"raster_tile_width", &Tuning::raster_tile_width},
     {"raster_tile_height", &Tuning::raster_tile_height},
+    {"raster_lanes", &Tuning::raster_lanes},
 };
 
 // Bounded by the local memory that every device has (CL_DEVICE_LOCAL_MEM_SIZE >= 32 KiB): 512 * 52
@@ -60,6 +61,7 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
         if (!is_power_of_two(edge) || edge < FINE_TILE || edge > kMostTile) return false;
     }
     if (!is_group(t.raster_group)) return false;
+    if (!is_power_of_two(t.raster_lanes) || t.raster_lanes > FINE_TILE) return false;
     if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
     return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&
            is_group(t.tile_group) && is_group(t.light_group);

@@ -17,8 +17,8 @@ namespace kilolux {
 /// Texture samples along a footprint's longer side at most.
 int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device);
 
-/// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL or OpenCL draws triangle ids that
-/// OpenCL resolves, or OpenGL the planes themselves (RenderSettings::geometry).
+/// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL or OpenCL draws triangle ids
+/// that OpenCL resolves, or OpenGL the planes themselves (RenderSettings::geometry).
 class SurfacePass {
  public:
     explicit SurfacePass(const PathContext& context);
@@ -55,8 +55,8 @@ class SurfacePass {
 
     PathContext context_;
     std::optional<GeometryPass> planes_;
-    std::optional<IdsPass> ids_;            // else
-    std::optional<TriangleIds> triangles_;  // else
+    std::optional<IdsPass> ids_;              // else
+    std::optional<TriangleIds> triangles_;    // else
     std::optional<ResolveSurfaces> resolve_;  // of ids_ or triangles_
     GBufferBridge bridge_;
     DecodeGBuffer decode_;

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/surfaces/triangle_ids.h"
 
+#include <algorithm>
+
 namespace kilolux {
+namespace {
+
+Gpu with_raster_lanes(const Gpu& gpu, const Tuning& tuning) {
+    return gpu.with_lanes(std::min(gpu.info.lane_width, tuning.raster_lanes));
+}
+
+}  // namespace
 
 TriangleIds::TriangleIds(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                          const SurfaceFeatures& features)
     : scene_(scene),
       draw_list_(scene),
-      bin_(gpu, tuning),
-      raster_(gpu, tuning, features) {}
+      bin_(with_raster_lanes(gpu, tuning), tuning),
+      raster_(with_raster_lanes(gpu, tuning), tuning, features) {}
 
 std::vector<Draw> TriangleIds::visible(const Camera& camera, int width, int height) const {
     return draw_list_.visible(camera, width, height, false, DrawOrder::front_to_back);
@@ -17,12 +26,12 @@ std::vector<Draw> TriangleIds::visible(const Camera& camera, int width, int heig
 DeviceArray<uint> TriangleIds::enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
                                        const View& view, StageTimer& timer) {
     const uint triangles =
-        draws.empty() ? 0
-                      : draws.back().row.first_triangle +
-                            static_cast<uint>(
-                                scene_.meshes[static_cast<std::size_t>(draws.back().mesh)]
-                                    .indices.size() /
-                                3);
+        draws.empty()
+            ? 0
+            : draws.back().row.first_triangle +
+                  static_cast<uint>(
+                      scene_.meshes[static_cast<std::size_t>(draws.back().mesh)].indices.size() /
+                      3);
     TriangleLists lists;
     do {
         lists = bin_.enqueue(scene, triangles, view, timer);

@@ -87,12 +87,12 @@ static inline WideNormal wide_cross(Fixed3 a, Fixed3 b) {
 
 // The sign of n . d.
 static inline int sign_along(WideNormal n, Fixed3 d) {
-    Wide upper = wide_sum(wide_sum(wide_product(upper_part(n.x), d.x),
-                                   wide_product(upper_part(n.y), d.y)),
-                          wide_product(upper_part(n.z), d.z));
-    Wide lower = wide_sum(wide_sum(wide_product(lower_part(n.x), d.x),
-                                   wide_product(lower_part(n.y), d.y)),
-                          wide_product(lower_part(n.z), d.z));
+    Wide upper =
+        wide_sum(wide_sum(wide_product(upper_part(n.x), d.x), wide_product(upper_part(n.y), d.y)),
+                 wide_product(upper_part(n.z), d.z));
+    Wide lower =
+        wide_sum(wide_sum(wide_product(lower_part(n.x), d.x), wide_product(lower_part(n.y), d.y)),
+                 wide_product(lower_part(n.z), d.z));
     long carry = upper_part(lower);
     Wide carried = {carry < 0 ? -1 : 0, (ulong)carry};
     int sign = wide_sign(wide_sum(upper, carried));

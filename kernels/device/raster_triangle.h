@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which pixels a triangle covers, and how near it is there: VW triangles set up at once.
 //
-// Coverage. With the vertices v_i as the eye sees them and the ray d of a pixel, u_i = (v_j x v_k) .
-// d, cyclic, have one sign where the line along d meets the triangle, and that sign is that of
+// Coverage. With the vertices v_i as the eye sees them and the ray d of a pixel, u_i = (v_j x v_k)
+// . d, cyclic, have one sign where the line along d meets the triangle, and that sign is that of
 // det(v_0, v_1, v_2) where it does so in front of the eye. Nothing is clipped and nothing divided.
 // u_i as a float errs by less than 10 * 2^-24 of the products that it sums; a scaled edge has
 // 16 * 2^-24 of them as its unit, so beyond +-1 its sign is sure. Within, exact_sign.h decides. So
@@ -65,8 +65,8 @@ static inline ViewTriangles view_triangles(SurfaceScene scene, UV numbers, MASK 
         uint number = instance_of(scene, first);
         global const InstanceRow* o = scene.instances + number;
         uint end = number + 1u < scene.instance_count ? o[1].first_triangle : 0xffffffffu;
-        MASK mask = left & lane_mask(numbers >= (UV)(o->first_triangle)) &
-                    lane_mask(numbers < (UV)(end));
+        MASK mask =
+            left & lane_mask(numbers >= (UV)(o->first_triangle)) & lane_mask(numbers < (UV)(end));
         MeshRow mesh = scene.meshes[o->mesh];
         UV in_mesh = select((UV)(first), numbers, mask) - o->first_triangle;
         for (uint i = 0; i < 3; ++i) {
@@ -121,11 +121,11 @@ static inline FV3 sure_edge(FV3 a, FV3 b, FV size, float2 span) {
 }
 
 typedef struct RasterTriangles {
-    FV3 edge[3];       // scaled, positive inside
-    FV3 plane;         // key = plane.x ray.x + plane.y ray.y - plane.z
+    FV3 edge[3];           // scaled, positive inside
+    FV3 plane;             // key = plane.x ray.x + plane.y ray.y - plane.z
     FV farthest, nearest;  // the vertices' keys; nearest is infinite behind the eye
-    FV sign;           // of the determinant
-    MASK alive;        // else none is covered
+    FV sign;               // of the determinant
+    MASK alive;            // else none is covered
 } RasterTriangles;
 
 static inline float3 lane_vertex(const FV3* v, uint lane) {
@@ -159,6 +159,23 @@ typedef struct Facing {
     MASK unsure;
 } Facing;
 
+// The triangles' vertices turned so that the longest edge is opposite to the first: the shorter two
+// lose least in their product.
+static inline void turn_from_longest(FV3* v) {
+    FV opposite[3];
+    for (uint i = 0; i < 3; ++i) {
+        opposite[i] = sum_of_magnitudes(sub3(v[(i + 2) % 3], v[(i + 1) % 3]));
+    }
+    MASK second = lane_mask(opposite[1] > opposite[0]) & lane_mask(opposite[1] >= opposite[2]);
+    MASK third = lane_mask(opposite[2] > opposite[0]) & lane_mask(opposite[2] > opposite[1]);
+    FV3 turned[3];
+    for (uint i = 0; i < 3; ++i) {
+        turned[i] = select3(second, v[(i + 1) % 3], select3(third, v[(i + 2) % 3], v[i]));
+    }
+    for (uint i = 0; i < 3; ++i) v[i] = turned[i];
+}
+
+// `seen`: turned.
 static inline Facing facing_of(const FV3* seen) {
     Facing out;
     FV3 a = sub3(seen[1], seen[0]);
@@ -219,6 +236,7 @@ static inline FV3 key_plane(View view, const FV3* v, Facing facing) {
 
 static inline RasterTriangles set_up_triangles(View view, float2 span, ViewTriangles t) {
     RasterTriangles out;
+    turn_from_longest(t.v);
     FV3 seen[3];
     FV size[3];
     for (uint i = 0; i < 3; ++i) {
@@ -234,8 +252,8 @@ static inline RasterTriangles set_up_triangles(View view, float2 span, ViewTrian
     out.edge[2] = scale3(sure_edge(seen[0], seen[1], size[0] * size[1], span), facing.sign);
     out.nearest = max(max(keys.k[0], keys.k[1]), keys.k[2]);
     out.farthest = min(min(keys.k[0], keys.k[1]), keys.k[2]);
-    // Seen edge on the plane says nothing: the whole triangle is as near as its nearest vertex.
-    FV3 flat = fv3(fv(0.0f), fv(0.0f), -out.nearest);
+    // Seen edge on the plane says nothing: the whole triangle is as near as a vertex of it is.
+    FV3 flat = fv3(fv(0.0f), fv(0.0f), -lane_select(keys.crosses, out.farthest, out.nearest));
     out.plane = select3(facing.unsure, flat, key_plane(view, t.v, facing));
     return out;
 }
@@ -246,12 +264,34 @@ typedef struct PixelBounds {
 } PixelBounds;
 
 // The pixel centres from `low` to `high` [pixel], and a little more, within 0 .. count - 1.
-static inline void centres_between(FV low, FV high, float slack, float count, IV* first,
-                                   IV* last) {
+static inline void centres_between(FV low, FV high, float slack, float count, IV* first, IV* last) {
     FV least = min(max(ceil(low - (0.5f + slack)), fv(0.0f)), fv(count));
     FV most = min(max(floor(high - (0.5f - slack)), fv(-1.0f)), fv(count - 1.0f));
     *first = lane_to_int(least);
     *last = lane_to_int(most);
+}
+
+// Whether a triangle lies outside one side of the pyramid that the rays fill, also where it crosses
+// the eye's plane: points in front with x <= most * depth are a half-space.
+static inline MASK outside_side(const FV3* seen, const FV* along, float most, float sign) {
+    MASK outside = (MASK)(-1);
+    for (uint i = 0; i < 3; ++i) {
+        FV limit = -seen[i].z * most;
+        FV slack = (fabs(along[i]) + fabs(limit)) * SURE_SHARE;
+        outside &= lane_mask((along[i] - limit) * sign > slack);
+    }
+    return outside;
+}
+
+static inline MASK outside_view(View view, const FV3* seen) {
+    float2 low =
+        (float2)(view.ray.y, fma((float)(view.first_row + view.height), view.ray.z, view.ray.w));
+    float2 high = (float2)(fma((float)view.width, view.ray.x, view.ray.y),
+                           fma((float)view.first_row, view.ray.z, view.ray.w));
+    FV x[3] = {seen[0].x, seen[1].x, seen[2].x};
+    FV y[3] = {seen[0].y, seen[1].y, seen[2].y};
+    return outside_side(seen, x, low.x, -1.0f) | outside_side(seen, x, high.x, 1.0f) |
+           outside_side(seen, y, low.y, -1.0f) | outside_side(seen, y, high.y, 1.0f);
 }
 
 // All pixels for triangles that cross the eye's plane. Vertices as float pixels err by less than
@@ -313,5 +353,15 @@ static inline FV far_key(View view, FV px, FV py) {
 }
 static inline float near_from_far(View view) {
     return view.orthographic != 0u ? -view.depth.x : view.depth.x;
+}
+
+// No pixel's key at the near plane is smaller.
+static inline float least_near_key(View view) {
+    float across = view.depth.y * (float)view.width;
+    float down = view.depth.z * (float)(view.first_row + view.height);
+    float slack = SURE_SHARE * (fabs(across) + fabs(down) + fabs(view.depth.w));
+    float q = view.orthographic != 0u ? -(view.depth.w + fmax(across, 0.0f) + fmax(down, 0.0f))
+                                      : view.depth.w + fmin(across, 0.0f) + fmin(down, 0.0f);
+    return q + near_from_far(view) - slack;
 }
 #endif

@@ -129,24 +129,35 @@ static inline FV along_ray(float3 e, FV rx, FV ry) {
     return fma(fv(e.x), rx, fma(fv(e.y), ry, fv(-e.z)));
 }
 
-// v: vertices in view space. `front`: where the triangle shows its front.
-static inline Weights weights_of(View view, Pixels pixels, const float3* v, MASK* front) {
+// A triangle's homogeneous edges: e_i is opposite to vertex i; and their sum.
+typedef struct TriangleEdges {
+    float3 e0, e1, e2, sum;
+} TriangleEdges;
+
+// v: vertices in view space.
+static inline TriangleEdges triangle_edges(View view, const float3* v) {
     float3 h0 = v[0];
     float3 h1 = v[1];
     float3 h2 = v[2];
     if (view.orthographic != 0u) h0.z = h1.z = h2.z = -1.0f;
-    float3 e0 = edge_of(h1, h2);
-    float3 e1 = edge_of(h2, h0);
-    float3 e2 = edge_of(h0, h1);
-    float3 sum = 2.0f * cross_fma(h1 - h0, h2 - h0);
+    TriangleEdges out;
+    out.e0 = edge_of(h1, h2);
+    out.e1 = edge_of(h2, h0);
+    out.e2 = edge_of(h0, h1);
+    out.sum = 2.0f * cross_fma(h1 - h0, h2 - h0);
+    return out;
+}
+
+// `front`: where the triangle shows its front.
+static inline Weights weights_of(View view, Pixels pixels, TriangleEdges t, MASK* front) {
     FV rx = fma(pixels.x, fv(view.ray.x), fv(view.ray.y));
     FV ry = fma(pixels.y, fv(view.ray.z), fv(view.ray.w));
-    *front = lane_mask(along_ray(sum, rx, ry) < fv(0.0f));
+    *front = lane_mask(along_ray(t.sum, rx, ry) < fv(0.0f));
     FV sign = lane_select(*front, fv(-1.0f), fv(1.0f));
     // A pixel's centre may lie outside by what the rasteriser snaps: the nearest point counts.
-    FV u0 = max(along_ray(e0, rx, ry) * sign, fv(0.0f));
-    FV u1 = max(along_ray(e1, rx, ry) * sign, fv(0.0f));
-    FV u2 = max(along_ray(e2, rx, ry) * sign, fv(0.0f));
+    FV u0 = max(along_ray(t.e0, rx, ry) * sign, fv(0.0f));
+    FV u1 = max(along_ray(t.e1, rx, ry) * sign, fv(0.0f));
+    FV u2 = max(along_ray(t.e2, rx, ry) * sign, fv(0.0f));
     FV total = u0 + u1 + u2;
     FV inv = lane_select(lane_mask(total > fv(0.0f)), lane_reciprocal(total), fv(0.0f));
     Weights w;
@@ -154,10 +165,10 @@ static inline Weights weights_of(View view, Pixels pixels, const float3* v, MASK
     w.b2 = u2 * inv;
     FV step_x = inv * sign * view.ray.x;
     FV step_y = inv * sign * view.ray.z;
-    w.b1_dx = fma(-w.b1, fv(sum.x), fv(e1.x)) * step_x;
-    w.b2_dx = fma(-w.b2, fv(sum.x), fv(e2.x)) * step_x;
-    w.b1_dy = fma(-w.b1, fv(sum.y), fv(e1.y)) * step_y;
-    w.b2_dy = fma(-w.b2, fv(sum.y), fv(e2.y)) * step_y;
+    w.b1_dx = fma(-w.b1, fv(t.sum.x), fv(t.e1.x)) * step_x;
+    w.b2_dx = fma(-w.b2, fv(t.sum.x), fv(t.e2.x)) * step_x;
+    w.b1_dy = fma(-w.b1, fv(t.sum.y), fv(t.e1.y)) * step_y;
+    w.b2_dy = fma(-w.b2, fv(t.sum.y), fv(t.e2.y)) * step_y;
     return w;
 }
 
@@ -172,23 +183,31 @@ static inline FV3 interpolate3(Weights w, const float3* a) {
 }
 
 #if HAS_TEXCOORD0 || HAS_TEXCOORD1
+// Texture coordinates of vertex 0, and how those of the others differ.
+typedef struct Texcoords {
+    float2 a0, d1, d2;
+} Texcoords;
+
 // An absent set is (0, 0), as OpenGL reads a disabled attribute.
-static inline Footprint interpolate_texcoord(Weights w, Triangle t, uint place) {
-    float2 a0 = (float2)(0.0f);
-    float2 d1 = (float2)(0.0f);
-    float2 d2 = (float2)(0.0f);
+static inline Texcoords fetch_texcoords(Triangle t, uint place) {
+    Texcoords out;
+    out.a0 = out.d1 = out.d2 = (float2)(0.0f);
     if (place != SURFACE_ABSENT) {
-        a0 = vload2(0, t.vertex[0] + place);
-        d1 = vload2(0, t.vertex[1] + place) - a0;
-        d2 = vload2(0, t.vertex[2] + place) - a0;
+        out.a0 = vload2(0, t.vertex[0] + place);
+        out.d1 = vload2(0, t.vertex[1] + place) - out.a0;
+        out.d2 = vload2(0, t.vertex[2] + place) - out.a0;
     }
+    return out;
+}
+
+static inline Footprint interpolate_texcoord(Weights w, Texcoords t) {
     Footprint out;
-    out.u = fma(w.b2, fv(d2.x), fma(w.b1, fv(d1.x), fv(a0.x)));
-    out.v = fma(w.b2, fv(d2.y), fma(w.b1, fv(d1.y), fv(a0.y)));
-    out.u_dx = fma(w.b2_dx, fv(d2.x), w.b1_dx * d1.x);
-    out.v_dx = fma(w.b2_dx, fv(d2.y), w.b1_dx * d1.y);
-    out.u_dy = fma(w.b2_dy, fv(d2.x), w.b1_dy * d1.x);
-    out.v_dy = fma(w.b2_dy, fv(d2.y), w.b1_dy * d1.y);
+    out.u = fma(w.b2, fv(t.d2.x), fma(w.b1, fv(t.d1.x), fv(t.a0.x)));
+    out.v = fma(w.b2, fv(t.d2.y), fma(w.b1, fv(t.d1.y), fv(t.a0.y)));
+    out.u_dx = fma(w.b2_dx, fv(t.d2.x), w.b1_dx * t.d1.x);
+    out.v_dx = fma(w.b2_dx, fv(t.d2.y), w.b1_dx * t.d1.y);
+    out.u_dy = fma(w.b2_dy, fv(t.d2.x), w.b1_dy * t.d1.x);
+    out.v_dy = fma(w.b2_dy, fv(t.d2.y), w.b1_dy * t.d1.y);
     return out;
 }
 
@@ -242,7 +261,7 @@ static inline void interpolate_triangle(SurfaceScene scene, View view, Pixels pi
     float3 v[3];
     for (uint i = 0; i < 3; ++i) v[i] = view_vertex(t.instance, vload3(0, t.vertex[i]));
     MASK front;
-    Weights w = weights_of(view, pixels, v, &front);
+    Weights w = weights_of(view, pixels, triangle_edges(view, v), &front);
     bool mirrored = t.instance->normal_from_object[0].w < 0.0f;
     out->front = (mask & (mirrored ? ~front : front)) | (~mask & out->front);
     out->z = lane_select(mask, interpolate(w, -v[0].z, -v[1].z, -v[2].z), out->z);
@@ -254,12 +273,12 @@ static inline void interpolate_triangle(SurfaceScene scene, View view, Pixels pi
     out->handedness = lane_select(mask, handedness, out->handedness);
 #endif
 #if HAS_TEXCOORD0
-    out->texcoord0 =
-        take_texcoord(mask, interpolate_texcoord(w, t, t.mesh.texcoord0), out->texcoord0);
+    out->texcoord0 = take_texcoord(
+        mask, interpolate_texcoord(w, fetch_texcoords(t, t.mesh.texcoord0)), out->texcoord0);
 #endif
 #if HAS_TEXCOORD1
-    out->texcoord1 =
-        take_texcoord(mask, interpolate_texcoord(w, t, t.mesh.texcoord1), out->texcoord1);
+    out->texcoord1 = take_texcoord(
+        mask, interpolate_texcoord(w, fetch_texcoords(t, t.mesh.texcoord1)), out->texcoord1);
 #endif
 #if HAS_VERTEX_COLOR
     float3 color[3];

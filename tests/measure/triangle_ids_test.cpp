@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles drawn in OpenCL: each pixel is one triangle's, the same on every way of drawing, and
+// that of float64 rays.
+#include "host/surfaces/triangle_ids.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <random>
+
+#include "host/base/hash.h"
+#include "host/measure/reference/ray_cast_reference.h"
+#include "host/scene/generated/scenes.h"
+#include "host/surfaces/surface_scene.h"
+#include "tests/support/render_fixture.h"
+#include "tests/support/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+constexpr uint kNone = ~0u;
+
+// What a pixel shows: kNone, or which triangle of which instance.
+struct Shown {
+    uint instance = kNone, triangle = kNone;
+    bool operator==(const Shown&) const = default;
+};
+
+class Drawing {
+ public:
+    Drawing(const Scene& scene, const Gpu& gpu, const Tuning& tuning)
+        : gpu_(gpu),
+          features_(surface_features(scene, {}, 1)),
+          surfaces_(gpu, tuning, scene, features_),
+          ids_(gpu, tuning, scene, features_) {}
+    explicit Drawing(const Scene& scene)
+        : Drawing(scene, test_gpu(), default_tuning(test_gpu().info)) {}
+
+    std::vector<Shown> at(const Camera& camera, int width, int height) {
+        return of(ids_.visible(camera, width, height), camera, width, height);
+    }
+
+    // How many triangles cover each pixel, whatever hides them: for meshes of one triangle each.
+    std::vector<int> coverage(const Camera& camera, int width, int height) {
+        std::vector<int> counts(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        for (Draw draw : ids_.visible(camera, width, height)) {
+            draw.row.first_triangle = 0;
+            const std::vector<Shown> shown = of({draw}, camera, width, height);
+            for (std::size_t i = 0; i < shown.size(); ++i) {
+                if (shown[i] != Shown{}) ++counts[i];
+            }
+        }
+        return counts;
+    }
+
+ private:
+    std::vector<Shown> of(const std::vector<Draw>& draws, const Camera& camera, int width,
+                          int height) {
+        const View view = view_of(camera, width, height);
+        StageTimer timer;
+        const std::vector<uint> ids =
+            download(gpu_, ids_.enqueue(surfaces_.at(draws), draws, view, timer));
+        std::vector<Shown> out;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const uint id =
+                    ids[static_cast<std::size_t>(y) * view.stride + static_cast<std::size_t>(x)];
+                Shown& shown = out.emplace_back();
+                for (const Draw& draw : draws) {
+                    if (id == 0 || draw.row.first_triangle > id - 1) break;
+                    shown = {static_cast<uint>(draw.instance), id - 1 - draw.row.first_triangle};
+                }
+            }
+        }
+        return out;
+    }
+
+    Gpu gpu_;
+    SurfaceFeatures features_;
+    SurfaceScene surfaces_;
+    TriangleIds ids_;
+};
+
+// Each triangle as a mesh of its own, all of one transform.
+Scene scene_of_triangles(const std::vector<glm::vec3>& vertices,
+                         const std::vector<std::array<int, 3>>& triangles,
+                         const glm::dmat4& world_from_object = glm::dmat4(1.0)) {
+    Scene scene;
+    scene.name = "triangles";
+    scene.materials.emplace_back().double_sided = true;
+    for (const std::array<int, 3>& triangle : triangles) {
+        Mesh& mesh = scene.meshes.emplace_back();
+        for (const int vertex : triangle) {
+            mesh.positions.push_back(vertices[static_cast<std::size_t>(vertex)]);
+            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.indices.size()));
+        }
+        mesh.material = 0;
+        scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, world_from_object});
+    }
+    return scene;
+}
+
+// Parallel rays through the whole numbers and halves: pixel (x, y) at (x + 0.5, height - y - 0.5).
+Camera pixel_camera(int width, int height) {
+    const glm::dvec3 centre(width / 2.0, height / 2.0, 0.0);
+    Camera camera = look_at(centre + glm::dvec3(0, 0, 10), centre, {0, 1, 0}, 1.0);
+    camera.orthographic = true;
+    camera.y_extent = height / 2.0;
+    camera.z_far = 20.0;
+    return camera;
+}
+
+void expect_each_once(const std::vector<int>& counts, int width) {
+    int wrong = 0;
+    std::size_t first = counts.size();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] == 1) continue;
+        ++wrong;
+        first = std::min(first, i);
+    }
+    EXPECT_EQ(wrong, 0) << "first at " << first % static_cast<std::size_t>(width) << ", "
+                        << first / static_cast<std::size_t>(width);
+}
+
+// A fan whose centre is a pixel's, and many of whose spokes run through others'.
+TEST(TriangleIds, FansCoverEachPixelOnce) {
+    constexpr int kSize = 32;
+    for (const int spokes : {3, 4, 8, 24}) {
+        std::vector<glm::vec3> vertices = {{16.5f, 16.5f, 0.0f}};
+        std::vector<std::array<int, 3>> triangles;
+        for (int i = 0; i < spokes; ++i) {
+            const double angle = glm::two_pi<double>() * i / spokes;
+            vertices.emplace_back(std::round(16.0 + 100.0 * std::cos(angle)) + 0.5,
+                                  std::round(16.0 + 100.0 * std::sin(angle)) + 0.5, 0.0);
+            triangles.push_back({0, 1 + i, 1 + (i + 1) % spokes});
+        }
+        const Scene scene = scene_of_triangles(vertices, triangles);
+        expect_each_once(Drawing(scene).coverage(pixel_camera(kSize, kSize), kSize, kSize), kSize);
+    }
+}
+
+// A grid of quads cut in two, with some of its vertices on pixels' centres and the rest anywhere.
+std::vector<std::array<int, 3>> grid_triangles(int cells) {
+    std::vector<std::array<int, 3>> out;
+    for (int y = 0; y < cells; ++y) {
+        for (int x = 0; x < cells; ++x) {
+            const int a = y * (cells + 1) + x;
+            const int b = a + cells + 1;
+            out.push_back({a, a + 1, b + 1});
+            out.push_back({a, b + 1, b});
+        }
+    }
+    return out;
+}
+
+TEST(TriangleIds, GridsWithVerticesOnPixelsCoverEachPixelOnce) {
+    constexpr int kSize = 24, kCells = 10;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> offset(-1.2f, 1.2f);
+    std::vector<glm::vec3> vertices;
+    for (int y = 0; y <= kCells; ++y) {
+        for (int x = 0; x <= kCells; ++x) {
+            glm::vec3 v(3.0f * static_cast<float>(x) - 3.0f, 3.0f * static_cast<float>(y) - 3.0f,
+                        0.0f);
+            if (random() % 2 == 0) {
+                v += glm::vec3(0.5f, 0.5f, 0.0f);
+            } else {
+                v += glm::vec3(offset(random), offset(random), offset(random));
+            }
+            vertices.push_back(v);
+        }
+    }
+    const Scene scene = scene_of_triangles(vertices, grid_triangles(kCells));
+    expect_each_once(Drawing(scene).coverage(pixel_camera(kSize, kSize), kSize, kSize), kSize);
+}
+
+// Triangles 2000 times as long as wide, seen in perspective from near by, and 2^20 m away from the
+// world's middle.
+TEST(TriangleIds, SliversFarOutCoverEachPixelOnce) {
+    constexpr int kSize = 32, kCells = 12;
+    std::vector<glm::vec3> vertices;
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> offset(-0.3f, 0.3f);
+    for (int y = 0; y <= kCells; ++y) {
+        for (int x = 0; x <= kCells; ++x) {
+            vertices.emplace_back((static_cast<float>(x) - 6.0f + offset(random)) * 1e-2f,
+                                  (static_cast<float>(y) - 6.0f) * 20.0f, -0.02f);
+        }
+    }
+    const glm::dvec3 far(1048576.0, -1048576.0, 3.0);
+    glm::dmat4 world_from_object(1.0);
+    world_from_object[3] = glm::dvec4(far, 1.0);
+    const Scene scene = scene_of_triangles(vertices, grid_triangles(kCells), world_from_object);
+    Camera camera = look_at(far, far + glm::dvec3(0.001, 0.002, -1), {0.1, 1, 0}, 1.2);
+    camera.z_near = 1e-3;
+    expect_each_once(Drawing(scene).coverage(camera, kSize, kSize), kSize);
+}
+
+// The eye within a closed body: half of the triangles are behind it, many cross its plane.
+TEST(TriangleIds, ABodyAboutTheEyeCoversEachPixelOnce) {
+    constexpr int kSize = 32, kAround = 12, kUp = 6;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> radius(0.7f, 1.5f);
+    std::vector<glm::vec3> vertices = {{0, -1, 0}, {0, 1, 0}};
+    for (int j = 1; j < kUp; ++j) {
+        for (int i = 0; i < kAround; ++i) {
+            const float up = glm::pi<float>() * (static_cast<float>(j) / kUp - 0.5f);
+            const float around = glm::two_pi<float>() * static_cast<float>(i) / kAround;
+            vertices.push_back(radius(random) * glm::vec3(std::cos(up) * std::cos(around),
+                                                          std::sin(up),
+                                                          std::cos(up) * std::sin(around)));
+        }
+    }
+    const auto ring = [](int j, int i) { return 2 + (j - 1) * kAround + i % kAround; };
+    std::vector<std::array<int, 3>> triangles;
+    for (int i = 0; i < kAround; ++i) {
+        triangles.push_back({0, ring(1, i + 1), ring(1, i)});
+        triangles.push_back({1, ring(kUp - 1, i), ring(kUp - 1, i + 1)});
+        for (int j = 1; j + 1 < kUp; ++j) {
+            triangles.push_back({ring(j, i), ring(j, i + 1), ring(j + 1, i + 1)});
+            triangles.push_back({ring(j, i), ring(j + 1, i + 1), ring(j + 1, i)});
+        }
+    }
+    const Scene scene = scene_of_triangles(vertices, triangles);
+    Drawing drawing(scene);
+    for (const glm::dvec3 ahead :
+         {glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(0.3, 0.9, 0.1)}) {
+        Camera camera = look_at({0.01, 0.02, 0.03}, ahead, {0.2, 0.3, 1}, 2.0);
+        camera.z_near = 1e-3;
+        expect_each_once(drawing.coverage(camera, kSize, kSize), kSize);
+    }
+}
+
+// Every lane width, tile and work-group, and bands of rows.
+TEST(TriangleIds, AreTheSameOnEveryWay) {
+    const Scene scene = make_generated_scene("grid");
+    const Camera camera = first_camera(scene);
+    constexpr int kWidth = 149, kHeight = 83;
+    const Gpu gpu = test_gpu();
+    const std::vector<Shown> expected = Drawing(scene).at(camera, kWidth, kHeight);
+    EXPECT_GT(std::ranges::count_if(expected, [](const Shown& s) { return s != Shown{}; }), 4000);
+    for (const int lanes : {1, 2, 4, 8, 16}) {
+        for (const auto& [width, height, group] :
+             {std::array{16, 64, 1}, std::array{64, 16, 1}, std::array{32, 32, 64}}) {
+            if (group > 1 && lanes > 1) continue;
+            Tuning tuning = default_tuning(gpu.info);
+            tuning.raster_tile_width = width;
+            tuning.raster_tile_height = height;
+            tuning.raster_group = group;
+            tuning.raster_lanes = lanes;
+            tuning.cull_chunks = 3;
+            Drawing drawing(scene, test_gpu(lanes), tuning);
+            EXPECT_EQ(drawing.at(camera, kWidth, kHeight), expected)
+                << lanes << " lanes, " << width << "x" << height << ", groups of " << group;
+        }
+    }
+}
+
+// The same bytes on every device: PoCL on AVX2 and AVX-512, and GPUs, where this test runs on them.
+TEST(TriangleIds, AreTheSameOnEveryDevice) {
+    const Scene scene = make_generated_scene("atrium");
+    Fnv1a hash;
+    for (const Shown& shown : Drawing(scene).at(first_camera(scene), 640, 360)) {
+        hash.add_words(std::array{shown.instance, shown.triangle});
+    }
+    EXPECT_EQ(hash.hex(), "0");
+}
+
+// A pixel shows the triangle of the ray through it, or that of a ray within `tolerance` pixels.
+int unlike_rays(const Scene& scene, const Camera& camera, int width, int height, double tolerance) {
+    const std::vector<Shown> drawn = Drawing(scene).at(camera, width, height);
+    const RayCaster caster(scene);
+    std::vector<SurfaceSamples> rays;
+    for (const glm::dvec2 offset : {glm::dvec2(0), glm::dvec2(1, 0), glm::dvec2(-1, 0),
+                                    glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+        Camera moved = camera;
+        moved.jitter += offset * tolerance;
+        rays.push_back(caster.cast(moved, width, height));
+    }
+    int unlike = 0;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        const bool found = std::ranges::any_of(rays, [&](const SurfaceSamples& cast) {
+            const SurfaceSample& s = cast.pixels[i];
+            const bool background = s.kind == SurfaceKind::background;
+            return drawn[i] == (background ? Shown{} : Shown{s.instance, s.triangle});
+        });
+        if (!found) ++unlike;
+    }
+    return unlike;
+}
+
+TEST(TriangleIds, AreThoseOfRays) {
+    const Scene scene = make_generated_scene("atrium");
+    // Leaves of two levels of detail, and surfaces that lie in one plane.
+    EXPECT_LE(unlike_rays(scene, first_camera(scene), 320, 180, 2e-3), 320 * 180 / 1000);
+}
+
+TEST(TriangleIds, AreThoseOfParallelRays) {
+    const Scene scene = make_generated_scene("corridor");
+    Camera camera = first_camera(scene);
+    camera.orthographic = true;
+    camera.y_extent = 2.0;
+    camera.z_near = 0.5;
+    camera.z_far = 30.0;
+    EXPECT_LE(unlike_rays(scene, camera, 160, 90, 2e-3), 160 * 90 / 1000);
+}
+
+}  // namespace
+}  // namespace kilolux
