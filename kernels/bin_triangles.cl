@@ -19,13 +19,15 @@
 #include "kernels/device/raster_tile.h"
 #include "kernels/device/raster_triangle.h"
 
-// Tiles of a box from which on each is tested against the triangle's edges.
+// Tiles of a box from which on each is tested against the triangle's edges, and from which on all
+// items of a work-group share the tests.
 #define FEW_TILES 4u
+#define MANY_TILES 32u
 
 kernel void bin_triangles_bounds(
     View view,
-    global const InstanceRow* restrict instances,  // [instance_count], ascending first_triangle
-    uint instance_count,                           // at least 1
+    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
+    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
     global const MeshRow* restrict meshes, global const float* restrict vertices,
     global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
     uint triangle_count,
@@ -33,7 +35,7 @@ kernel void bin_triangles_bounds(
     global uint* restrict rows) {   // out, likewise
     uint first = (uint)get_global_id(0) * VW;
     if (first >= triangle_count) return;
-    SurfaceScene scene = {instances, instance_count, meshes, vertices, indices, materials, 0, 0};
+    SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
     UV numbers = lane_numbers + first;
     ViewTriangles t = view_triangles(scene, numbers, lane_mask(numbers < (UV)(triangle_count)));
     PixelBounds b = pixel_bounds(view, t.v);
@@ -127,12 +129,14 @@ static inline void walk_few(TileWalk walk, uint triangle, uint columns, uint row
     }
 }
 
-static inline void walk_many(TileWalk walk, uint triangle, uint columns, uint rows) {
+// Every `step`-th tile from number `first` on.
+static inline void walk_many(TileWalk walk, uint triangle, uint columns, uint rows, uint first,
+                             uint step) {
     uint tiles_x = raster_tiles_x(walk.view);
     uint across = interval_count(columns);
     uint total = across * interval_count(rows);
     Edges edges = edges_of(walk, triangle);
-    for (uint i = get_local_id(0); i < total; i += GROUP) {
+    for (uint i = first; i < total; i += step) {
         uint column = interval_first(columns) + i % across;
         uint row = interval_first(rows) + i / across;
         if (touches_tile(walk.view, edges, column, row)) {
@@ -159,7 +163,7 @@ static inline void walk_chunk(TileWalk walk, global const uint* columns, global 
         if (tiles < FEW_TILES) {
             walk_few(walk, i, columns[i], rows[i]);
         } else {
-            walk_many(walk, i, columns[i], rows[i]);
+            walk_many(walk, i, columns[i], rows[i], 0u, 1u);
         }
     }
 }
@@ -172,15 +176,17 @@ static inline void walk_chunk(TileWalk walk, global const uint* columns, global 
     barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item adds to it
     if (i < triangle_count) {
         uint tiles = tiles_of(columns[i], rows[i]);
-        if (tiles >= FEW_TILES) {
+        if (tiles >= MANY_TILES) {
             many[atomic_inc(many_count)] = i;
+        } else if (tiles >= FEW_TILES) {
+            walk_many(walk, i, columns[i], rows[i], 0u, 1u);
         } else if (tiles > 0u) {
             walk_few(walk, i, columns[i], rows[i]);
         }
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // all are there
     for (uint j = 0; j < *many_count; ++j) {
-        walk_many(walk, many[j], columns[many[j]], rows[many[j]]);
+        walk_many(walk, many[j], columns[many[j]], rows[many[j]], get_local_id(0), GROUP);
     }
 }
 #endif
@@ -203,14 +209,14 @@ kernel void bin_triangles_clear(uint count, global uint* restrict cursors) {
 #endif
 
 kernel void bin_triangles_count(
-    View view, global const InstanceRow* restrict instances, uint instance_count,
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    uint triangle_count,
+    View view, global const InstanceRow* restrict instances,
+    global const uint* restrict instance_blocks, global const MeshRow* restrict meshes,
+    global const float* restrict vertices, global const uint* restrict indices,
+    global const SurfaceMaterial* restrict materials, uint triangle_count,
     global const uint* restrict columns,  // [triangle_count]
     global const uint* restrict rows,     // [triangle_count]
     global uint* restrict cursors) {      // out [chunks][cursor_stride]: pairs
-    SurfaceScene scene = {instances, instance_count, meshes, vertices, indices, materials, 0, 0};
+    SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
     TileWalk walk = {scene, view, CHUNK_CURSORS(view), 0, 0, 0u, false};
 #if GROUP == 1
     uint stride = cursor_stride(raster_tiles_x(view) * raster_tiles_y(view));
@@ -229,15 +235,16 @@ kernel void bin_triangles_offset(
 }
 
 kernel void bin_triangles_fill(
-    View view, global const InstanceRow* restrict instances, uint instance_count,
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    uint triangle_count, global const uint* restrict columns, global const uint* restrict rows,
+    View view, global const InstanceRow* restrict instances,
+    global const uint* restrict instance_blocks, global const MeshRow* restrict meshes,
+    global const float* restrict vertices, global const uint* restrict indices,
+    global const SurfaceMaterial* restrict materials, uint triangle_count,
+    global const uint* restrict columns, global const uint* restrict rows,
     global uint* restrict cursors,        // in: starts [chunks][cursor_stride]; used up
     global const uint* restrict offsets,  // [tiles + 1]
     global uint* restrict lists,          // out [capacity]
     uint capacity) {
-    SurfaceScene scene = {instances, instance_count, meshes, vertices, indices, materials, 0, 0};
+    SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
     TileWalk walk = {scene, view, CHUNK_CURSORS(view), offsets, lists, capacity, true};
     WALK_CHUNK(walk);
 }

@@ -83,9 +83,9 @@ static inline bool within(uint interval, uint i) {
     return i >= (interval & 0xffffu) && i <= (interval >> 16);
 }
 
-// Where floats cannot tell, integers do.
-static inline bool decide_exactly(SurfaceScene scene, View view, uint number, float sign,
-                                  float2 ray) {
+// Where floats cannot tell, integers do. Rare: inlined, it would cost the others registers.
+__attribute__((noinline)) static bool decide_exactly(SurfaceScene scene, View view, uint number,
+                                                     float sign, float2 ray) {
     Triangle t = fetch_triangle(scene, number + 1u);
     float3 seen[3];
     for (uint i = 0; i < 3; ++i) {
@@ -94,6 +94,14 @@ static inline bool decide_exactly(SurfaceScene scene, View view, uint number, fl
     }
     return covers_exactly(seen, sign, ray);
 }
+
+#if HAS_MASKS
+__attribute__((noinline)) static bool shows_texel(SurfaceScene scene, View view, uint number,
+                                                  uint x, uint y) {
+    MaskedTriangle masked = fetch_masked_triangle(scene, view, number);
+    return passes_mask(scene, view, &masked, row_pixels(view, x, y)) != 0;
+}
+#endif
 
 static inline float along(float3 e, float x, float y) { return fma(e.x, x, fma(e.y, y, -e.z)); }
 
@@ -112,10 +120,7 @@ static inline void draw_pixel(SurfaceScene scene, View view, local const SharedT
         return;
     }
 #if HAS_MASKS
-    if (t->masked != 0) {
-        MaskedTriangle masked = fetch_masked_triangle(scene, view, t->number);
-        if (passes_mask(scene, view, &masked, row_pixels(view, p->x, p->y)) == 0) return;
-    }
+    if (t->masked != 0 && !shows_texel(scene, view, t->number, p->x, p->y)) return;
 #endif
     p->key = key;
     p->id = t->number + 1u;
@@ -123,8 +128,8 @@ static inline void draw_pixel(SurfaceScene scene, View view, local const SharedT
 
 kernel void raster_triangles(
     View view,
-    global const InstanceRow* restrict instances,  // [instance_count], ascending first_triangle
-    uint instance_count,                           // at least 1
+    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
+    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
     global const MeshRow* restrict meshes, global const float* restrict vertices,
     global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
     global const TextureRow* restrict textures, global const ulong* restrict texels,
@@ -133,13 +138,14 @@ kernel void raster_triangles(
     uint capacity,
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
     local SharedTriangle batch[GROUP];
-    SurfaceScene scene = {instances, instance_count, meshes,   vertices,
-                          indices,   materials,      textures, texels};
+    SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
+                          indices,   materials,       textures, texels};
     uint tiles_x = raster_tiles_x(view);
     uint tile = get_group_id(0);
     uint tile_x = tile % tiles_x * TILE_WIDTH;
     uint tile_y = tile / tiles_x * TILE_HEIGHT;
     RasterPixel pixels[ROUNDS];
+#pragma unroll
     for (uint i = 0; i < ROUNDS; ++i) pixels[i] = first_pixel(view, tile_x, tile_y, i);
     float2 span = ray_span(view);
     uint end = min(offsets[tile + 1], capacity);
@@ -152,10 +158,12 @@ kernel void raster_triangles(
         barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
         uint count = min(end - first, (uint)GROUP);
         for (uint t = 0; t < count; ++t) {
+#pragma unroll
             for (uint i = 0; i < ROUNDS; ++i) draw_pixel(scene, view, batch + t, pixels + i);
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // all are drawn before the next come
     }
+#pragma unroll
     for (uint i = 0; i < ROUNDS; ++i) {
         RasterPixel p = pixels[i];
         if (p.x < view.width && p.y < view.height) ids[(size_t)p.y * view.stride + p.x] = p.id;

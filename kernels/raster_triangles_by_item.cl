@@ -243,8 +243,8 @@ static inline void draw_put_off(SurfaceScene scene, View view, Tile* tile, const
 
 kernel void raster_triangles(
     View view,
-    global const InstanceRow* restrict instances,  // [instance_count], ascending first_triangle
-    uint instance_count,                           // at least 1
+    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
+    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
     global const MeshRow* restrict meshes, global const float* restrict vertices,
     global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
     global const TextureRow* restrict textures, global const ulong* restrict texels,
@@ -252,8 +252,8 @@ kernel void raster_triangles(
     global const uint* restrict lists,    // [capacity]: triangles of each tile, ascending
     uint capacity,
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
-    SurfaceScene scene = {instances, instance_count, meshes,   vertices,
-                          indices,   materials,      textures, texels};
+    SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
+                          indices,   materials,       textures, texels};
     uint tiles_x = raster_tiles_x(view);
     uint number = get_global_id(0);
     Tile tile;

@@ -11,8 +11,8 @@
 kernel void resolve_surfaces(
     global const uint* restrict ids,  // [height][stride]: triangle + 1; 0 for background
     View view, GBufferLayout layout,
-    global const InstanceRow* restrict instances,  // [instance_count], ascending first_triangle
-    uint instance_count,                           // at least 1
+    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
+    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
     global const MeshRow* restrict meshes, global const float* restrict vertices,
     global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
     global const TextureRow* restrict textures, global const ulong* restrict texels,
@@ -30,8 +30,8 @@ kernel void resolve_surfaces(
         store_surface(to, background_surface(), fv(1.0f));
         return;
     }
-    SurfaceScene scene = {instances, instance_count, meshes,   vertices,
-                          indices,   materials,      textures, texels};
+    SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
+                          indices,   materials,       textures, texels};
     Fragment fragment = interpolate_fragment(scene, view, pixels, id, drawn);
     Surface s = resolve_materials(scene, &fragment, drawn);
     s.position = view_position(view, pixels.x, pixels.y, fragment.z);

@@ -128,6 +128,13 @@ void sort_draws(std::vector<Draw>& draws, DrawOrder order) {
 
 }  // namespace
 
+uint drawn_triangles(std::span<const Draw> draws, const Scene& scene) {
+    if (draws.empty()) return 0;
+    const Draw& last = draws.back();
+    return last.row.first_triangle +
+           static_cast<uint>(scene.meshes[static_cast<std::size_t>(last.mesh)].indices.size() / 3);
+}
+
 DrawList::DrawList(const Scene& scene) : scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
         MeshBox& out = boxes_.emplace_back();

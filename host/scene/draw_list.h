@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "host/scene/camera.h"
@@ -19,6 +20,9 @@ struct Draw {
 };
 
 enum class DrawOrder { front_to_back, back_to_front, scene };
+
+/// Triangles of all draws, the last of which have the largest ids.
+uint drawn_triangles(std::span<const Draw> draws, const Scene& scene);
 
 /// Finds a scene's visible instances.
 class DrawList {

@@ -56,30 +56,30 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
         by_group ? 1
                  : std::clamp<std::size_t>(triangle_count, 1,
                                            static_cast<std::size_t>(tuning_.cull_chunks));
-    const auto instances = static_cast<uint>(scene.instances.count());
     const std::size_t some = std::max<std::size_t>(triangle_count, 1);
     const DeviceArray<uint> columns = columns_.reserve(round_up(some, lanes));
     const DeviceArray<uint> rows = rows_.reserve(round_up(some, lanes));
     const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
     const DeviceArray<uint> counts = lists_.counts(stride);
     bounds_.enqueue(items((some + lanes - 1) / lanes, tuning_.light_group), timer, view,
-                    scene.instances, instances, scene.meshes, scene.vertices, scene.indices,
-                    scene.materials, triangle_count, columns, rows);
+                    scene.instances, scene.instance_blocks, scene.meshes, scene.vertices,
+                    scene.indices, scene.materials, triangle_count, columns, rows);
     if (by_group) {
         clear_.enqueue(items(stride, tuning_.raster_group), timer, static_cast<uint>(stride),
                        cursors);
     }
     const WorkSize walk = by_group ? items(some, tuning_.raster_group) : groups(chunks, 1);
-    count_.enqueue(walk, timer, view, scene.instances, instances, scene.meshes, scene.vertices,
-                   scene.indices, scene.materials, triangle_count, columns, rows, cursors);
+    count_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
+                   scene.vertices, scene.indices, scene.materials, triangle_count, columns, rows,
+                   cursors);
     offset_.enqueue(items(stride / lanes, tuning_.light_group), timer, out.tile_count,
                     static_cast<uint>(chunks), cursors, counts);
     out.offsets = lists_.enqueue_offsets(out.tile_count, timer);
     out.lists = lists_.entries<uint>();
     out.capacity = lists_.capacity();
-    fill_.enqueue(walk, timer, view, scene.instances, instances, scene.meshes, scene.vertices,
-                  scene.indices, scene.materials, triangle_count, columns, rows, cursors,
-                  out.offsets, out.lists, out.capacity);
+    fill_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
+                  scene.vertices, scene.indices, scene.materials, triangle_count, columns, rows,
+                  cursors, out.offsets, out.lists, out.capacity);
     return out;
 }
 

@@ -30,9 +30,9 @@ DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const Tr
                                            const View& view, StageTimer& timer) {
     const DeviceArray<uint> ids = ids_.reserve(std::size_t{view.stride} * view.height);
     kernel_.enqueue(groups(lists.tile_count, tuning_.raster_group), timer, view, scene.instances,
-                    static_cast<uint>(scene.instances.count()), scene.meshes, scene.vertices,
-                    scene.indices, scene.materials, scene.textures, scene.texels, lists.offsets,
-                    lists.lists, lists.capacity, ids);
+                    scene.instance_blocks, scene.meshes, scene.vertices, scene.indices,
+                    scene.materials, scene.textures, scene.texels, lists.offsets, lists.lists,
+                    lists.capacity, ids);
     return ids;
 }
 

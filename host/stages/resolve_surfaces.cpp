@@ -52,9 +52,9 @@ GBuffer ResolveSurfaces::enqueue(const DeviceArray<uint>& ids, const SurfaceBuff
     out.view = view;
     out.bytes = planes_.reserve(gbuffer_bytes(layout, view.stride, view.height));
     kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, ids, view,
-                    layout, scene.instances, static_cast<uint>(scene.instances.count()),
-                    scene.meshes, scene.vertices, scene.indices, scene.materials, scene.textures,
-                    scene.texels, boundary_.get(), code_.get(), out.bytes);
+                    layout, scene.instances, scene.instance_blocks, scene.meshes, scene.vertices,
+                    scene.indices, scene.materials, scene.textures, scene.texels, boundary_.get(),
+                    code_.get(), out.bytes);
     return out;
 }
 

@@ -27,7 +27,8 @@ void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, con
 
 /// A scene's surfaces on the device, as kernels/shared/surface_scene.h has them.
 struct SurfaceBuffers {
-    DeviceArray<InstanceRow> instances;  // drawn ones, in the order of their ids
+    DeviceArray<InstanceRow> instances;  // drawn ones, in the order of their ids, and an end
+    DeviceArray<uint> instance_blocks;   // of every INSTANCE_BLOCK-th triangle, and of the last
     DeviceArray<MeshRow> meshes;
     DeviceArray<float> vertices;
     DeviceArray<uint> indices;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/surfaces/texture_table.h"
 #include "host/surfaces/vertex_rows.h"
@@ -107,12 +108,24 @@ std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& fea
            scene.instances.size() * sizeof(InstanceRow);
 }
 
+std::vector<uint> instance_blocks(std::span<const InstanceRow> rows, uint triangles) {
+    std::vector<uint> blocks;
+    uint instance = 0;
+    for (std::uint64_t first = 0; first < triangles; first += INSTANCE_BLOCK) {
+        while (instance + 1 < rows.size() && rows[instance + 1].first_triangle <= first) ++instance;
+        blocks.push_back(instance);
+    }
+    blocks.push_back(rows.empty() ? 0 : static_cast<uint>(rows.size() - 1));
+    return blocks;
+}
+
 SurfaceScene::SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                            const SurfaceFeatures& features)
     : gpu_(gpu),
       scene_(scene),
       features_(features),
       instances_(gpu, kOwner),
+      blocks_(gpu, kOwner),
       meshes_(gpu, kOwner),
       vertices_(gpu, kOwner),
       indices_(gpu, kOwner),
@@ -178,10 +191,12 @@ SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
     std::vector<InstanceRow> rows;
     rows.reserve(draws.size());
     for (const Draw& draw : draws) rows.push_back(draw.row);
-    const DeviceArray<InstanceRow> instances = instances_.reserve(rows.size());
-    upload<InstanceRow>(gpu_, instances, rows);
-    return {instances,        meshes_.get(),   vertices_.get(), indices_.get(),
-            materials_.get(), textures_.get(), texels_.get()};
+    const std::vector<uint> blocks = instance_blocks(rows, drawn_triangles(draws, scene_));
+    rows.emplace_back().first_triangle = std::numeric_limits<uint>::max();
+    upload<InstanceRow>(gpu_, instances_.reserve(rows.size()), rows);
+    upload<uint>(gpu_, blocks_.reserve(blocks.size()), blocks);
+    return {instances_.get(), blocks_.get(),    meshes_.get(),   vertices_.get(),
+            indices_.get(),   materials_.get(), textures_.get(), texels_.get()};
 }
 
 }  // namespace kilolux

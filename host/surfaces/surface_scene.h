@@ -18,6 +18,9 @@ SurfaceFeatures surface_features(const Scene& scene, const GBufferNeeds& needs, 
 /// Bytes that a SurfaceScene takes on the device.
 std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& features);
 
+/// SurfaceBuffers::instance_blocks of drawn instances with so many triangles in all.
+std::vector<uint> instance_blocks(std::span<const InstanceRow> rows, uint triangles);
+
 /// A scene's surfaces on the OpenCL device: vertices, triangles, materials, and textures with their
 /// mip levels. Only what the features read is there; surfaces that blend are not.
 class SurfaceScene {
@@ -27,8 +30,8 @@ class SurfaceScene {
     SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                  const SurfaceFeatures& features);
 
-    /// The scene with these instances, numbered as their rows say; vertices are uploaded anew where
-    /// a mesh's revision says that they changed. Valid until the next call.
+    /// The scene with these instances, numbered as their rows say and ascending; vertices are
+    /// uploaded anew where a mesh's revision says that they changed. Valid until the next call.
     SurfaceBuffers at(std::span<const Draw> draws);
 
     const SurfaceFeatures& features() const { return features_; }
@@ -44,6 +47,7 @@ class SurfaceScene {
     std::vector<MeshRow> rows_;             // by mesh
     std::vector<std::uint32_t> revisions_;  // of the vertices on the device, by mesh
     GrowingArray<InstanceRow> instances_;
+    GrowingArray<uint> blocks_;
     GrowingArray<MeshRow> meshes_;
     GrowingArray<float> vertices_;
     GrowingArray<uint> indices_;

@@ -25,13 +25,7 @@ std::vector<Draw> TriangleIds::visible(const Camera& camera, int width, int heig
 
 DeviceArray<uint> TriangleIds::enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
                                        const View& view, StageTimer& timer) {
-    const uint triangles =
-        draws.empty()
-            ? 0
-            : draws.back().row.first_triangle +
-                  static_cast<uint>(
-                      scene_.meshes[static_cast<std::size_t>(draws.back().mesh)].indices.size() /
-                      3);
+    const uint triangles = drawn_triangles(draws, scene_);
     TriangleLists lists;
     do {
         lists = bin_.enqueue(scene, triangles, view, timer);

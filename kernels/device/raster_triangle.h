@@ -62,11 +62,9 @@ static inline ViewTriangles view_triangles(SurfaceScene scene, UV numbers, MASK 
     out.masked = (MASK)(0);
     for (MASK left = wanted; lane_any(left);) {
         uint first = first_of(numbers, left);
-        uint number = instance_of(scene, first);
-        global const InstanceRow* o = scene.instances + number;
-        uint end = number + 1u < scene.instance_count ? o[1].first_triangle : 0xffffffffu;
-        MASK mask =
-            left & lane_mask(numbers >= (UV)(o->first_triangle)) & lane_mask(numbers < (UV)(end));
+        global const InstanceRow* o = scene.instances + instance_of(scene, first);
+        MASK mask = left & lane_mask(numbers >= (UV)(o->first_triangle)) &
+                    lane_mask(numbers < (UV)(o[1].first_triangle));
         MeshRow mesh = scene.meshes[o->mesh];
         UV in_mesh = select((UV)(first), numbers, mask) - o->first_triangle;
         for (uint i = 0; i < 3; ++i) {

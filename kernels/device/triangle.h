@@ -22,8 +22,8 @@
 
 // The scene's buffers.
 typedef struct SurfaceScene {
-    global const InstanceRow* instances;  // ascending first_triangle
-    uint instance_count;
+    global const InstanceRow* instances;  // ascending first_triangle, and an end
+    global const uint* instance_blocks;   // the instance of every INSTANCE_BLOCK-th triangle
     global const MeshRow* meshes;
     global const float* vertices;
     global const uint* indices;
@@ -67,8 +67,9 @@ typedef struct Triangle {
 } Triangle;
 
 static inline uint instance_of(SurfaceScene scene, uint triangle) {
-    uint first = 0;
-    uint end = scene.instance_count;
+    global const uint* block = scene.instance_blocks + triangle / INSTANCE_BLOCK;
+    uint first = block[0];
+    uint end = block[1] + 1u;
     while (end - first > 1u) {
         uint middle = (first + end) / 2u;
         if (scene.instances[middle].first_triangle <= triangle) {

@@ -43,6 +43,10 @@ SHARED_STRUCT(InstanceRow) {
 };
 SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 
+// A table says which instance every INSTANCE_BLOCK-th triangle is of, and the last one, so that a
+// triangle's is searched among few.
+#define INSTANCE_BLOCK 64
+
 // Bits of SurfaceMaterial::flags, beside those of uses.
 #define MATERIAL_DOUBLE_SIDED (1u << 8)
 #define MATERIAL_UNLIT (1u << 9)

@@ -69,7 +69,10 @@ class QuadScene {
         put(vertices_, vertices, buffers.vertices);
         put(indices_, std::vector<uint>{0, 1, 2, 0, 2, 3}, buffers.indices);
         put(meshes_, std::vector{mesh}, buffers.meshes);
-        put(instances_, std::vector{instance}, buffers.instances);
+        InstanceRow end{};
+        end.first_triangle = 2;
+        put(instances_, std::vector{instance, end}, buffers.instances);
+        put(blocks_, std::vector<uint>{0, 0}, buffers.instance_blocks);
         put(materials_, std::vector{material()}, buffers.materials);
         put(textures_, std::vector{texture}, buffers.textures);
         buffers.texels = texels;
@@ -100,6 +103,7 @@ class QuadScene {
     GrowingArray<uint> indices_{gpu_, "test"};
     GrowingArray<MeshRow> meshes_{gpu_, "test"};
     GrowingArray<InstanceRow> instances_{gpu_, "test"};
+    GrowingArray<uint> blocks_{gpu_, "test"};
     GrowingArray<SurfaceMaterial> materials_{gpu_, "test"};
     GrowingArray<TextureRow> textures_{gpu_, "test"};
     GrowingArray<std::uint64_t> texels_{gpu_, "test"};
