@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/gl_context.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -145,9 +146,18 @@ std::string gl_string(GLenum name) {
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
+// The loader of OpenGL's functions ends the program where there is no EGL.
+void require_egl() {
+    if (has_egl()) return;
+    throw Error(
+        "EGL: libEGL.so.1 cannot be loaded, and so nothing drawn by OpenGL; Debian's "
+        "libegl1 provides it (--geometry compute needs none)");
+}
+
 }  // namespace
 
 GlContext GlContext::headless(std::string_view platform) {
+    require_egl();
     const char* variable = std::getenv("KILOLUX_EGL");
     const std::string wanted(platform.empty() && variable != nullptr ? variable : platform);
     std::string tried;
@@ -208,6 +218,11 @@ void GlContext::make_current() const {
     if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
         throw Error("EGL: " + platform_ + ": eglMakeCurrent: " + egl_error());
     }
+}
+
+bool has_egl() {
+    static const bool is_there = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL) != nullptr;
+    return is_there;
 }
 
 bool is_software_renderer() {

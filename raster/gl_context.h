@@ -41,6 +41,9 @@ class GlContext {
     std::unique_ptr<GlMessages> messages_;
 };
 
+/// Whether EGL's library is there at all.
+bool has_egl();
+
 /// Whether the current context draws on the CPU (llvmpipe, softpipe, swrast).
 bool is_software_renderer();
 

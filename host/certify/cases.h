@@ -31,6 +31,8 @@ TryCase try_denormals;
 TryCase try_srgb_rounding;
 // cases_octahedral.cpp
 TryCase try_octahedral_wrap;
+// cases_triangles.cpp
+TryCase try_triangle_edges;
 // cases_metamorphic.cpp
 TryCase try_other_grids, try_idle_lights, try_scaled_intensities, try_scaled_world, try_mirror,
     try_split_light, try_permuted_lights, try_lane_widths;

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "host/certify/cases.h"
+#include "host/certify/opengl_beside.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
 #include "raster/compute_probe.h"
-#include "raster/gl_context.h"
 
 namespace kilolux {
 namespace {
@@ -98,6 +98,19 @@ std::vector<float4> decoded_by_device(Gpu gpu, std::vector<uint> codes) {
     return normals;
 }
 
+// As GLSL's packUnorm2x16.
+std::vector<uint> encoded_by_host(const std::vector<float4>& directions) {
+    std::vector<uint> codes;
+    const auto code = [](float c) {
+        return static_cast<uint>(std::lround(65535.0f * (0.5f * c + 0.5f)));
+    };
+    for (const float4& d : directions) {
+        const FV3 e = octahedral_encode(fv3(d.x, d.y, d.z));
+        codes.push_back(code(e.x) | code(e.y) << 16);
+    }
+    return codes;
+}
+
 double angle_rad(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
@@ -106,11 +119,14 @@ double angle_rad(const glm::dvec3& a, const glm::dvec3& b) {
 
 void try_octahedral_wrap(const Gpu& gpu, Findings& findings) {
     const std::vector<float4> directions = hard_directions();
-    const GlContext context = GlContext::headless();
+    const std::optional<GlContext> context = opengl_beside(findings);
     const std::vector<std::string> header = {"kernels/shared/gbuffer.h"};
-    const auto codes = run_compute<uint>(compute_program(header, kOctEncodeGlsl), directions);
-    const auto glsl = run_compute<float4>(compute_program(header, kOctDecodeGlsl), codes);
+    const std::vector<uint> codes =
+        context ? run_compute<uint>(compute_program(header, kOctEncodeGlsl), directions)
+                : encoded_by_host(directions);
     const std::vector<float4> device = decoded_by_device(gpu, codes);
+    const std::vector<float4> glsl =
+        context ? run_compute<float4>(compute_program(header, kOctDecodeGlsl), codes) : device;
     Worst degrees;
     Worst axes;
     Worst apart;

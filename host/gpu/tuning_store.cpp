@@ -21,6 +21,7 @@ constexpr TuningParameter kParameters[] = {
     {"raster_tile_width", &Tuning::raster_tile_width},
     {"raster_tile_height", &Tuning::raster_tile_height},
     {"raster_lanes", &Tuning::raster_lanes},
+    {"geometry", &Tuning::geometry},
 };
 
 // Bounded by the local memory that every device has (CL_DEVICE_LOCAL_MEM_SIZE >= 32 KiB): 512 * 52
@@ -56,6 +57,7 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
         return false;
     if (t.shade_stage != 0 && t.shade_rows != FINE_TILE) return false;
     if (t.shade_prefetch != 0 && t.shade_prefetch != 1) return false;
+    if (t.geometry != 0 && t.geometry != 1) return false;
     constexpr int kMostTile = 128;
     for (const int edge : {t.raster_tile_width, t.raster_tile_height}) {
         if (!is_power_of_two(edge) || edge < FINE_TILE || edge > kMostTile) return false;

@@ -71,6 +71,8 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.coarse_pairs += band.coarse_pairs;
     whole.active_clusters += band.active_clusters;
     whole.refine_tests += band.refine_tests;
+    whole.triangles += band.triangles;
+    whole.triangle_pairs += band.triangle_pairs;
     whole.refined_pairs += band.refined_pairs;
     whole.drawn_pixels += band.drawn_pixels;
     whole.evaluations += band.evaluations;

@@ -111,6 +111,10 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
         need.device_fixed +=
             surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
     }
+    // The tiles of each triangle; their lists are like those of lights.
+    if (settings.geometry == Geometry::compute) {
+        need.device_fixed += 2 * sizeof(std::uint32_t) * triangle_count(scene);
+    }
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
     constexpr Bytes kForwardTarget = 20;

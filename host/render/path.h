@@ -29,10 +29,13 @@ struct PathContext {
     bool resolves() const {
         return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     }
+    bool chooses_compute() const {
+        if (settings.geometry != Geometry::automatic) return settings.geometry == Geometry::compute;
+        return tuning.geometry == 1 || !has_egl();
+    }
     /// Whether OpenCL draws the triangles, too: not where OpenGL blends surfaces over them.
     bool draws_in_opencl() const {
-        return resolves() && settings.geometry == Geometry::compute &&
-               !has_blended_surfaces(scene.scene());
+        return chooses_compute() && resolves() && !has_blended_surfaces(scene.scene());
     }
     /// The scene as this way's OpenGL passes need it.
     const GpuScene& meshes() const {

@@ -21,7 +21,8 @@ constexpr bool is_forward(RendererKind renderer) {
 }
 
 /// How surfaces get into the G-buffer: OpenGL (`ids`) or OpenCL (`compute`) draws triangle ids and
-/// OpenCL makes the surfaces, or OpenGL's fragments write the planes. `automatic` is `ids`.
+/// OpenCL makes the surfaces, or OpenGL's fragments write the planes. `automatic` is `compute`
+/// where the device's tuning found it faster (Tuning::geometry) or EGL is missing, else `ids`.
 enum class Geometry { automatic, ids, compute, planes };
 
 /// Whether OpenCL makes the surfaces.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/surface_pass.h"
 
+#include "host/base/log.h"
 #include "host/render/grid_request.h"
 
 namespace kilolux {
@@ -31,6 +32,9 @@ SurfacePass::SurfacePass(const PathContext& context)
     if (context.draws_in_opencl()) {
         triangles_.emplace(gpu, context.tuning, scene, features);
     } else {
+        if (context.settings.geometry == Geometry::compute) {
+            note("geometry  OpenGL draws: some of the scene's surfaces blend");
+        }
         ids_.emplace(context.meshes());
     }
     resolve_.emplace(gpu, context.tuning, context.plan.kernels, features);
@@ -90,7 +94,10 @@ GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
     const std::vector<Draw> draws = triangles_->visible(
         crop(sample.camera, settings.height, sample.band), settings.width, sample.band.rows);
     const SurfaceBuffers scene = context_.surfaces->at(draws);
-    return resolve(triangles_->enqueue(scene, draws, view, out.timer), scene, view, out.timer);
+    const DeviceArray<uint> ids = triangles_->enqueue(scene, draws, view, out.timer);
+    out.stats.triangles = triangles_->triangles();
+    out.stats.triangle_pairs = triangles_->pairs();
+    return resolve(ids, scene, view, out.timer);
 }
 
 GBuffer SurfacePass::resolve(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,

@@ -25,11 +25,12 @@ std::vector<Draw> TriangleIds::visible(const Camera& camera, int width, int heig
 
 DeviceArray<uint> TriangleIds::enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
                                        const View& view, StageTimer& timer) {
-    const uint triangles = drawn_triangles(draws, scene_);
+    triangles_ = drawn_triangles(draws, scene_);
     TriangleLists lists;
     do {
-        lists = bin_.enqueue(scene, triangles, view, timer);
-    } while (!bin_.fits(bin_.pairs()));
+        lists = bin_.enqueue(scene, triangles_, view, timer);
+        pairs_ = bin_.pairs();
+    } while (!bin_.fits(pairs_));
     return raster_.enqueue(scene, lists, view, timer);
 }
 

@@ -27,11 +27,17 @@ class TriangleIds {
     DeviceArray<uint> enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
                               const View& view, StageTimer& timer);
 
+    /// Of the last enqueue(): triangles, and pairs of triangle and tile.
+    std::uint64_t triangles() const { return triangles_; }
+    std::uint64_t pairs() const { return pairs_; }
+
  private:
     const Scene& scene_;
     DrawList draw_list_;
     BinTriangles bin_;
     RasterTriangles raster_;
+    uint triangles_ = 0;
+    std::uint64_t pairs_ = 0;
 };
 
 }  // namespace kilolux

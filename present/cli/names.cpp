@@ -44,7 +44,7 @@ const Choices& choices_of(RendererKind) {
 
 const Choices& choices_of(Geometry) {
     static const Choices choices = {
-        {"auto", "ids"},
+        {"auto", "ids; compute where bench --tune found it faster, or without OpenGL"},
         {"ids", "OpenGL draws triangle ids, OpenCL makes the surfaces"},
         {"compute", "OpenCL draws them, too: no OpenGL, the same ids on every device"},
         {"planes", "OpenGL's fragments write the surfaces, filtered as its driver likes"}};

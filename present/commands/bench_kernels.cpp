@@ -114,15 +114,24 @@ void run_shading(const BenchOptions& options) {
 void run_tuning(const BenchOptions& options) {
     const Bench bench(options);
     LightingBench lighting(bench.scene, bench.settings, bench.camera, options.shared.time);
-    const TuningResult result =
-        tune(lighting, options.frames.value_or(5), [](const StoredTuning& tuning, double ms) {
-            check_interrupt();
-            detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning_json(tuning))));
-        });
+    const int runs = options.frames.value_or(5);
+    const auto on_trial = [](const StoredTuning& tuning, double ms) {
+        check_interrupt();
+        detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning_json(tuning))));
+    };
+    TuningResult result = tune(lighting, runs, on_trial);
+    note(fmt::format("kernels   {:.4g} ms, built-in {:.4g} ms", result.best_ms, result.start_ms));
+    if (!has_blended_surfaces(bench.scene)) {
+        GeometryTuning geometry = tune_geometry(lighting, result.best, runs, on_trial);
+        note(fmt::format("geometry  {}: frames of {:.4g} ms with compute, {:.4g} ms with ids",
+                         geometry.raster.best.tuning.geometry == 1 ? "compute" : "ids",
+                         geometry.raster.best_ms, geometry.ids_ms));
+        result.best = geometry.raster.best;
+        std::ranges::move(geometry.raster.trials, std::back_inserter(result.trials));
+    }
     put_table(options, "tuning", tuning_table(result), bench.context);
     store_tuning(lighting.device(), result.best);
-    note(fmt::format("kept    {}: {:.4g} ms, built-in {:.4g} ms",
-                     tuning_text(tuning_json(result.best)), result.best_ms, result.start_ms));
+    note("kept      " + tuning_text(tuning_json(result.best)));
 }
 
 }  // namespace kilolux

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <new>
 #include <sstream>
 #include <thread>
@@ -13,6 +15,7 @@
 #include "tests/support/child.h"
 #include "tests/support/messages.h"
 #include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kilolux {
 namespace {
@@ -275,6 +278,28 @@ TEST(ExitCode, AnExceptionThatLeavesAThreadIsOneLine) {
     });
     EXPECT_EQ(result.code, 1);
     EXPECT_EQ(result.err, "kilolux: out of memory\n");
+}
+
+// A file in its place hides libEGL.so.1.
+TEST(Program, RendersWithoutOpenGL) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "libEGL.so.1") << "hidden";
+    const std::string picture = (folder / "picture.png").string();
+    const auto render = [&](const std::string& geometry) {
+        return run_child({"/usr/bin/env", "LD_LIBRARY_PATH=" + folder.path().string(),
+                          program_file(), "render", "grid", "--resolution", "64,36", "--lights",
+                          "50", "--quiet", "--geometry", geometry, "-o", picture});
+    };
+    const ChildResult ids = render("ids");
+    EXPECT_EQ(ids.code, 1);
+    EXPECT_NE(ids.err.find("libEGL.so.1"), std::string::npos) << ids.err;
+    EXPECT_NE(ids.err.find("--geometry compute"), std::string::npos) << ids.err;
+    for (const char* geometry : {"compute", "auto"}) {
+        const ChildResult result = render(geometry);
+        EXPECT_EQ(result.code, 0) << result.err;
+        EXPECT_TRUE(std::filesystem::exists(picture)) << geometry;
+        std::filesystem::remove(picture);
+    }
 }
 
 }  // namespace

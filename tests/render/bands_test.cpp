@@ -96,6 +96,7 @@ TEST(Bands, ChangeNoBit) {
         SCOPED_TRACE(gbuffer_layout_name(layout));
         RenderSettings settings = small_settings(150, 131, 400);
         settings.gbuffer = layout;
+        settings.geometry = layout == GBUFFER_HALF ? Geometry::ids : Geometry::compute;
         settings.want.counts = true;
         settings.want.aovs = {"depth", "position", "normal", "light-count", "cluster"};
         expect_same_in_bands(grid_with_every_light(), settings);

@@ -42,6 +42,20 @@ std::vector<double> relative_differences(const Frame& a, const Frame& b) {
     return out;
 }
 
+// The first mesh's material becomes glass.
+Scene with_glass() {
+    Scene scene = make_generated_scene("grid");
+    int glass = -1;
+    for (const Instance& instance : scene.instances) {
+        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
+        if (material > glass) glass = material;
+    }
+    Material& material = scene.materials[static_cast<std::size_t>(glass)];
+    material.alpha_mode = AlphaMode::blend;
+    material.base_color.w = 0.5f;
+    return scene;
+}
+
 TEST(Paths, DeferredIsDeferredAllBitForBit) {
     const Scene scenes[] = {make_generated_scene("grid"), make_generated_scene("plain"),
                             grid_with_every_light()};
@@ -51,11 +65,37 @@ TEST(Paths, DeferredIsDeferredAllBitForBit) {
                          std::to_string(scene.lights.size()) + " own lights");
             RenderSettings settings = small_settings();
             settings.gbuffer = layout;
-            const Frame all = render_as(scene, settings, RendererKind::deferred_all);
-            expect_same_bits(all, render_as(scene, settings, RendererKind::deferred));
-            EXPECT_GT(lit_share(all), 0.2);
+            for (const Geometry geometry : {Geometry::ids, Geometry::compute}) {
+                settings.geometry = geometry;
+                const Frame all = render_as(scene, settings, RendererKind::deferred_all);
+                expect_same_bits(all, render_as(scene, settings, RendererKind::deferred));
+                EXPECT_GT(lit_share(all), 0.2);
+            }
         }
     }
+}
+
+// OpenCL draws what OpenGL does, but for pixels whose centre is next to an edge.
+TEST(Paths, ComputeDrawsAsIdsDo) {
+    for (const Scene& scene : {make_generated_scene("grid"), make_generated_scene("corridor")}) {
+        RenderSettings settings = small_settings(192, 108);
+        settings.geometry = Geometry::ids;
+        const Frame ids = render_as(scene, settings, RendererKind::deferred);
+        settings.geometry = Geometry::compute;
+        const Frame compute = render_as(scene, settings, RendererKind::deferred);
+        const auto differences = relative_differences(ids, compute);
+        EXPECT_EQ(quantile(differences, 0.99), 0.0) << scene.name;
+        EXPECT_GT(lit_share(compute), 0.2) << scene.name;
+    }
+}
+
+TEST(Paths, OpenGLDrawsWhereSurfacesBlend) {
+    RenderSettings settings = small_settings();
+    settings.geometry = Geometry::ids;
+    const Scene scene = with_glass();
+    const Frame ids = render_as(scene, settings, RendererKind::deferred);
+    settings.geometry = Geometry::compute;
+    expect_same_bits(ids, render_as(scene, settings, RendererKind::deferred));
 }
 
 TEST(Paths, ForwardPlusIsForwardBitForBit) {
@@ -80,20 +120,6 @@ TEST(Paths, AllFourAgreeWithTheFullGBuffer) {
         EXPECT_LT(quantile(differences, 0.5), 1e-4);
         EXPECT_LT(quantile(differences, 0.999), 1e-2);
     }
-}
-
-// The first mesh's material becomes glass.
-Scene with_glass() {
-    Scene scene = make_generated_scene("grid");
-    int glass = -1;
-    for (const Instance& instance : scene.instances) {
-        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        if (material > glass) glass = material;
-    }
-    Material& material = scene.materials[static_cast<std::size_t>(glass)];
-    material.alpha_mode = AlphaMode::blend;
-    material.base_color.w = 0.5f;
-    return scene;
 }
 
 TEST(Paths, SurfacesThatBlendAreDrawnByAll) {

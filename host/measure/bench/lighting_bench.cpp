@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "host/base/hash.h"
 #include "host/lighting/deferred_lighting.h"
 #include "host/render/grid_request.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/light_source.h"
+#include "host/render/surface_pass.h"
 #include "host/stages/tonemap.h"
 
 namespace kilolux {
@@ -20,6 +20,16 @@ bool same_planes(const GBufferNeeds& a, const GBufferNeeds& b) {
            a.emissive_scale == b.emissive_scale && a.specular == b.specular && a.unlit == b.unlit;
 }
 
+// Whether one drawing's G-buffer serves both.
+bool draws_alike(const LightingRequest& a, const LightingRequest& b) {
+    const Tuning& s = a.tuning.tuning;
+    const Tuning& t = b.tuning.tuning;
+    return same_planes(a.plan.gbuffer, b.plan.gbuffer) && a.drawn_by == b.drawn_by &&
+           s.raster_group == t.raster_group && s.raster_lanes == t.raster_lanes &&
+           s.raster_tile_width == t.raster_tile_width &&
+           s.raster_tile_height == t.raster_tile_height && s.geometry == t.geometry;
+}
+
 // The least time of each stage so far.
 void keep_least(std::vector<StageTime>& least, const std::string& stage, double ms) {
     const auto found = std::ranges::find(least, stage, &StageTime::name);
@@ -28,6 +38,12 @@ void keep_least(std::vector<StageTime>& least, const std::string& stage, double 
     } else {
         found->ms = std::min(found->ms, ms);
     }
+}
+
+RenderSettings drawn_settings(RenderSettings settings, Geometry geometry) {
+    settings.geometry = geometry;
+    settings.no_reuse = true;
+    return settings;
 }
 
 }  // namespace
@@ -43,6 +59,24 @@ struct LightingBench::Stages {
     Tonemap tonemap;
 };
 
+// What makes the G-buffer, and all that it refers to.
+struct LightingBench::Drawing {
+    Drawing(const RenderScene& scene, const LightingRequest& the_request,
+            const RenderSettings& asked, const Gpu& the_gpu)
+        : request(the_request),
+          settings(drawn_settings(asked, request.drawn_by)),
+          gpu(the_gpu),
+          context{settings, request.plan, gpu, request.tuning.tuning, scene, surfaces},
+          pass(context) {}
+
+    LightingRequest request;
+    RenderSettings settings;
+    Gpu gpu;
+    std::shared_ptr<SurfaceScene> surfaces;
+    PathContext context;
+    SurfacePass pass;
+};
+
 LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
                              const Camera& camera, double time)
     : scene_(scene),
@@ -51,9 +85,7 @@ LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
       box_(bounds(scene)),
       gpu_(open_device(settings)),
       device_(describe(gpu_.device)),
-      context_(GlContext::headless()),
-      gpu_scene_(scene),
-      bridge_(gpu_),
+      render_scene_(scene, true),
       light_source_(gpu_, choose_tuning(device_, settings.kernels).tuning, scene, settings_) {
     in_stage("lighting bench", [&] {
         StageTimer untimed;
@@ -62,33 +94,33 @@ LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
     });
 }
 
+LightingBench::~LightingBench() { render_scene_.make_current_or_lost(); }
+
 LightingRequest LightingBench::request() const {
     const std::uint64_t lights = settings_.lights.count + scene_.lights.size();
-    return {make_scene_plan(scene_, settings_, lights), choose_tuning(device_, settings_.kernels)};
+    return {.plan = make_scene_plan(scene_, settings_, lights),
+            .tuning = choose_tuning(device_, settings_.kernels),
+            .drawn_by = settings_.geometry};
 }
 
-void LightingBench::set_layout(const GBufferNeeds& needs) {
-    if (geometry_ && same_planes(geometry_->needs(), needs)) return;
-    geometry_.emplace(gpu_scene_, needs);
-    draw(nullptr);
+void LightingBench::set_drawing(const LightingRequest& request) {
+    if (drawing_ && draws_alike(drawing_->request, request)) return;
+    drawing_.reset();  // before the next is there: both might not fit
+    drawing_ = std::make_unique<Drawing>(render_scene_, request, settings_, gpu_);
+    FrameStats untold;
+    draw(untold);
+    timer_.take();
 }
 
-void LightingBench::draw(std::vector<StageTime>* least) {
-    using Clock = std::chrono::steady_clock;
-    gpu_.queue.finish();
-    const Clock::time_point start = Clock::now();
-    geometry_->draw(camera_, settings_.width, settings_.height);
-    const std::chrono::duration<double, std::milli> drawing = Clock::now() - start;
-    gbuffer_ = bridge_.transfer(geometry_->targets(), geometry_->needs(),
-                                view_of(camera_, settings_.width, settings_.height));
-    if (!least) return;
-    // The transfer waits for OpenGL, whatever part of the drawing it did not do at once.
-    keep_least(*least, "geometry", drawing.count());
-    keep_least(*least, "gbuffer_bridge", bridge_.last_ms());
+void LightingBench::draw(FrameStats& stats) {
+    const LightRows no_rows;
+    gbuffer_ = drawing_->pass.draw({camera_, no_rows, lights_, {0, settings_.height}, true},
+                                   {timer_, stats});
+    gbuffer_.version = 0;  // so that every run bins its pixels
 }
 
 Radiance LightingBench::light(Stages& stages) {
-    const double pad = position_pad(geometry_->needs().layout, box_, camera_);
+    const double pad = position_pad(gbuffer_.layout.layout, box_, camera_);
     const ClusterGrid grid =
         make_cluster_grid(grid_request(settings_.grid, camera_, box_, static_cast<float>(pad)),
                           gbuffer_.view.width, gbuffer_.view.height);
@@ -99,8 +131,8 @@ Radiance LightingBench::light(Stages& stages) {
 
 LightingRun LightingBench::run(const LightingRequest& request) {
     return in_stage("lighting bench", [&] {
-        context_.make_current();
-        set_layout(request.plan.gbuffer);
+        render_scene_.make_current();
+        set_drawing(request);
         Stages stages(gpu_.with_lanes(request.tuning.lanes), request, settings_);
         LightingRun out;
         out.stats = light_stats_;
@@ -112,10 +144,13 @@ LightingRun LightingBench::run(const LightingRequest& request) {
         std::ranges::copy(std::array{grid.tiles_x, grid.tiles_y, grid.slices}, out.stats.grid);
         out.stats.useful_evaluations_per_pixel = -1.0;
         for (int i = 0; i < std::max(request.runs, 1); ++i) {
-            if (request.geometry) draw(&out.stats.stages);
+            FrameStats run;
+            if (request.geometry) draw(run);
             radiance = light(stages);
             for (const StageTimer::Time& stage : timer_.take())
-                keep_least(out.stats.stages, stage.stage, stage.ms);
+                add_stage_time(run.stages, stage.stage, stage.ms);
+            for (const StageTime& stage : run.stages)
+                keep_least(out.stats.stages, stage.name, stage.ms);
         }
         for (const StageTime& stage : out.stats.stages) out.ms += stage.ms;
         const std::size_t words = std::size_t{3} * gbuffer_.view.stride * gbuffer_.view.height;

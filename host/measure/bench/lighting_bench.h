@@ -2,20 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "host/gpu/stage_timer.h"
 #include "host/gpu/tuning_store.h"
-#include "host/interop/gbuffer_bridge.h"
 #include "host/picture/frame.h"
 #include "host/render/light_source.h"
+#include "host/render/render_scene.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
-#include "raster/geometry_pass.h"
-#include "raster/gl_context.h"
-#include "raster/gpu_scene.h"
 
 namespace kilolux {
 
@@ -32,18 +29,20 @@ struct LightingRequest {
     ScenePlan plan;
     StoredTuning tuning;
     int runs = 5;           // after one that warms up
-    bool geometry = false;  // also the stages geometry and gbuffer_bridge, drawn anew in each run
+    bool geometry = false;  // also what makes the G-buffer, anew in each run
+    Geometry drawn_by = Geometry::automatic;
 };
 
 /// Times the renderer's kernels with other features, lane widths and tunings than it would choose,
 /// on one frame: scene, camera and lights are set up once, and the G-buffer is drawn once for each
-/// layout.
+/// layout and way of drawing.
 class LightingBench {
  public:
-    /// The scene must outlive this. Makes its own headless OpenGL context. Throws Error as Renderer
-    /// does.
+    /// The scene must outlive this. Makes its own headless OpenGL context where it needs one.
+    /// Throws Error as Renderer does.
     LightingBench(const Scene& scene, const RenderSettings& settings, const Camera& camera,
                   double time = 0.0);
+    ~LightingBench();
 
     /// Builds the stages, runs them and throws them away. The queue is idle before and after.
     LightingRun run(const LightingRequest& request);
@@ -58,9 +57,10 @@ class LightingBench {
 
  private:
     struct Stages;
+    struct Drawing;
 
-    void set_layout(const GBufferNeeds& needs);
-    void draw(std::vector<StageTime>* least);
+    void set_drawing(const LightingRequest& request);
+    void draw(FrameStats& stats);
     Radiance light(Stages& stages);
 
     const Scene& scene_;
@@ -69,10 +69,8 @@ class LightingBench {
     Box box_;
     Gpu gpu_;
     DeviceInfo device_;
-    GlContext context_;
-    GpuScene gpu_scene_;
-    std::optional<GeometryPass> geometry_;
-    GBufferBridge bridge_;
+    RenderScene render_scene_;
+    std::unique_ptr<Drawing> drawing_;  // of the last request's kind
     GBuffer gbuffer_;
     LightSource light_source_;
     LightInput lights_;

@@ -2,9 +2,11 @@
 #include "host/measure/bench/tune.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
+#include "host/base/log.h"
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
@@ -60,6 +62,19 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
             {"light_group", &Tuning::light_group, {32, 64, 128, 256}}};
 }
 
+// Of triangles drawn in OpenCL.
+std::vector<Dimension> raster_dimensions_of(const DeviceInfo& device) {
+    std::vector<Dimension> out = {
+        {"raster_tile_width", &Tuning::raster_tile_width, {16, 32, 64}},
+        {"raster_tile_height", &Tuning::raster_tile_height, {16, 32, 64}}};
+    if (device.is_cpu) {
+        out.push_back({"raster_lanes", &Tuning::raster_lanes, {4, 8, 16}});
+    } else {
+        out.push_back({"raster_group", &Tuning::raster_group, {64, 128, 256}});
+    }
+    return out;
+}
+
 // A search under way.
 struct Search {
     const DeviceInfo& device;
@@ -106,6 +121,37 @@ struct Search {
     }
 };
 
+TuningResult descend(const StoredTuning& start, const DeviceInfo& device,
+                     const std::vector<Dimension>& dimensions, const MeasureTuning& measure) {
+    const TuningMeasurement first = measure(start);
+    Search search{device, measure, {start, start, first.ms, first.ms, {}}, first.picture};
+    for (int round = 0; round < kRounds; ++round) {
+        const StoredTuning before = search.result.best;
+        for (const Dimension& dimension : dimensions) {
+            for (const int value : dimension.values) {
+                if (value != value_of(search.result.best, dimension))
+                    search.try_value(dimension, value);
+            }
+        }
+        if (search.result.best == before) break;
+    }
+    return std::move(search.result);
+}
+
+// Where OpenGL cannot draw, its time is infinite.
+double ids_ms(LightingBench& bench, LightingRequest request) {
+    request.drawn_by = Geometry::ids;
+    try {
+        return bench.run(request).ms;
+    } catch (const Interrupted&) {
+        throw;
+    } catch (const Error& error) {
+        check_interrupt();
+        detail(error.what());
+        return std::numeric_limits<double>::infinity();
+    }
+}
+
 }  // namespace
 
 bool TuningResult::same_pictures() const {
@@ -115,19 +161,7 @@ bool TuningResult::same_pictures() const {
 
 TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
                   const MeasureTuning& measure) {
-    const TuningMeasurement first = measure(start);
-    Search search{device, measure, {start, start, first.ms, first.ms, {}}, first.picture};
-    for (int round = 0; round < kRounds; ++round) {
-        const StoredTuning before = search.result.best;
-        for (const Dimension& dimension : dimensions_of(device)) {
-            for (const int value : dimension.values) {
-                if (value != value_of(search.result.best, dimension))
-                    search.try_value(dimension, value);
-            }
-        }
-        if (search.result.best == before) break;
-    }
-    return std::move(search.result);
+    return descend(start, device, dimensions_of(device), measure);
 }
 
 TuningResult tune(LightingBench& bench, int runs,
@@ -140,6 +174,26 @@ TuningResult tune(LightingBench& bench, int runs,
         if (on_trial) on_trial(tuning, run.ms);
         return TuningMeasurement{run.ms, run.picture};
     });
+}
+
+GeometryTuning tune_geometry(LightingBench& bench, const StoredTuning& start, int runs,
+                             const std::function<void(const StoredTuning&, double ms)>& on_trial) {
+    LightingRequest request = bench.request();
+    request.runs = runs;
+    request.geometry = true;
+    request.drawn_by = Geometry::compute;
+    const DeviceInfo& device = bench.device();
+    GeometryTuning out;
+    out.raster = descend(start, device, raster_dimensions_of(device), [&](const StoredTuning& t) {
+        request.tuning = t;
+        const LightingRun run = bench.run(request);
+        if (on_trial) on_trial(t, run.ms);
+        return TuningMeasurement{run.ms, run.picture};
+    });
+    request.tuning = out.raster.best;
+    out.ids_ms = ids_ms(bench, request);
+    out.raster.best.tuning.geometry = out.raster.best_ms < (1.0 - kTuningGain) * out.ids_ms ? 1 : 0;
+    return out;
 }
 
 }  // namespace kilolux

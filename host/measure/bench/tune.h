@@ -56,4 +56,16 @@ TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
 TuningResult tune(LightingBench& bench, int runs,
                   const std::function<void(const StoredTuning&, double ms)>& on_trial = {});
 
+/// How triangles are drawn best in OpenCL, and what OpenGL takes instead.
+struct GeometryTuning {
+    TuningResult raster;  // of frames whose triangles OpenCL draws; best.tuning.geometry says which
+                          // of both is faster
+    double ids_ms = 0.0;  // the frame with OpenGL's ids; infinite where there is no OpenGL
+};
+
+/// Times whole frames, surfaces included, of a scene without surfaces that blend.
+GeometryTuning tune_geometry(
+    LightingBench& bench, const StoredTuning& start, int runs,
+    const std::function<void(const StoredTuning&, double ms)>& on_trial = {});
+
 }  // namespace kilolux

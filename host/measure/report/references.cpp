@@ -30,7 +30,7 @@ RenderSettings decoded_settings(RenderSettings settings) {
 }
 
 std::string kernels_key(const RenderSettings& s) {
-    return fmt::format("{} {} {} {}", s.gbuffer, resolves_ids(s.geometry),
+    return fmt::format("{} {} {} {}", s.gbuffer, static_cast<int>(s.geometry),
                        static_cast<int>(s.shading), ranges_key(s));
 }
 

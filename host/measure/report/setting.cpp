@@ -51,9 +51,14 @@ void add_gbuffers(Variants& v) {
 }
 
 void add_geometry(Variants& v) {
-    const bool ids = resolves_ids(v.base.geometry);
-    v.add_option(SettingAxis::geometry, ids ? "planes" : "ids",
-                 [&](RenderSettings& s) { s.geometry = ids ? Geometry::planes : Geometry::ids; });
+    constexpr std::pair<Geometry, const char*> kWays[] = {
+        {Geometry::ids, "ids"}, {Geometry::compute, "compute"}, {Geometry::planes, "planes"}};
+    const Geometry base = v.base.geometry == Geometry::automatic ? Geometry::ids : v.base.geometry;
+    for (const auto& [geometry, name] : kWays) {
+        if (geometry == base) continue;
+        v.add_option(SettingAxis::geometry, name,
+                     [way = geometry](RenderSettings& s) { s.geometry = way; });
+    }
 }
 
 void add_lanes(Variants& v, const DeviceInfo& device) {

@@ -39,6 +39,38 @@ StageWork move_work(const StageCounts& c) {
             .launches = 1};
 }
 
+// A triangle is three indices and about half a vertex: neighbours share theirs. The prefix sum over
+// tiles is left out.
+StageWork bin_triangles_work(const StageCounts& c) {
+    constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * 3 * sizeof(float);
+    constexpr double kIntervals = 2 * sizeof(uint);
+    StageWork work;
+    work.bytes_read = (kTriangle + 2.0 * kIntervals) * c.triangles;
+    work.bytes_written = kIntervals * c.triangles + sizeof(uint) * c.triangle_pairs;
+    // Three vertices: differences 6, rows 12, reciprocal 9, pixel 4. Their extremes 12, to whole
+    // pixels 12, to tiles 6, outside of the view 28, the determinant 17 and its bound 20. A pair is
+    // counted (1) and placed (3).
+    work.instructions =
+        c.triangles * InstructionCounts{188.0} + c.triangle_pairs * InstructionCounts{4.0};
+    work.launches = 4 + kPrefixSumLaunches;
+    return work;
+}
+
+// Every pixel is covered once at least; what lies behind, and alpha's samples, are left out.
+StageWork raster_triangles_work(const StageCounts& c) {
+    constexpr double kTriangle = 3 * sizeof(uint) + 3 * 3 * sizeof(float);
+    StageWork work;
+    work.bytes_read = (sizeof(uint) + kTriangle) * c.triangle_pairs;
+    work.bytes_written = sizeof(uint) * c.pixels;
+    // A pair's vertices and determinant as above 130, three edges of 35 with a division each, the
+    // plane 15, pixels 24. A pixel: edges 3, their least 2, two comparisons, key 3, nearer 1, taken
+    // 2, stored 2.
+    work.instructions = c.triangle_pairs * InstructionCounts{274.0, 0.0, 0.0, 3.0} +
+                        c.drawn_pixels * InstructionCounts{15.0};
+    work.launches = 1;
+    return work;
+}
+
 // Textures are left out: which a pixel reads, and at how many levels, differs by material.
 StageWork resolve_work(const StageCounts& c) {
     StageWork work;
@@ -193,12 +225,20 @@ struct Model {
 };
 
 constexpr Model kModels[] = {
-    {"gbuffer_bridge", bridge_work}, {"resolve_surfaces", resolve_work},
-    {"move_lights", move_work},      {"prepare_lights", prepare_work},
-    {"build_clusters", build_work},  {"cull_lights", cull_work},
-    {"bin_pixels", bin_work},        {"refine_lights", refine_work},
-    {"shade", shade_work},           {"bloom", bloom_work},
-    {"tonemap", tonemap_work},       {"forward", forward_work},
+    {"gbuffer_bridge", bridge_work},
+    {"resolve_surfaces", resolve_work},
+    {"bin_triangles", bin_triangles_work},
+    {"raster_triangles", raster_triangles_work},
+    {"move_lights", move_work},
+    {"prepare_lights", prepare_work},
+    {"build_clusters", build_work},
+    {"cull_lights", cull_work},
+    {"bin_pixels", bin_work},
+    {"refine_lights", refine_work},
+    {"shade", shade_work},
+    {"bloom", bloom_work},
+    {"tonemap", tonemap_work},
+    {"forward", forward_work},
     {"forward_plus", forward_work},
 };
 
@@ -274,6 +314,8 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     c.coarse_pairs = number(stats.coarse_pairs);
     c.active_clusters = number(stats.active_clusters);
     c.refine_tests = number(stats.refine_tests);
+    c.triangles = number(stats.triangles);
+    c.triangle_pairs = number(stats.triangle_pairs);
     c.refined_pairs = number(stats.refined_pairs);
     const bool all_lights = setup.renderer == RendererKind::deferred_all;
     c.evaluations = c.drawn_pixels * (all_lights ? c.lights : stats.evaluations_per_pixel);

@@ -31,6 +31,8 @@ struct StageCounts {
     double active_clusters = 0.0;
     double refine_tests = 0.0;  // entries of the active clusters' coarse lists
     double refined_pairs = 0.0;
+    double triangles = 0.0;  // that OpenCL draws
+    double triangle_pairs = 0.0;
     double evaluations = 0.0;       // of lights at pixels: k * drawn_pixels
     double full_evaluations = 0.0;  // of those that do not leave early; not counted: 0
     double gbuffer_bytes_per_pixel = 12.0;

@@ -7,10 +7,11 @@
 
 #include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <random>
 
 #include "host/base/hash.h"
+#include "host/certify/scene_case.h"
+#include "host/certify/triangle_coverage.h"
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/scene/generated/scenes.h"
 #include "host/surfaces/surface_scene.h"
@@ -42,19 +43,6 @@ class Drawing {
         return of(ids_.visible(camera, width, height), camera, width, height);
     }
 
-    // How many triangles cover each pixel, whatever hides them: for meshes of one triangle each.
-    std::vector<int> coverage(const Camera& camera, int width, int height) {
-        std::vector<int> counts(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-        for (Draw draw : ids_.visible(camera, width, height)) {
-            draw.row.first_triangle = 0;
-            const std::vector<Shown> shown = of({draw}, camera, width, height);
-            for (std::size_t i = 0; i < shown.size(); ++i) {
-                if (shown[i] != Shown{}) ++counts[i];
-            }
-        }
-        return counts;
-    }
-
  private:
     std::vector<Shown> of(const std::vector<Draw>& draws, const Camera& camera, int width,
                           int height) {
@@ -83,35 +71,6 @@ class Drawing {
     TriangleIds ids_;
 };
 
-// Each triangle as a mesh of its own, all of one transform.
-Scene scene_of_triangles(const std::vector<glm::vec3>& vertices,
-                         const std::vector<std::array<int, 3>>& triangles,
-                         const glm::dmat4& world_from_object = glm::dmat4(1.0)) {
-    Scene scene;
-    scene.name = "triangles";
-    scene.materials.emplace_back().double_sided = true;
-    for (const std::array<int, 3>& triangle : triangles) {
-        Mesh& mesh = scene.meshes.emplace_back();
-        for (const int vertex : triangle) {
-            mesh.positions.push_back(vertices[static_cast<std::size_t>(vertex)]);
-            mesh.indices.push_back(static_cast<std::uint32_t>(mesh.indices.size()));
-        }
-        mesh.material = 0;
-        scene.instances.push_back({static_cast<int>(scene.meshes.size()) - 1, world_from_object});
-    }
-    return scene;
-}
-
-// Parallel rays through the whole numbers and halves: pixel (x, y) at (x + 0.5, height - y - 0.5).
-Camera pixel_camera(int width, int height) {
-    const glm::dvec3 centre(width / 2.0, height / 2.0, 0.0);
-    Camera camera = look_at(centre + glm::dvec3(0, 0, 10), centre, {0, 1, 0}, 1.0);
-    camera.orthographic = true;
-    camera.y_extent = height / 2.0;
-    camera.z_far = 20.0;
-    return camera;
-}
-
 void expect_each_once(const std::vector<int>& counts, int width) {
     int wrong = 0;
     std::size_t first = counts.size();
@@ -122,23 +81,6 @@ void expect_each_once(const std::vector<int>& counts, int width) {
     }
     EXPECT_EQ(wrong, 0) << "first at " << first % static_cast<std::size_t>(width) << ", "
                         << first / static_cast<std::size_t>(width);
-}
-
-// A fan whose centre is a pixel's, and many of whose spokes run through others'.
-TEST(TriangleIds, FansCoverEachPixelOnce) {
-    constexpr int kSize = 32;
-    for (const int spokes : {3, 4, 8, 24}) {
-        std::vector<glm::vec3> vertices = {{16.5f, 16.5f, 0.0f}};
-        std::vector<std::array<int, 3>> triangles;
-        for (int i = 0; i < spokes; ++i) {
-            const double angle = glm::two_pi<double>() * i / spokes;
-            vertices.emplace_back(std::round(16.0 + 100.0 * std::cos(angle)) + 0.5,
-                                  std::round(16.0 + 100.0 * std::sin(angle)) + 0.5, 0.0);
-            triangles.push_back({0, 1 + i, 1 + (i + 1) % spokes});
-        }
-        const Scene scene = scene_of_triangles(vertices, triangles);
-        expect_each_once(Drawing(scene).coverage(pixel_camera(kSize, kSize), kSize, kSize), kSize);
-    }
 }
 
 // A grid of quads cut in two, with some of its vertices on pixels' centres and the rest anywhere.
@@ -172,8 +114,9 @@ TEST(TriangleIds, GridsWithVerticesOnPixelsCoverEachPixelOnce) {
             vertices.push_back(v);
         }
     }
-    const Scene scene = scene_of_triangles(vertices, grid_triangles(kCells));
-    expect_each_once(Drawing(scene).coverage(pixel_camera(kSize, kSize), kSize, kSize), kSize);
+    const Scene scene = scene_of_triangles({vertices, grid_triangles(kCells)});
+    expect_each_once(triangle_coverage(test_gpu(), scene, quad_camera(kSize, kSize), kSize, kSize),
+                     kSize);
 }
 
 // Triangles 2000 times as long as wide, seen in perspective from near by, and 2^20 m away from the
@@ -192,45 +135,10 @@ TEST(TriangleIds, SliversFarOutCoverEachPixelOnce) {
     const glm::dvec3 far(1048576.0, -1048576.0, 3.0);
     glm::dmat4 world_from_object(1.0);
     world_from_object[3] = glm::dvec4(far, 1.0);
-    const Scene scene = scene_of_triangles(vertices, grid_triangles(kCells), world_from_object);
+    const Scene scene = scene_of_triangles({vertices, grid_triangles(kCells)}, world_from_object);
     Camera camera = look_at(far, far + glm::dvec3(0.001, 0.002, -1), {0.1, 1, 0}, 1.2);
     camera.z_near = 1e-3;
-    expect_each_once(Drawing(scene).coverage(camera, kSize, kSize), kSize);
-}
-
-// The eye within a closed body: half of the triangles are behind it, many cross its plane.
-TEST(TriangleIds, ABodyAboutTheEyeCoversEachPixelOnce) {
-    constexpr int kSize = 32, kAround = 12, kUp = 6;
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> radius(0.7f, 1.5f);
-    std::vector<glm::vec3> vertices = {{0, -1, 0}, {0, 1, 0}};
-    for (int j = 1; j < kUp; ++j) {
-        for (int i = 0; i < kAround; ++i) {
-            const float up = glm::pi<float>() * (static_cast<float>(j) / kUp - 0.5f);
-            const float around = glm::two_pi<float>() * static_cast<float>(i) / kAround;
-            vertices.push_back(radius(random) * glm::vec3(std::cos(up) * std::cos(around),
-                                                          std::sin(up),
-                                                          std::cos(up) * std::sin(around)));
-        }
-    }
-    const auto ring = [](int j, int i) { return 2 + (j - 1) * kAround + i % kAround; };
-    std::vector<std::array<int, 3>> triangles;
-    for (int i = 0; i < kAround; ++i) {
-        triangles.push_back({0, ring(1, i + 1), ring(1, i)});
-        triangles.push_back({1, ring(kUp - 1, i), ring(kUp - 1, i + 1)});
-        for (int j = 1; j + 1 < kUp; ++j) {
-            triangles.push_back({ring(j, i), ring(j, i + 1), ring(j + 1, i + 1)});
-            triangles.push_back({ring(j, i), ring(j + 1, i + 1), ring(j + 1, i)});
-        }
-    }
-    const Scene scene = scene_of_triangles(vertices, triangles);
-    Drawing drawing(scene);
-    for (const glm::dvec3 ahead :
-         {glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(0.3, 0.9, 0.1)}) {
-        Camera camera = look_at({0.01, 0.02, 0.03}, ahead, {0.2, 0.3, 1}, 2.0);
-        camera.z_near = 1e-3;
-        expect_each_once(drawing.coverage(camera, kSize, kSize), kSize);
-    }
+    expect_each_once(triangle_coverage(test_gpu(), scene, camera, kSize, kSize), kSize);
 }
 
 // Every lane width, tile and work-group, and bands of rows.
