@@ -226,7 +226,7 @@ LineWidth parse_line_width(const std::string& option, std::string_view text) {
     if (percent) number.remove_suffix(1);
     const double value = number_of<double>(number).value_or(0.0);
     if (!contains(kAboveZeroRange, value)) {
-        refuse(option, text, "metres above 0, or a share of the scene's size such as 0.1%");
+        refuse(option, text, "metres above 0, or a share of the scene's size such as 0.2%");
     }
     return {percent ? value / 100.0 : value, !percent};
 }

@@ -31,7 +31,7 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
               "Refuse a file that has anything that the picture would lack; else a warning says "
               "so")
         .rest()
-        .value({"--line-width", "METRES|PERCENT%", "0.1%",
+        .value({"--line-width", "METRES|PERCENT%", "0.2%",
                 "Width of points and lines: a share of the scene's diagonal, or metres"},
                o.load.line_width, parse_line_width)
         .flag("--allow-outside-paths", o.load.allow_outside_paths,

@@ -13,7 +13,7 @@ namespace kilolux {
 
 /// How wide points and lines are drawn.
 struct LineWidth {
-    double value = 0.001;  // of the scene's diagonal
+    double value = 0.002;  // of the scene's diagonal
     bool metres = false;   // `value` is in metres instead
     bool operator==(const LineWidth&) const = default;
 };
