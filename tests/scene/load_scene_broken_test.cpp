@@ -249,7 +249,8 @@ TEST(LoadSceneBroken, ReadsAGlbWhoseJsonIsNotPadded) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(world_positions(load_scene(file)).at(1), glm::dvec3(1, 0, 0));
     const std::string warning = testing::internal::GetCapturedStderr();
-    EXPECT_NE(warning.find("x.glb: the GLB chunk at byte 12 has "), std::string::npos) << warning;
+    EXPECT_NE(warning.find("x.glb: the GLB's JSON chunk at byte 12 has "), std::string::npos)
+        << warning;
     EXPECT_NE(warning.find("; read by its length"), std::string::npos) << warning;
     // Padded, but the length does not count the padding.
     glb = triangle_file().glb();
@@ -271,8 +272,9 @@ TEST(LoadSceneBroken, NamesAChunkThatIsNotPaddedWhereNoneFollows) {
     append(glb, std::string(12, '\xff'));
     write_file(file, glb);
     const std::string error = load_error(file);
-    EXPECT_NE(error.find("x.glb: the GLB chunk at byte 12 has 29 bytes, which is no multiple of 4, "
-                         "and no chunk follows it: a chunk is padded to 4 bytes"),
+    EXPECT_NE(error.find(
+                  "x.glb: the GLB's JSON chunk at byte 12 has 29 bytes, which is no multiple of 4, "
+                  "and no chunk follows it: a chunk is padded to 4 bytes"),
               std::string::npos)
         << error;
 }

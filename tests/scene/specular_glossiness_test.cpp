@@ -77,6 +77,15 @@ TEST(SpecularGlossiness, GreySurfacesAreConvertedExactly) {
     EXPECT_LT(error.specular, kRounding);
 }
 
+// Values of the extension's conversion, computed outside of this code.
+TEST(SpecularGlossiness, ColouredSurfacesAreConvertedAsTheExtensionsAppendixDoes) {
+    const MetallicRoughness made = metallic_roughness_of({{0.2, 0.4, 0.6}, {0.3, 0.2, 0.1}, 0.5});
+    EXPECT_NEAR(made.metallic, 0.4217802544308445, kRounding);
+    EXPECT_NEAR(made.base_color.x, 0.32412176324429426, kRounding);
+    EXPECT_NEAR(made.base_color.y, 0.4892866915723746, kRounding);
+    EXPECT_NEAR(made.base_color.z, 0.654451619900455, kRounding);
+}
+
 TEST(SpecularGlossiness, MetalsAndOrdinaryDielectricsOfAnyColourAreConvertedExactly) {
     ConversionError error;
     each_color(12, [&](const glm::dvec3& color) {

@@ -63,8 +63,8 @@ std::size_t next_chunk(ByteSpan bytes, std::size_t offset, ByteSpan chunk,
     const std::size_t end = offset + kChunkHeaderBytes + chunk.size();
     if (chunk.size() % 4 == 0 || end == bytes.size()) return end;
     const std::string what =
-        fmt::format("{}: the GLB chunk at byte {} has {} bytes, which is no multiple of 4", name,
-                    offset, chunk.size());
+        fmt::format("{}: the GLB's {}chunk at byte {} has {} bytes, which is no multiple of 4",
+                    name, offset == kHeaderBytes ? "JSON " : "", offset, chunk.size());
     const std::size_t padded = (end + 3) / 4 * 4;
     if (padded >= bytes.size()) return bytes.size();
     const auto begins_bin = [&](std::size_t place) {

@@ -109,7 +109,8 @@ std::vector<std::uint32_t> element_list(const std::vector<std::uint32_t>& indice
     std::array<std::uint32_t, 3> element{};
     for (std::size_t e = 0; e < count; ++e) {
         for (std::size_t c = 0; c < corners_each; ++c) {
-            element[c] = indices[corner_of(mode, e, c) % indices.size()];  // a loop's end
+            const std::size_t place = corner_of(mode, e, c);
+            element[c] = indices[place < indices.size() ? place : 0];  // a loop ends where it began
         }
         const std::span<const std::uint32_t> own(element.data(), corners_each);
         if (!names_a_vertex_twice(own)) corners.insert(corners.end(), own.begin(), own.end());
