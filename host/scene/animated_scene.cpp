@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/animated_scene.h"
 
+#include "host/base/log.h"
+#include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/material/image.h"
+#include "host/scene/gltf/material/specular_glossiness.h"
 #include "host/scene/gltf/nodes.h"
 #include "host/scene/gltf/parallel.h"
 #include "host/scene/gltf/shapes.h"
@@ -14,6 +17,7 @@ struct AnimatedScene::File {
     GltfMaterials materials;
     std::vector<PrimitiveJob> jobs;
     std::vector<int> mesh_of_job;  // index into Scene::meshes; -1: has no triangles
+    double line_width_m = 0.0;     // of points and lines
     double time = 0.0;             // [s] of the scene
 };
 
@@ -44,6 +48,29 @@ std::vector<Instance> place_instances(const GltfDocument& document, const ShapeP
 
 }  // namespace
 
+// Gives points and lines their width, which is that of the whole scene when it is made.
+void AnimatedScene::make_solids_of_lines(File& file, const ShapePlan& plan,
+                                         std::vector<Mesh>& meshes, bool first) {
+    std::vector<std::size_t> lines;  // jobs
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < meshes.size(); ++j) {
+        if (file.jobs[j].corners == 3 || meshes[j].indices.empty()) continue;
+        lines.push_back(j);
+        count += meshes[j].indices.size() / static_cast<std::size_t>(file.jobs[j].corners);
+    }
+    if (lines.empty()) return;
+    if (first) {
+        file.line_width_m = line_width_m(file.document, plan, file.jobs, meshes);
+        note(fmt::format("{}: {} points and lines are drawn as solids {:.3g} m wide (--line-width)",
+                         file.document.base.file, count, file.line_width_m));
+    }
+    parallel_each(lines.size(), [&](std::size_t i) {
+        const PrimitiveJob& job = file.jobs[lines[i]];
+        const double unit = plan.shapes[job.shape].metres_per_unit;
+        make_solid_mesh(file.document, meshes[lines[i]], {job.corners, file.line_width_m / unit});
+    });
+}
+
 AnimatedScene::AnimatedScene(Scene scene) : scene_(std::move(scene)) {}
 
 AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOptions& options,
@@ -55,8 +82,13 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     if (moves) file.document.options.time = 0.0;
     file.materials = convert_materials(file.document);
     scene_.name = path.stem().string();
+    scene_.clips = list_clips(file.document);
+    scene_.variants = list_variants(file.document);
     place();
     scene_.images = decode_images(file.document, file.materials.images, progress);
+    for (Image& image : make_converted_images(file.document, file.materials)) {
+        scene_.images.push_back(std::move(image));
+    }
     scene_.textures = file.materials.textures;
     scene_.materials = file.materials.materials;
     if (!moves) {
@@ -92,6 +124,7 @@ void AnimatedScene::place() {
         if (!first && !shape.moves) return;
         meshes[j] = build_primitive(file.document, file.materials, shape, file.jobs[j].primitive);
     });
+    make_solids_of_lines(file, plan, meshes, first);
     if (first) {
         for (const Mesh& mesh : meshes) {
             const int next = static_cast<int>(scene_.meshes.size());

@@ -7,6 +7,8 @@
 
 namespace kilolux {
 
+struct ShapePlan;
+
 /// A scene that can be set to any time: what moves is evaluated again, the rest is kept.
 ///
 /// The scene at a time is what load_scene() gives for that time, bit for bit, whatever times came
@@ -27,7 +29,7 @@ class AnimatedScene {
 
     const Scene& scene() const { return scene_; }
 
-    /// Whether the file has animations of nodes.
+    /// Whether clips that move nodes play.
     bool moves() const { return file_ != nullptr; }
 
     /// Evaluates the animations at `time` [s]: transforms, lights, cameras, and the vertices of
@@ -39,6 +41,8 @@ class AnimatedScene {
 
  private:
     struct File;
+    static void make_solids_of_lines(File& file, const ShapePlan& plan, std::vector<Mesh>& meshes,
+                                     bool first);
     void place();
 
     Scene scene_;

@@ -136,6 +136,14 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
+/// An animation of the scene's file.
+struct Clip {
+    std::string name;
+    double length = 0.0;       // [s], from 0 to its last key
+    std::size_t channels = 0;  // that drive a node
+    bool plays = false;
+};
+
 /// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts
 /// them.
 struct Scene {
@@ -147,8 +155,10 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<SceneLight> lights;
     std::vector<SceneCamera> cameras;
-    Box light_box;               // where generated lights go; empty: resting_bounds(scene)
-    Box still_box;               // of an animated scene at time 0; empty: it does not move
+    std::vector<Clip> clips;            // of the file; only those that play move the scene
+    std::vector<std::string> variants;  // of the file's materials (KHR_materials_variants)
+    Box light_box;                      // where generated lights go; empty: resting_bounds(scene)
+    Box still_box;                      // of an animated scene at time 0; empty: it does not move
     std::uint32_t revision = 0;  // grows whenever instances, lights, cameras or vertices change
 };
 

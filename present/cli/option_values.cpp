@@ -211,6 +211,30 @@ std::vector<std::string> parse_name_list(const std::string& option, std::string_
     return out;
 }
 
+std::vector<std::string> parse_list(const std::string& option, std::string_view text) {
+    std::vector<std::string> out;
+    for (const std::string_view part : split(text, ',')) {
+        if (trim(part).empty()) refuse(option, text, "a list of names, separated by commas");
+        out.emplace_back(trim(part));
+    }
+    return out;
+}
+
+LineWidth parse_line_width(const std::string& option, std::string_view text) {
+    const bool percent = text.ends_with('%');
+    std::string_view number = text;
+    if (percent) number.remove_suffix(1);
+    const double value = number_of<double>(number).value_or(0.0);
+    if (!contains(kAboveZeroRange, value)) {
+        refuse(option, text, "metres above 0, or a share of the scene's size such as 0.2%");
+    }
+    return {percent ? value / 100.0 : value, !percent};
+}
+
+std::string text_of(const LineWidth& width) {
+    return width.metres ? text_of(width.value) : text_of(100.0 * width.value) + "%";
+}
+std::string text_of(const std::vector<std::string>& words) { return joined(words, ","); }
 std::string text_of(double value) { return fmt::format("{}", value); }
 std::string text_of(float value) { return fmt::format("{}", value); }
 std::string text_of(std::uint64_t value) { return fmt::format("{}", value); }

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/scene/scene.h"
+#include "host/scene/gltf/load_scene.h"
 #include "present/cli/sequence.h"
 
 namespace kilolux {
@@ -85,6 +85,12 @@ glm::dvec3 parse_vector(const std::string& option, std::string_view text);
 /// Six numbers "x0,y0,z0,x1,y1,z1", each upper one at least the lower one.
 Box parse_box(const std::string& option, std::string_view text);
 
+/// Metres, or with a "%" a share of the scene's diagonal; above 0.
+LineWidth parse_line_width(const std::string& option, std::string_view text);
+
+/// Texts separated by commas, none of them empty.
+std::vector<std::string> parse_list(const std::string& option, std::string_view text);
+
 /// Frames "A:B", A <= B.
 FrameRange parse_frames(const std::string& option, std::string_view text);
 
@@ -100,6 +106,8 @@ std::vector<std::string> parse_name_list(const std::string& option, std::string_
                                          const std::vector<std::string>& names);
 
 /// The text that an option reads back as the same value; empty for what was not given.
+std::string text_of(const LineWidth& width);
+std::string text_of(const std::vector<std::string>& words);
 std::string text_of(double value);
 std::string text_of(float value);
 std::string text_of(std::uint64_t value);

@@ -21,8 +21,20 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
                "A generated scene (" + joined(generated_scene_names()) +
                    ") or a glTF 2.0 file, .gltf or .glb"},
               o.scene)
+        .value({"--clip", "NAME-OR-INDEX[,...]", "the file's first",
+                "Animations of the file that play, as info lists them; also all or none"},
+               o.load.clips, parse_list)
+        .text({"--variant", "NAME-OR-INDEX", "the file's own",
+               "Variant of the file's materials, as info lists them"},
+              o.load.variant)
+        .flag("--strict", o.load.strict,
+              "Refuse a file that has anything that the picture would lack; else a warning says "
+              "so")
         .rest()
-        .flag("--allow-outside-paths", o.allow_outside_paths,
+        .value({"--line-width", "METRES|PERCENT%", "0.2%",
+                "Width of points and lines: a share of the scene's diagonal, or metres"},
+               o.load.line_width, parse_line_width)
+        .flag("--allow-outside-paths", o.load.allow_outside_paths,
               "Let the file name buffers and images outside its folder");
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "host/render/settings.h"
+#include "host/scene/gltf/load_scene.h"
 #include "present/cli/camera_choice.h"
 #include "present/cli/sequence.h"
 #include "present/image/display_picture.h"
@@ -17,8 +18,8 @@ namespace kilolux {
 
 /// Options of every subcommand: which picture of which scene, on which device.
 struct SharedOptions {
-    std::string scene = "atrium";      // a generated scene's name, or a .gltf or .glb file
-    bool allow_outside_paths = false;  // the file may name buffers and images outside its folder
+    std::string scene = "atrium";  // a generated scene's name, or a .gltf or .glb file
+    LoadOptions load;              // how a file is read; its time and memory are the picture's
     RenderSettings settings;
     CameraChoice camera;
     double time = 0.0;        // [s]

@@ -45,6 +45,13 @@ std::filesystem::path scene_file(const std::string& name_or_file) {
     return file;
 }
 
+// Throws for options that choose among what only files have.
+void check_generated(const SharedOptions& options) {
+    const std::string is_generated = ": " + options.scene + " is a generated scene, without ";
+    if (!options.load.clips.empty()) throw UsageError("--clip" + is_generated + "animations");
+    if (!options.load.variant.empty()) throw UsageError("--variant" + is_generated + "variants");
+}
+
 // A bar for the images of a file.
 class LoadBar {
  public:
@@ -61,22 +68,20 @@ class LoadBar {
 
 }  // namespace
 
-Scene open_scene(const std::string& name_or_file, double time, bool allow_outside_paths) {
-    if (is_generated_scene(name_or_file)) return make_generated_scene(name_or_file);
-    return load_scene(scene_file(name_or_file), {time, allow_outside_paths});
-}
-
 Scene open_scene(const SharedOptions& options) {
     return open_animated_scene(options, options.time).take();
 }
 
 AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
     if (is_generated_scene(options.scene)) {
+        check_generated(options);
         return AnimatedScene(make_generated_scene(options.scene));
     }
     LoadBar bar(!options.quiet);
-    return AnimatedScene(scene_file(options.scene),
-                         {time, options.allow_outside_paths, options.settings.max_memory_bytes},
+    LoadOptions load = options.load;
+    load.time = time;
+    load.max_memory_bytes = options.settings.max_memory_bytes;
+    return AnimatedScene(scene_file(options.scene), load,
                          [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
 }
 

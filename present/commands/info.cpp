@@ -9,6 +9,7 @@
 #include "host/measure/roofline/independent_limits.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/renderer.h"
+#include "host/scene/gltf/files.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
@@ -50,6 +51,18 @@ Json light_counts(const Scene& scene, const LightOptions& generated) {
             {"generated_intensity_cd", scale.intensity}};
 }
 
+Json clips_json(const Scene& scene) {
+    Json out = Json::array();
+    for (const Clip& clip : scene.clips) {
+        out.push_back({{"name", clip.name},
+                       {"index", out.size()},
+                       {"length_s", clip.length},
+                       {"channels", clip.channels},
+                       {"plays", clip.plays}});
+    }
+    return out;
+}
+
 Json scene_json(const Scene& scene, const LightOptions& generated) {
     return {
         {"name", scene.name},
@@ -60,6 +73,8 @@ Json scene_json(const Scene& scene, const LightOptions& generated) {
         {"textures", scene.textures.size()},
         {"images", scene.images.size()},
         {"cameras", scene.cameras.size()},
+        {"animations", clips_json(scene)},
+        {"variants", scene.variants},
         {"lights", light_counts(scene, generated)},
         {"bounds", box_json(bounds(scene))},
         {"light_box", box_json(scene.light_box.empty() ? resting_bounds(scene) : scene.light_box)}};
@@ -109,8 +124,15 @@ std::string text_of(const Json& value) {
     return number >= 1e9 ? fmt::format("{:.4g} G", 1e-9 * number) : fmt::format("{:.6g}", number);
 }
 
-// A feature's cost or a device in one line.
+std::string clip_line(const Json& clip) {
+    return fmt::format("{} '{}': {:.6g} s, {} channels{}", clip["index"].get<int>(),
+                       shown_uri(clip["name"].get<std::string>()), clip["length_s"].get<double>(),
+                       clip["channels"].get<int>(), clip["plays"].get<bool>() ? ", plays" : "");
+}
+
+// A feature's cost, a device or a clip in one line.
 std::string object_line(const Json& entry) {
+    if (entry.contains("length_s")) return clip_line(entry);
     std::string line = text_of(entry["name"]);
     if (!entry.contains("ms")) return line;
     line += fmt::format(": {:+} bytes per pixel, ", entry["bytes_per_pixel"].get<int>());

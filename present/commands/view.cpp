@@ -61,7 +61,7 @@ void run_view(const ViewOptions& options, const CLI::App& command) {
     session.state = start_state(options, command, file);
     const Window context({16, 16}, "Kilolux", false);
     Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
-    const Scene scene = open_scene(options.shared.scene, options.shared.time);
+    const Scene scene = open_scene(options.shared);
     window.show();
     ViewSession view(scene, session, file, window, context);
     view.run();

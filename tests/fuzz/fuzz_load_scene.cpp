@@ -51,8 +51,10 @@ bool fuzz_load_scene(FuzzInput input) {
 std::vector<std::string> load_scene_corpus() {
     std::vector<std::string> corpus;
     for (const GltfBuilder& seed : gltf_seeds()) {
-        const Blob glb = seed.glb();
-        corpus.emplace_back(glb.begin(), glb.end());
+        for (const bool padded : {true, false}) {
+            const Blob glb = seed.glb(padded);
+            corpus.emplace_back(glb.begin(), glb.end());
+        }
     }
     for (const GltfBuilder& seed : gltf_seeds()) {
         // Meshopt's views need a GLB's chunk.

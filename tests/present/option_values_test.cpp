@@ -110,5 +110,22 @@ TEST(OptionValues, NamesListWhatThereIsAndTheNearest) {
     EXPECT_THROW(parse_name_list("--aov", "forward deferred", kNames), UsageError);
 }
 
+TEST(OptionValues, LineWidthsAreMetresOrPercent) {
+    EXPECT_EQ(parse_line_width("--line-width", "0.25"), (LineWidth{0.25, true}));
+    EXPECT_EQ(parse_line_width("--line-width", "50%"), (LineWidth{0.5, false}));
+    EXPECT_EQ(text_of(LineWidth{}), "0.2%") << "as --help says";
+    EXPECT_EQ(text_of(LineWidth{0.25, true}), "0.25");
+    for (const char* odd : {"", "%", "0", "-1", "0%", "1m", "nan", "1e999"}) {
+        EXPECT_THROW(parse_line_width("--line-width", odd), UsageError) << odd;
+    }
+}
+
+TEST(OptionValues, ListsHaveNoEmptyNames) {
+    EXPECT_EQ(parse_list("--clip", "a, b c,2"), (std::vector<std::string>{"a", "b c", "2"}));
+    for (const char* odd : {"", "a,", ",a", "a,,b", " "}) {
+        EXPECT_THROW(parse_list("--clip", odd), UsageError) << odd;
+    }
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -81,6 +81,65 @@ TEST(SceneFile, LoadsWithinTheBoundOfMemory) {
         << refused.err;
 }
 
+// Lines, two clips, a variant, and an extension that is left out; all values are zeros.
+std::string write_choices(const TemporaryFolder& folder) {
+    const char* text = R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":1}]}],
+"accessors":[{"componentType":5126,"type":"VEC3","count":4},
+{"componentType":5126,"type":"SCALAR","count":4}],
+"animations":[{"name":"walk","samplers":[{"input":1,"output":0}],"channels":[
+{"sampler":0,"target":{"node":0,"path":"translation"}}]},{"name":"run","samplers":[
+{"input":1,"output":0}],"channels":[{"sampler":0,"target":{"node":0,"path":"scale"}}]}],
+"extensionsUsed":["KHR_materials_variants","KHR_materials_sheen"],
+"extensions":{"KHR_materials_variants":{"variants":[{"name":"night"}]}}})";
+    write_text(folder / "choices.gltf", text);
+    return (folder / "choices.gltf").string();
+}
+
+TEST(SceneFile, InfoListsClipsAndVariants) {
+    const TemporaryFolder folder;
+    const std::string file = write_choices(folder);
+    const ChildResult json = run_kilolux({"info", file, "--json", "-q", "--clip", "run"});
+    ASSERT_EQ(json.code, 0) << json.err;
+    const Json scene = Json::parse(json.out).at("scene");
+    EXPECT_EQ(scene.at("triangles"), 16) << "two lines";
+    ASSERT_EQ(scene.at("animations").size(), 2u);
+    EXPECT_EQ(scene.at("animations")[1].at("name"), "run");
+    EXPECT_EQ(scene.at("animations")[1].at("index"), 1);
+    EXPECT_EQ(scene.at("animations")[1].at("channels"), 1);
+    EXPECT_EQ(scene.at("animations")[1].at("length_s"), 0.0);
+    EXPECT_EQ(scene.at("animations")[1].at("plays"), true);
+    EXPECT_EQ(scene.at("animations")[0].at("plays"), false);
+    EXPECT_EQ(scene.at("variants"), Json({"night"}));
+    const ChildResult text = run_kilolux({"info", file, "-q"});
+    EXPECT_TRUE(contains(text.out, "    - 0 'walk': 0 s, 1 channels, plays\n")) << text.out;
+    EXPECT_TRUE(contains(text.out, "    - night\n")) << text.out;
+}
+
+TEST(SceneFile, ChoicesThatItDoesNotHaveAreOneLine) {
+    const TemporaryFolder folder;
+    const std::string file = write_choices(folder);
+    const auto export_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {
+            "export", file, "-q", "--lights", "0", "-o", (folder / "t.glb").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_kilolux(words);
+    };
+    EXPECT_EQ(export_with({"--clip", "all", "--variant", "night"}).code, 0);
+    const ChildResult clip = export_with({"--clip", "wlak"});
+    EXPECT_EQ(clip.code, 2);
+    EXPECT_TRUE(contains(clip.err, "did you mean 'walk'?")) << clip.err;
+    EXPECT_EQ(export_with({"--variant", "day"}).code, 2);
+    EXPECT_EQ(export_with({"--clip", "walk,,run"}).code, 2);
+    EXPECT_EQ(export_with({"--line-width", "0%"}).code, 2);
+    const ChildResult strict = export_with({"--strict"});
+    EXPECT_EQ(strict.code, 1);
+    EXPECT_TRUE(contains(strict.err, "--strict: left out: KHR_materials_sheen")) << strict.err;
+    const ChildResult generated = run_kilolux({"info", "grid", "--variant", "night"});
+    EXPECT_EQ(generated.code, 2);
+    EXPECT_TRUE(contains(generated.err, "--variant: grid is a generated scene")) << generated.err;
+}
+
 TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
     const TemporaryFolder folder;
     setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);

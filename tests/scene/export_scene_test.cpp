@@ -57,6 +57,32 @@ TEST(ExportScene, KeepsWhatAFileWithEveryFeatureHolds) {
     }
 }
 
+TEST(ExportScene, KeepsWhatTheLoaderMadeOfAFile) {
+    const TempFolder folder;
+    write_file(folder.path() / "scene.glb", converted_features_file().glb());
+    LoadOptions options;
+    options.variant = "b";
+    const Scene scene = load_scene(folder.path() / "scene.glb", options);
+    EXPECT_EQ(scene_defect(scene), "");
+    EXPECT_EQ(scene.instances.size(), 3u + 4u) << "instances, and points and lines";
+    // Of the quad's six indices: 6 points, 3 segments, 6 of the loop, 5 of the strip.
+    EXPECT_EQ(triangle_count(scene), 3u * 2u + 8u * (6u + 3u + 6u + 5u));
+    EXPECT_EQ(scene.meshes.at(0).material, 1);
+    EXPECT_EQ(scene_difference(scene, round_trip(scene, "x.glb")), "");
+}
+
+// glTF's factors end at 1: such a colour is written as emission, which looks the same.
+TEST(ExportScene, KeepsUnlitColoursAboveOne) {
+    Scene scene = scene_of_everything();
+    scene.materials[0] = Material{};
+    scene.materials[0].unlit = true;
+    scene.materials[0].base_color = {3.0f, 0.5f, 0.0f, 1.0f};
+    const Material back = round_trip(scene, "x.glb").materials[0];
+    EXPECT_EQ(back.emissive, glm::vec3(3.0f, 0.5f, 0.0f));
+    EXPECT_EQ(back.base_color, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    EXPECT_EQ(back.specular, 0.0f);
+}
+
 TEST(ExportScene, KeepsRealScenes) {
     const fs::path scenes = fs::path(source_root()) / ".." / "shared" / "scenes";
     if (!fs::exists(scenes)) GTEST_SKIP() << scenes << " is not there";

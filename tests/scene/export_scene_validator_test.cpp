@@ -95,6 +95,8 @@ TEST(ExportSceneValidator, FindsNoErrorAndNoWarning) {
     add(lit("atrium"), "atrium.glb");
     write_file(folder.path() / "features.glb", every_feature_file().glb());
     add(load_scene(folder.path() / "features.glb"), "features.glb");
+    write_file(folder.path() / "converted.glb", converted_features_file().glb());
+    add(load_scene(folder.path() / "converted.glb"), "converted.glb");
     add({}, "empty.glb");
     const fs::path script = fs::path(source_root()) / "tests" / "gltf_validator" / "validate.js";
     const Output out = run("node '" + script.string() + "' '" + validator.string() + "'" + files);

@@ -233,5 +233,62 @@ TEST(LoadSceneBroken, NamesGlbHeadersThatLie) {
     EXPECT_NE(error_with(16, 'X').find("first chunk of the GLB is not JSON"), std::string::npos);
 }
 
+void append(Blob& glb, const std::string& bytes) {
+    glb.insert(glb.end(), bytes.begin(), bytes.end());
+    glb[8] = static_cast<unsigned char>(glb.size() & 255u);
+    glb[9] = static_cast<unsigned char>(glb.size() >> 8);
+}
+
+// Chunk lengths of a GLB are multiples of 4; some writers' JSON is not.
+TEST(LoadSceneBroken, ReadsAGlbWhoseJsonIsNotPadded) {
+    const TempFolder folder;
+    const auto file = folder.path() / "x.glb";
+    Blob glb = triangle_file().glb(false);
+    write_file(file, glb);
+    ASSERT_EQ(glb[12] % 4, 1);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(world_positions(load_scene(file)).at(1), glm::dvec3(1, 0, 0));
+    const std::string warning = testing::internal::GetCapturedStderr();
+    EXPECT_NE(warning.find("x.glb: the GLB's JSON chunk at byte 12 has "), std::string::npos)
+        << warning;
+    EXPECT_NE(warning.find("; read by its length"), std::string::npos) << warning;
+    // Padded, but the length does not count the padding.
+    glb = triangle_file().glb();
+    std::size_t spaces = 0;
+    while (glb[19u + glb[12] + 256u * glb[13] - spaces] == ' ') ++spaces;
+    ASSERT_GT(spaces, 0u) << "the test's JSON needs padding";
+    glb[12] = static_cast<unsigned char>(glb[12] - spaces);
+    write_file(file, glb);
+    EXPECT_EQ(load_error(file), "");
+    // Without a chunk behind it.
+    write_file(file, GltfBuilder{}.glb(false));
+    EXPECT_EQ(load_error(file), "");
+}
+
+TEST(LoadSceneBroken, NamesAChunkThatIsNotPaddedWhereNoneFollows) {
+    const TempFolder folder;
+    const auto file = folder.path() / "x.glb";
+    Blob glb = GltfBuilder{}.glb(false);
+    append(glb, std::string(12, '\xff'));
+    write_file(file, glb);
+    const std::string error = load_error(file);
+    EXPECT_NE(error.find(
+                  "x.glb: the GLB's JSON chunk at byte 12 has 29 bytes, which is no multiple of 4, "
+                  "and no chunk follows it: a chunk is padded to 4 bytes"),
+              std::string::npos)
+        << error;
+}
+
+TEST(LoadSceneBroken, NamesAToolWhereItHelps) {
+    const auto error_of = [](const char* pointer, const json& value) {
+        GltfBuilder file = triangle_file();
+        file.root[json::json_pointer(pointer)] = value;
+        return load_error(file);
+    };
+    EXPECT_NE(error_of("/asset/version", "1.0").find("gltf-pipeline -i old.gltf -o new.gltf"),
+              std::string::npos);
+    EXPECT_TRUE(error_of("/asset/version", "3.0").ends_with("asset.version is '3.0', must be 2.0"));
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -204,16 +204,6 @@ TEST(LoadScene, ExpandsListsStripsAndFans) {
     }
 }
 
-TEST(LoadScene, LeavesOutPointsAndLines) {
-    for (const int mode : {0, 1, 2, 3}) {
-        GltfBuilder file = triangle_file();
-        file.primitive()["mode"] = mode;
-        const Scene scene = load(file);
-        EXPECT_TRUE(scene.meshes.empty()) << mode;
-        EXPECT_TRUE(scene.instances.empty()) << mode;
-    }
-}
-
 TEST(LoadScene, LeavesOutTrianglesThatNameAVertexTwice) {
     GltfBuilder file = triangle_file();
     file.primitive()["indices"] = file.add_indices({0, 0, 1, 0, 1, 2, 2, 1, 2});

@@ -38,8 +38,9 @@ void append_u32(Blob& out, std::size_t value) {
     }
 }
 
-void append_chunk(Blob& out, const char* type, Blob bytes, unsigned char padding) {
-    while (bytes.size() % 4 != 0) bytes.push_back(padding);
+void append_chunk(Blob& out, const char* type, Blob bytes, unsigned char padding,
+                  std::size_t excess = 0) {
+    while (bytes.size() % 4 != excess) bytes.push_back(padding);
     append_u32(out, bytes.size());
     out.insert(out.end(), type, type + 4);
     out.insert(out.end(), bytes.begin(), bytes.end());
@@ -172,14 +173,14 @@ std::string GltfBuilder::gltf() const {
     return out.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-Blob GltfBuilder::glb() const {
+Blob GltfBuilder::glb(bool padded) const {
     json json_part = root;
     if (!bin.empty() && !json_part.contains("buffers")) {
         json_part["buffers"] = {{{"byteLength", bin.size()}}};
     }
     const std::string text = json_part.dump();
     Blob chunks;
-    append_chunk(chunks, "JSON", Blob(text.begin(), text.end()), ' ');
+    append_chunk(chunks, "JSON", Blob(text.begin(), text.end()), ' ', padded ? 0 : 1);
     if (!bin.empty()) append_chunk(chunks, "BIN\0", bin, 0);
     Blob out = {'g', 'l', 'T', 'F'};
     append_u32(out, 2);

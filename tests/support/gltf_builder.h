@@ -68,8 +68,8 @@ struct GltfBuilder {
     int add_texture(const Blob& encoded_image, const std::string& mime_type);
     nlohmann::json& primitive(std::size_t mesh = 0, std::size_t primitive = 0);
 
-    std::string gltf() const;  // the buffer as a data URI
-    Blob glb() const;
+    std::string gltf() const;            // the buffer as a data URI
+    Blob glb(bool padded = true) const;  // else the JSON chunk has one space more than it may have
 };
 
 /// One triangle (0,0,0) (1,0,0) (0,1,0) with normals +Z in one node.

@@ -136,8 +136,49 @@ GltfBuilder every_feature_file() {
     return file;
 }
 
+// Quads of all modes of points and lines, lit and not.
+void add_points_and_lines(GltfBuilder& file) {
+    for (int mode = 0; mode < 4; ++mode) {
+        json primitive = file.primitive();
+        primitive["mode"] = mode;
+        if (mode % 2 == 0) primitive["attributes"].erase("NORMAL");
+        const int mesh = file.add("meshes", {{"primitives", {primitive}}});
+        file.add_node({{"mesh", mesh}, {"translation", {mode, 2, 0}}});
+    }
+}
+
+GltfBuilder converted_features_file() {
+    GltfBuilder file = quad_with_normal_map();
+    add_points_and_lines(file);
+    file.add_texture(encode_image("png", 4, 4, Blob(64, 90)), "image/png");
+    file.add_texture(encode_image("png", 2, 4, Blob(16, 200)), "image/png");
+    file.root["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {
+        {"diffuseFactor", {0.5, 1, 1, 0.75}},
+        {"diffuseTexture", {{"index", 1}}},
+        {"specularFactor", {1, 0.5, 0.25}},
+        {"glossinessFactor", 0.5},
+        {"specularGlossinessTexture", {{"index", 2}, {"extensions", transform(0.5, 0, 1)}}}};
+    file.add("materials", {{"extensions",
+                            {{"KHR_materials_pbrSpecularGlossiness", {{"glossinessFactor", 1}}},
+                             {"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
+    file.primitive()["extensions"]["KHR_materials_variants"]["mappings"] = {
+        {{"material", 1}, {"variants", {0, 1}}}};
+    file.root["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "a"}},
+                                                                     {{"name", "b"}}};
+    const int shifts = file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 2, 0, 0});
+    const int turns = file.add_accessor(Blob(24, 64), {kShort, "VEC4", 3, true, 0});
+    file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", shifts}, {"ROTATION", turns}};
+    file.root["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness",
+                                       "KHR_materials_variants", "EXT_mesh_gpu_instancing",
+                                       "KHR_materials_transmission"};
+    file.root["extensionsUsed"] = file.root["extensionsRequired"];
+    return file;
+}
+
 std::vector<GltfBuilder> gltf_seeds() {
     return {every_feature_file(),
+            converted_features_file(),
             deformed_quad(),
             triangle_file(),
             meshopt_quad("TRIANGLES"),

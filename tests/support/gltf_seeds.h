@@ -15,6 +15,10 @@ const Blob& webp_image();
 /// A .glb: its second buffer is the fallback of EXT_meshopt_compression.
 GltfBuilder every_feature_file();
 
+/// A file with everything that the loader makes something else of: specular-glossiness with both
+/// textures, points and lines, instancing, variants, an extension that it leaves out.
+GltfBuilder converted_features_file();
+
 /// Valid files that between them use what the loader knows; what mutated and fuzzed files start
 /// from.
 std::vector<GltfBuilder> gltf_seeds();

@@ -57,6 +57,16 @@ Json transform_json(const glm::mat3& m) {
     return out;
 }
 
+// An unlit colour above 1, which no baseColorFactor holds, as the emission of a black surface.
+Material within_factors(Material m) {
+    if (!m.unlit || std::max({m.base_color.x, m.base_color.y, m.base_color.z}) <= 1.0f) return m;
+    m.unlit = false;
+    m.emissive = glm::vec3(m.base_color);
+    m.base_color = {0.0f, 0.0f, 0.0f, m.base_color.w};
+    m.metallic = m.specular = 0.0f;
+    return m;
+}
+
 class MaterialWriter {
  public:
     explicit MaterialWriter(std::set<std::string>& extensions) : extensions_(extensions) {}
@@ -163,7 +173,7 @@ ExportedMaterials export_materials(const Scene& scene, std::set<std::string>& ex
     }
     MaterialWriter writer(extensions);
     for (const Material& material : scene.materials) {
-        out.materials.push_back(writer.material(material));
+        out.materials.push_back(writer.material(within_factors(material)));
     }
     return out;
 }

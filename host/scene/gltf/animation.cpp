@@ -156,12 +156,11 @@ void apply_channel(const GltfDocument& document, const tinygltf::Animation& anim
                    NodePose& pose) {
     const std::size_t components = components_of(channel.target_path);
     if (components == 0) {
-        warn(document.base.file + ": animations of '" + shown_uri(channel.target_path) +
-             "' are left out");
+        document.leave_out("animations of '" + shown_uri(channel.target_path) + "' are left out");
         return;
     }
     if (pose.has_matrix && channel.target_path != "weights") {
-        warn(document.base.file + ": animations of nodes that have a matrix are left out");
+        document.leave_out("animations of nodes that have a matrix are left out");
         return;
     }
     const auto sampler = static_cast<std::size_t>(channel.sampler);
@@ -177,16 +176,15 @@ void apply_channel(const GltfDocument& document, const tinygltf::Animation& anim
 
 void apply_animations(const GltfDocument& document, std::vector<NodePose>& poses) {
     std::set<std::pair<int, std::string>> driven;
-    const auto& animations = document.model.animations;
-    for (std::size_t a = 0; a < animations.size(); ++a) {
-        const auto& channels = animations[a].channels;
-        for (std::size_t c = 0; c < channels.size(); ++c) {
-            const tinygltf::AnimationChannel& channel = channels[c];
+    for (const std::size_t a : document.clips) {
+        const tinygltf::Animation& animation = document.model.animations[a];
+        for (std::size_t c = 0; c < animation.channels.size(); ++c) {
+            const tinygltf::AnimationChannel& channel = animation.channels[c];
             if (channel.target_node < 0) continue;
             if (!driven.emplace(channel.target_node, channel.target_path).second) continue;
             const std::string where =
                 element_name("animations", a) + "." + element_name("channels", c);
-            apply_channel(document, animations[a], channel, where,
+            apply_channel(document, animation, channel, where,
                           poses[static_cast<std::size_t>(channel.target_node)]);
         }
     }
@@ -194,16 +192,16 @@ void apply_animations(const GltfDocument& document, std::vector<NodePose>& poses
 
 bool has_animations(const GltfDocument& document) {
     const auto drives = [](const tinygltf::AnimationChannel& c) { return c.target_node >= 0; };
-    const auto& animations = document.model.animations;
-    return std::any_of(animations.begin(), animations.end(), [&](const tinygltf::Animation& a) {
-        return std::any_of(a.channels.begin(), a.channels.end(), drives);
+    return std::any_of(document.clips.begin(), document.clips.end(), [&](std::size_t a) {
+        const auto& channels = document.model.animations[a].channels;
+        return std::any_of(channels.begin(), channels.end(), drives);
     });
 }
 
 std::set<int> nodes_with_driven_weights(const GltfDocument& document) {
     std::set<int> nodes;
-    for (const tinygltf::Animation& animation : document.model.animations) {
-        for (const tinygltf::AnimationChannel& channel : animation.channels) {
+    for (const std::size_t a : document.clips) {
+        for (const auto& channel : document.model.animations[a].channels) {
             if (channel.target_path == "weights") nodes.insert(channel.target_node);
         }
     }

@@ -5,8 +5,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "host/base/log.h"
 #include "host/base/memory.h"
 #include "host/scene/gltf/check.h"
+#include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/extensions.h"
 #include "host/scene/gltf/mesh/meshopt.h"
 
@@ -146,11 +148,11 @@ void check_version(const GltfDocument& document, const json& asset) {
         const std::string version = asset.at(key).get<std::string>();
         const bool known =
             key == std::string("version") ? version.starts_with("2.") : version == "2.0";
-        if (!known) {
-            throw Error(fmt::format(
-                "{}: asset.{} is '{}', must be 2.0; convert the file with gltf-transform",
-                document.base.file, key, shown_uri(version)));
-        }
+        if (known) continue;
+        const char* hint =
+            version.starts_with("1.") ? "; gltf-pipeline -i old.gltf -o new.gltf converts it" : "";
+        throw Error(fmt::format("{}: asset.{} is '{}', must be 2.0{}", document.base.file, key,
+                                shown_uri(version), hint));
     }
 }
 
@@ -196,6 +198,11 @@ void LoadBudget::refill() {
     decode_left_ = decode_limit_;
 }
 
+void GltfDocument::leave_out(const std::string& what) const {
+    if (options.strict) throw Error(base.file + ": --strict: " + what);
+    warn(base.file + ": " + what);
+}
+
 std::string element_name(const char* array, std::size_t element) {
     return fmt::format("{}[{}]", array, element);
 }
@@ -219,6 +226,8 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     read_buffers(document, root, text);
     parse_model(document, root);
     check_extensions(document);
+    apply_variant(document);
+    document.clips = choose_clips(document);
     resolve_views(document);
     return document;
 }

@@ -57,7 +57,12 @@ struct GltfDocument {
     std::vector<Bytes> buffers;
     std::vector<std::span<const unsigned char>> views;  // one per buffer view, decompressed
     std::vector<Bytes> decompressed;                    // what views of compressed data point into
+    std::vector<std::size_t> clips;                     // animations that play, first one first
     std::unique_ptr<LoadBudget> budget;
+
+    /// Tells what of the file the picture lacks or shows otherwise: a warning, or an Error where
+    /// the options are strict.
+    void leave_out(const std::string& what) const;
 
     /// Throws Error "<file>: <where>: <what>", formatted by {fmt}.
     template <typename... Args>

@@ -7,7 +7,8 @@
 
 namespace kilolux {
 
-/// Throws Error for a required extension that the loader does not know; warns of each optional one.
+/// Throws Error for a required extension that the picture cannot do without, such as a compression
+/// that is not known. Tells in one warning which others are left out and how that shows.
 void check_extensions(const GltfDocument& document);
 
 /// The extension's object in a map of extensions, or nullptr.

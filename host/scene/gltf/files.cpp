@@ -15,6 +15,7 @@
 #include <span>
 
 #include "host/base/error.h"
+#include "host/base/log.h"
 
 namespace kilolux {
 namespace {
@@ -49,6 +50,37 @@ ByteSpan chunk_at(ByteSpan bytes, std::size_t offset, const std::string& name) {
     return bytes.subspan(offset + kChunkHeaderBytes, length);
 }
 
+bool header_fits(ByteSpan bytes, std::size_t offset) {
+    return offset + kChunkHeaderBytes <= bytes.size() &&
+           read_u32(bytes, offset) <= bytes.size() - offset - kChunkHeaderBytes;
+}
+
+// Where the chunk behind `chunk` begins. Chunks are padded to 4 bytes, and the padding counts
+// (section 4.4.3). Some writers do not pad the JSON, or do not count it: the next header is then
+// sought at both places, a BIN chunk's first.
+std::size_t next_chunk(ByteSpan bytes, std::size_t offset, ByteSpan chunk,
+                       const std::string& name) {
+    const std::size_t end = offset + kChunkHeaderBytes + chunk.size();
+    if (chunk.size() % 4 == 0 || end == bytes.size()) return end;
+    const std::string what =
+        fmt::format("{}: the GLB's {}chunk at byte {} has {} bytes, which is no multiple of 4",
+                    name, offset == kHeaderBytes ? "JSON " : "", offset, chunk.size());
+    const std::size_t padded = (end + 3) / 4 * 4;
+    if (padded >= bytes.size()) return bytes.size();
+    const auto begins_bin = [&](std::size_t place) {
+        return header_fits(bytes, place) && read_u32(bytes, place + 4) == kBinChunk;
+    };
+    for (const std::size_t place : {end, padded}) {
+        if (!begins_bin(place)) continue;
+        warn(what + (place == end ? "; read by its length" : "; read as padded"));
+        return place;
+    }
+    if (header_fits(bytes, padded)) return padded;
+    throw Error(what +
+                ", and no chunk follows it: a chunk is padded to 4 bytes (JSON by spaces), "
+                "and its length counts the padding");
+}
+
 GltfText split_glb(ByteSpan bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) {
         throw Error(
@@ -69,7 +101,7 @@ GltfText split_glb(ByteSpan bytes, const std::string& name) {
     GltfText out;
     const auto json = chunk_at(bytes, kHeaderBytes, name);
     out.json.assign(json.begin(), json.end());
-    std::size_t offset = kHeaderBytes + kChunkHeaderBytes + (json.size() + 3) / 4 * 4;
+    std::size_t offset = next_chunk(bytes, kHeaderBytes, json, name);
     // Chunks of other types may stand anywhere after the first and are skipped (section 4.4.3.1).
     while (!out.has_binary && offset + kChunkHeaderBytes <= bytes.size()) {
         const auto chunk = chunk_at(bytes, offset, name);
@@ -77,7 +109,7 @@ GltfText split_glb(ByteSpan bytes, const std::string& name) {
             out.has_binary = true;
             out.binary.assign(chunk.begin(), chunk.end());
         }
-        offset += kChunkHeaderBytes + (chunk.size() + 3) / 4 * 4;
+        offset = next_chunk(bytes, offset, chunk, name);
     }
     return out;
 }

@@ -4,10 +4,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "host/scene/scene.h"
 
 namespace kilolux {
+
+/// How wide points and lines are drawn.
+struct LineWidth {
+    double value = 0.002;  // of the scene's diagonal
+    bool metres = false;   // `value` is in metres instead
+    bool operator==(const LineWidth&) const = default;
+};
 
 struct LoadOptions {
     double time = 0.0;                 // [s] at which the file's animations are evaluated
@@ -15,6 +24,11 @@ struct LoadOptions {
     /// Bytes that buffers, decoded images and decoded meshes may take together; 0: half of what is
     /// available. The JSON and what a decoder needs meanwhile come on top.
     std::uint64_t max_memory_bytes = 0;
+    /// Animations that play, by name or index, or "all" or "none"; empty: the file's first.
+    std::vector<std::string> clips{};
+    std::string variant{};  // of KHR_materials_variants, by name or index; empty: the default
+    bool strict = false;    // throw where the picture would lack something of the file
+    LineWidth line_width{};
 };
 
 /// Told how many of a file's images are decoded, which takes most of the loading time: first with

@@ -25,15 +25,6 @@ NodePose rest_pose(const tinygltf::Node& node) {
     return pose;
 }
 
-glm::dmat4 matrix_of(const NodePose& pose) {
-    if (pose.has_matrix) return pose.matrix;
-    const double length = glm::length(pose.rotation);
-    const bool usable = length > 0.0 && std::isfinite(length);
-    const glm::dquat rotation = usable ? pose.rotation / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
-    return glm::translate(glm::dmat4(1.0), pose.translation) * glm::mat4_cast(rotation) *
-           glm::scale(glm::dmat4(1.0), pose.scale);
-}
-
 std::vector<std::size_t> find_parents(const GltfDocument& document) {
     const auto& nodes = document.model.nodes;
     std::vector<std::size_t> parents(nodes.size(), kNoNode);
@@ -88,6 +79,15 @@ void check_acyclic(const GltfDocument& document, const std::vector<std::size_t>&
 }
 
 }  // namespace
+
+glm::dmat4 matrix_of(const NodePose& pose) {
+    if (pose.has_matrix) return pose.matrix;
+    const double length = glm::length(pose.rotation);
+    const bool usable = length > 0.0 && std::isfinite(length);
+    const glm::dquat rotation = usable ? pose.rotation / length : glm::dquat(1.0, 0.0, 0.0, 0.0);
+    return glm::translate(glm::dmat4(1.0), pose.translation) * glm::mat4_cast(rotation) *
+           glm::scale(glm::dmat4(1.0), pose.scale);
+}
 
 std::string node_name(const GltfDocument& document, std::size_t node) {
     const std::string& name = document.model.nodes[node].name;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
+#include <optional>
 #include <set>
 
 #include "host/scene/gltf/document.h"
@@ -17,6 +18,14 @@ struct NodePose {
     glm::dvec3 scale{1.0};
     std::vector<double> weights;
 };
+
+/// A zero rotation turns nothing.
+glm::dmat4 matrix_of(const NodePose& pose);
+
+/// The transforms that EXT_mesh_gpu_instancing gives a node's mesh, below the node's own; none for
+/// a node without it. Throws Error for attributes of unequal counts or of another type.
+std::optional<std::vector<glm::dmat4>> node_from_instances(const GltfDocument& document,
+                                                           std::size_t node);
 
 /// The nodes of a file, placed.
 struct PlacedNodes {
@@ -36,17 +45,16 @@ std::string node_name(const GltfDocument& document, std::size_t node);
 
 bool is_finite(const glm::dmat4& matrix);
 
-/// Sets what the file's animations drive in `poses` (one per node) to its value at the options'
-/// time.
+/// Sets what the clips that play drive in `poses` (one per node) to its value at the options' time.
 ///
-/// All animations play at once and hold their first and last key outside of their range. Where two
-/// drive the same property, the first in the file wins.
+/// Clips hold their first and last key outside of their range. Where two drive the same property,
+/// the first of GltfDocument::clips counts.
 void apply_animations(const GltfDocument& document, std::vector<NodePose>& poses);
 
-/// Whether any animation of the file drives a node.
+/// Whether a clip that plays drives a node.
 bool has_animations(const GltfDocument& document);
 
-/// Nodes whose morph weights an animation drives.
+/// Nodes whose morph weights a clip that plays drives.
 std::set<int> nodes_with_driven_weights(const GltfDocument& document);
 
 /// The lights of KHR_lights_punctual at their nodes. Unusable values are kept: the renderer rejects

@@ -77,6 +77,7 @@ Rules accessor_rules() {
 }
 
 Rules node_rules() {
+    const std::string instancing = "nodes[].extensions.EXT_mesh_gpu_instancing";
     return {
         index("scene", "/scenes"),
         index("scenes[].nodes[]", "/nodes"),
@@ -91,6 +92,8 @@ Rules node_rules() {
         numbers("nodes[].weights", 0),
         index("nodes[].extensions.KHR_lights_punctual.light",
               "/extensions/KHR_lights_punctual/lights"),
+        required(object(instancing + ".attributes")),
+        index(instancing + ".attributes{}", "/accessors"),
         required(index("skins[].joints[]", "/nodes")),
         index("skins[].inverseBindMatrices", "/accessors"),
     };
@@ -128,6 +131,7 @@ Rules material_rules() {
     const std::string pbr = "materials[].pbrMetallicRoughness.";
     const std::string extensions = "materials[].extensions.";
     const std::string specular = extensions + "KHR_materials_specular.";
+    const std::string glossiness = extensions + "KHR_materials_pbrSpecularGlossiness.";
     Rules rules = {
         object("materials[]"),
         object("materials[].pbrMetallicRoughness"),
@@ -144,15 +148,30 @@ Rules material_rules() {
         number(extensions + "KHR_materials_ior.ior"),
         number(specular + "specularFactor"),
         numbers(specular + "specularColorFactor", 3),
+        numbers(glossiness + "diffuseFactor", 4),
+        numbers(glossiness + "specularFactor", 3),
+        number(glossiness + "glossinessFactor"),
     };
     for (const std::string& slot :
          {pbr + "baseColorTexture", pbr + "metallicRoughnessTexture",
           std::string("materials[].normalTexture"), std::string("materials[].occlusionTexture"),
           std::string("materials[].emissiveTexture"), specular + "specularTexture",
-          specular + "specularColorTexture"}) {
+          specular + "specularColorTexture", glossiness + "diffuseTexture",
+          glossiness + "specularGlossinessTexture"}) {
         append_texture_use(rules, slot);
     }
     return rules;
+}
+
+Rules variant_rules() {
+    const std::string root = "extensions.KHR_materials_variants.variants";
+    const std::string mapping =
+        "meshes[].primitives[].extensions.KHR_materials_variants.mappings[].";
+    return {
+        required(text(root + "[].name")),
+        required(index(mapping + "material", "/materials")),
+        index(mapping + "variants[]", "/extensions/KHR_materials_variants/variants"),
+    };
 }
 
 Rules texture_rules() {
@@ -216,7 +235,7 @@ std::vector<GltfRule> gltf_rules() {
     };
     for (const Rules& part :
          {buffer_rules(), accessor_rules(), node_rules(), mesh_rules(), material_rules(),
-          texture_rules(), camera_and_light_rules(), animation_rules()}) {
+          variant_rules(), texture_rules(), camera_and_light_rules(), animation_rules()}) {
         rules.insert(rules.end(), part.begin(), part.end());
     }
     return rules;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/shapes.h"
 
+#include <cmath>
 #include <map>
 
 #include "host/scene/gltf/mesh/skin.h"
@@ -16,6 +17,36 @@ std::vector<double> morph_weights(const tinygltf::Mesh& mesh, const std::vector<
         if (weight != 0.0) return weights;
     }
     return {};
+}
+
+// Cube root of the factor on volumes; 1 where there is none.
+double mean_scale(const glm::dmat4& world_from_object) {
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_object))));
+    return scale > 0.0 && std::isfinite(scale) ? scale : 1.0;
+}
+
+// The placements of a node: one, or those that instancing gives its mesh.
+void add_placements(const GltfDocument& document, std::size_t node, const Placement& placement,
+                    ShapePlan& plan) {
+    const std::size_t first = plan.placements.size();
+    const auto instances = node_from_instances(document, node);
+    if (instances && document.model.nodes[node].skin >= 0) {
+        document.leave_out("instancing of nodes that have a skin is left out");
+        plan.placements.push_back(placement);
+    } else if (instances) {
+        document.budget->charge(instances->size(), sizeof(Placement),
+                                document.base.file + ": nodes");
+        for (const glm::dmat4& node_from_instance : *instances) {
+            plan.placements.push_back(
+                {placement.shape, placement.world_from_object * node_from_instance});
+        }
+    } else {
+        plan.placements.push_back(placement);
+    }
+    for (std::size_t p = first; p < plan.placements.size(); ++p) {
+        if (is_finite(plan.placements[p].world_from_object)) continue;
+        document.fail(node_name(document, node), "has a world transform that is not finite");
+    }
 }
 
 }  // namespace
@@ -38,14 +69,14 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
             shape.deformation.object_from_bind = std::move(skin.object_from_bind);
             shape.moves = true;
         }
-        if (!is_finite(placement.world_from_object)) {
-            document.fail(node_name(document, n), "has a world transform that is not finite");
-        }
         if (shape.deformation.empty() && !shape.moves) {
             placement.shape = undeformed.try_emplace(node.mesh, placement.shape).first->second;
         }
-        if (placement.shape == plan.shapes.size()) plan.shapes.push_back(std::move(shape));
-        plan.placements.push_back(placement);
+        if (placement.shape == plan.shapes.size()) {
+            shape.metres_per_unit = mean_scale(placement.world_from_object);
+            plan.shapes.push_back(std::move(shape));
+        }
+        add_placements(document, n, placement, plan);
     }
     return plan;
 }
@@ -57,10 +88,33 @@ std::vector<PrimitiveJob> list_primitives(const GltfDocument& document, const Sh
         document.budget->charge(primitives.size(), sizeof(PrimitiveJob) + sizeof(Mesh),
                                 document.base.file + ": meshes");
         for (std::size_t p = 0; p < primitives.size(); ++p) {
-            if (is_drawable(document, primitives[p])) jobs.push_back({s, p});
+            if (!is_drawable(document, primitives[p])) continue;
+            jobs.push_back({s, p, corners_of(primitives[p])});
         }
     }
     return jobs;
+}
+
+double line_width_m(const GltfDocument& document, const ShapePlan& plan,
+                    const std::vector<PrimitiveJob>& jobs, const std::vector<Mesh>& meshes) {
+    const LineWidth& width = document.options.line_width;
+    if (width.metres) return width.value;
+    std::vector<Box> boxes(plan.shapes.size());
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+        for (const glm::vec3& p : meshes[j].positions) boxes[jobs[j].shape].add(glm::dvec3(p));
+    }
+    Box box;
+    for (const Placement& placement : plan.placements) {
+        const Box& own = boxes[placement.shape];
+        if (own.empty()) continue;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::bvec3 upper((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+            const glm::dvec4 p(glm::mix(own.min, own.max, upper), 1.0);
+            box.add(glm::dvec3(placement.world_from_object * p));
+        }
+    }
+    const double diagonal = box.empty() ? 0.0 : glm::length(box.size());
+    return width.value * (diagonal > 0.0 ? diagonal : 1.0);
 }
 
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,
@@ -70,8 +124,7 @@ Mesh build_primitive(const GltfDocument& document, const GltfMaterials& material
     const std::string where = document.base.file + ": " + element_name("meshes", shape.mesh) + "." +
                               element_name("primitives", primitive_index);
     const PrimitiveArrays arrays = open_primitive(document, primitive, where);
-    Mesh out =
-        build_mesh(document, arrays, shading_of(materials, primitive.material), shape.deformation);
+    Mesh out = build_mesh(document, arrays, shading_of(materials, primitive), shape.deformation);
     out.name = mesh.name;
     return out;
 }

@@ -10,7 +10,8 @@ namespace kilolux {
 struct MeshShape {
     std::size_t mesh = 0;
     Deformation deformation;
-    bool moves = false;  // a skin, or morph weights that an animation drives
+    bool moves = false;            // a skin, or morph weights that an animation drives
+    double metres_per_unit = 1.0;  // of object space, where the shape is placed first
 };
 
 /// A shape put into the world.
@@ -33,12 +34,18 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes);
 struct PrimitiveJob {
     std::size_t shape = 0;
     std::size_t primitive = 0;
+    int corners = 3;  // of a triangle; 2 of a segment, 1 of a point
 };
 
 /// The primitives that can be drawn, shape by shape.
 std::vector<PrimitiveJob> list_primitives(const GltfDocument& document, const ShapePlan& plan);
 
-/// The mesh of one primitive in its shape.
+/// Width of points and lines [m]: the options' share of the diagonal of what `meshes`, one per job
+/// and without their width, cover.
+double line_width_m(const GltfDocument& document, const ShapePlan& plan,
+                    const std::vector<PrimitiveJob>& jobs, const std::vector<Mesh>& meshes);
+
+/// The mesh of one primitive in its shape; see build_mesh() for points and lines.
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,
                      const MeshShape& shape, std::size_t primitive);
 

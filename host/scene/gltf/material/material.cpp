@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "host/base/log.h"
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/gltf/material/specular_glossiness.h"
 
 namespace kilolux {
 namespace {
@@ -28,25 +28,14 @@ AlphaMode convert_alpha_mode(const std::string& mode) {
     return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-// A texture slot of an extension, which tinygltf leaves as JSON.
-TextureUse extension_texture(TextureTable& textures, const tinygltf::Value& extension,
-                             const std::string& name) {
-    if (!extension.Has(name)) return {};
-    const tinygltf::Value& info = extension.Get(name);
-    tinygltf::ExtensionMap extensions;
-    if (info.Has("extensions")) extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
-    return textures.convert(
-        {member_or(info, "index", -1), member_or(info, "texCoord", 0), &extensions});
-}
-
 void read_specular(Material& out, const tinygltf::Value& specular, TextureTable& textures) {
     out.specular = unit(member_or(specular, "specularFactor", 1.0));
     const auto color = numbers_member(specular, "specularColorFactor");
     if (color.size() == 3) {
         out.specular_color = {positive(color[0]), positive(color[1]), positive(color[2])};
     }
-    out.specular_texture = extension_texture(textures, specular, "specularTexture");
-    out.specular_color_texture = extension_texture(textures, specular, "specularColorTexture");
+    out.specular_texture = textures.convert(specular, "specularTexture");
+    out.specular_color_texture = textures.convert(specular, "specularColorTexture");
 }
 
 void read_extensions(Material& out, const tinygltf::Material& source, TextureTable& textures) {
@@ -56,6 +45,7 @@ void read_extensions(Material& out, const tinygltf::Material& source, TextureTab
         for (glm::length_t c = 0; c < 3; ++c) out.emissive[c] = positive(out.emissive[c] * scale);
     }
     out.unlit = find_extension(source.extensions, "KHR_materials_unlit") != nullptr;
+    if (is_specular_glossiness(source)) return;
     if (const auto* ior = find_extension(source.extensions, "KHR_materials_ior")) {
         // 0 means a Fresnel term of 1 (KHR_materials_ior); other values are at least vacuum's.
         const double value = member_or(*ior, "ior", 1.5);
@@ -66,10 +56,8 @@ void read_extensions(Material& out, const tinygltf::Material& source, TextureTab
     }
 }
 
-Material convert_material(const tinygltf::Material& source, TextureTable& textures) {
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    Material out;
-    out.name = source.name;
+void read_metallic_roughness(Material& out, const tinygltf::PbrMetallicRoughness& pbr,
+                             TextureTable& textures) {
     for (glm::length_t c = 0; c < 4; ++c) {
         out.base_color[c] = unit(pbr.baseColorFactor[static_cast<std::size_t>(c)]);
     }
@@ -77,6 +65,14 @@ Material convert_material(const tinygltf::Material& source, TextureTable& textur
     out.metallic = unit(pbr.metallicFactor);
     out.roughness = unit(pbr.roughnessFactor);
     out.metallic_roughness_texture = textures.convert(use_of(pbr.metallicRoughnessTexture));
+}
+
+Material convert_material(const tinygltf::Material& source, TextureTable& textures) {
+    Material out;
+    out.name = source.name;
+    if (!is_specular_glossiness(source)) {
+        read_metallic_roughness(out, source.pbrMetallicRoughness, textures);
+    }
     out.normal_texture = textures.convert(use_of(source.normalTexture));
     out.normal_scale = finite(source.normalTexture.scale);
     out.occlusion_texture = textures.convert(use_of(source.occlusionTexture));
@@ -94,7 +90,7 @@ Material convert_material(const tinygltf::Material& source, TextureTable& textur
 
 // Renames the TEXCOORD_n that a material uses to 0 and 1 and returns their numbers. Textures of
 // further sets are left out.
-std::array<int, 2> pack_texcoord_sets(Material& material) {
+std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& material) {
     const std::array<TextureUse*, 7> uses = {
         &material.base_color_texture,    &material.metallic_roughness_texture,
         &material.normal_texture,        &material.occlusion_texture,
@@ -111,10 +107,10 @@ std::array<int, 2> pack_texcoord_sets(Material& material) {
     for (TextureUse* use : uses) {
         if (!use->present()) continue;
         if (use->uv_set != sets[0] && use->uv_set != sets[1]) {
-            warn(
+            document.leave_out(
                 fmt::format("material '{}' uses more than two sets of texture coordinates; its "
                             "textures of TEXCOORD_{} are left out",
-                            material.name, use->uv_set));
+                            shown_uri(material.name), use->uv_set));
             *use = {};
         } else {
             use->uv_set = use->uv_set == sets[0] ? 0 : 1;
@@ -130,18 +126,24 @@ GltfMaterials convert_materials(const GltfDocument& document) {
     TextureTable textures(document);
     for (const tinygltf::Material& source : document.model.materials) {
         out.materials.push_back(convert_material(source, textures));
-        out.texcoord_sets.push_back(pack_texcoord_sets(out.materials.back()));
     }
     out.textures = textures.textures();
     out.images = textures.images();
+    convert_specular_glossiness(document, out);
+    for (Material& material : out.materials) {
+        out.texcoord_sets.push_back(pack_texcoord_sets(document, material));
+    }
+    add_line_materials(document, out);
     return out;
 }
 
-MeshShading shading_of(const GltfMaterials& materials, int material) {
+MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive& primitive) {
     MeshShading shading;
-    if (material < 0) return shading;
-    const auto index = static_cast<std::size_t>(material);
-    shading.material = material;
+    const auto made = materials.of_lines.find(line_material_of(primitive));
+    const bool is_made = corners_of(primitive) < 3 && made != materials.of_lines.end();
+    shading.material = is_made ? made->second : primitive.material;
+    if (shading.material < 0) return shading;
+    const auto index = static_cast<std::size_t>(shading.material);
     shading.texcoord_sets = materials.texcoord_sets[index];
     shading.normal_texture = materials.materials[index].normal_texture;
     return shading;

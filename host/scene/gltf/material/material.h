@@ -7,19 +7,56 @@
 
 namespace kilolux {
 
+/// A point of a specular-glossiness material's surface; linear.
+struct SpecularGlossiness {
+    glm::dvec3 diffuse{1.0};
+    glm::dvec3 specular{1.0};
+    double glossiness = 1.0;
+    bool operator==(const SpecularGlossiness&) const = default;
+};
+
+/// Two textures to be made of a specular-glossiness material's: base colour, and metallic with
+/// roughness.
+struct ConvertedTextures {
+    SpecularGlossiness factors;
+    int diffuse = -1;              // image of the file, -1 for none
+    int specular_glossiness = -1;  // image of the file, -1 for none
+    bool same_layout = true;       // texture coordinates and transform are those of both
+    bool operator==(const ConvertedTextures&) const = default;
+};
+
+/// What of points and lines decides about their material.
+struct LineMaterial {
+    int material = -1;
+    bool normals = false;
+    bool tangents = false;
+    bool colors = false;
+    auto operator<=>(const LineMaterial&) const = default;
+};
+
 /// A file's materials, and what they use of its textures and images.
 struct GltfMaterials {
-    std::vector<Material> materials;                // as in the file
+    std::vector<Material> materials;                // the file's, then those of `of_lines`
     std::vector<std::array<int, 2>> texcoord_sets;  // per material: the file's sets that it uses
-    std::vector<Texture> textures;                  // images index `images`
+    std::vector<Texture> textures;                  // images index `images`, then `converted`
     std::vector<int> images;                        // indices into the file's images
+    std::vector<ConvertedTextures> converted;       // two images each, behind `images`
+    std::map<LineMaterial, int> of_lines;           // materials made for points and lines
 };
 
 /// Converts all materials. Factors are clamped to the ranges that the specification gives them.
 GltfMaterials convert_materials(const GltfDocument& document);
 
-/// What a primitive of the material (-1: none) needs of its mesh.
-MeshShading shading_of(const GltfMaterials& materials, int material);
+/// What a primitive needs of its mesh.
+MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive& primitive);
+
+/// What decides about the material of a primitive of points or lines.
+LineMaterial line_material_of(const tinygltf::Primitive& primitive);
+
+/// Adds the materials that the file's points and lines need beside its own (glTF 2.0,
+/// section 3.9.7): unlit without normals, their colour being base colour and emission together;
+/// without the normal map where there are no tangents.
+void add_line_materials(const GltfDocument& document, GltfMaterials& materials);
 
 /// A material's use of a texture as the file gives it.
 struct FileTextureUse {
@@ -36,6 +73,9 @@ class TextureTable {
     /// The use, with its TEXCOORD_n as uv_set. Not present when the file names no texture, or the
     /// texture has no image that can be read (warned of once).
     TextureUse convert(const FileTextureUse& use);
+
+    /// The use in a slot of an extension, which tinygltf leaves as JSON.
+    TextureUse convert(const tinygltf::Value& extension, const std::string& slot);
 
     const std::vector<Texture>& textures() const { return textures_; }
     const std::vector<int>& images() const { return images_; }

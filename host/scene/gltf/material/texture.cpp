@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "host/base/log.h"
 #include "host/scene/gltf/extensions.h"
 
 namespace kilolux {
@@ -57,15 +56,22 @@ glm::mat3 uv_transform(const tinygltf::Value& transform) {
 
 }  // namespace
 
+TextureUse TextureTable::convert(const tinygltf::Value& extension, const std::string& slot) {
+    if (!extension.Has(slot)) return {};
+    const tinygltf::Value& info = extension.Get(slot);
+    tinygltf::ExtensionMap extensions;
+    if (info.Has("extensions")) extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
+    return convert({member_or(info, "index", -1), member_or(info, "texCoord", 0), &extensions});
+}
+
 TextureUse TextureTable::convert(const FileTextureUse& use) {
     TextureUse out;
     if (use.texture < 0) return out;
     const auto& texture = document_.model.textures[static_cast<std::size_t>(use.texture)];
     const int image = source_image(texture);
     if (image < 0) {
-        warn(document_.base.file + ": " +
-             element_name("textures", static_cast<std::size_t>(use.texture)) +
-             " has no image of a supported kind and is left out");
+        document_.leave_out(element_name("textures", static_cast<std::size_t>(use.texture)) +
+                            " has no image of a supported kind and is left out");
         return out;
     }
     const auto [entry, is_new] =

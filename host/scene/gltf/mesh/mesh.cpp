@@ -2,10 +2,12 @@
 #include "host/scene/gltf/mesh/mesh.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "host/scene/gltf/mesh/directions.h"
 #include "host/scene/gltf/mesh/skin.h"
+#include "host/scene/gltf/mesh/solids.h"
 
 namespace kilolux {
 namespace {
@@ -73,13 +75,11 @@ struct AttributeReader {
     }
 };
 
-void check_positions(const PrimitiveArrays& arrays, const Mesh& mesh) {
+void check_positions(const std::string& where, const Mesh& mesh, const char* when) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const glm::vec3& p = mesh.positions[v];
         if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) continue;
-        throw Error(
-            fmt::format("{}: vertex {} is not finite once morph targets and skin are applied",
-                        arrays.where, v));
+        throw Error(fmt::format("{}: vertex {} is not finite once {}", where, v, when));
     }
 }
 
@@ -103,16 +103,26 @@ void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShadin
     }
 }
 
+// Normals that are missing or broken, and tangents where a normal map needs them.
+void finish_directions(Mesh& mesh, const MeshShading& shading) {
+    mesh.normals.empty() ? derive_flat_normals(mesh) : mend_normals(mesh);
+    if (!shading.normal_texture.present()) return;
+    mesh.tangents.empty() ? derive_tangents(mesh, shading.normal_texture) : mend_tangents(mesh);
+}
+
+constexpr std::size_t kMaxSolids = std::numeric_limits<std::uint32_t>::max() / 6;  // 6 vertices
+
 }  // namespace
 
 Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
                 const MeshShading& shading, const Deformation& deformation) {
     constexpr std::uint64_t kVertexBytes = 2 * (sizeof(glm::vec3) * 2 + sizeof(glm::vec4) * 2 +
                                                 sizeof(glm::vec2) * 2);  // room to split
-    const bool has_normals = arrays.attributes.contains("NORMAL");
+    const bool is_surface = arrays.corners_each == 3;
+    const bool shares_vertices = !is_surface || arrays.attributes.contains("NORMAL");
     document.budget->charge(arrays.corners.size(), 4 * sizeof(std::uint32_t), arrays.where);
-    if (has_normals) document.budget->charge(arrays.vertex_count, 4, arrays.where);
-    VertexPlan plan = has_normals ? plan_used(arrays) : plan_unshared(arrays);
+    if (shares_vertices) document.budget->charge(arrays.vertex_count, 4, arrays.where);
+    VertexPlan plan = shares_vertices ? plan_used(arrays) : plan_unshared(arrays);
     document.budget->charge(plan.elements.size(), kVertexBytes, arrays.where);
     Mesh mesh;
     mesh.material = shading.material;
@@ -121,11 +131,23 @@ Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
     if (!deformation.object_from_bind.empty()) {
         skin_mesh(mesh, arrays, plan.elements, deformation.object_from_bind);
     }
-    check_positions(arrays, mesh);
-    has_normals ? mend_normals(mesh) : derive_flat_normals(mesh);
-    if (!shading.normal_texture.present()) return mesh;
-    mesh.tangents.empty() ? derive_tangents(mesh, shading.normal_texture) : mend_tangents(mesh);
+    check_positions(arrays.where, mesh, "morph targets and skin are applied");
+    if (is_surface) finish_directions(mesh, shading);
     return mesh;
+}
+
+void make_solid_mesh(const GltfDocument& document, Mesh& mesh, const SolidSize& size) {
+    const std::size_t count = mesh.indices.size() / static_cast<std::size_t>(size.corners);
+    const std::string where = document.base.file + ": points and lines";
+    if (count > kMaxSolids) {
+        throw Error(
+            fmt::format("{}: a primitive has {}, more than {} solids", where, count, kMaxSolids));
+    }
+    document.budget->charge(count, solid_bytes(), where);
+    make_solids(mesh, size.corners, size.width);
+    check_positions(where, mesh, "they have a width");
+    mend_normals(mesh);
+    if (!mesh.tangents.empty()) mend_tangents(mesh);
 }
 
 }  // namespace kilolux

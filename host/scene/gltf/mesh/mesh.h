@@ -20,8 +20,19 @@ struct MeshShading {
 };
 
 /// Converts a primitive. Vertices that no triangle uses are left out; without normals every
-/// triangle gets its own vertices and its flat normal. Throws Error for values that are not finite.
+/// triangle gets its own vertices and its flat normal. Points and segments stay what they are:
+/// their indices name 1 or 2 vertices each, until make_solid_mesh(). Throws Error for values that
+/// are not finite.
 Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
                 const MeshShading& shading, const Deformation& deformation);
+
+/// What points (1 corner) or segments (2) become.
+struct SolidSize {
+    int corners = 1;
+    double width = 0.0;  // in object space
+};
+
+/// Makes triangles of such a mesh, see make_solids().
+void make_solid_mesh(const GltfDocument& document, Mesh& mesh, const SolidSize& size);
 
 }  // namespace kilolux

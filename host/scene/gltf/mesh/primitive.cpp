@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/mesh/primitive.h"
 
+#include <algorithm>
+#include <array>
 #include <numeric>
-
-#include "host/base/log.h"
+#include <span>
 
 namespace kilolux {
 namespace {
@@ -53,41 +54,77 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, const Prim
     return indices;
 }
 
-// The corner of a strip's or fan's triangle t in its index list (glTF 2.0, section 3.7.2.1).
-std::size_t corner_of(int mode, std::size_t t, std::size_t corner) {
-    if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return corner == 2 ? 0 : t + corner + 1;
-    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-        const std::size_t swapped = corner == 0 ? 0 : 3 - corner;
-        return t + (t % 2 == 0 ? corner : swapped);
-    }
-    return 3 * t + corner;
+int corners_of_mode(int mode) {
+    if (mode == TINYGLTF_MODE_POINTS) return 1;
+    return mode < TINYGLTF_MODE_TRIANGLES ? 2 : 3;
 }
 
-std::vector<std::uint32_t> triangle_list(const std::vector<std::uint32_t>& indices, int mode) {
-    const bool is_list = mode == TINYGLTF_MODE_TRIANGLES;
-    const std::size_t count = is_list               ? indices.size() / 3
-                              : indices.size() >= 3 ? indices.size() - 2
-                                                    : 0;
+// Elements (points, segments, triangles) of a mode with that many indices.
+std::size_t element_count(int mode, std::size_t indices) {
+    const auto beyond = [indices](std::size_t first) { return std::max(indices, first) - first; };
+    switch (mode) {
+        case TINYGLTF_MODE_POINTS:
+            return indices;
+        case TINYGLTF_MODE_LINE:
+            return indices / 2;
+        case TINYGLTF_MODE_LINE_LOOP:
+            return indices < 2 ? 0 : indices;
+        case TINYGLTF_MODE_LINE_STRIP:
+            return beyond(1);
+        case TINYGLTF_MODE_TRIANGLES:
+            return indices / 3;
+        default:
+            return beyond(2);
+    }
+}
+
+// Place of an element's corner in the index list (glTF 2.0, section 3.7.2.1).
+std::size_t corner_of(int mode, std::size_t element, std::size_t corner) {
+    switch (mode) {
+        case TINYGLTF_MODE_LINE_LOOP:
+        case TINYGLTF_MODE_LINE_STRIP:
+            return element + corner;
+        case TINYGLTF_MODE_TRIANGLE_FAN:
+            return corner == 2 ? 0 : element + corner + 1;
+        case TINYGLTF_MODE_TRIANGLE_STRIP:
+            return element + (element % 2 == 0 || corner == 0 ? corner : 3 - corner);
+        default:
+            return static_cast<std::size_t>(corners_of_mode(mode)) * element + corner;
+    }
+}
+
+bool names_a_vertex_twice(std::span<const std::uint32_t> element) {
+    for (std::size_t c = 1; c < element.size(); ++c) {
+        if (element[c] == element[c - 1] || element[c] == element[0]) return true;
+    }
+    return false;
+}
+
+// The elements one by one, without strips, loops and fans.
+std::vector<std::uint32_t> element_list(const std::vector<std::uint32_t>& indices, int mode) {
+    const auto corners_each = static_cast<std::size_t>(corners_of_mode(mode));
+    const std::size_t count = element_count(mode, indices.size());
     std::vector<std::uint32_t> corners;
-    corners.reserve(3 * count);
-    for (std::size_t t = 0; t < count; ++t) {
-        const std::uint32_t a = indices[corner_of(mode, t, 0)];
-        const std::uint32_t b = indices[corner_of(mode, t, 1)];
-        const std::uint32_t c = indices[corner_of(mode, t, 2)];
-        if (a != b && b != c && c != a) corners.insert(corners.end(), {a, b, c});
+    corners.reserve(corners_each * count);
+    std::array<std::uint32_t, 3> element{};
+    for (std::size_t e = 0; e < count; ++e) {
+        for (std::size_t c = 0; c < corners_each; ++c) {
+            const std::size_t place = corner_of(mode, e, c);
+            element[c] = indices[place < indices.size() ? place : 0];  // a loop ends where it began
+        }
+        const std::span<const std::uint32_t> own(element.data(), corners_each);
+        if (!names_a_vertex_twice(own)) corners.insert(corners.end(), own.begin(), own.end());
     }
     return corners;
 }
 
 }  // namespace
 
+int corners_of(const tinygltf::Primitive& primitive) { return corners_of_mode(primitive.mode); }
+
 bool is_drawable(const GltfDocument& document, const tinygltf::Primitive& primitive) {
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-        warn(document.base.file + ": points and lines are left out");
-        return false;
-    }
     if (!primitive.attributes.contains("POSITION")) {
-        warn(document.base.file + ": primitives without positions are left out");
+        document.leave_out("primitives without positions are left out");
         return false;
     }
     return true;
@@ -99,12 +136,17 @@ PrimitiveArrays open_primitive(const GltfDocument& document, const tinygltf::Pri
     arrays.where = where;
     arrays.attributes = open_attributes(document, primitive.attributes);
     arrays.vertex_count = arrays.attributes.at("POSITION").count;
+    arrays.corners_each = corners_of(primitive);
     if (is_draco_compressed(primitive)) {
+        if (arrays.corners_each < 3) {
+            throw Error(fmt::format("{}: mode is {}, Draco compresses triangles only", where,
+                                    primitive.mode));
+        }
         const auto indices = decode_draco_primitive(document, primitive, arrays);
-        arrays.corners = triangle_list(indices, TINYGLTF_MODE_TRIANGLES);
+        arrays.corners = element_list(indices, TINYGLTF_MODE_TRIANGLES);
     } else {
         const auto indices = read_indices(document, arrays, primitive.indices);
-        arrays.corners = triangle_list(indices, primitive.mode);
+        arrays.corners = element_list(indices, primitive.mode);
     }
     check_counts(arrays, arrays.attributes);
     for (const auto& target : primitive.targets) {
