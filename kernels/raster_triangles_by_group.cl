@@ -10,10 +10,24 @@
 #include "kernels/device/alpha_mask.h"
 #endif
 
-// Pixels of an item. Neighbouring items have neighbouring pixels, in blocks.
-#define ROUNDS ((TILE_WIDTH * TILE_HEIGHT + GROUP - 1) / GROUP)
+// 32 neighbouring items draw a region of the tile together: pixels of theirs that are next to each
+// other, round after round. Each region has its own list of the batch's triangles, since most touch
+// few of them.
+#define REGION_ITEMS 32
+#define REGIONS (GROUP / REGION_ITEMS)
+#define REGION_PIXELS (TILE_WIDTH * TILE_HEIGHT / REGIONS)
+#define ROUNDS (REGION_PIXELS / REGION_ITEMS)
+#if REGION_PIXELS >= 512 && TILE_WIDTH >= 32
+#define REGION_WIDTH 32
+#elif REGION_PIXELS >= 128
+#define REGION_WIDTH 16
+#else
+#define REGION_WIDTH 8
+#endif
+#define REGION_HEIGHT (REGION_PIXELS / REGION_WIDTH)
+#define REGIONS_ACROSS (TILE_WIDTH / REGION_WIDTH)
 #define BLOCK_WIDTH 8
-#define BLOCK_PIXELS 32
+#define BLOCK_HEIGHT (REGION_ITEMS / BLOCK_WIDTH)
 
 // A triangle as the items share it.
 typedef struct SharedTriangle {
@@ -35,13 +49,14 @@ typedef struct RasterPixel {
 } RasterPixel;
 
 static inline RasterPixel first_pixel(View view, uint tile_x, uint tile_y, uint round) {
-    uint i = round * GROUP + (uint)get_local_id(0);
-    uint block = i / BLOCK_PIXELS;
-    uint in_block = i % BLOCK_PIXELS;
-    uint blocks_x = TILE_WIDTH / BLOCK_WIDTH;
+    uint region = (uint)get_local_id(0) / REGION_ITEMS;
+    uint item = (uint)get_local_id(0) % REGION_ITEMS;
+    uint blocks_across = REGION_WIDTH / BLOCK_WIDTH;
     RasterPixel p;
-    p.tile_x = block % blocks_x * BLOCK_WIDTH + in_block % BLOCK_WIDTH;
-    p.tile_y = block / blocks_x * (BLOCK_PIXELS / BLOCK_WIDTH) + in_block / BLOCK_WIDTH;
+    p.tile_x = region % REGIONS_ACROSS * REGION_WIDTH + round % blocks_across * BLOCK_WIDTH +
+               item % BLOCK_WIDTH;
+    p.tile_y = region / REGIONS_ACROSS * REGION_HEIGHT + round / blocks_across * BLOCK_HEIGHT +
+               item / BLOCK_WIDTH;
     p.x = tile_x + p.tile_x;
     p.y = tile_y + p.tile_y;
     p.ray_x = ray_x(view, p.x);
@@ -77,6 +92,21 @@ static inline SharedTriangle shared_triangle(SurfaceScene scene, View view, floa
     out.number = number;
     out.masked = t.masked;
     return out;
+}
+
+static inline bool overlaps(uint interval, uint first, uint size) {
+    return (interval & 0xffffu) < first + size && (interval >> 16) >= first;
+}
+
+// Appends the item's triangle to the lists of the regions that its box touches.
+static inline void list_in_regions(const SharedTriangle* t, uchar item, local uint* counts,
+                                   local uchar (*lists)[GROUP]) {
+    if (t->columns == EMPTY_INTERVAL || t->rows == EMPTY_INTERVAL) return;
+    for (uint region = 0; region < REGIONS; ++region) {
+        if (!overlaps(t->columns, region % REGIONS_ACROSS * REGION_WIDTH, REGION_WIDTH)) continue;
+        if (!overlaps(t->rows, region / REGIONS_ACROSS * REGION_HEIGHT, REGION_HEIGHT)) continue;
+        lists[region][atomic_inc(counts + region)] = item;
+    }
 }
 
 static inline bool within(uint interval, uint i) {
@@ -134,10 +164,12 @@ kernel void raster_triangles(
     global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
     global const TextureRow* restrict textures, global const ulong* restrict texels,
     global const uint* restrict offsets,  // [tiles + 1]
-    global const uint* restrict lists,    // [capacity]: triangles of each tile, in any order
+    global const uint* restrict numbers,  // [capacity]: triangles of each tile, in any order
     uint capacity,
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
     local SharedTriangle batch[GROUP];
+    local uchar lists[REGIONS][GROUP];  // items, whose triangles they are
+    local uint listed[REGIONS];
     SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
                           indices,   materials,       textures, texels};
     uint tiles_x = raster_tiles_x(view);
@@ -148,18 +180,23 @@ kernel void raster_triangles(
 #pragma unroll
     for (uint i = 0; i < ROUNDS; ++i) pixels[i] = first_pixel(view, tile_x, tile_y, i);
     float2 span = ray_span(view);
+    uint item = get_local_id(0);
+    uint region = item / REGION_ITEMS;
     uint end = min(offsets[tile + 1], capacity);
     for (uint first = offsets[tile]; first < end; first += GROUP) {
-        uint mine = first + (uint)get_local_id(0);
+        uint mine = first + item;
+        if (item < REGIONS) listed[item] = 0u;
+        barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item adds to it
         if (mine < end) {
-            batch[get_local_id(0)] =
-                shared_triangle(scene, view, span, tile_x, tile_y, lists[mine]);
+            SharedTriangle t = shared_triangle(scene, view, span, tile_x, tile_y, numbers[mine]);
+            batch[item] = t;
+            list_in_regions(&t, (uchar)item, listed, lists);
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
-        uint count = min(end - first, (uint)GROUP);
-        for (uint t = 0; t < count; ++t) {
+        for (uint j = 0; j < listed[region]; ++j) {
+            local const SharedTriangle* t = batch + lists[region][j];
 #pragma unroll
-            for (uint i = 0; i < ROUNDS; ++i) draw_pixel(scene, view, batch + t, pixels + i);
+            for (uint i = 0; i < ROUNDS; ++i) draw_pixel(scene, view, t, pixels + i);
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // all are drawn before the next come
     }

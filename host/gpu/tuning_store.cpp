@@ -62,7 +62,10 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
     for (const int edge : {t.raster_tile_width, t.raster_tile_height}) {
         if (!is_power_of_two(edge) || edge < FINE_TILE || edge > kMostTile) return false;
     }
-    if (!is_group(t.raster_group)) return false;
+    constexpr int kMostRasterGroup = 256;  // its items are numbered in bytes
+    const bool by_group = t.raster_group >= 32 && t.raster_group <= kMostRasterGroup &&
+                          t.raster_group <= t.raster_tile_width * t.raster_tile_height;
+    if (!is_group(t.raster_group) || (t.raster_group > 1 && !by_group)) return false;
     if (!is_power_of_two(t.raster_lanes) || t.raster_lanes > FINE_TILE) return false;
     if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
     return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&
