@@ -12,11 +12,16 @@ namespace {
 constexpr CacheKind kKind = {"tuning", 4};  // 4: with raster_*
 
 constexpr TuningParameter kParameters[] = {
-    {"shade_rows", &Tuning::shade_rows},           {"shade_stage", &Tuning::shade_stage},
-    {"cull_group", &Tuning::cull_group},           {"cull_chunks", &Tuning::cull_chunks},
-    {"refine_group", &Tuning::refine_group},       {"prefix_group", &Tuning::prefix_group},
-    {"prefix_per_item", &Tuning::prefix_per_item}, {"tile_group", &Tuning::tile_group},
-    {"light_group", &Tuning::light_group},         {"shade_prefetch", &Tuning::shade_prefetch},
+    {"shade_rows", &Tuning::shade_rows},
+    {"shade_stage", &Tuning::shade_stage},
+    {"cull_group", &Tuning::cull_group},
+    {"cull_chunks", &Tuning::cull_chunks},
+    {"refine_group", &Tuning::refine_group},
+    {"prefix_group", &Tuning::prefix_group},
+    {"prefix_per_item", &Tuning::prefix_per_item},
+    {"tile_group", &Tuning::tile_group},
+    {"light_group", &Tuning::light_group},
+    {"shade_prefetch", &Tuning::shade_prefetch},
     {"raster_group", &Tuning::raster_group},
     {"raster_tile_width", &Tuning::raster_tile_width},
     {"raster_tile_height", &Tuning::raster_tile_height},

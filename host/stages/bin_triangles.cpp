@@ -18,17 +18,6 @@ BuildOptions options_of(const Tuning& tuning) {
 
 }  // namespace
 
-void define_tiles(BuildOptions& options, const Tuning& tuning) {
-    options.define("TILE_WIDTH", tuning.raster_tile_width)
-        .define("TILE_HEIGHT", tuning.raster_tile_height);
-}
-
-uint raster_tile_count(const View& view, const Tuning& tuning) {
-    const auto width = static_cast<uint>(tuning.raster_tile_width);
-    const auto height = static_cast<uint>(tuning.raster_tile_height);
-    return (view.width + width - 1) / width * ((view.height + height - 1) / height);
-}
-
 BinTriangles::BinTriangles(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),

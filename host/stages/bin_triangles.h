@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
 #include "host/stages/prefix_sum.h"
-#include "host/stages/resolve_surfaces.h"
 
 namespace kilolux {
-
-/// Triangles of each tile of the picture: lists[offsets[t] .. offsets[t + 1]), numbers along the
-/// instances.
-struct TriangleLists {
-    DeviceArray<uint> offsets;  // [tile_count + 1]
-    DeviceArray<uint> lists;    // [capacity]
-    uint capacity = 0;
-    uint tile_count = 0;
-};
 
 /// Lists the triangles that each tile's pixels may show. As CullLights, it works with the room of
 /// the last call, and fits() says whether that was enough.
@@ -42,11 +32,5 @@ class BinTriangles {
     GrowingArray<uint> columns_, rows_, cursors_;
     CountedList lists_;
 };
-
-/// What of the tiles is compiled into bin_triangles and raster_triangles.
-void define_tiles(BuildOptions& options, const Tuning& tuning);
-
-/// Tiles of a view.
-uint raster_tile_count(const View& view, const Tuning& tuning);
 
 }  // namespace kilolux

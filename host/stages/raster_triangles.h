@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/stages/bin_triangles.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
 
 namespace kilolux {
 

@@ -19,19 +19,6 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 
 }  // namespace
 
-void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning) {
-    options.define("TEXTURE_USES", static_cast<int>(surfaces.texture_uses))
-        .define("HAS_TEXCOORD0", surfaces.texcoord0)
-        .define("HAS_TEXCOORD1", surfaces.texcoord1)
-        .define("HAS_VERTEX_COLOR", surfaces.vertex_color)
-        .define("PREFETCH", tuning.shade_prefetch)
-        .define("HAS_NEAREST", surfaces.nearest)
-        .define("HAS_WRAPS", surfaces.wraps)
-        .define("HAS_UV_TRANSFORM", surfaces.uv_transform)
-        .define("HAS_TANGENT", (surfaces.texture_uses & (1u << USE_NORMAL)) != 0)
-        .define("MAX_ANISOTROPY", surfaces.anisotropy);
-}
-
 ResolveSurfaces::ResolveSurfaces(const Gpu& gpu, const Tuning& tuning,
                                  const KernelFeatures& features, const SurfaceFeatures& surfaces)
     : gpu_(gpu),

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "host/base/gbuffer_layout.h"
 #include "host/stages/build_mips.h"
 #include "host/stages/decode_gbuffer.h"
+#include "host/stages/raster_triangles.h"
 #include "kernels/shared/surface_planes.h"
 #include "tests/support/test_gpu.h"
 
@@ -88,7 +90,9 @@ class QuadScene {
         for (uint& texture : out.textures) texture = SURFACE_ABSENT;
         out.textures[USE_BASE_COLOR] = out.textures[USE_NORMAL] = 0;
         out.lookup_use = USE_BASE_COLOR;
-        out.flags = MATERIAL_SHARES_LOOKUP << USE_BASE_COLOR | MATERIAL_SHARES_LOOKUP << USE_NORMAL;
+        out.flags = MATERIAL_SHARES_LOOKUP << USE_BASE_COLOR |
+                    MATERIAL_SHARES_LOOKUP << USE_NORMAL | MATERIAL_MASKED;
+        out.row.emissive_cutoff.w = 0.5f;  // texels' alpha is 1
         return out;
     }
 
@@ -188,7 +192,41 @@ TEST(ResolveSurfaces, InterpolatesAndLeavesTheBackground) {
     }
 }
 
+// The ids of the quad's triangles, drawn in OpenCL.
+std::vector<uint> drawn_ids(const Gpu& gpu, int group) {
+    const View view = small_view();
+    Tuning tuning = default_tuning(gpu.info);
+    tuning.raster_group = group;
+    tuning.raster_tile_width = tuning.raster_tile_height = 16;
+    tuning.cull_chunks = 2;
+    SurfaceFeatures features;
+    features.texture_uses = 1u << USE_BASE_COLOR;
+    features.texcoord0 = features.masks = true;
+    const QuadScene scene(gpu);
+    BinTriangles bin(gpu, tuning);
+    RasterTriangles raster(gpu, tuning, features);
+    StageTimer timer;
+    const TriangleLists lists = bin.enqueue(scene.buffers, 2, view, timer);
+    EXPECT_TRUE(bin.fits(bin.pairs()));
+    std::vector<uint> ids = download(gpu, raster.enqueue(scene.buffers, lists, view, timer));
+    for (uint y = 0; y < view.height; ++y) {
+        std::fill_n(ids.begin() + y * view.stride + view.width, view.stride - view.width, 0u);
+    }
+    return ids;
+}
+
 }  // namespace
+
+TEST(EveryKernel, Triangles) {
+    const std::vector<uint> ids = drawn_ids(test_gpu(1), 1);
+    // The quad's left edge is at -1.6 / 2, at pixel 2.5: that column's centres lie on it.
+    for (uint y = 0; y < kHeight; ++y) {
+        EXPECT_EQ(ids[y * 32 + 1], 0u);
+        for (uint x = 3; x < kWidth; ++x) EXPECT_TRUE(ids[y * 32 + x] == 1 || ids[y * 32 + x] == 2);
+    }
+    EXPECT_EQ(drawn_ids(test_gpu(4), 1), ids);
+    EXPECT_EQ(drawn_ids(test_gpu(1), 32), ids);
+}
 
 // Under oclgrind, with the other kernels.
 TEST(EveryKernel, Surfaces) {

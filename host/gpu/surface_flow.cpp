@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/surface_flow.h"
+
+namespace kilolux {
+
+void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning) {
+    options.define("TEXTURE_USES", static_cast<int>(surfaces.texture_uses))
+        .define("HAS_TEXCOORD0", surfaces.texcoord0)
+        .define("HAS_TEXCOORD1", surfaces.texcoord1)
+        .define("HAS_VERTEX_COLOR", surfaces.vertex_color)
+        .define("PREFETCH", tuning.shade_prefetch)
+        .define("HAS_NEAREST", surfaces.nearest)
+        .define("HAS_WRAPS", surfaces.wraps)
+        .define("HAS_UV_TRANSFORM", surfaces.uv_transform)
+        .define("HAS_TANGENT", (surfaces.texture_uses & (1u << USE_NORMAL)) != 0)
+        .define("MAX_ANISOTROPY", surfaces.anisotropy);
+}
+
+void define_tiles(BuildOptions& options, const Tuning& tuning) {
+    options.define("TILE_WIDTH", tuning.raster_tile_width)
+        .define("TILE_HEIGHT", tuning.raster_tile_height);
+}
+
+uint raster_tile_count(const View& view, const Tuning& tuning) {
+    const auto width = static_cast<uint>(tuning.raster_tile_width);
+    const auto height = static_cast<uint>(tuning.raster_tile_height);
+    return (view.width + width - 1) / width * ((view.height + height - 1) / height);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "kernels/shared/surface_scene.h"
+
+/// What passes between the stages that make surfaces.
+namespace kilolux {
+
+/// What of a scene's surfaces is compiled into resolve_surfaces.
+struct SurfaceFeatures {
+    uint texture_uses = 0;  // bits 1 << USE_*
+    bool texcoord0 = false;
+    bool texcoord1 = false;
+    bool vertex_color = false;
+    bool nearest = false;       // filters other than linear between texels and between mip levels
+    bool wraps = false;         // other than repeat
+    bool uv_transform = false;  // KHR_texture_transform
+    bool masks = false;         // cut by alpha
+    int anisotropy = 1;         // samples along a footprint's longer side at most
+    bool operator==(const SurfaceFeatures&) const = default;
+};
+
+/// What kernels that read surfaces are compiled with.
+void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning);
+
+/// A scene's surfaces on the device, as kernels/shared/surface_scene.h has them.
+struct SurfaceBuffers {
+    DeviceArray<InstanceRow> instances;  // drawn ones, in the order of their ids, and an end
+    DeviceArray<uint> instance_blocks;   // of every INSTANCE_BLOCK-th triangle, and of the last
+    DeviceArray<MeshRow> meshes;
+    DeviceArray<float> vertices;
+    DeviceArray<uint> indices;
+    DeviceArray<SurfaceMaterial> materials;
+    DeviceArray<TextureRow> textures;
+    DeviceArray<std::uint64_t> texels;
+};
+
+/// Triangles of each tile of the picture: lists[offsets[t] .. offsets[t + 1]), numbers along the
+/// instances.
+struct TriangleLists {
+    DeviceArray<uint> offsets;  // [tile_count + 1]
+    DeviceArray<uint> lists;    // [capacity]
+    uint capacity = 0;
+    uint tile_count = 0;
+};
+
+/// What of the tiles is compiled into bin_triangles and raster_triangles.
+void define_tiles(BuildOptions& options, const Tuning& tuning);
+
+/// Tiles of a view.
+uint raster_tile_count(const View& view, const Tuning& tuning);
+
+}  // namespace kilolux
