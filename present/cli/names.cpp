@@ -74,6 +74,25 @@ const Choices& choices_of(ToneCurve) {
     return choices;
 }
 
+const Choices& choices_of(Rig) {
+    static const Choices choices = {
+        {"auto",
+         "swarm for generated scenes and interiors and where lights are asked for, none "
+         "for other files with lights, else studio; bench and report: swarm"},
+        {"none", "only the file's own lights"},
+        {"swarm", "moving coloured point lights, as many as --lights says"},
+        {"studio", "key, fill and rim light in a soft surround"},
+        {"headlight", "one light that shines as the camera looks"}};
+    return choices;
+}
+
+const Choices& choices_of(Fit) {
+    static const Choices choices = {{"height", "its vertical field"},
+                                    {"width", "its horizontal field"},
+                                    {"both", "all that it shows"}};
+    return choices;
+}
+
 const Choices& choices_of(MathMode) {
     static const Choices choices = {{"exact", "as OpenCL C demands"},
                                     {"fast-relaxed", "with -cl-fast-relaxed-math"},

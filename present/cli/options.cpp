@@ -51,6 +51,10 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
     const auto resolution = [&s](const std::string& name, const std::string& text) {
         std::tie(s.width, s.height) = parse_resolution(name, text);
     };
+    const auto take_ambient = [&o](const std::string& name, const std::string& text) {
+        o.settings.ambient = static_cast<float>(parse_number(name, text, kAmbientRange));
+        o.ambient_given = true;
+    };
     OptionBuilder(command, "Picture")
         .choice({"--renderer", "", "deferred", "How surfaces are lit"}, s.renderer)
         .value({"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good"}, resolution,
@@ -74,8 +78,9 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
                s.anisotropy, kAnisotropyRange)
         .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame")
         .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading)
-        .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,
-                kAmbientRange);
+        .value({"--ambient", "L", "0.02; with the rig studio 0.2",
+                "Radiance from everywhere, times the albedo"},
+               take_ambient, [&s] { return text_of(s.ambient); });
 }
 
 void add_display_options(CLI::App& command, RenderSettings& s) {
@@ -88,11 +93,19 @@ void add_display_options(CLI::App& command, RenderSettings& s) {
                 kBloomRange);
 }
 
-void add_light_options(CLI::App& command, RenderSettings& s) {
+void add_light_options(CLI::App& command, SharedOptions& o) {
+    RenderSettings& s = o.settings;
     LightOptions& l = s.lights;
-    OptionBuilder(command, "Generated point lights, added to the file's own")
-        .count({"--lights", "N", "5000", "How many, e.g. 20k or 1e6; 0 keeps only the file's own"},
-               l.count, kLightsRange)
+    const auto take_count = [&o](const std::string& name, const std::string& text) {
+        o.settings.lights.count = parse_count(name, text, kLightsRange);
+        o.lights_given = true;
+    };
+    OptionBuilder(command, "Lights, added to the file's own")
+        .choice({"--rig", "", "auto", "What lights the scene"}, o.rig)
+        .value({"--lights", "N", "5000 with the rig swarm",
+                "Generated point lights, e.g. 20k or 1e6, beside any rig; without --rig they are "
+                "the rig, and 0 keeps only the file's own"},
+               take_count, [&l] { return text_of(l.count); })
         .count({"--light-seed", "S", "1", "Decides places, colours and motion"}, l.seed,
                kLightSeedRange)
         .number_or_auto(
@@ -109,10 +122,18 @@ void add_light_options(CLI::App& command, RenderSettings& s) {
 }
 
 void add_camera_options(CLI::App& command, CameraChoice& c) {
+    const auto take_index = [&c](const std::string& name, const std::string& text) {
+        c.framed = text == "auto";
+        c.index.reset();
+        if (!c.framed) c.index = static_cast<int>(parse_count(name, text, {0, 0x7fffffff}));
+    };
+    const auto show_index = [&c] { return c.framed ? std::string("auto") : text_of(c.index); };
     OptionBuilder(command, "Camera")
-        .count({"--camera-index", "I", "the first, else one that frames the scene",
-                "A camera of the scene, from 0"},
-               c.index, {0, 0x7fffffff})
+        .value({"--camera-index", "I|auto", "the first, else auto",
+                "A camera of the scene, from 0; auto: one that sees an object whole from outside, "
+                "an interior (at least half of the rays from the middle of its box meet walls from "
+                "their front) from inside"},
+               take_index, show_index)
         .value({"--camera-position", "X,Y,Z", "", "Where it stands, in metres"}, c.position,
                parse_vector)
         .value({"--camera-focal-point", "X,Y,Z", "",
@@ -124,6 +145,9 @@ void add_camera_options(CLI::App& command, CameraChoice& c) {
         .number(
             {"--camera-view-angle", "DEG", "the camera's, else 45", "Vertical angle, in degrees"},
             c.view_angle, {0.0, 180.0, true})
+        .choice({"--fit", "", "height",
+                 "What a picture of another shape keeps of a file's camera that has an aspect"},
+                c.fit)
         .flag("--camera-orthographic", c.orthographic, "Parallel projection");
 }
 
@@ -162,7 +186,7 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
     add_scene_option(command, options);
     add_picture_options(command, options);
     add_display_options(command, options.settings);
-    add_light_options(command, options.settings);
+    add_light_options(command, options);
     add_camera_options(command, options.camera);
     add_device_options(command, options);
     OptionBuilder(command, "General")
@@ -176,6 +200,9 @@ void begin_command(const SharedOptions& options, bool compares) {
     }
     if (options.show_error && !compares) {
         throw UsageError("--show error: needs --reference FILE, which render takes");
+    }
+    if (options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0) {
+        throw UsageError("--rig swarm: needs lights, and --lights is 0");
     }
     set_verbosity(options.quiet     ? Verbosity::quiet
                   : options.verbose ? Verbosity::verbose

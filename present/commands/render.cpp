@@ -161,7 +161,7 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
         const Task task = tasks[i];
         if (!tasks.is_done(task)) {
             scene.set_time(task.time);
-            const Camera camera = choose_camera(options.shared.camera, scene.scene());
+            const Camera camera = choose_camera(options.shared, scene.scene());
             FrameRecord record = render_task(options, renderer, camera, task);
             if (limits) {
                 fill_limits(record.stats, *limits,
@@ -209,7 +209,7 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
     return settings;
 }
 
-void run_render(const RenderOptions& options) {
+void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     begin_command(options.shared, !out.reference.empty());
@@ -220,7 +220,8 @@ void run_render(const RenderOptions& options) {
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
     AnimatedScene scene = open_animated_scene(options.shared, first.time);
-    const Camera camera = choose_camera(options.shared.camera, scene.scene());
+    light_scene(options.shared, scene);
+    const Camera camera = choose_camera(options.shared, scene.scene());
     check_interrupt();
     Renderer renderer(scene.scene(), settings_of(options, {scene.scene(), camera, first.time}));
     check_interrupt();
