@@ -70,7 +70,8 @@ const Choices& choices_of(Shading) {
 const Choices& choices_of(ToneCurve) {
     static const Choices choices = {{"none", "clamp at 1"},
                                     {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
-                                    {"aces", "ACES, filmic contrast"}};
+                                    {"aces", "ACES, filmic contrast"},
+                                    {"agx", "AgX, bright colours go to white softly"}};
     return choices;
 }
 

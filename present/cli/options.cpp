@@ -83,12 +83,37 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
                take_ambient, [&s] { return text_of(s.ambient); });
 }
 
-void add_display_options(CLI::App& command, RenderSettings& s) {
+// The curves, and Khronos PBR Neutral by its whole name.
+Choices tone_curve_choices() {
+    Choices choices = choices_of(ToneCurve{});
+    choices.names.emplace_back("pbr-neutral");
+    choices.meanings.emplace_back("the same as neutral");
+    return choices;
+}
+
+void add_display_options(CLI::App& command, SharedOptions& o) {
+    RenderSettings& s = o.settings;
+    const auto take_exposure = [&o](const std::string& name, const std::string& text) {
+        o.automatic_exposure = text == "auto";
+        if (o.automatic_exposure && !o.takes_automatic_exposure) {
+            throw UsageError(name + ": only render makes it automatic");
+        }
+        const double ev = o.automatic_exposure ? 0.0 : parse_number(name, text, kExposureRange);
+        o.settings.exposure = static_cast<float>(ev);
+    };
+    const auto take_curve = [&s](std::size_t place) {
+        const bool whole_name = place == names_of<ToneCurve>().size();
+        s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
+    };
     OptionBuilder(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
-        .number({"--exposure", "EV", "0", "Each step doubles the brightness"}, s.exposure,
-                kExposureRange)
+        .value({"--exposure", o.takes_automatic_exposure ? "EV|auto" : "EV", "0",
+                o.takes_automatic_exposure
+                    ? "Each step doubles the brightness; auto: the log average of the picture's "
+                      "luminance becomes 0.18, a sequence keeps that of its first frame"
+                    : "Each step doubles the brightness"},
+               take_exposure, [&s] { return text_of(s.exposure); })
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
-                s.tone_curve)
+                tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
                 kBloomRange);
 }
@@ -113,7 +138,13 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
             l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
+        .text({"--environment", "FILE", "",
+               "Light from all around: .hdr or .exr, longitude by latitude, its middle towards -Z; "
+               "lights surfaces, is not shown. Then --rig auto is none and --ambient 0"},
+              o.environment)
         .rest()
+        .count({"--environment-lights", "N", "128", "Directional lights that stand for it"},
+               o.environment_lights, {1, 65536})
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
                l.box, parse_box)
         .number({"--range-budget", "E", "0.00390625",
@@ -185,7 +216,7 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
 void add_shared_options(CLI::App& command, SharedOptions& options) {
     add_scene_option(command, options);
     add_picture_options(command, options);
-    add_display_options(command, options.settings);
+    add_display_options(command, options);
     add_light_options(command, options);
     add_camera_options(command, options.camera);
     add_device_options(command, options);

@@ -23,8 +23,12 @@ struct SharedOptions {
     LoadOptions load;              // how a file is read; its time and memory are the picture's
     RenderSettings settings;
     Rig rig = Rig::automatic;
-    bool lights_given = false;   // settings.lights.count was asked for
-    bool ambient_given = false;  // settings.ambient was
+    std::string environment;                 // file; empty: none
+    std::uint64_t environment_lights = 128;  // that stand for it
+    bool lights_given = false;               // settings.lights.count was asked for
+    bool ambient_given = false;              // settings.ambient was
+    bool takes_automatic_exposure = false;   // the command can make it
+    bool automatic_exposure = false;
     CameraChoice camera;
     double time = 0.0;        // [s]
     bool show_error = false;  // --show error: the picture's error against --reference

@@ -12,6 +12,7 @@
 #include "host/base/suggest.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/environment.h"
 #include "present/cli/names.h"
 #include "present/cli/progress.h"
 
@@ -79,6 +80,7 @@ bool asks_for_swarm(const SharedOptions& options) {
 Rig rig_of(const SharedOptions& options, const Scene& scene) {
     if (options.rig != Rig::automatic) return options.rig;
     if (asks_for_swarm(options)) return Rig::swarm;
+    if (!options.environment.empty()) return Rig::none;
     return options.lights_given ? Rig::none
                                 : automatic_rig(scene, is_generated_scene(options.scene));
 }
@@ -92,6 +94,14 @@ std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, st
         line += fmt::format("{} generated and ", count);
     }
     return line + fmt::format("{} of the scene's own lights, ambient {}", own, settings.ambient);
+}
+
+std::string add_environment(const SharedOptions& options, AnimatedScene& scene) {
+    if (options.environment.empty()) return "";
+    const auto lights = environment_lights(read_environment(options.environment),
+                                           static_cast<std::size_t>(options.environment_lights));
+    scene.add_lights(lights);
+    return fmt::format("; environment {}: {} directional", options.environment, lights.size());
 }
 
 }  // namespace
@@ -109,18 +119,21 @@ AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
                          [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
 }
 
-void light_scene(SharedOptions& options, AnimatedScene& scene) {
+std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     const bool automatic = options.rig == Rig::automatic;
     const Rig rig = rig_of(options, scene.scene());
     const std::size_t own = scene.scene().lights.size();
     scene.add_lights(rig_lights(rig));
+    const std::string from_around = add_environment(options, scene);
     std::uint64_t& generated = options.settings.lights.count;
     if (rig != Rig::swarm && !options.lights_given) generated = 0;
     float& ambient = options.settings.ambient;
-    if (!options.ambient_given) ambient = rig_ambient(rig, ambient);
+    if (!options.ambient_given) {
+        ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
+    }
     // A swarm stays automatic: what another command line has to say for it is --lights.
     if (rig != Rig::swarm) options.rig = rig;
-    note(rig_line(rig, automatic, options.settings, own));
+    return rig_line(rig, automatic, options.settings, own) + from_around;
 }
 
 void measure_swarm(SharedOptions& options) {
@@ -130,7 +143,7 @@ void measure_swarm(SharedOptions& options) {
 
 Scene open_scene(SharedOptions& options) {
     AnimatedScene scene = open_animated_scene(options, options.time);
-    light_scene(options, scene);
+    note(light_scene(options, scene));
     return std::move(scene).take();
 }
 

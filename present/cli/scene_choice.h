@@ -12,8 +12,8 @@ namespace kilolux {
 AnimatedScene open_animated_scene(const SharedOptions& options, double time);
 
 /// Adds the lights of the options' rig. Which rig that is, and how many lights are generated, is
-/// then settled in the options, and said.
-void light_scene(SharedOptions& options, AnimatedScene& scene);
+/// then settled in the options; returns the lines that say it.
+std::string light_scene(SharedOptions& options, AnimatedScene& scene);
 
 /// Has a command that measures many lights do so where no rig was asked for.
 void measure_swarm(SharedOptions& options);
