@@ -25,11 +25,7 @@ kernel void tonemap(
         fv3(lane_load(radiance + pixel) * gain, lane_load(radiance + pixel_count + pixel) * gain,
             lane_load(radiance + 2 * pixel_count + pixel) * gain);
     c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
-#if TONE_CURVE == TONE_CURVE_NEUTRAL
-    c = neutral_tone_curve(c);
-#elif TONE_CURVE == TONE_CURVE_ACES
-    c = aces_tone_curve(c);
-#endif
+    c = tone_curve_of(TONE_CURVE, c);
     UV r = srgb_code(bucket_boundary, bucket_code, c.x);
     UV g = srgb_code(bucket_boundary, bucket_code, c.y);
     UV b = srgb_code(bucket_boundary, bucket_code, c.z);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/scene_features.h"
 
+#include <charconv>
+
 namespace kilolux {
 namespace {
 
@@ -32,6 +34,14 @@ std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatu
     std::vector<std::pair<std::string, std::string>> macros;
     for (const SceneFeature& feature : kTable) {
         if (feature.macro) macros.emplace_back(feature.macro, features.*feature.member ? "1" : "0");
+    }
+    if (features.light_d_min != LIGHT_D_MIN) {
+        char digits[32];  // the shortest text that is read back as the same float
+        const char* end = std::to_chars(digits, digits + sizeof(digits), features.light_d_min,
+                                        std::chars_format::scientific)
+                              .ptr;
+        macros.emplace_back("LIGHT_D_MIN",
+                            std::string(static_cast<const char*>(digits), end) + "f");
     }
     return macros;
 }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/shared/light.h"
+
 namespace kilolux {
 
 /// What a scene has that not every scene has. Kernels, shaders and G-buffer leave out the rest.
@@ -25,7 +27,8 @@ struct SceneFeatures {
     bool normal_maps = false;
     bool alpha_mask = false;
     bool alpha_blend = false;
-    bool wide_light_index = false;  // more than 65536 lights
+    bool wide_light_index = false;    // more than 65536 lights
+    float light_d_min = LIGHT_D_MIN;  // [m], smaller in small scenes: see light_d_min()
     bool operator==(const SceneFeatures&) const = default;
 };
 
@@ -39,7 +42,8 @@ struct SceneFeature {
 
 std::span<const SceneFeature> scene_feature_table();
 
-/// The table's macros with their values, for both languages.
+/// The table's macros with their values, and LIGHT_D_MIN where it is not the usual one, for both
+/// languages.
 std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatures& features);
 
 }  // namespace kilolux

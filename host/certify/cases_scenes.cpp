@@ -93,13 +93,14 @@ Scene scene_with_lights(Random& random, int count) {
 
 // The scene's lights as the device has them.
 LightRows device_rows(const Gpu& gpu, const Scene& scene, FrameStats& stats) {
-    const glm::dvec3 camera(1.0, 2.0, 3.0);
+    Camera camera;
+    camera.position = {1.0, 2.0, 3.0};
     RenderSettings none;
     none.lights.count = 0;
     StageTimer untimed;
     LightSource source(gpu, default_tuning(gpu.info), scene, none);
     source.update(0.0, camera, stats);
-    const LightInput input = source.input(camera, false, untimed);
+    const LightInput input = source.input(camera.position, false, untimed);
     LightRows out;
     out.local = download(gpu, input.lights, input.count);
     out.directional = download(gpu, input.directional, input.directional_count);

@@ -9,6 +9,7 @@
 #include "host/base/log.h"
 #include "host/render/light_order.h"
 #include "host/scene/lights/light_ranges.h"
+#include "host/scene/lights/rig.h"
 
 namespace kilolux {
 namespace {
@@ -31,6 +32,18 @@ std::vector<SceneLight> lights_with_ranges(const Scene& scene, double budget) {
     return lights;
 }
 
+std::vector<std::size_t> headlights_of(const std::vector<SceneLight>& lights) {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (lights[i].follows_camera) out.push_back(i);
+    }
+    return out;
+}
+
+SceneLight placed_light(const SceneLight& light, const Camera& camera) {
+    return kilolux::placed_light(light, camera.world_from_view, camera.position);
+}
+
 bool is_near(const glm::dvec3& p) {
     return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(kNear)));
 }
@@ -45,8 +58,10 @@ std::vector<SceneLight> all_lights(const std::vector<SceneLight>& own, const Lig
 
 }  // namespace
 
-std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time) {
+std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
+                                  const Camera& camera, double time) {
     std::vector<SceneLight> own = scene.lights;
+    for (SceneLight& light : own) light = placed_light(light, camera);
     fill_missing_ranges(own, settings.range_budget);
     const std::vector<SceneLight> now = all_lights(own, settings.lights, scene, time);
     const auto ordered = all_lights(own, settings.lights, scene, order_time(time));
@@ -63,6 +78,7 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
       range_budget_(settings.range_budget),
       generated_(settings.lights),
       own_(lights_with_ranges(scene, settings.range_budget)),
+      headlights_(headlights_of(own_)),
       move_(gpu, tuning),
       directional_(gpu, "lights") {}
 
@@ -78,6 +94,17 @@ void LightSource::take_up_changes() {
     if (revision_ == scene_.revision) return;
     revision_ = scene_.revision;
     own_ = scene_.lights;
+    fill_missing_ranges(own_, range_budget_);
+    headlights_ = headlights_of(own_);
+    headlight_camera_.reset();
+    time_.reset();
+    order_time_.reset();
+}
+
+void LightSource::place_headlights(const Camera& camera) {
+    if (headlights_.empty() || headlight_camera_ == camera) return;
+    headlight_camera_ = camera;
+    for (const std::size_t i : headlights_) own_[i] = placed_light(scene_.lights[i], camera);
     fill_missing_ranges(own_, range_budget_);
     time_.reset();
     order_time_.reset();
@@ -122,8 +149,10 @@ void LightSource::upload() {
     input_camera_.reset();
 }
 
-void LightSource::update(double time, const glm::dvec3& camera_position, FrameStats& stats) {
+void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
     take_up_changes();
+    place_headlights(camera);
+    const glm::dvec3& camera_position = camera.position;
     const bool out_of_order = order_time_ != order_time(time) ||
                               (order_camera_ && *order_camera_ != camera_position) ||
                               (!order_camera_ && !is_near(camera_position));

@@ -9,14 +9,16 @@
 #include "host/picture/frame.h"
 #include "host/render/light_rows.h"
 #include "host/render/settings.h"
+#include "host/scene/camera.h"
 #include "host/scene/scene.h"
 #include "host/stages/move_lights.h"
 
 namespace kilolux {
 
 /// All lights of a scene at `time` [s], its own and the generated ones, each with a range, in the
-/// order in which kernels go through them (light_order.h).
-std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings, double time);
+/// order in which kernels go through them (light_order.h); `camera` has the headlights.
+std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
+                                  const Camera& camera, double time);
 
 /// All lights of a scene, its own and the generated ones, at any time. They are on the device in
 /// the world's coordinates: a camera that moves costs one kernel, lights that stay are not uploaded
@@ -31,9 +33,9 @@ class LightSource {
     /// Other generated lights from now on.
     void set_generated(const LightOptions& generated);
 
-    /// The lights at `time` [s] of the scene as it is now; sets their counts. The camera's place
-    /// decides only which are too far away to be used.
-    void update(double time, const glm::dvec3& camera_position, FrameStats& stats);
+    /// The lights at `time` [s] of the scene as it is now; sets their counts. The camera has the
+    /// headlights, and its place decides which lights are too far away to be used.
+    void update(double time, const Camera& camera, FrameStats& stats);
 
     /// Those of the last update() relative to the camera, on the device until the next call.
     /// `reuse`: the last call's where nothing changed. Enqueues only.
@@ -44,6 +46,7 @@ class LightSource {
 
  private:
     void take_up_changes();
+    void place_headlights(const Camera& camera);
     SceneLight light(std::size_t place) const;
     void find_order(const glm::dvec3& camera_position);
     void upload();
@@ -53,9 +56,11 @@ class LightSource {
     std::uint32_t revision_;  // of the scene that own_ are of
     double range_budget_;
     LightOptions generated_;
-    std::vector<SceneLight> own_;            // with ranges
-    std::optional<double> time_;             // none: not made yet
-    std::optional<LightGenerator> at_time_;  // of time_
+    std::vector<SceneLight> own_;             // with ranges, in the world
+    std::vector<std::size_t> headlights_;     // those of own_ that follow the camera
+    std::optional<Camera> headlight_camera_;  // that they are placed by
+    std::optional<double> time_;              // none: not made yet
+    std::optional<LightGenerator> at_time_;   // of time_
     // Numbers of the lights, own_ before generated ones: usable point and spot lights in the order
     // of the kernels; directional ones.
     std::vector<std::uint32_t> order_, directional_order_;

@@ -69,7 +69,7 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
     }
     frame.stats.zero_normals = scene->zero_normals();
     const Clock::time_point lights_start = Clock::now();
-    lights_.update(time, camera.position, frame.stats);
+    lights_.update(time, camera, frame.stats);
     if (lights_on_host()) rows_ = lights_.rows(camera.position);
     add_stage_time(frame.stats.stages, "light_input", ms_since(lights_start));
     const LightInput input = lights_.input(camera.position, !settings.no_reuse, timer_);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "host/base/error.h"
+#include "host/scene/lights/light_region.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -76,6 +77,7 @@ bool is_forced(const RenderSettings& settings, std::string_view name) {
 
 SceneFeatures features_of(const Scene& scene, const std::vector<Material>& materials) {
     SceneFeatures out;
+    out.light_d_min = light_d_min(scene);
     for (const SceneLight& light : scene.lights) {
         out.spot_lights |= light.type == LightType::spot;
         out.directional_lights |= light.type == LightType::directional;

@@ -29,7 +29,7 @@ enum class Geometry { automatic, ids, compute, planes };
 constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::planes; }
 
 enum class Shading { automatic, lambert, blinn_phong, pbr };
-enum class ToneCurve { none, neutral, aces };
+enum class ToneCurve { none, neutral, aces, agx };
 
 /// The coarse grid asked for; tile edges are rounded up to multiples of 16 pixels.
 struct GridSettings {

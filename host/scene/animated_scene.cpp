@@ -8,6 +8,7 @@
 #include "host/scene/gltf/nodes.h"
 #include "host/scene/gltf/parallel.h"
 #include "host/scene/gltf/shapes.h"
+#include "host/scene/look_around.h"
 
 namespace kilolux {
 
@@ -71,7 +72,7 @@ void AnimatedScene::make_solids_of_lines(File& file, const ShapePlan& plan,
     });
 }
 
-AnimatedScene::AnimatedScene(Scene scene) : scene_(std::move(scene)) {}
+AnimatedScene::AnimatedScene(Scene scene) : scene_(std::move(scene)) { survey(); }
 
 AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOptions& options,
                              const LoadProgress& progress)
@@ -91,15 +92,26 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     }
     scene_.textures = file.materials.textures;
     scene_.materials = file.materials.materials;
+    survey();
     if (!moves) {
         file_ = nullptr;
         return;
     }
-    scene_.still_box = bounds(scene_);
     set_time(options.time);
 }
 
 AnimatedScene::~AnimatedScene() = default;
+
+// Of the scene at time 0 if it moves: what lights and cameras that nobody placed go by.
+void AnimatedScene::survey() {
+    scene_.still_box = bounds(scene_);
+    scene_.kind = scene_kind(scene_, scene_.still_box);
+}
+
+void AnimatedScene::add_lights(const std::vector<SceneLight>& lights) {
+    added_lights_.insert(added_lights_.end(), lights.begin(), lights.end());
+    scene_.lights.insert(scene_.lights.end(), lights.begin(), lights.end());
+}
 
 void AnimatedScene::set_time(double time) {
     if (!file_ || file_->time == time) return;
@@ -144,6 +156,7 @@ void AnimatedScene::place() {
     }
     scene_.instances = std::move(instances);
     scene_.lights = std::move(lights);
+    scene_.lights.insert(scene_.lights.end(), added_lights_.begin(), added_lights_.end());
     scene_.cameras = std::move(cameras);
 }
 

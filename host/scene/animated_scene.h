@@ -37,6 +37,9 @@ class AnimatedScene {
     /// scene then stays at the time it had.
     void set_time(double time);
 
+    /// Adds lights that stay as they are at any time. Before anything renders the scene.
+    void add_lights(const std::vector<SceneLight>& lights);
+
     Scene take() && { return std::move(scene_); }
 
  private:
@@ -44,8 +47,10 @@ class AnimatedScene {
     static void make_solids_of_lines(File& file, const ShapePlan& plan, std::vector<Mesh>& meshes,
                                      bool first);
     void place();
+    void survey();
 
     Scene scene_;
+    std::vector<SceneLight> added_lights_;
     std::unique_ptr<File> file_;  // none: no animation
 };
 

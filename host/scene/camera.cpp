@@ -50,13 +50,24 @@ Camera camera_of(const SceneCamera& source) {
     return camera;
 }
 
-Camera frame_box(const Box& box) {
-    if (box.empty()) return look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0}, glm::radians(45.0));
+Camera frame_box(const Box& box, double aspect) {
+    constexpr double kYFov = glm::radians(45.0);
+    constexpr double kFilled = 0.98;  // of the picture, by the box
+    if (box.empty()) return look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0}, kYFov);
+    const glm::dvec3 centre = box.center();
+    const glm::dvec3 backward = glm::normalize(glm::dvec3(0.35, 0.3, 1.0));
+    Camera camera = look_at(centre + backward, centre, {0, 1, 0}, kYFov);
     const double radius = std::max(0.5 * glm::length(box.size()), 1e-6);
-    const glm::dvec3 direction = glm::normalize(glm::dvec3(0.35, 0.3, 1.0));
-    const double distance = radius / std::sin(glm::radians(45.0) / 2);
-    Camera camera =
-        look_at(box.center() + direction * distance, box.center(), {0, 1, 0}, glm::radians(45.0));
+    const double half_height = kFilled * std::tan(0.5 * kYFov);
+    double distance = radius;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 sign((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2) - 0.5);
+        const glm::dvec3 p = glm::abs((box.size() * sign) * camera.world_from_view);
+        const double depth = ((box.size() * sign) * camera.world_from_view).z;
+        distance =
+            std::max(distance, depth + std::max(p.y / half_height, p.x / (half_height * aspect)));
+    }
+    camera.position = centre + backward * distance;
     camera.z_near = std::max(distance - 2 * radius, radius * 1e-3);
     return camera;
 }

@@ -28,8 +28,9 @@ Camera look_at(glm::dvec3 position, glm::dvec3 focal_point, glm::dvec3 up, doubl
 /// The camera of a scene file.
 Camera camera_of(const SceneCamera& camera);
 
-/// A camera that sees the whole box from its front and a little above.
-Camera frame_box(const Box& box);
+/// A camera that sees the whole box from its front and a little above, in a picture of `aspect`,
+/// width / height, or wider.
+Camera frame_box(const Box& box, double aspect = 1.0);
 
 /// Clip space from view space for GL with upper-left origin and [0,1] reversed depth, in double.
 glm::dmat4 clip_from_view(const Camera& camera, int width, int height);

@@ -108,6 +108,7 @@ struct SceneLight {
     float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
     float inner_cone = 0.0f;           // half angle [rad]
     float outer_cone = 0.7853981634f;  // half angle [rad]
+    bool follows_camera = false;       // position and direction are in the camera's space
 };
 
 /// A camera of the scene: at world_from_camera's origin, looking down its -Z.
@@ -144,6 +145,13 @@ struct Clip {
     bool plays = false;
 };
 
+/// What the middle of a scene's box sees around itself: see look_around().
+enum class SceneKind {
+    open,      // mostly neither: terrain, a tree, a crowd
+    closed,    // the inside of an object
+    interior,  // walls that face it
+};
+
 /// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts
 /// them.
 struct Scene {
@@ -157,8 +165,9 @@ struct Scene {
     std::vector<SceneCamera> cameras;
     std::vector<Clip> clips;            // of the file; only those that play move the scene
     std::vector<std::string> variants;  // of the file's materials (KHR_materials_variants)
-    Box light_box;                      // where generated lights go; empty: resting_bounds(scene)
-    Box still_box;                      // of an animated scene at time 0; empty: it does not move
+    Box light_box;                      // where generated lights go; empty: see light_region()
+    Box still_box;                      // its bounds at time 0; empty: those of now
+    SceneKind kind = SceneKind::open;
     std::uint32_t revision = 0;  // grows whenever instances, lights, cameras or vertices change
 };
 

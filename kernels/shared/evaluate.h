@@ -23,9 +23,6 @@
 #define EARLY_OUT (SHADING != SHADING_LAMBERT)
 #endif
 
-// Nearer than this the inverse square stops growing: light sources have a size [m] (Lagarde and de
-// Rousiers 2014, "Moving Frostbite to PBR", 3.1: max(d^2, 0.01^2)).
-#define LIGHT_D_MIN 0.01f
 #define INV_PI 0.318309886f
 
 #if defined(__cplusplus)

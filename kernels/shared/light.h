@@ -3,6 +3,13 @@
 #ifndef KILOLUX_SHARED_LIGHT_H
 #define KILOLUX_SHARED_LIGHT_H
 #include "kernels/shared/types.h"
+// Nearer than this the inverse square stops growing: light sources have a size [m] (Lagarde and de
+// Rousiers 2014, "Moving Frostbite to PBR", 3.1: max(d^2, 0.01^2)). Scenes of less than 4 m are
+// built with a smaller one: SceneFeatures::light_d_min.
+#ifndef LIGHT_D_MIN
+#define LIGHT_D_MIN 0.01f
+#endif
+
 #if defined(__cplusplus)
 namespace kilolux {
 #endif

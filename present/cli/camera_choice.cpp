@@ -12,11 +12,19 @@
 namespace kilolux {
 namespace {
 
-Camera start_camera(const CameraChoice& choice, const Scene& scene, const Box& box) {
+// The file's camera in a picture of another shape.
+Camera fitted(const SceneCamera& made, double aspect, Fit fit) {
+    Camera camera = camera_of(made);
+    camera.y_fov = fitted_y_fov(made.y_fov, made.aspect, aspect, fit);
+    camera.y_extent = fitted_y_extent(made.y_extent, made.aspect, aspect, fit);
+    return camera;
+}
+
+Camera start_camera(const CameraChoice& choice, const Scene& scene, double aspect) {
     const std::size_t count = scene.cameras.size();
-    if (!choice.index) return count == 0 ? frame_box(box) : camera_of(scene.cameras[0]);
-    const auto index = static_cast<std::size_t>(*choice.index);
-    if (index < count) return camera_of(scene.cameras[index]);
+    if (choice.framed || (!choice.index && count == 0)) return framing_camera(scene, aspect);
+    const auto index = static_cast<std::size_t>(choice.index.value_or(0));
+    if (index < count) return fitted(scene.cameras[index], aspect, choice.fit);
     const std::string known =
         count == 0 ? "it has none" : fmt::format("they are 0 to {}", count - 1);
     throw UsageError(
@@ -63,9 +71,9 @@ Camera place_camera(const CameraPlace& place, double y_fov, double radius) {
     return camera;
 }
 
-Camera choose_camera(const CameraChoice& choice, const Scene& scene) {
+Camera choose_camera(const CameraChoice& choice, const Scene& scene, double aspect) {
     const Box box = resting_bounds(scene);
-    Camera camera = start_camera(choice, scene, box);
+    Camera camera = start_camera(choice, scene, aspect);
     const double radius = box.empty() ? 1.0 : 0.5 * glm::length(box.size());
     const glm::dvec3 middle = box.empty() ? glm::dvec3(0.0) : box.center();
     // A scene's camera has no focal point: take one as far away as the scene's middle.

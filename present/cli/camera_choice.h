@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/scene/camera.h"
+#include "host/scene/framing.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
@@ -12,6 +13,8 @@ namespace kilolux {
 /// The camera options of the command line; what they leave open comes from the scene.
 struct CameraChoice {
     std::optional<int> index{};
+    bool framed = false;  // one that frames the scene, whatever cameras it has
+    Fit fit = Fit::height;
     std::optional<glm::dvec3> position{};     // [m]
     std::optional<glm::dvec3> focal_point{};  // [m]
     std::optional<glm::dvec3> view_up{};
@@ -32,11 +35,12 @@ Camera place_camera(const CameraPlace& place, double y_fov, double radius);
 
 /// The camera that `choice` means in `scene`.
 ///
-/// It starts from the camera of the index, else the scene's first, else one that frames the scene.
+/// It starts from the camera of the index, else the scene's first, else one that frames the scene
+/// (framing_camera()). `aspect` is the picture's, width / height.
 /// A position without a focal point looks at the scene's middle; a focal point without a position
 /// is seen from where the camera was. A parallel projection shows what the perspective one shows at
 /// the focal point, and all of the scene in depth. Throws UsageError for an index the scene does
 /// not have, Error when the directions are degenerate.
-Camera choose_camera(const CameraChoice& choice, const Scene& scene);
+Camera choose_camera(const CameraChoice& choice, const Scene& scene, double aspect = 16.0 / 9.0);
 
 }  // namespace kilolux

@@ -70,7 +70,27 @@ const Choices& choices_of(Shading) {
 const Choices& choices_of(ToneCurve) {
     static const Choices choices = {{"none", "clamp at 1"},
                                     {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
-                                    {"aces", "ACES, filmic contrast"}};
+                                    {"aces", "ACES, filmic contrast"},
+                                    {"agx", "AgX, bright colours go to white softly"}};
+    return choices;
+}
+
+const Choices& choices_of(Rig) {
+    static const Choices choices = {
+        {"auto",
+         "swarm for generated scenes and interiors and where lights are asked for, none "
+         "for other files with lights, else studio; bench and report: swarm"},
+        {"none", "only the file's own lights"},
+        {"swarm", "moving coloured point lights, as many as --lights says"},
+        {"studio", "key, fill and rim light in a soft surround"},
+        {"headlight", "one light that shines as the camera looks"}};
+    return choices;
+}
+
+const Choices& choices_of(Fit) {
+    static const Choices choices = {{"height", "its vertical field"},
+                                    {"width", "its horizontal field"},
+                                    {"both", "all that it shows"}};
     return choices;
 }
 

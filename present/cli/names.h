@@ -9,6 +9,8 @@
 
 #include "host/measure/bench/run.h"
 #include "host/render/settings.h"
+#include "host/scene/framing.h"
+#include "host/scene/lights/rig.h"
 
 namespace kilolux {
 
@@ -25,6 +27,8 @@ const Choices& choices_of(Geometry);
 const Choices& choices_of(Shading);
 const Choices& choices_of(BenchMotion);
 const Choices& choices_of(ToneCurve);
+const Choices& choices_of(Rig);
+const Choices& choices_of(Fit);
 const Choices& choices_of(MathMode);
 const Choices& choices_of(LightColors);
 const Choices& choices_of(ViewKind);

@@ -51,6 +51,10 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
     const auto resolution = [&s](const std::string& name, const std::string& text) {
         std::tie(s.width, s.height) = parse_resolution(name, text);
     };
+    const auto take_ambient = [&o](const std::string& name, const std::string& text) {
+        o.settings.ambient = static_cast<float>(parse_number(name, text, kAmbientRange));
+        o.ambient_given = true;
+    };
     OptionBuilder(command, "Picture")
         .choice({"--renderer", "", "deferred", "How surfaces are lit"}, s.renderer)
         .value({"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good"}, resolution,
@@ -74,25 +78,59 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
                s.anisotropy, kAnisotropyRange)
         .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame")
         .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading)
-        .number({"--ambient", "L", "0.02", "Radiance from everywhere, times the albedo"}, s.ambient,
-                kAmbientRange);
+        .value({"--ambient", "L", "0.02; with the rig studio 0.2",
+                "Radiance from everywhere, times the albedo"},
+               take_ambient, [&s] { return text_of(s.ambient); });
 }
 
-void add_display_options(CLI::App& command, RenderSettings& s) {
+// The curves, and Khronos PBR Neutral by its whole name.
+Choices tone_curve_choices() {
+    Choices choices = choices_of(ToneCurve{});
+    choices.names.emplace_back("pbr-neutral");
+    choices.meanings.emplace_back("the same as neutral");
+    return choices;
+}
+
+void add_display_options(CLI::App& command, SharedOptions& o) {
+    RenderSettings& s = o.settings;
+    const auto take_exposure = [&o](const std::string& name, const std::string& text) {
+        o.automatic_exposure = text == "auto";
+        if (o.automatic_exposure && !o.takes_automatic_exposure) {
+            throw UsageError(name + ": only render makes it automatic");
+        }
+        const double ev = o.automatic_exposure ? 0.0 : parse_number(name, text, kExposureRange);
+        o.settings.exposure = static_cast<float>(ev);
+    };
+    const auto take_curve = [&s](std::size_t place) {
+        const bool whole_name = place == names_of<ToneCurve>().size();
+        s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
+    };
     OptionBuilder(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
-        .number({"--exposure", "EV", "0", "Each step doubles the brightness"}, s.exposure,
-                kExposureRange)
+        .value({"--exposure", o.takes_automatic_exposure ? "EV|auto" : "EV", "0",
+                o.takes_automatic_exposure
+                    ? "Each step doubles the brightness; auto: the log average of the picture's "
+                      "luminance becomes 0.18, a sequence keeps that of its first frame"
+                    : "Each step doubles the brightness"},
+               take_exposure, [&s] { return text_of(s.exposure); })
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
-                s.tone_curve)
+                tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
                 kBloomRange);
 }
 
-void add_light_options(CLI::App& command, RenderSettings& s) {
+void add_light_options(CLI::App& command, SharedOptions& o) {
+    RenderSettings& s = o.settings;
     LightOptions& l = s.lights;
-    OptionBuilder(command, "Generated point lights, added to the file's own")
-        .count({"--lights", "N", "5000", "How many, e.g. 20k or 1e6; 0 keeps only the file's own"},
-               l.count, kLightsRange)
+    const auto take_count = [&o](const std::string& name, const std::string& text) {
+        o.settings.lights.count = parse_count(name, text, kLightsRange);
+        o.lights_given = true;
+    };
+    OptionBuilder(command, "Lights, added to the file's own")
+        .choice({"--rig", "", "auto", "What lights the scene"}, o.rig)
+        .value({"--lights", "N", "5000 with the rig swarm",
+                "Generated point lights, e.g. 20k or 1e6, beside any rig; without --rig they are "
+                "the rig, and 0 keeps only the file's own"},
+               take_count, [&l] { return text_of(l.count); })
         .count({"--light-seed", "S", "1", "Decides places, colours and motion"}, l.seed,
                kLightSeedRange)
         .number_or_auto(
@@ -100,7 +138,13 @@ void add_light_options(CLI::App& command, RenderSettings& s) {
             l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
+        .text({"--environment", "FILE", "",
+               "Light from all around: .hdr or .exr, longitude by latitude, its middle towards -Z; "
+               "lights surfaces, is not shown. Then --rig auto is none and --ambient 0"},
+              o.environment)
         .rest()
+        .count({"--environment-lights", "N", "128", "Directional lights that stand for it"},
+               o.environment_lights, {1, 65536})
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
                l.box, parse_box)
         .number({"--range-budget", "E", "0.00390625",
@@ -109,10 +153,18 @@ void add_light_options(CLI::App& command, RenderSettings& s) {
 }
 
 void add_camera_options(CLI::App& command, CameraChoice& c) {
+    const auto take_index = [&c](const std::string& name, const std::string& text) {
+        c.framed = text == "auto";
+        c.index.reset();
+        if (!c.framed) c.index = static_cast<int>(parse_count(name, text, {0, 0x7fffffff}));
+    };
+    const auto show_index = [&c] { return c.framed ? std::string("auto") : text_of(c.index); };
     OptionBuilder(command, "Camera")
-        .count({"--camera-index", "I", "the first, else one that frames the scene",
-                "A camera of the scene, from 0"},
-               c.index, {0, 0x7fffffff})
+        .value({"--camera-index", "I|auto", "the first, else auto",
+                "A camera of the scene, from 0; auto: one that sees an object whole from outside, "
+                "an interior (at least half of the rays from the middle of its box meet walls from "
+                "their front) from inside"},
+               take_index, show_index)
         .value({"--camera-position", "X,Y,Z", "", "Where it stands, in metres"}, c.position,
                parse_vector)
         .value({"--camera-focal-point", "X,Y,Z", "",
@@ -124,6 +176,9 @@ void add_camera_options(CLI::App& command, CameraChoice& c) {
         .number(
             {"--camera-view-angle", "DEG", "the camera's, else 45", "Vertical angle, in degrees"},
             c.view_angle, {0.0, 180.0, true})
+        .choice({"--fit", "", "height",
+                 "What a picture of another shape keeps of a file's camera that has an aspect"},
+                c.fit)
         .flag("--camera-orthographic", c.orthographic, "Parallel projection");
 }
 
@@ -161,8 +216,8 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
 void add_shared_options(CLI::App& command, SharedOptions& options) {
     add_scene_option(command, options);
     add_picture_options(command, options);
-    add_display_options(command, options.settings);
-    add_light_options(command, options.settings);
+    add_display_options(command, options);
+    add_light_options(command, options);
     add_camera_options(command, options.camera);
     add_device_options(command, options);
     OptionBuilder(command, "General")
@@ -176,6 +231,9 @@ void begin_command(const SharedOptions& options, bool compares) {
     }
     if (options.show_error && !compares) {
         throw UsageError("--show error: needs --reference FILE, which render takes");
+    }
+    if (options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0) {
+        throw UsageError("--rig swarm: needs lights, and --lights is 0");
     }
     set_verbosity(options.quiet     ? Verbosity::quiet
                   : options.verbose ? Verbosity::verbose

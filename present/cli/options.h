@@ -10,6 +10,7 @@
 
 #include "host/render/settings.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/rig.h"
 #include "present/cli/camera_choice.h"
 #include "present/cli/sequence.h"
 #include "present/image/display_picture.h"
@@ -21,6 +22,13 @@ struct SharedOptions {
     std::string scene = "atrium";  // a generated scene's name, or a .gltf or .glb file
     LoadOptions load;              // how a file is read; its time and memory are the picture's
     RenderSettings settings;
+    Rig rig = Rig::automatic;
+    std::string environment;                 // file; empty: none
+    std::uint64_t environment_lights = 128;  // that stand for it
+    bool lights_given = false;               // settings.lights.count was asked for
+    bool ambient_given = false;              // settings.ambient was
+    bool takes_automatic_exposure = false;   // the command can make it
+    bool automatic_exposure = false;
     CameraChoice camera;
     double time = 0.0;        // [s]
     bool show_error = false;  // --show error: the picture's error against --reference

@@ -8,9 +8,12 @@
 #include <set>
 
 #include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/base/suggest.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/environment.h"
+#include "present/cli/names.h"
 #include "present/cli/progress.h"
 
 namespace kilolux {
@@ -66,11 +69,42 @@ class LoadBar {
     std::optional<Progress> bar_;
 };
 
-}  // namespace
-
-Scene open_scene(const SharedOptions& options) {
-    return open_animated_scene(options, options.time).take();
+// Whether the command line says something of generated lights.
+bool asks_for_swarm(const SharedOptions& options) {
+    LightOptions standard;
+    standard.count = options.settings.lights.count;
+    const bool shaped = options.settings.lights != standard;
+    return options.lights_given ? standard.count > 0 : shaped;
 }
+
+Rig rig_of(const SharedOptions& options, const Scene& scene) {
+    if (options.rig != Rig::automatic) return options.rig;
+    if (asks_for_swarm(options)) return Rig::swarm;
+    if (!options.environment.empty()) return Rig::none;
+    return options.lights_given ? Rig::none
+                                : automatic_rig(scene, is_generated_scene(options.scene));
+}
+
+std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, std::size_t own) {
+    std::string line = fmt::format("rig     {}{}: ", name_of(rig), automatic ? " (automatic)" : "");
+    if (const std::size_t count = rig_lights(rig).size(); count > 0) {
+        line += fmt::format("{} directional, ", count);
+    }
+    if (const std::uint64_t count = settings.lights.count; count > 0) {
+        line += fmt::format("{} generated and ", count);
+    }
+    return line + fmt::format("{} of the scene's own lights, ambient {}", own, settings.ambient);
+}
+
+std::string add_environment(const SharedOptions& options, AnimatedScene& scene) {
+    if (options.environment.empty()) return "";
+    const auto lights = environment_lights(read_environment(options.environment),
+                                           static_cast<std::size_t>(options.environment_lights));
+    scene.add_lights(lights);
+    return fmt::format("; environment {}: {} directional", options.environment, lights.size());
+}
+
+}  // namespace
 
 AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
     if (is_generated_scene(options.scene)) {
@@ -83,6 +117,39 @@ AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
     load.max_memory_bytes = options.settings.max_memory_bytes;
     return AnimatedScene(scene_file(options.scene), load,
                          [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
+}
+
+std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
+    const bool automatic = options.rig == Rig::automatic;
+    const Rig rig = rig_of(options, scene.scene());
+    const std::size_t own = scene.scene().lights.size();
+    scene.add_lights(rig_lights(rig));
+    const std::string from_around = add_environment(options, scene);
+    std::uint64_t& generated = options.settings.lights.count;
+    if (rig != Rig::swarm && !options.lights_given) generated = 0;
+    float& ambient = options.settings.ambient;
+    if (!options.ambient_given) {
+        ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
+    }
+    // A swarm stays automatic: what another command line has to say for it is --lights.
+    if (rig != Rig::swarm) options.rig = rig;
+    return rig_line(rig, automatic, options.settings, own) + from_around;
+}
+
+void measure_swarm(SharedOptions& options) {
+    const bool without = options.lights_given && options.settings.lights.count == 0;
+    if (options.rig == Rig::automatic && !without) options.rig = Rig::swarm;
+}
+
+Scene open_scene(SharedOptions& options) {
+    AnimatedScene scene = open_animated_scene(options, options.time);
+    note(light_scene(options, scene));
+    return std::move(scene).take();
+}
+
+Camera choose_camera(const SharedOptions& options, const Scene& scene) {
+    const RenderSettings& s = options.settings;
+    return choose_camera(options.camera, scene, static_cast<double>(s.width) / s.height);
 }
 
 }  // namespace kilolux

@@ -6,11 +6,22 @@
 
 namespace kilolux {
 
-/// The scene of the options, at their time: a generated one by name, else the file of that path.
-/// Throws UsageError for what is neither a name nor looks like a file, Error if the file fails.
-Scene open_scene(const SharedOptions& options);
-
-/// That scene at `time` [s], to be put to other times.
+/// The scene of the options at `time` [s], to be put to other times: a generated one by name, else
+/// the file of that path. light_scene() comes next. Throws UsageError for what is neither a name
+/// nor looks like a file, Error if the file fails.
 AnimatedScene open_animated_scene(const SharedOptions& options, double time);
+
+/// Adds the lights of the options' rig. Which rig that is, and how many lights are generated, is
+/// then settled in the options; returns the lines that say it.
+std::string light_scene(SharedOptions& options, AnimatedScene& scene);
+
+/// Has a command that measures many lights do so where no rig was asked for.
+void measure_swarm(SharedOptions& options);
+
+/// The lit scene of the options, at their time.
+Scene open_scene(SharedOptions& options);
+
+/// The camera of the options in their picture.
+Camera choose_camera(const SharedOptions& options, const Scene& scene);
 
 }  // namespace kilolux

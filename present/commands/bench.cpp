@@ -7,6 +7,7 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "present/cli/frame_summary.h"
+#include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/program.h"
 
@@ -28,9 +29,10 @@ void check(const BenchOptions& o) {
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
 }
 
-void run_bench(const BenchOptions& options) {
+void run_bench(BenchOptions& options) {
     check(options);
     begin_command(options.shared);
+    measure_swarm(options.shared);
     if (!options.tables.empty()) {
         std::fputs(results_text(options.tables).c_str(), stdout);
         return;

@@ -98,9 +98,9 @@ void put_table(const BenchOptions& options, const std::string& name, const Table
 std::string results_text(const std::vector<std::string>& csv_files);
 
 /// The modes.
-void run_sweep(const BenchOptions& options);
-void run_culling(const BenchOptions& options);
-void run_shading(const BenchOptions& options);
-void run_tuning(const BenchOptions& options);
+void run_sweep(BenchOptions& options);
+void run_culling(BenchOptions& options);
+void run_shading(BenchOptions& options);
+void run_tuning(BenchOptions& options);
 
 }  // namespace kilolux

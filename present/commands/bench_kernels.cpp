@@ -26,9 +26,9 @@ RenderSettings single_settings(const BenchOptions& options) {
 
 // What all modes need.
 struct Bench {
-    explicit Bench(const BenchOptions& options)
+    explicit Bench(BenchOptions& options)
         : scene(open_scene(options.shared)),
-          camera(choose_camera(options.shared.camera, scene)),
+          camera(choose_camera(options.shared, scene)),
           settings(single_settings(options)),
           context(bench_context(options.shared, bench_frames(options), scene, camera,
                                 describe(choose_device(settings.device)))) {
@@ -61,7 +61,7 @@ Table tuning_table(const TuningResult& result) {
 
 }  // namespace
 
-void run_culling(const BenchOptions& options) {
+void run_culling(BenchOptions& options) {
     const Bench bench(options);
     const DeviceLimits limits = LimitWatch(choose_device(bench.settings.device)).limits();
     const std::vector<std::uint64_t> standard = {1000, 5000, 10000, 100000, 1000000};
@@ -93,7 +93,7 @@ void run_culling(const BenchOptions& options) {
     note("the lists equal brute force's, entry by entry");
 }
 
-void run_shading(const BenchOptions& options) {
+void run_shading(BenchOptions& options) {
     const Bench bench(options);
     const int runs = options.frames.value_or(5);
     const auto total = static_cast<std::size_t>((runs + 1) * shading_variants(bench.settings));
@@ -111,7 +111,7 @@ void run_shading(const BenchOptions& options) {
     put_table(options, "shading", shading_table(measured), bench.context);
 }
 
-void run_tuning(const BenchOptions& options) {
+void run_tuning(BenchOptions& options) {
     const Bench bench(options);
     LightingBench lighting(bench.scene, bench.settings, bench.camera, options.shared.time);
     const int runs = options.frames.value_or(5);

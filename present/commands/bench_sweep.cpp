@@ -189,9 +189,9 @@ BenchOptions with_budget(BenchOptions options, const Scene& scene, const Camera&
     return options;
 }
 
-void run_sweep(const BenchOptions& asked) {
+void run_sweep(BenchOptions& asked) {
     const Scene scene = open_scene(asked.shared);
-    const Camera camera = choose_camera(asked.shared.camera, scene);
+    const Camera camera = choose_camera(asked.shared, scene);
     const BenchOptions options = with_budget(asked, scene, camera);
     Sweep sweep;
     sweep.points = bench_points(options);

@@ -48,10 +48,13 @@ SceneCamera scene_camera(const Camera& camera, const RenderSettings& settings) {
 }
 
 // The scene with what the command line adds to it, at its time.
-Scene scene_to_export(const ExportOptions& options) {
-    const SharedOptions& shared = options.shared;
+Scene scene_to_export(ExportOptions& options) {
+    SharedOptions& shared = options.shared;
     Scene scene = open_scene(shared);
-    const Camera camera = choose_camera(shared.camera, scene);
+    const Camera camera = choose_camera(shared, scene);
+    for (SceneLight& light : scene.lights) {
+        light = placed_light(light, camera.world_from_view, camera.position);
+    }
     scene.cameras.insert(scene.cameras.begin(), scene_camera(camera, shared.settings));
     const auto generated = generate_lights(shared.settings.lights, scene, shared.time);
     scene.lights.insert(scene.lights.end(), generated.begin(), generated.end());
@@ -72,7 +75,7 @@ std::string summary(const Scene& scene, const ExportedScene& exported, const fs:
         exported.unusable_lights, files, (bytes + 1023) / 1024);
 }
 
-void run_export(const ExportOptions& options) {
+void run_export(ExportOptions& options) {
     if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o scene.glb");
     begin_command(options.shared);
     check_can_write(options.output);

@@ -48,7 +48,13 @@ Json light_counts(const Scene& scene, const LightOptions& generated) {
             {"directional", counts[2]},
             {"generated", generated.count},
             {"generated_range_m", scale.radius},
-            {"generated_intensity_cd", scale.intensity}};
+            {"generated_intensity_cd", scale.intensity},
+            {"min_distance_m", light_d_min(scene)}};
+}
+
+const char* kind_name(SceneKind kind) {
+    constexpr const char* kNames[] = {"open", "closed", "interior"};
+    return kNames[static_cast<int>(kind)];
 }
 
 Json clips_json(const Scene& scene) {
@@ -64,20 +70,22 @@ Json clips_json(const Scene& scene) {
 }
 
 Json scene_json(const Scene& scene, const LightOptions& generated) {
-    return {
-        {"name", scene.name},
-        {"triangles", triangle_count(scene)},
-        {"meshes", scene.meshes.size()},
-        {"instances", scene.instances.size()},
-        {"materials", scene.materials.size()},
-        {"textures", scene.textures.size()},
-        {"images", scene.images.size()},
-        {"cameras", scene.cameras.size()},
-        {"animations", clips_json(scene)},
-        {"variants", scene.variants},
-        {"lights", light_counts(scene, generated)},
-        {"bounds", box_json(bounds(scene))},
-        {"light_box", box_json(scene.light_box.empty() ? resting_bounds(scene) : scene.light_box)}};
+    const LightRegion region = automatic_light_scale(generated, scene).region;
+    return {{"name", scene.name},
+            {"triangles", triangle_count(scene)},
+            {"meshes", scene.meshes.size()},
+            {"instances", scene.instances.size()},
+            {"materials", scene.materials.size()},
+            {"textures", scene.textures.size()},
+            {"images", scene.images.size()},
+            {"cameras", scene.cameras.size()},
+            {"animations", clips_json(scene)},
+            {"variants", scene.variants},
+            {"lights", light_counts(scene, generated)},
+            {"kind", kind_name(scene.kind)},
+            {"bounds", box_json(bounds(scene))},
+            {"light_box", box_json(region.outer)},
+            {"light_hole", box_json(region.hole)}};
 }
 
 // The features that the scene does without, and with --costs what they would cost on this picture.
@@ -85,7 +93,7 @@ Json left_out_json(const InfoOptions& options, const Scene& scene, const ScenePl
     Json out = Json::array();
     std::vector<FeatureCost> costs = left_out_features(plan);
     if (options.costs) {
-        const Camera camera = choose_camera(options.shared.camera, scene);
+        const Camera camera = choose_camera(options.shared, scene);
         LightingBench bench(scene, options.shared.settings, camera, options.shared.time);
         costs = measure_feature_costs(bench);
     }
@@ -93,7 +101,7 @@ Json left_out_json(const InfoOptions& options, const Scene& scene, const ScenePl
     return out;
 }
 
-Json info_json(const InfoOptions& options) {
+Json info_json(InfoOptions& options) {
     const Scene scene = open_scene(options.shared);
     const Renderer renderer(scene, options.shared.settings);
     const ScenePlan& plan = renderer.plan();
@@ -189,7 +197,7 @@ void run_check(const InfoOptions& options) {
     }
 }
 
-void run_info(const InfoOptions& options) {
+void run_info(InfoOptions& options) {
     begin_command(options.shared);
     if (options.check_limits) return run_check(options);
     const Json document = info_json(options);

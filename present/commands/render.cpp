@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -14,10 +16,12 @@
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
+#include "present/cli/picture_advice.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
+#include "present/image/automatic_exposure.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
@@ -135,6 +139,12 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
     return record;
 }
 
+void advise(const Scene& scene, const Camera& camera, const Renderer& renderer,
+            const FrameRecord& record) {
+    const std::string advice = picture_advice(scene, camera, renderer.settings(), record.stats);
+    if (!advice.empty()) note(record.file + ": " + advice);
+}
+
 void add(Made& made, FrameRecord record) {
     if (made.log) made.log->add(record);
     const bool failed = record.comparison && !record.comparison->passed();
@@ -161,8 +171,9 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
         const Task task = tasks[i];
         if (!tasks.is_done(task)) {
             scene.set_time(task.time);
-            const Camera camera = choose_camera(options.shared.camera, scene.scene());
+            const Camera camera = choose_camera(options.shared, scene.scene());
             FrameRecord record = render_task(options, renderer, camera, task);
+            if (made.count == 0) advise(scene.scene(), camera, renderer, record);
             if (limits) {
                 fill_limits(record.stats, *limits,
                             frame_setup(renderer.settings(), renderer.plan(), renderer.device()));
@@ -172,6 +183,26 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
         progress.advance();
     }
     return made;
+}
+
+// By the sequence's first frame, also in a shard that does not have it.
+void expose_automatically(RenderOptions& options, AnimatedScene& scene, Renderer& renderer) {
+    const OutputOptions& out = options.output;
+    const double time =
+        options.shared.time + (out.frames ? out.frames->first / out.frames_per_second : 0.0);
+    scene.set_time(time);
+    const RenderSettings wanted = renderer.settings();
+    RenderSettings settings = wanted;
+    settings.want = radiance_only();
+    renderer.change(settings);
+    const Frame frame =
+        renderer.render(choose_camera(options.shared, scene.scene()), time, check_interrupt);
+    settings = wanted;
+    settings.exposure = options.shared.settings.exposure = automatic_exposure(frame.radiance);
+    renderer.change(settings);
+    note(fmt::format("exposure {} EV (automatic{}): --exposure {} makes it again",
+                     settings.exposure, out.frames ? ", of the sequence's first frame" : "",
+                     settings.exposure));
 }
 
 // Checks before rendering what would fail after it.
@@ -209,7 +240,7 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
     return settings;
 }
 
-void run_render(const RenderOptions& options) {
+void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     begin_command(options.shared, !out.reference.empty());
@@ -220,10 +251,12 @@ void run_render(const RenderOptions& options) {
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
     AnimatedScene scene = open_animated_scene(options.shared, first.time);
-    const Camera camera = choose_camera(options.shared.camera, scene.scene());
+    const std::string rig = light_scene(options.shared, scene);
+    const Camera camera = choose_camera(options.shared, scene.scene());
     check_interrupt();
     Renderer renderer(scene.scene(), settings_of(options, {scene.scene(), camera, first.time}));
     check_interrupt();
+    if (options.shared.automatic_exposure) expose_automatically(options, scene, renderer);
     const Made made = render_tasks(options, tasks, scene, renderer);
     if (!out.stats.empty()) {
         auto document = stats_json(renderer.device(), renderer.plan(), made.last);
@@ -232,11 +265,12 @@ void run_render(const RenderOptions& options) {
             tuning_json(choose_tuning(renderer.device(), renderer.settings().kernels));
         write_json(out.stats, document, made.log ? &*made.log : nullptr);
     }
-    note(frame_summary(scene.scene(), renderer.device(), made.last, made.count));
+    note(rig + "\n" + frame_summary(scene.scene(), renderer.device(), made.last, made.count));
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
+    options.shared.takes_automatic_exposure = true;
     add_shared_options(command, options.shared);
     add_output_options(command, options.output);
     add_budget_options(command, options.budget);

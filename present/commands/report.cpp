@@ -149,9 +149,10 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     apply_quick(command, options);
     begin_command(options.shared);
     make_output_folder(options.output);
-    const SharedOptions& shared = options.shared;
+    SharedOptions& shared = options.shared;
+    measure_swarm(shared);
     const Scene scene = open_scene(shared);
-    const Camera camera = choose_camera(shared.camera, scene);
+    const Camera camera = choose_camera(shared, scene);
     const DeviceInfo device = describe(choose_device(shared.settings.device));
     Report report;
     report.context = bench_context(shared, report_frames(options), scene, camera, device);

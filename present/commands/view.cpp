@@ -33,8 +33,12 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     if (is_given(command, "--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
-    return file.load(state,
-                     [&command](const std::string& name) { return is_given(command, name); });
+    // A rig without a swarm decides of lights and surround, whatever was kept.
+    const bool rig_decides = options.shared.rig != Rig::automatic;
+    return file.load(state, [&](const std::string& name) {
+        const bool of_rig = name == "--lights" || name == "--ambient";
+        return is_given(command, name) || (rig_decides && of_rig);
+    });
 }
 
 // Checks before the window opens what would fail when it closes.
@@ -47,21 +51,21 @@ void check_files(const ViewOptions& options) {
     check_can_write(options.screenshot);
 }
 
-void run_view(const ViewOptions& options, const CLI::App& command) {
+void run_view(ViewOptions& options, const CLI::App& command) {
     begin_command(options.shared);
     check_files(options);
     SessionOptions session;
-    session.shared = options.shared;
     session.exit_after = options.exit_after;
     session.screenshot = options.screenshot;
     if (!options.script.empty()) session.script = read_script(options.script);
     choose_device(options.shared.settings.device);  // throws before anything is on the screen
     const WindowSystem system;
     StateFile file(options.fresh ? std::filesystem::path() : view_state_file());
+    const Scene scene = open_scene(options.shared);
+    session.shared = options.shared;
     session.state = start_state(options, command, file);
     const Window context({16, 16}, "Kilolux", false);
     Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
-    const Scene scene = open_scene(options.shared);
     window.show();
     ViewSession view(scene, session, file, window, context);
     view.run();

@@ -30,8 +30,7 @@ float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
 
 FV3 tone_mapped(FV3 c, ToneCurve curve) {
     c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
-    if (curve == ToneCurve::neutral) return neutral_tone_curve(c);
-    return curve == ToneCurve::aces ? aces_tone_curve(c) : c;
+    return tone_curve_of(static_cast<int>(curve), c);
 }
 
 // `name` if the list has it; else throws UsageError with the list.

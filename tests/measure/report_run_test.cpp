@@ -183,7 +183,8 @@ TEST(ReportRun, MeasuresWhatEachSettingCostsAndErrs) {
 TEST(ReportRun, DisplayCodesAreTheDevices) {
     const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_settings(64, 36, 100);
-    for (const ToneCurve curve : {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces}) {
+    for (const ToneCurve curve :
+         {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces, ToneCurve::agx}) {
         settings.tone_curve = curve;
         settings.exposure = 0.5f;
         const Frame frame = render_once(scene, settings);

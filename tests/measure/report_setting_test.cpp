@@ -77,7 +77,7 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
     for (const ReportSetting& s : report_settings(scene, base, device(), false)) {
         if (s.axis != SettingAxis::cut_off) continue;
         ++cut_offs;
-        const auto lights = lights_at(scene, s.settings, 0.0);
+        const auto lights = lights_at(scene, s.settings, {}, 0.0);
         EXPECT_EQ(lights[0].range, 3.0f);
         EXPECT_FLOAT_EQ(lights[1].range,
                         static_cast<float>(range_of_light(10.0, s.settings.range_budget)));

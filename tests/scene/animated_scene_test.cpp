@@ -132,7 +132,7 @@ TEST(AnimatedScene, StandsStillWithoutAnimations) {
         EXPECT_FALSE(scene->moves());
         scene->set_time(7.0);
         EXPECT_EQ(scene->scene().revision, 0u);
-        EXPECT_TRUE(scene->scene().still_box.empty());
+        EXPECT_EQ(scene->scene().still_box, bounds(scene->scene()));
     }
 }
 

@@ -89,7 +89,7 @@ LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
       light_source_(gpu_, choose_tuning(device_, settings.kernels).tuning, scene, settings_) {
     in_stage("lighting bench", [&] {
         StageTimer untimed;
-        light_source_.update(time, camera_.position, light_stats_);
+        light_source_.update(time, camera_, light_stats_);
         lights_ = light_source_.input(camera_.position, true, untimed);
     });
 }

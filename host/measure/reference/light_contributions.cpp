@@ -5,22 +5,20 @@
 #include <functional>
 
 #include "host/measure/reference/decoded_samples.h"
-#include "host/measure/reference/reference.h"
 
 namespace kilolux {
 
-std::vector<LightContribution> light_contributions(const PixelProbe& probe, Shading shading,
-                                                   bool orthographic) {
+std::vector<LightContribution> light_contributions(const PixelProbe& probe,
+                                                   const ReferenceOptions& model) {
     SurfaceSamples surfaces = make_surface_samples(1, 1);
     SurfaceSample& surface = surfaces.at(0, 0);
     surface = surface_sample([&](std::size_t plane) { return probe.surface[plane]; },
                              probe.specular, probe.unlit);
     surface.emissive = glm::dvec3(0.0);
-    const ReferenceOptions options{.shading = shading, .orthographic = orthographic};
     std::vector<LightContribution> out;
     for (const ProbedLight& light : probe.lights) {
         const ReferenceLights one = reference_lights(std::span(&light.shade, 1), {});
-        const RgbImage lit = shade_reference(surfaces, one, options).radiance;
+        const RgbImage lit = shade_reference(surfaces, one, model).radiance;
         const glm::dvec3 position = one.lights.front().position;
         out.push_back({.index = light.index,
                        .distance = glm::length(position - surface.position),

@@ -4,8 +4,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "host/measure/reference/reference.h"
 #include "host/picture/pixel_probe.h"
-#include "host/render/settings.h"
 
 namespace kilolux {
 
@@ -17,8 +17,9 @@ struct LightContribution {
     glm::dvec3 radiance{0.0};  // added to the pixel, in float64
 };
 
-/// One per light of a probed pixel's list, the brightest first. `shading`: not automatic.
-std::vector<LightContribution> light_contributions(const PixelProbe& probe, Shading shading,
-                                                   bool orthographic);
+/// One per light of a probed pixel's list, the brightest first. `model`: shading, projection and
+/// light_d_min count.
+std::vector<LightContribution> light_contributions(const PixelProbe& probe,
+                                                   const ReferenceOptions& model);
 
 }  // namespace kilolux

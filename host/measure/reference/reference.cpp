@@ -13,8 +13,6 @@
 namespace kilolux {
 namespace {
 
-constexpr double kDistanceMin = 0.01;  // nearer than this the inverse square stops growing [m]
-
 class CompensatedSum3 {
  public:
     void add(const glm::dvec3& term) {
@@ -47,12 +45,13 @@ double cone(const ReferenceLight& light, const glm::dvec3& to_light) {
     return edge * edge;
 }
 
-Incidence incidence(const ReferenceLight& light, const glm::dvec3& position, bool windowed) {
+Incidence incidence(const ReferenceLight& light, const glm::dvec3& position,
+                    const ReferenceOptions& options) {
     const glm::dvec3 v = light.position - position;
     const double d2 = glm::dot(v, v);
-    const double x = windowed ? d2 * light.inv_range2 : 0.0;  // (d / range)^2
+    const double x = options.windowed ? d2 * light.inv_range2 : 0.0;  // (d / range)^2
     if (x >= 1.0) return {};
-    const double d = std::max(std::sqrt(d2), kDistanceMin);
+    const double d = std::max(std::sqrt(d2), options.light_d_min);
     const glm::dvec3 to_light = v / d;
     const double edge = cone(light, to_light);
     return {to_light, (1.0 - x) * (1.0 + x) / (d * d) * edge,
@@ -86,7 +85,7 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
         add_incident(pixel, surface, light.to_light, light.illuminance, options);
     }
     for (const ReferenceLight& light : lights.lights) {
-        const Incidence in = incidence(light, surface.position, options.windowed);
+        const Incidence in = incidence(light, surface.position, options);
         if (in.attenuation == 0.0) continue;
         ++pixel.lights;
         pixel.reaching += in.reaches;

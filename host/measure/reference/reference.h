@@ -25,6 +25,7 @@ struct ReferenceOptions {
     Shading shading = Shading::lambert;  // not automatic
     double ambient = 0.0;                // incident radiance, the same from every direction
     bool orthographic = false;           // rays to the eye are parallel to +Z
+    double light_d_min = 0.01;           // nearer than this the inverse square stops growing [m]
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     OnProgress progress{};
 };
@@ -42,10 +43,10 @@ struct ReferencePicture {
 ///
 ///   pixel = emissive + ambient * occlusion * albedo
 ///           + sum of brdf * intensity * attenuation * max(n.l, 0)
-///   attenuation = clamp(1 - (d/range)^4, 0, 1) / max(d, 1 cm)^2
+///   attenuation = clamp(1 - (d/range)^4, 0, 1) / max(d, light_d_min)^2
 ///                 * clamp((cos - cos_out) scale, 0, 1)^2
-/// The direction to a light at distance d is v / max(d, 1 cm); a light at the shading point adds 0.
-/// Relative error of the sums below 1e-14 for any number and order of lights.
+/// The direction to a light at distance d is v / max(d, light_d_min); a light at the shading point
+/// adds 0. Relative error of the sums below 1e-14 for any number and order of lights.
 ///
 /// R1, the kernels' error: `surfaces` decoded from the G-buffer, `lights` from its float32 rows.
 /// R2, the G-buffer's: `surfaces` from RayCaster. R3, the error of limited ranges: `windowed` =

@@ -12,18 +12,6 @@
 namespace kilolux {
 namespace {
 
-FV3 toned(FV3 color, ToneCurve curve) {
-    switch (curve) {
-        case ToneCurve::neutral:
-            return neutral_tone_curve(color);
-        case ToneCurve::aces:
-            return aces_tone_curve(color);
-        case ToneCurve::none:
-            break;
-    }
-    return color;
-}
-
 std::uint8_t srgb_code(double linear) {
     return static_cast<std::uint8_t>(
         std::lround(linear_to_srgb(std::clamp(linear, 0.0, 1.0)) * 255.0));
@@ -37,9 +25,9 @@ std::vector<std::uint8_t> display_codes(const RgbImage& image, float exposure_ev
     out.reserve(4 * image.pixel_count());
     for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
         const FV3 c =
-            toned(fv3(displayable(image.rgb[i] * gain), displayable(image.rgb[i + 1] * gain),
-                      displayable(image.rgb[i + 2] * gain)),
-                  curve);
+            tone_curve_of(static_cast<int>(curve), fv3(displayable(image.rgb[i] * gain),
+                                                       displayable(image.rgb[i + 1] * gain),
+                                                       displayable(image.rgb[i + 2] * gain)));
         out.insert(out.end(), {srgb_code(c.x), srgb_code(c.y), srgb_code(c.z), 255});
     }
     return out;

@@ -35,7 +35,7 @@ std::string kernels_key(const RenderSettings& s) {
 }
 
 ReferenceLights usable_lights(const ReportView& view, const RenderSettings& settings) {
-    std::vector<SceneLight> lights = lights_at(view.scene, settings, view.time);
+    std::vector<SceneLight> lights = lights_at(view.scene, settings, view.camera, view.time);
     std::erase_if(lights,
                   [&](const SceneLight& light) { return !is_usable(light, view.camera.position); });
     return reference_lights(lights, view.camera);
@@ -51,6 +51,7 @@ ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bo
     return {.shading = shading_of(plan),
             .ambient = settings.ambient,
             .orthographic = view_.camera.orthographic,
+            .light_d_min = double{plan.light_d_min},
             .windowed = windowed,
             .progress = [this](double) { on_step_(); }};
 }

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kCoverage = 10.0;         // mean number of lights that reach a point of the box
+constexpr double kShellCoverage = 40.0;    // the same of a shell
 constexpr double kExposedRadiance = 0.24;  // of a surface of albedo 0.5: middle of a tone curve
 constexpr double kExposedAlbedo = 0.5;
 // Of colour(hue) over all hues, measured; a test checks it.
@@ -25,13 +26,43 @@ constexpr double kMaxSpeed = 1.2;              // [m/s] along one axis
 constexpr double kMinCrossing = 8.0;           // [s] that a light takes at least across the box
 constexpr std::uint64_t kLightsAtOnce = 4096;  // fewer are not worth a task
 
-enum Stream : std::uint64_t { kPhase = 0, kSpeed = 3, kHue = 6 };
+constexpr double kGapOfRange = 0.25;  // between an object's box and the lights around it
 
-Box light_box(const LightOptions& options, const Scene& scene) {
-    if (!options.box.empty()) return options.box;
-    if (!scene.light_box.empty()) return scene.light_box;
-    const Box all = resting_bounds(scene);
-    return all.empty() ? Box{glm::dvec3(-1.0), glm::dvec3(1.0)} : all;
+enum Stream : std::uint64_t { kPhase = 0, kSpeed = 3, kHue = 6, kPart = 7 };
+
+LightRegion region_of(const LightOptions& options, const Scene& scene, double gap) {
+    if (!options.box.empty()) return {options.box, {}};
+    return light_region(scene, gap);
+}
+
+double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }
+
+// The box, or six boxes that fill it but for the hole: below and above it, then beside it.
+std::vector<Box> parts_of(const LightRegion& region) {
+    if (region.hole.empty()) return {region.outer};
+    std::vector<Box> parts;
+    Box rest = region.outer;
+    for (const int axis : {1, 0, 2}) {
+        Box low = rest, high = rest;
+        low.max[axis] = region.hole.min[axis];
+        high.min[axis] = region.hole.max[axis];
+        parts.insert(parts.end(), {low, high});
+        rest.min[axis] = region.hole.min[axis];
+        rest.max[axis] = region.hole.max[axis];
+    }
+    return parts;
+}
+
+// Which of the parts a number in [0, 1) means, each as often as its volume says.
+std::uint32_t part_at(const std::vector<Box>& parts, double unit) {
+    double all = 0.0;
+    for (const Box& part : parts) all += volume(part);
+    double left = unit * all;
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        left -= volume(parts[i]);
+        if (left < 0.0) return static_cast<std::uint32_t>(i);
+    }
+    return static_cast<std::uint32_t>(parts.size() - 1);
 }
 
 void check(const LightOptions& options, const Box& box, double time) {
@@ -73,6 +104,19 @@ double covering_radius(glm::dvec3 size, double count) {
     return diagonal > 0.0 ? std::min({std::max({ball, disc, interval}), diagonal}) : 1.0;
 }
 
+// The same in a shell, which is never thin. Most of a sphere about a point of its object lies
+// outside of it, and a surface may be well inside the object's box.
+double covering_radius(const LightRegion& shell, double count) {
+    const double space = volume(shell.outer) - volume(shell.hole);
+    const glm::dvec3 size = shell.outer.size();
+    return std::min(cube_root(kShellCoverage / count * space * 3.0 / (4.0 * kPi)),
+                    std::sqrt(glm::dot(size, size)));
+}
+
+double intensity_of(double volume, double count, double reach) {
+    return kExposedRadiance * volume / (kExposedAlbedo * count * reach) / kMeanLuminance;
+}
+
 // Brightest channel [cd] that exposes well. A surface in a cloud of n lights per m^3 receives
 //   E = n I int_hemisphere cos(w) dw int_0^R window(d) dd = n I pi 0.8 R
 // (the inverse square cancels the volume element). A box smaller than the range has only lights up
@@ -82,8 +126,17 @@ double exposing_intensity(glm::dvec3 size, double count, double radius) {
     const double volume = s.x * s.y * s.z;
     const double mean_chord = 2.0 * volume / (s.x * s.y + s.y * s.z + s.z * s.x);
     const double reach = 1.0 / (1.0 / (0.8 * radius) + 1.0 / mean_chord);
-    const double mean = kExposedRadiance * volume / (kExposedAlbedo * count * reach);
-    return mean / kMeanLuminance;
+    return intensity_of(volume, count, reach);
+}
+
+// The same for a surface that a shell of lights is around: they begin at a distance, and the mean
+// path through a layer, by the cosine, is twice its thickness.
+double exposing_intensity(const LightRegion& shell, const glm::dvec3& inside, double count,
+                          double radius) {
+    const double gap = 0.5 * (shell.hole.size().x - inside.x);
+    const double thickness = 0.5 * (shell.outer.size().x - shell.hole.size().x);
+    const double reach = 1.0 / (1.0 / (0.8 * radius - gap) + 0.5 / thickness);
+    return intensity_of(volume(shell.outer) - volume(shell.hole), count, reach);
 }
 
 // A saturated colour whose brightest channel is 1, a fifth of it white. Dark hues get more white,
@@ -115,33 +168,42 @@ double drift_speed(double extent, double unit) {
 }  // namespace
 
 LightScale automatic_light_scale(const LightOptions& options, const Scene& scene) {
-    const Box box = light_box(options, scene);
-    check(options, box, 0.0);
+    LightScale scale{options.radius, options.intensity, region_of(options, scene, 0.0)};
+    const LightRegion at_surface = scale.region;
+    check(options, at_surface.outer, 0.0);
     const double count = static_cast<double>(std::max<std::uint64_t>(options.count, 1));
-    const auto automatic = [](double given, double value) { return given > 0.0 ? given : value; };
-    LightScale scale;
-    scale.radius = automatic(options.radius, covering_radius(box.size(), count));
-    scale.intensity =
-        automatic(options.intensity, exposing_intensity(box.size(), count, scale.radius));
+    const glm::dvec3 size = at_surface.outer.size();
+    const bool around = !at_surface.hole.empty();
+    if (!(scale.radius > 0.0)) {
+        scale.radius = around ? covering_radius(at_surface, count) : covering_radius(size, count);
+    }
+    if (around) scale.region = region_of(options, scene, kGapOfRange * scale.radius);
+    if (!(scale.intensity > 0.0)) {
+        scale.intensity =
+            around ? exposing_intensity(scale.region, at_surface.hole.size(), count, scale.radius)
+                   : exposing_intensity(size, count, scale.radius);
+    }
     return scale;
 }
 
 LightGenerator::LightGenerator(const LightOptions& options, const Scene& scene, double time)
     : options_(options), time_(time) {
-    options_.box = light_box(options, scene);
-    check(options, options_.box, time);
     const LightScale scale = automatic_light_scale(options_, scene);
+    check(options, scale.region.outer, time);
     options_.radius = scale.radius;
     options_.intensity = scale.intensity;
+    parts_ = parts_of(scale.region);
 }
 
 LightTrack LightGenerator::track(std::uint64_t light) const {
     const std::uint64_t key = item_key(options_.seed, light);
     const auto random = [&](std::uint64_t stream) { return unit_double(item_bits(key, stream)); };
     LightTrack out;
+    if (parts_.size() > 1) out.part = part_at(parts_, random(kPart));
+    const Box& box = parts_[out.part];
     for (int axis = 0; axis < 3; ++axis) {
         const auto stream = static_cast<std::uint64_t>(axis);
-        const double extent = options_.box.max[axis] - options_.box.min[axis];
+        const double extent = box.max[axis] - box.min[axis];
         out.speed[axis] = drift_speed(extent, random(kSpeed + stream));
         out.phase[axis] = random(kPhase + stream);
     }
@@ -150,7 +212,7 @@ LightTrack LightGenerator::track(std::uint64_t light) const {
 }
 
 SceneLight LightGenerator::at(const LightTrack& track) const {
-    const Box& box = options_.box;
+    const Box& box = parts_[track.part];
     SceneLight out;
     for (int axis = 0; axis < 3; ++axis) {
         const double extent = box.max[axis] - box.min[axis];

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "host/scene/lights/light_region.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
@@ -17,20 +18,21 @@ struct LightOptions {
     double radius = 0.0;  // range [m]; 0: automatic, from the box and the count
     double intensity =
         0.0;  // brightest colour channel [cd]; 0: automatic, well exposed at any count
-    Box box;  // empty: the scene's light_box, else its bounds
+    Box box;  // empty: see light_region()
     bool operator==(const LightOptions&) const = default;
 };
 
 /// The lights of `options` at `time` [s]. A closed form of (seed, light, time): the same on every
-/// machine, order and thread count; every light stays inside the box. Runs on all cores.
+/// machine, order and thread count; every light stays inside its region. Runs on all cores.
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
                                         double time);
 
 /// What of a generated light does not change with time.
 struct LightTrack {
-    glm::dvec3 phase{0.0};      // along each axis of the box, in turns
+    glm::dvec3 phase{0.0};      // along each axis of its part, in turns
     glm::dvec3 speed{0.0};      // [m/s]
     glm::vec3 intensity{0.0f};  // [cd]
+    std::uint32_t part = 0;     // of the region, in which it stays
 };
 
 /// Single lights of `options` at a time [s], as generate_lights() makes them.
@@ -45,14 +47,16 @@ class LightGenerator {
     SceneLight at(const LightTrack& track) const;
 
  private:
-    LightOptions options_;  // nothing automatic
+    LightOptions options_;    // nothing automatic but the box
+    std::vector<Box> parts_;  // of the region: one, or six about a hole
     double time_;
 };
 
-/// Range [m] and intensity [cd] that `options` stands for when they are automatic.
+/// Range [m], intensity [cd] and region that `options` stands for when they are automatic.
 struct LightScale {
     double radius = 0.0;
     double intensity = 0.0;
+    LightRegion region;
 };
 LightScale automatic_light_scale(const LightOptions& options, const Scene& scene);
 

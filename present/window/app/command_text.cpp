@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "present/cli/names.h"
 #include "present/cli/option_values.h"
+#include "present/cli/scene_choice.h"
 
 namespace kilolux {
 namespace {
@@ -23,13 +25,15 @@ std::string quoted(const std::string& word) {
 
 std::string camera_options(const CameraRig& rig, const SharedOptions& first, const Scene& scene) {
     const Camera& camera = rig.camera();
-    const Camera start = choose_camera(first.camera, scene);
+    const Camera start = choose_camera(first, scene);
     std::string out;
     const bool stays = rig.is_unmoved() && camera.position == start.position &&
                        camera.world_from_view == start.world_from_view;
     if (stays && first.camera.index) {
         out = " --camera-index " + std::to_string(*first.camera.index);
     }
+    if (stays && first.camera.framed) out += " --camera-index auto";
+    if (stays && first.camera.fit != Fit::height) out += " --fit " + name_of(first.camera.fit);
     const bool named = first.camera.position || first.camera.focal_point || first.camera.view_up;
     if (!stays || named) {
         const glm::dvec3 up = camera.world_from_view[1];

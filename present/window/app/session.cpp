@@ -10,6 +10,7 @@
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "present/cli/scene_choice.h"
 #include "raster/gl_context.h"
 
 namespace kilolux {
@@ -36,7 +37,7 @@ ViewSession::ViewSession(const Scene& scene, SessionOptions options, StateFile& 
       window_(window),
       state_(options_.state),
       kept_(state_),
-      rig_(choose_camera(options_.shared.camera, scene), bounds(scene)),
+      rig_(choose_camera(options_.shared, scene), bounds(scene)),
       time_(options_.shared.time),
       gui_(window),
       facts_{.scene = scene,

@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "present/cli/frame_summary.h"
+#include "present/cli/scene_choice.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
 #include "present/window/app/command_text.h"
@@ -56,7 +57,7 @@ void ViewSession::take_error(FrameError error) {
 }
 
 void ViewSession::obey_actions(const Actions& actions) {
-    if (actions.reset_camera) rig_.set(choose_camera(options_.shared.camera, scene_));
+    if (actions.reset_camera) rig_.set(choose_camera(options_.shared, scene_));
     if (actions.frame_scene) rig_.frame();
     if (actions.scene_camera) {
         rig_.set(camera_of(scene_.cameras.at(static_cast<std::size_t>(*actions.scene_camera))));

@@ -40,8 +40,10 @@ void ViewSession::ask_probe() {
         // The renderer may have made another picture since, e.g. for a measurement of errors.
         if (s.width != drawn.settings.width || s.height != drawn.settings.height) return out;
         out = ProbedPixel{x, y, s.width, s.height, drawn.camera, renderer.probe(x, y), {}};
-        const auto shading = static_cast<Shading>(renderer.plan().kernels.shading + 1);
-        out->shares = light_contributions(out->probe, shading, drawn.camera.orthographic);
+        const KernelFeatures& kernels = renderer.plan().kernels;
+        out->shares = light_contributions(out->probe, {.shading = shading_of(kernels),
+                                                       .orthographic = drawn.camera.orthographic,
+                                                       .light_d_min = double{kernels.light_d_min}});
         return out;
     });
 }

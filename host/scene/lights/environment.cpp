@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/lights/environment.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <queue>
+
+#include "host/base/error.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+// Pixels [x0, x1) x [y0, y1).
+struct Region {
+    int x0, y0, x1, y1;
+    double luminance;
+    bool operator<(const Region& other) const { return luminance < other.luminance; }
+    int pixels() const { return (x1 - x0) * (y1 - y0); }
+};
+
+// Sums of luminance over the pixels above and left of a corner, so that a region's costs the same
+// whatever its size.
+class SummedLuminance {
+ public:
+    explicit SummedLuminance(const Environment& e)
+        : stride_(static_cast<std::size_t>(e.width) + 1),
+          sums_(stride_ * (static_cast<std::size_t>(e.height) + 1)) {
+        for (int y = 0; y < e.height; ++y) {
+            double row = 0.0;
+            for (int x = 0; x < e.width; ++x) {
+                row += luminance(e.light(x, y));
+                sums_[place(x + 1, y + 1)] = sums_[place(x + 1, y)] + row;
+            }
+        }
+    }
+    Region region(int x0, int y0, int x1, int y1) const {
+        const double sum = sums_[place(x1, y1)] - sums_[place(x0, y1)] - sums_[place(x1, y0)] +
+                           sums_[place(x0, y0)];
+        return {x0, y0, x1, y1, std::max(sum, 0.0)};
+    }
+
+ private:
+    std::size_t place(int x, int y) const {
+        return static_cast<std::size_t>(y) * stride_ + static_cast<std::size_t>(x);
+    }
+    std::size_t stride_;
+    std::vector<double> sums_;
+};
+
+// Whether a region is wider than high on the sphere, where rows near the poles are short.
+bool is_wide(const Environment& e, const Region& r) {
+    const double latitude = kPi * (0.5 - 0.5 * (r.y0 + r.y1) / e.height);
+    const double wide = 2.0 * kPi * (r.x1 - r.x0) / e.width * std::cos(latitude);
+    const bool can_be_cut_across = r.y1 - r.y0 > 1;
+    return r.x1 - r.x0 > 1 && (!can_be_cut_across || wide >= kPi * (r.y1 - r.y0) / e.height);
+}
+
+std::pair<Region, Region> cut(const Environment& e, const SummedLuminance& sums, const Region& r) {
+    const bool wide = is_wide(e, r);
+    const int first = wide ? r.x0 : r.y0, last = wide ? r.x1 : r.y1;
+    const auto lower = [&](int at) {
+        return wide ? sums.region(r.x0, r.y0, at, r.y1) : sums.region(r.x0, r.y0, r.x1, at);
+    };
+    int low = first + 1, high = last - 1;
+    while (low < high) {  // the first place with half of the light before it
+        const int middle = (low + high) / 2;
+        if (lower(middle).luminance < 0.5 * r.luminance) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return {lower(low),
+            wide ? sums.region(low, r.y0, r.x1, r.y1) : sums.region(r.x0, low, r.x1, r.y1)};
+}
+
+SceneLight light_of(const Environment& e, const Region& r) {
+    glm::dvec3 sum(0.0), centroid(0.0);
+    for (int y = r.y0; y < r.y1; ++y) {
+        for (int x = r.x0; x < r.x1; ++x) {
+            const glm::dvec3 light = e.light(x, y);
+            sum += light;
+            centroid += luminance(light) * e.direction(x, y);
+        }
+    }
+    // Light from all around has its centroid in the middle: any direction is as good.
+    const bool has_direction = glm::length(centroid) > 1e-9 * luminance(sum);
+    SceneLight out;
+    out.type = LightType::directional;
+    out.direction = has_direction ? -glm::normalize(centroid) : glm::dvec3(0, -1, 0);
+    out.intensity = glm::vec3(sum);
+    return out;
+}
+
+}  // namespace
+
+glm::dvec3 Environment::direction(int x, int y) const {
+    const double longitude = 2.0 * kPi * ((x + 0.5) / width - 0.5);
+    const double from_top = kPi * (y + 0.5) / height;
+    const double r = std::sin(from_top);
+    return {r * std::sin(longitude), std::cos(from_top), -r * std::cos(longitude)};
+}
+
+double Environment::solid_angle(int y) const {
+    return 2.0 * kPi / width * (std::cos(kPi * y / height) - std::cos(kPi * (y + 1.0) / height));
+}
+
+glm::dvec3 Environment::light(int x, int y) const {
+    const auto place =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    return solid_angle(y) * glm::dvec3(rows[place]);
+}
+
+Environment read_environment(const std::filesystem::path& file) {
+    OIIO::ImageBuf image(file.string());
+    if (!image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
+        throw Error(fmt::format("{}: {}", file.string(), image.geterror()));
+    }
+    Environment out{image.spec().width, image.spec().height, {}};
+    if (out.width != 2 * out.height || image.nchannels() < 3) {
+        throw Error(
+            fmt::format("{}: an environment is twice as wide as high, in 3 channels, not "
+                        "{}x{} in {}",
+                        file.string(), out.width, out.height, image.nchannels()));
+    }
+    out.rows.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+    OIIO::ROI roi = image.roi();
+    roi.chend = roi.chbegin + 3;
+    if (!image.get_pixels(roi, OIIO::TypeDesc::FLOAT, out.rows.data())) {
+        throw Error(fmt::format("{}: {}", file.string(), image.geterror()));
+    }
+    for (std::size_t i = 0; i < out.rows.size(); ++i) {
+        const glm::vec3& c = out.rows[i];
+        const float worst = std::min({c.x, c.y, c.z});
+        if (std::isfinite(c.x + c.y + c.z) && worst >= 0.0f) continue;
+        const auto width = static_cast<std::size_t>(out.width);
+        throw Error(fmt::format("{}: pixel {},{} is {},{},{}, must be finite and >= 0",
+                                file.string(), i % width, i / width, c.x, c.y, c.z));
+    }
+    return out;
+}
+
+std::vector<SceneLight> environment_lights(const Environment& environment, std::size_t count) {
+    const SummedLuminance sums(environment);
+    std::priority_queue<Region> regions;
+    std::vector<SceneLight> lights;
+    regions.push(sums.region(0, 0, environment.width, environment.height));
+    while (!regions.empty() && lights.size() + regions.size() < count &&
+           regions.top().luminance > 0.0) {
+        const Region most = regions.top();
+        regions.pop();
+        if (most.pixels() == 1) {
+            lights.push_back(light_of(environment, most));
+            continue;
+        }
+        const auto [a, b] = cut(environment, sums, most);
+        regions.push(a);
+        regions.push(b);
+    }
+    for (; !regions.empty(); regions.pop()) lights.push_back(light_of(environment, regions.top()));
+    std::erase_if(lights, [](const SceneLight& l) { return l.intensity == glm::vec3(0.0f); });
+    return lights;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/picture_advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "raster/forward_pass.h"
+
+namespace kilolux {
+namespace {
+
+// Where the scene's box lies in the view: beside the planes that all its corners are beyond.
+std::string place_in_view(const Box& box, const Camera& camera, double aspect) {
+    const double half = camera.orthographic ? camera.y_extent : std::tan(0.5 * camera.y_fov);
+    std::array<bool, 4> beyond;
+    beyond.fill(true);
+    double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
+                           (corner & 2) != 0 ? box.max.y : box.min.y,
+                           (corner & 4) != 0 ? box.max.z : box.min.z);
+        const glm::dvec3 v = (p - camera.position) * camera.world_from_view;
+        const double edge = camera.orthographic ? half : -v.z * half;
+        nearest = std::min(nearest, -v.z);
+        farthest = std::max(farthest, -v.z);
+        const std::array<bool, 4> sides = {v.x > edge * aspect, v.x<-edge * aspect, v.y> edge,
+                                           v.y < -edge};
+        for (std::size_t side = 0; side < 4; ++side) beyond[side] = beyond[side] && sides[side];
+    }
+    if (farthest <= 0.0 && !camera.orthographic) return "behind the camera";
+    if (farthest <= camera.z_near) return "nearer than the camera's near plane";
+    if (nearest >= camera.z_far) return "beyond the camera's far plane";
+    for (std::size_t side = 0; side < 4; ++side) {
+        if (beyond[side]) return "beside the camera's view";
+    }
+    return "";
+}
+
+// Whether a triangle shows the camera its front, or both its sides.
+bool any_face_shows(const Scene& scene, const Camera& camera) {
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0.0;
+        if (mesh.material >= 0 &&
+            scene.materials[static_cast<std::size_t>(mesh.material)].double_sided) {
+            return true;
+        }
+        const auto corner = [&](std::size_t i) {
+            return glm::dvec3(instance.world_from_object *
+                              glm::dvec4(mesh.positions[mesh.indices[i]], 1.0));
+        };
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const glm::dvec3 a = corner(i);
+            const glm::dvec3 normal = glm::cross(corner(i + 1) - a, corner(i + 2) - a);
+            const glm::dvec3 to_eye =
+                camera.orthographic ? camera.world_from_view[2] : camera.position - a;
+            if ((glm::dot(normal, to_eye) > 0.0) != mirrored) return true;
+        }
+    }
+    return false;
+}
+
+std::string why_no_surface(const Scene& scene, const Camera& camera, double aspect) {
+    const Box box = bounds(scene);
+    if (box.empty()) return "the scene has no triangles";
+    const std::string place = place_in_view(box, camera, aspect);
+    if (!place.empty()) {
+        return fmt::format("the scene is {}; try --camera-index auto", place);
+    }
+    if (!any_face_shows(scene, camera)) {
+        return "all faces are turned away from the camera; try --camera-index auto";
+    }
+    return "no surface covers a pixel's centre: all that is in the view is cut by alpha, turned "
+           "away, or smaller than a pixel";
+}
+
+}  // namespace
+
+std::string picture_advice(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                           const FrameStats& stats) {
+    if (settings.want.view != ViewKind::lit) return "";
+    const double aspect = static_cast<double>(settings.width) / settings.height;
+    // Surfaces that blend are in no cluster.
+    const bool counted =
+        settings.renderer == RendererKind::deferred && !has_blended_surfaces(scene);
+    const Box box = bounds(scene);
+    const bool in_view = !box.empty() && place_in_view(box, camera, aspect).empty();
+    if (counted ? stats.active_clusters == 0 : !in_view) {
+        return "picture is empty: " + why_no_surface(scene, camera, aspect);
+    }
+    if (stats.lights_used == 0) {
+        return stats.lights_given == 0
+                   ? "picture has no lights, only ambient and emitted light; try --rig studio"
+                   : fmt::format(
+                         "picture has no usable lights, all {} were rejected; try "
+                         "--rig studio",
+                         stats.lights_given);
+    }
+    if (counted && stats.directional_lights == 0 && stats.refined_pairs == 0) {
+        return fmt::format(
+            "picture has only ambient and emitted light: none of {} lights reaches a surface in "
+            "it; try --rig studio",
+            stats.lights_used);
+    }
+    return "";
+}
+
+}  // namespace kilolux

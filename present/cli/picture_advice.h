@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/picture/frame.h"
+#include "host/render/settings.h"
+#include "host/scene/camera.h"
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// Why a lit picture shows nothing, or nothing but ambient light, in one line for people; empty
+/// where neither is known. Counts of `stats` that only `deferred` has are used where it made them.
+std::string picture_advice(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                           const FrameStats& stats);
+
+}  // namespace kilolux

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lights a command line means, and how it says so.
+#include <gtest/gtest.h>
+
+#include "host/render/renderer.h"
+#include "host/scene/export/export_scene.h"
+#include "present/cli/option_values.h"
+#include "present/cli/scene_choice.h"
+#include "present/image/image_file.h"
+#include "tests/support/box_scene.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
+
+namespace kilolux {
+namespace {
+
+// Files of an object, a room, and an object with a light.
+class RigTest : public testing::Test {
+ protected:
+    RigTest() {
+        write("object.glb", box_scene(glm::dvec3(2.0)));
+        write("room.glb", box_scene(glm::dvec3(4.0), true));
+        Scene own = box_scene(glm::dvec3(2.0));
+        own.lights.resize(1);
+        own.lights[0].range = 9.0f;
+        write("own.glb", own);
+    }
+
+    void write(const char* name, const Scene& scene) {
+        for (const ExportedFile& part : export_scene(scene, folder_ / name).files) {
+            write_text(folder_ / part.name, std::string(part.bytes.begin(), part.bytes.end()));
+        }
+    }
+
+    // "generated+own", and the ambient light where it is not the usual one.
+    std::string lights(const std::string& scene, const std::string& more = "") {
+        CLI::App app;
+        SharedOptions options;
+        add_shared_options(app, options);
+        const std::string words =
+            (scene.find('.') == std::string::npos ? scene : (folder_ / scene).string());
+        app.parse(words + " -q " + more);
+        begin_command(options);
+        const Scene opened = open_scene(options);
+        std::string out = std::to_string(options.settings.lights.count) + "+" +
+                          std::to_string(opened.lights.size());
+        if (options.settings.ambient != 0.02f) out += " " + text_of(options.settings.ambient);
+        return out;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(RigTest, TheSceneDecidesUnlessTheCommandLineDoes) {
+    EXPECT_EQ(lights("grid"), "5000+0");
+    EXPECT_EQ(lights("room.glb"), "5000+0");
+    EXPECT_EQ(lights("object.glb"), "0+5 0.2");
+    EXPECT_EQ(lights("own.glb"), "0+1");
+    EXPECT_EQ(lights("object.glb", "--lights 70"), "70+0") << "lights asked for are the rig";
+    EXPECT_EQ(lights("object.glb", "--light-radius 2"), "5000+0");
+    EXPECT_EQ(lights("object.glb", "--lights 0"), "0+0");
+    EXPECT_EQ(lights("grid", "--lights 0"), "0+0");
+    EXPECT_EQ(lights("own.glb", "--lights 70"), "70+1");
+}
+
+TEST_F(RigTest, ARigAskedForIsTheRigAndTheFilesLightsCount) {
+    EXPECT_EQ(lights("own.glb", "--rig studio"), "0+6 0.2");
+    EXPECT_EQ(lights("own.glb", "--rig studio --ambient 0.02"), "0+6");
+    EXPECT_EQ(lights("own.glb", "--rig studio --lights 70"), "70+6 0.2");
+    EXPECT_EQ(lights("object.glb", "--rig headlight"), "0+1");
+    EXPECT_EQ(lights("object.glb", "--rig swarm"), "5000+0");
+    EXPECT_EQ(lights("grid", "--rig none"), "0+0");
+    EXPECT_EQ(message_of<UsageError>([&] { lights("grid", "--rig swarm --lights 0"); }),
+              "--rig swarm: needs lights, and --lights is 0");
+}
+
+TEST_F(RigTest, AnEnvironmentIsLightsOfItsOwn) {
+    Frame white;
+    white.width = 8;
+    white.height = 4;
+    white.radiance.assign(96, 0.5f);
+    const std::string file = (folder_ / "white.hdr").string();
+    write_image(file, white);
+    EXPECT_EQ(lights("object.glb", "--environment " + file), "0+32 0");
+    EXPECT_EQ(lights("object.glb", "--environment-lights 5 --environment " + file), "0+5 0");
+    EXPECT_EQ(lights("own.glb", "--rig studio --environment " + file), "0+38 0.2");
+    EXPECT_TRUE(
+        contains(message_of<Error>([&] { lights("grid", "--environment none.hdr"); }), "none.hdr"));
+}
+
+TEST_F(RigTest, TheProgramSaysItOnceAndNotQuietly) {
+    const std::vector<std::string> words = {"render",       (folder_ / "object.glb").string(),
+                                            "--resolution", "48,32",
+                                            "-o",           (folder_ / "a.png").string()};
+    const ChildResult said = run_kilolux(words);
+    ASSERT_EQ(said.code, 0) << said.err;
+    const std::string line =
+        "rig     studio (automatic): 5 directional, 0 of the scene's own "
+        "lights, ambient 0.2\n";
+    EXPECT_TRUE(contains(said.err, line)) << said.err;
+    std::vector<std::string> dark = words;
+    dark.insert(dark.end(), {"--rig", "none"});
+    EXPECT_TRUE(contains(run_kilolux(dark).err, "a.png: picture has no lights"));
+    dark.emplace_back("-q");
+    EXPECT_EQ(run_kilolux(dark).err, "");
+}
+
+// A headlight is the camera's in every renderer and wherever the camera stands.
+TEST_F(RigTest, AHeadlightFollowsTheCamera) {
+    Scene scene = box_scene(glm::dvec3(2.0));
+    scene.lights = rig_lights(Rig::headlight);
+    RenderSettings settings;
+    settings.width = 33;
+    settings.height = 33;
+    settings.lights.count = 0;
+    settings.ambient = 0.0f;
+    for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {
+        settings.renderer = kind;
+        Renderer renderer(scene, settings);
+        double first = 0.0;
+        for (const glm::dvec3 eye :
+             {glm::dvec3(0, 0, 6), glm::dvec3(6, 0, 0), glm::dvec3(0, 0, -6)}) {
+            const Frame frame = renderer.render(look_at(eye, {0, 0, 0}, {0, 1, 0}, 0.6), 0.0);
+            const double middle = frame.radiance[3 * (16 * 33 + 16)];
+            if (first == 0.0) first = middle;
+            EXPECT_GT(middle, 0.2);
+            EXPECT_NEAR(middle, first, 1e-5);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
