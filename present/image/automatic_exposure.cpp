@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "present/cli/option_values.h"
-
 namespace kilolux {
 
 float automatic_exposure(std::span<const float> radiance) {
     constexpr double kMiddleGrey = 0.18;
+    constexpr double kMost = 126.0;  // [EV] that a float holds
     double sum = 0.0;
     std::size_t count = 0;
     for (std::size_t i = 0; i + 2 < radiance.size(); i += 3) {
@@ -21,8 +20,7 @@ float automatic_exposure(std::span<const float> radiance) {
     }
     if (count == 0) return 0.0f;
     const double ev = std::log2(kMiddleGrey) - sum / static_cast<double>(count);
-    return static_cast<float>(
-        std::clamp(0.01 * std::round(100.0 * ev), kExposureRange.min, kExposureRange.max));
+    return static_cast<float>(std::clamp(0.01 * std::round(100.0 * ev), -kMost, kMost));
 }
 
 }  // namespace kilolux
