@@ -153,37 +153,105 @@ static inline void draw_whole(SurfaceScene scene, View view, Tile* tile, const B
     }
 }
 
-// Triangles that alpha or the near plane cuts; in any order.
+// The pixels of a strip that a triangle wins whose turn comes in any order.
+static inline MASK wins_cut(SurfaceScene scene, View view, const Tile* tile, const DrawnTriangle* t,
+                            uint x, uint y, FV key) {
+    uint place = y * TILE_STRIDE + x;
+    FV old = lane_load(tile->key + place);
+    // Background has the number 0 - 1, which is not smaller.
+    MASK first =
+        lane_mask(key == old) & lane_mask((UV)(t->number) < lane_load(tile->id + place) - 1u);
+    return covered(scene, view, t, tile->ray_x + x, ray_y(view, tile->y + y)) &
+           (lane_mask(key > old) | first) & behind_near(view, tile, key, x, y);
+}
+
+// Triangles that the near plane cuts.
 static inline void draw_cut(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
                             DrawnTriangle* t) {
-#if HAS_MASKS
-    MaskedTriangle masked;
-    if (b->masked[i] != 0) masked = fetch_masked_triangle(scene, view, t->number);
-#endif
     for (int y = b->y0[i]; y <= b->y1[i]; ++y) {
-        float ry = ray_y(view, tile->y + (uint)y);
-        begin_row(b, i, ry, t);
+        begin_row(b, i, ray_y(view, tile->y + (uint)y), t);
         for (int x = b->x0[i]; x <= b->x1[i]; x += VW) {
-            uint place = (uint)y * TILE_STRIDE + (uint)x;
             FV key = keys_of(t, tile->ray_x + x);
-            FV old = lane_load(tile->key + place);
-            // Background has the number 0 - 1, which is not smaller.
-            MASK first = lane_mask(key == old) &
-                         lane_mask((UV)(t->number) < lane_load(tile->id + place) - 1u);
-            MASK wins = covered(scene, view, t, tile->ray_x + x, ry) &
-                        (lane_mask(key > old) | first) &
-                        behind_near(view, tile, key, (uint)x, (uint)y);
-            if (!lane_any(wins)) continue;
-#if HAS_MASKS
-            if (b->masked[i] != 0) {
-                wins &= passes_mask(scene, view, &masked,
-                                    row_pixels(view, tile->x + (uint)x, tile->y + (uint)y));
-            }
-#endif
-            store_strip(tile, place, wins, key, t->number);
+            MASK wins = wins_cut(scene, view, tile, t, (uint)x, (uint)y, key);
+            store_strip(tile, (uint)y * TILE_STRIDE + (uint)x, wins, key, t->number);
         }
     }
 }
+
+#if HAS_MASKS
+// Pixels that a triangle wins if alpha leaves them: strips have few of them, samples are taken in
+// full vectors.
+#define MOST_FRAGMENTS (8 * VW)
+
+typedef struct Fragments {
+    float x[MOST_FRAGMENTS + VW], y[MOST_FRAGMENTS + VW];  // centres in the picture [pixel]
+    float key[MOST_FRAGMENTS + VW];
+    uint place[MOST_FRAGMENTS + VW];  // in the tile
+    uint count;
+} Fragments;
+
+// Which lanes are set cannot be foreseen: each is written, and the next in its place if it is not.
+static inline void add_fragments(const Tile* tile, View view, uint x, uint y, MASK wins, FV key,
+                                 Fragments* f) {
+    uint flag[VW];
+    float keys[VW];
+    lane_store(lane_bits(wins) & 1u, flag);
+    lane_store(key, keys);
+    float py = (float)(tile->y + y + view.first_row) + 0.5f;
+    uint count = f->count;
+#pragma unroll
+    for (uint lane = 0; lane < VW; ++lane) {
+        f->x[count] = (float)(tile->x + x + lane) + 0.5f;
+        f->y[count] = py;
+        f->key[count] = keys[lane];
+        f->place[count] = y * TILE_STRIDE + x + lane;
+        count += flag[lane];
+    }
+    f->count = count;
+}
+
+static inline void draw_fragments(SurfaceScene scene, View view, Tile* tile,
+                                  const MaskedTriangle* t, uint number, Fragments* f) {
+    for (uint first = 0; first < f->count; first += VW) {
+        uint count = min(f->count - first, (uint)VW);
+        for (uint i = count; i < VW; ++i) {
+            f->x[first + i] = f->x[first];
+            f->y[first + i] = f->y[first];
+        }
+        Pixels pixels;
+        pixels.x = lane_load(f->x + first);
+        pixels.y = lane_load(f->y + first);
+        pixels.first = 0;
+        int left[VW];
+        lane_store(passes_mask(scene, view, t, pixels), left);
+        for (uint i = 0; i < count; ++i) {
+            if (left[i] == 0) continue;
+            tile->key[f->place[first + i]] = f->key[first + i];
+            tile->id[f->place[first + i]] = number + 1u;
+        }
+    }
+    f->count = 0;
+}
+
+static inline void draw_masked(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
+                               DrawnTriangle* t) {
+    MaskedTriangle masked = fetch_masked_triangle(scene, view, t->number);
+    Fragments fragments;
+    fragments.count = 0;
+    for (int y = b->y0[i]; y <= b->y1[i]; ++y) {
+        begin_row(b, i, ray_y(view, tile->y + (uint)y), t);
+        for (int x = b->x0[i]; x <= b->x1[i]; x += VW) {
+            FV key = keys_of(t, tile->ray_x + x);
+            MASK wins = wins_cut(scene, view, tile, t, (uint)x, (uint)y, key);
+            if (!lane_any(wins)) continue;
+            add_fragments(tile, view, (uint)x, (uint)y, wins, key, &fragments);
+            if (fragments.count < MOST_FRAGMENTS) continue;
+            draw_fragments(scene, view, tile, &masked, t->number, &fragments);
+        }
+    }
+    draw_fragments(scene, view, tile, &masked, t->number, &fragments);
+}
+#endif
 
 // One triangle of a batch. `sure_key`: no pixel's near plane has a smaller one.
 static inline void draw_triangle(SurfaceScene scene, View view, float sure_key, Tile* tile,
@@ -195,7 +263,13 @@ static inline void draw_triangle(SurfaceScene scene, View view, float sure_key, 
     t.plane_x = fv(b->plane[0][i]);
     t.farthest = fv(b->farthest[i]);
     t.nearest = fv(b->nearest[i]);
-    if (b->nearest[i] < sure_key && b->masked[i] == 0) {
+#if HAS_MASKS
+    if (b->masked[i] != 0) {
+        draw_masked(scene, view, tile, b, i, &t);
+        return;
+    }
+#endif
+    if (b->nearest[i] < sure_key) {
         draw_whole(scene, view, tile, b, i, &t);
     } else {
         draw_cut(scene, view, tile, b, i, &t);

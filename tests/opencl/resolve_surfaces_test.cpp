@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/base/gbuffer_layout.h"
+#include "host/stages/bin_triangles.h"
 #include "host/stages/build_mips.h"
 #include "host/stages/decode_gbuffer.h"
 #include "host/stages/raster_triangles.h"
