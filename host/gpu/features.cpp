@@ -46,7 +46,7 @@ Tuning default_tuning(const DeviceInfo& device) {
     tuning.light_group = 64;
     tuning.raster_group = 256;
     tuning.raster_tile_width = 32;
-    tuning.raster_tile_height = 32;
+    tuning.raster_tile_height = 16;
     return tuning;
 }
 
