@@ -33,6 +33,9 @@ void add_frame(Json& out, const FrameRecord& record) {
                        {"coarse_pairs", s.coarse_pairs},
                        {"active", s.active_clusters},
                        {"refined_pairs", s.refined_pairs}};
+    if (s.triangles > 0) {
+        out["triangles"] = {{"in_view", s.triangles}, {"tile_pairs", s.triangle_pairs}};
+    }
     const auto counted = [](double mean) { return mean < 0.0 ? Json(nullptr) : Json(mean); };
     out["evaluations"] = {{"per_pixel", counted(s.evaluations_per_pixel)},
                           {"useful_per_pixel", counted(s.useful_evaluations_per_pixel)}};
