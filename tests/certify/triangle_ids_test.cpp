@@ -15,6 +15,7 @@
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/scene/generated/scenes.h"
 #include "host/surfaces/surface_scene.h"
+#include "tests/support/quad_scene.h"
 #include "tests/support/render_fixture.h"
 #include "tests/support/test_gpu.h"
 
@@ -141,6 +142,33 @@ TEST(TriangleIds, SliversFarOutCoverEachPixelOnce) {
     expect_each_once(triangle_coverage(test_gpu(), scene, camera, kSize, kSize), kSize);
 }
 
+// Depths of slivers are good enough to hide what lies 0.5 % behind.
+TEST(TriangleIds, SliversHideWhatLiesBehind) {
+    constexpr int kSize = 32, kCells = 12;
+    TriangleMesh mesh;
+    mesh.triangles = grid_triangles(kCells);
+    const auto front = static_cast<int>(mesh.triangles.size());
+    for (const float z : {-0.02f, -0.0201f}) {
+        const auto first = static_cast<int>(mesh.vertices.size());
+        for (int y = 0; y <= kCells; ++y) {
+            for (int x = 0; x <= kCells; ++x) {
+                mesh.vertices.emplace_back((static_cast<float>(x) - 6.3f) * 1e-2f,
+                                           (static_cast<float>(y) - 6.4f) * 20.0f, z);
+            }
+        }
+        if (first == 0) continue;
+        for (const std::array<int, 3>& t : grid_triangles(kCells)) {
+            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        }
+    }
+    const Scene scene = scene_of_triangles(mesh);
+    Camera camera = look_at({0, 0, 0}, {0.001, 0.002, -1}, {0.1, 1, 0}, 1.2);
+    camera.z_near = 1e-3;
+    for (const Shown& shown : Drawing(scene).at(camera, kSize, kSize)) {
+        EXPECT_LT(shown.instance, static_cast<uint>(front));
+    }
+}
+
 // Every lane width, tile and work-group, and bands of rows.
 TEST(TriangleIds, AreTheSameOnEveryWay) {
     const Scene scene = make_generated_scene("grid");
@@ -203,6 +231,28 @@ TEST(TriangleIds, AreThoseOfRays) {
     const Scene scene = make_generated_scene("atrium");
     // Leaves of two levels of detail, and surfaces that lie in one plane.
     EXPECT_LE(unlike_rays(scene, first_camera(scene), 320, 180, 2e-3), 320 * 180 / 1000);
+}
+
+// Texels' alpha, in a quad that is turned away from the viewer: mip levels differ along it.
+TEST(TriangleIds, AreThoseOfRaysThroughMasks) {
+    Scene scene = quad_scene(4.0f);
+    Image& image = scene.images.emplace_back();
+    image.width = image.height = 16;
+    std::mt19937 random(5);
+    for (int i = 0; i < 16 * 16; ++i) {
+        const auto alpha = static_cast<std::uint8_t>(random() % 256u);
+        image.rgba.insert(image.rgba.end(), {200, 100, 50, alpha});
+    }
+    scene.textures.emplace_back().image = 0;
+    Material& material = scene.materials.front();
+    material.alpha_mode = AlphaMode::mask;
+    material.alpha_cutoff = 0.45f;
+    material.base_color_texture.texture = 0;
+    const Camera camera = look_at({3, 2, 3}, {0, 0, 0}, {0, 1, 0}, 1.0);
+    const std::vector<Shown> drawn = Drawing(scene).at(camera, 160, 90);
+    const auto seen = std::ranges::count_if(drawn, [](const Shown& s) { return s != Shown{}; });
+    EXPECT_GT(seen, 1500);
+    EXPECT_LE(unlike_rays(scene, camera, 160, 90, 2e-3), 4);
 }
 
 TEST(TriangleIds, AreThoseOfParallelRays) {
