@@ -132,7 +132,7 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
         ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
     }
     // A swarm stays automatic: what another command line has to say for it is --lights.
-    if (rig != Rig::swarm) options.rig = rig;
+    options.rig = rig == Rig::swarm ? Rig::automatic : rig;
     return rig_line(rig, automatic, options.settings, own) + from_around;
 }
 
