@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What OpenGL's ids say is seen: triangles set up one by one, interpolated in lanes.
+// What triangle ids say is seen: triangles set up one by one, interpolated in lanes.
 //
 // Homogeneous edges in view space (Olano and Greer 1997): with the ray d of a pixel and
 // e_i = v_j x v_k, u_i = e_i . d is affine in the pixel, the barycentric weights are u_i / sum(u),
@@ -155,7 +155,7 @@ static inline Weights weights_of(View view, Pixels pixels, TriangleEdges t, MASK
     FV ry = fma(pixels.y, fv(view.ray.z), fv(view.ray.w));
     *front = lane_mask(along_ray(t.sum, rx, ry) < fv(0.0f));
     FV sign = lane_select(*front, fv(-1.0f), fv(1.0f));
-    // A pixel's centre may lie outside by what the rasteriser snaps: the nearest point counts.
+    // A pixel's centre may lie outside by what OpenGL snaps: the nearest point counts.
     FV u0 = max(along_ray(t.e0, rx, ry) * sign, fv(0.0f));
     FV u1 = max(along_ray(t.e1, rx, ry) * sign, fv(0.0f));
     FV u2 = max(along_ray(t.e2, rx, ry) * sign, fv(0.0f));
