@@ -15,6 +15,30 @@ static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
     return a;
 }
 
+// Active clusters by fine tile, and their lists.
+typedef struct ClusterLists {
+    global const uint* offsets;
+    global const ActiveCluster* clusters;
+    uint capacity;  // of clusters
+    global const LIGHT_INDEX* lists;
+} ClusterLists;
+
+// `unlit` and what the lights of a tile's clusters add, each cluster's at the drawn pixels of its
+// slice. `any_drawn`: else the work-item only helps to stage.
+static inline LightSum sum_clusters(ClusterLists from, uint tile, UV slice, MASK drawn,
+                                    bool any_drawn, LightSum unlit, ShadingPoint p, LightSet set) {
+    LightSum sum = unlit;
+    uint end = min(from.offsets[tile + 1], from.capacity);
+    for (uint i = from.offsets[tile]; i < end; ++i) {
+        MASK mine = lane_mask(slice == (UV)(from.clusters[i].slice)) & drawn;
+        bool wanted = any_drawn && lane_any(mine);
+        LightSum lit = sum_lights(unlit, wanted, p, set, from.lists + from.clusters[i].list_begin,
+                                  from.clusters[i].list_count);
+        if (wanted) sum = select_sum(mine, lit, sum);
+    }
+    return sum;
+}
+
 kernel void shade(
     global const uchar* restrict gbuffer, GBufferLayout layout, View view,
     global const float* restrict srgb,                           // [256]
@@ -65,16 +89,9 @@ kernel void shade(
     Surface s = load_surface(g, pixels, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     LightSum unlit = sum_directional(p, directional_lights, directional_count);
-    LightSum sum = unlit;
-    UV slice = fine_slice_of_depth(grid, z);
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
-        MASK mine = lane_mask(slice == (UV)(clusters[i].slice)) & drawn;
-        bool wanted = any_drawn && lane_any(mine);
-        LightSum lit = sum_lights(unlit, wanted, p, set, lists + clusters[i].list_begin,
-                                  clusters[i].list_count);
-        if (wanted) sum = select_sum(mine, lit, sum);
-    }
+    ClusterLists from = {cluster_offsets, clusters, cluster_capacity, lists};
+    LightSum sum =
+        sum_clusters(from, tile, fine_slice_of_depth(grid, z), drawn, any_drawn, unlit, p, set);
     FV3 color = finish_shading(s, sum, ambient);
     if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
 }
