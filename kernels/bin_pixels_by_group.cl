@@ -189,8 +189,8 @@ static inline ActiveCluster finished_cluster(local const TileClusters* tile, uin
     c.pixel_count = pixels_of(tile->pixels[i]);
     c.list_begin = 0;
     c.list_count = 0;
-    c.unused0 = 0;
-    c.unused1 = 0;
+    c.first_pixel = 0;
+    c.first_word = 0;
     return c;
 }
 

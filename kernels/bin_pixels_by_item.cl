@@ -85,8 +85,8 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
     c.pixel_count = lane_sum(pixels);
     c.list_begin = 0;
     c.list_count = 0;
-    c.unused0 = 0;
-    c.unused1 = 0;
+    c.first_pixel = 0;
+    c.first_word = 0;
     return c;
 }
 

@@ -9,11 +9,13 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 
+#if !SHADOWS
 static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
     a.diffuse = select3(mask, a.diffuse, b.diffuse);
     a.specular = select3(mask, a.specular, b.specular);
     return a;
 }
+#endif
 
 // Active clusters by fine tile, and their lists.
 typedef struct ClusterLists {
@@ -21,17 +23,47 @@ typedef struct ClusterLists {
     global const ActiveCluster* clusters;
     uint capacity;  // of clusters
     global const LIGHT_INDEX* lists;
+    global const DirectionalLight* directional;
+    uint directional_count;
+#if SHADOWS
+    global const uint* shadows;  // cast_shadows' words of the tile
+    uint place;                  // of the work-item's first pixel in the tile's order
+#endif
 } ClusterLists;
 
-// `unlit` and what the lights of a tile's clusters add, each cluster's at the drawn pixels of its
-// slice. `any_drawn`: else the work-item only helps to stage.
+#if SHADOWS
+// The work-item's bits of a cluster that has some of its pixels.
+static inline ShadowBits bits_of_cluster(ClusterLists from, global const ActiveCluster* c) {
+    ShadowBits out;
+    uint word = from.place / 32u - c->first_pixel / 32u;
+    out.words = from.shadows + c->first_word + word;
+    out.stride = shadow_words(c->first_pixel, c->first_pixel + c->pixel_count);
+    out.shift = from.place % 32u;
+    return out;
+}
+#endif
+
+// What the lights of a tile's clusters add up to, each cluster's at the drawn pixels of its slice.
+// `any_drawn`: else the work-item only helps to stage.
 static inline LightSum sum_clusters(ClusterLists from, uint tile, UV slice, MASK drawn,
-                                    bool any_drawn, LightSum unlit, ShadingPoint p, LightSet set) {
+                                    bool any_drawn, ShadingPoint p, LightSet set) {
+#if !SHADOWS
+    LightSum unlit = sum_directional(p, set, from.directional, from.directional_count);
     LightSum sum = unlit;
+#else
+    LightSum unlit = zero_sum();
+    LightSum sum = unlit;
+#endif
     uint end = min(from.offsets[tile + 1], from.capacity);
     for (uint i = from.offsets[tile]; i < end; ++i) {
         MASK mine = lane_mask(slice == (UV)(from.clusters[i].slice)) & drawn;
         bool wanted = any_drawn && lane_any(mine);
+#if SHADOWS
+        if (wanted) {
+            set.shadows = bits_of_cluster(from, from.clusters + i);
+            unlit = sum_directional(p, set, from.directional, from.directional_count);
+        }
+#endif
         LightSum lit = sum_lights(unlit, wanted, p, set, from.lists + from.clusters[i].list_begin,
                                   from.clusters[i].list_count);
         if (wanted) sum = select_sum(mine, lit, sum);
@@ -51,6 +83,10 @@ kernel void shade(
     uint cluster_capacity,
     global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
     global const LIGHT_INDEX* restrict lists, float ambient,
+#if SHADOWS
+    global const uint* restrict shadow_offsets,  // [tiles + 1]
+    global const uint* restrict shadow_words_of_tiles,
+#endif
     global float* restrict radiance) {  // out [3][height][stride]
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
@@ -88,10 +124,14 @@ kernel void shade(
     FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, pixels, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    LightSum unlit = sum_directional(p, directional_lights, directional_count);
-    ClusterLists from = {cluster_offsets, clusters, cluster_capacity, lists};
-    LightSum sum =
-        sum_clusters(from, tile, fine_slice_of_depth(grid, z), drawn, any_drawn, unlit, p, set);
+    ClusterLists from = {cluster_offsets, clusters,           cluster_capacity,
+                         lists,           directional_lights, directional_count};
+#if SHADOWS
+    from.shadows = shadow_words_of_tiles + shadow_offsets[tile];
+    from.place = row % FINE_TILE * FINE_TILE + x % FINE_TILE;
+    set.directional_count = directional_count;
+#endif
+    LightSum sum = sum_clusters(from, tile, fine_slice_of_depth(grid, z), drawn, any_drawn, p, set);
     FV3 color = finish_shading(s, sum, ambient);
     if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
 }

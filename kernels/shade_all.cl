@@ -14,6 +14,13 @@ kernel void shade_all(
     uint directional_count,
     global const StoredLight* restrict lights,  // [light_count], view space
     uint light_count, float ambient,
+#if SHADOWS
+    ShadowView shadow, global const float* restrict origins, global const float4* restrict bounds,
+    global const ShadowNode* restrict nodes, global const float* restrict casters,
+    global const MaskedCaster* restrict masked_casters,
+    global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
+    global const ulong* restrict texels,
+#endif
     global float* restrict radiance) {  // out [3][height][stride]
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
@@ -44,7 +51,17 @@ kernel void shade_all(
     FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, pixels, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    LightSum sum = sum_directional(p, directional_lights, directional_count);
+#if SHADOWS
+    ShadowPoints points;
+    set.shadows.scene =
+        (ShadowScene){nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
+    set.shadows.points = &points;
+    set.shadows.drawn = drawn;
+    set.shadows.bounds = bounds;
+    set.shadows.directional = directional_lights;
+    load_origins(&points, 0u, origins, view.stride * view.height, pixels);
+#endif
+    LightSum sum = sum_directional(p, set, directional_lights, directional_count);
     sum = sum_lights(sum, any_drawn, p, set, 0, light_count);
     FV3 color = finish_shading(s, sum, ambient);
     if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));

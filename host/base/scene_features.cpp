@@ -24,6 +24,7 @@ constexpr SceneFeature kTable[] = {
     {"alpha-mask", &F::alpha_mask},
     {"alpha-blend", &F::alpha_blend},
     {"wide-light-index", &F::wide_light_index, nullptr, true},
+    {"shadows", &F::shadows},
 };
 
 }  // namespace

@@ -28,6 +28,7 @@ struct SceneFeatures {
     bool alpha_mask = false;
     bool alpha_blend = false;
     bool wide_light_index = false;    // more than 65536 lights
+    bool shadows = false;             // asked for, and something casts them
     float light_d_min = LIGHT_D_MIN;  // [m], smaller in small scenes: see light_d_min()
     bool operator==(const SceneFeatures&) const = default;
 };

@@ -16,6 +16,11 @@ void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, con
         .define("MAX_ANISOTROPY", surfaces.anisotropy);
 }
 
+void define_casters(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning) {
+    define_surfaces(options, surfaces, tuning);
+    options.define("HAS_MASKED_CASTERS", surfaces.masks);
+}
+
 void define_tiles(BuildOptions& options, const Tuning& tuning) {
     options.define("TILE_WIDTH", tuning.raster_tile_width)
         .define("TILE_HEIGHT", tuning.raster_tile_height);

@@ -3,6 +3,7 @@
 
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
+#include "kernels/shared/shadow.h"
 #include "kernels/shared/surface_scene.h"
 
 /// What passes between the stages that make surfaces.
@@ -35,6 +36,33 @@ struct SurfaceBuffers {
     DeviceArray<SurfaceMaterial> materials;
     DeviceArray<TextureRow> textures;
     DeviceArray<std::uint64_t> texels;
+};
+
+/// What casts shadows, in shadow space, as kernels/shared/shadow.h has it; and the materials and
+/// textures of what alpha cuts.
+struct ShadowCasters {
+    DeviceArray<ShadowNode> nodes;  // 0: the root
+    DeviceArray<float> triangles;   // [count][3][3]
+    DeviceArray<MaskedCaster> masked;
+    DeviceArray<SurfaceMaterial> materials;
+    DeviceArray<TextureRow> textures;
+    DeviceArray<std::uint64_t> texels;
+};
+
+/// What a frame's shadows are cast by, and where its pixels' rays end.
+struct ShadowInput {
+    ShadowCasters casters;
+    ShadowView view{};
+    DeviceArray<float> origins;  // [4][height][stride], see kernels/device/shadow_space.h
+};
+
+/// What kernels that cast shadows are compiled with.
+void define_casters(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning);
+
+/// Which pixels see which lights, as kernels/device/cast_shadows.h has it.
+struct ShadowWords {
+    DeviceArray<uint> offsets;  // [tile_count + 1]
+    DeviceArray<uint> words;
 };
 
 /// Triangles of each tile of the picture: lists[offsets[t] .. offsets[t + 1]), numbers along the

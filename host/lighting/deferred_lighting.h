@@ -2,8 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
+#include "host/gpu/surface_flow.h"
 #include "host/lighting/light_lists.h"
+#include "host/stages/cast_shadows.h"
 #include "host/stages/shade.h"
 
 namespace kilolux {
@@ -13,6 +16,7 @@ struct LightingInput {
     GBuffer gbuffer;
     LightInput lights;
     ClusterGrid grid{};
+    ShadowInput shadows{};  // with KernelFeatures::shadows
 };
 
 /// Enqueues what reads a frame's radiance. It may run more than once a frame; only the last run's
@@ -25,7 +29,9 @@ using AfterShading = std::function<void(const Radiance&)>;
 ///     const Radiance radiance = lighting.light({gbuffer, lights, grid}, timer);
 class DeferredLighting {
  public:
-    DeferredLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+    /// `surfaces`: with KernelFeatures::shadows, what of the casters' materials is read.
+    DeferredLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                     const SurfaceFeatures& surfaces = {});
 
     /// Radiance of every pixel; 0 for background. `then` runs before the frame is waited for.
     /// Blocks. Valid until the next call. Throws Error as the stages do.
@@ -40,16 +46,22 @@ class DeferredLighting {
     /// Those of the last light().
     const ListedLights& lists() const { return lists_; }
 
+    /// Which pixels saw which lights in the last light(), with KernelFeatures::shadows.
+    const ShadowWords& shadows() const { return shadows_; }
+
  private:
     LightLists light_lists_;
+    std::optional<CastShadows> cast_;
     Shade shade_;
     ListedLights lists_;
+    ShadowWords shadows_;
 };
 
 /// Lights a G-buffer with every light at every pixel: DeferredLighting's reference, bit for bit.
 class AllLightsLighting {
  public:
-    AllLightsLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+    AllLightsLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                      const SurfaceFeatures& surfaces = {});
 
     /// As DeferredLighting::light().
     Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});

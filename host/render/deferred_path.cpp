@@ -14,7 +14,7 @@ LitSurfaces lit(const Gpu& gpu, DecodedSurfaces surfaces, const PreparedLights& 
 DeferredPath::DeferredPath(const PathContext& context)
     : context_(context),
       surfaces_(context),
-      lighting_(context.gpu, context.tuning, context.plan.kernels) {
+      lighting_(context.gpu, context.tuning, context.plan.kernels, path_surfaces(context)) {
     if (!has_blended_surfaces(context.scene.scene())) return;
     lighting_.light_lists().list_everywhere();
     blended_.emplace(context, true);
@@ -24,7 +24,7 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
     lighting_.set_ambient(context_.settings.ambient);
     gbuffer_ = surfaces_.draw(sample, out);
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
-    const LightingInput input{gbuffer_, sample.lights, grid};
+    const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows()};
     const Radiance radiance = lighting_.light(input, out.timer, blended_ ? AfterShading() : then);
     set_counts(out.stats);
     if (blended_) {
@@ -89,7 +89,7 @@ DecodedSurfaces DeferredPath::pixels(const Camera&) {
 DeferredAllPath::DeferredAllPath(const PathContext& context)
     : context_(context),
       surfaces_(context),
-      lighting_(context.gpu, context.tuning, context.plan.kernels) {
+      lighting_(context.gpu, context.tuning, context.plan.kernels, path_surfaces(context)) {
     if (has_blended_surfaces(context.scene.scene())) blended_.emplace(context, false);
 }
 
@@ -97,7 +97,8 @@ Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterS
     lighting_.set_ambient(context_.settings.ambient);
     gbuffer_ = surfaces_.draw(sample, out);
     grid_ = coarse_grid(context_, sample.camera, out.stats);
-    const Radiance radiance = lighting_.light({gbuffer_, sample.lights, grid_}, out.timer);
+    const Radiance radiance =
+        lighting_.light({gbuffer_, sample.lights, grid_, surfaces_.shadows()}, out.timer);
     out.stats.evaluations_per_pixel = sample.lights.count;
     out.stats.useful_evaluations_per_pixel = -1.0;
     if (blended_) {

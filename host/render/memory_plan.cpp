@@ -6,6 +6,7 @@
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/picture/bands.h"
+#include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/surface_planes.h"
@@ -27,6 +28,8 @@ constexpr Bytes kBandPixel = 3 * (3 * sizeof(float) + 4);
 // Active clusters, their lists and the sums of both, about two clusters a fine tile; and the order
 // of the tiles' pixels.
 constexpr Bytes kListsPixel = 2;
+// Where a pixel's shadow rays end.
+constexpr Bytes kShadowPixel = 4 * sizeof(float);
 // Kernels count the elements of a picture's planes in 32 bits.
 constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULAR - 1;
 // No texture takes more memory for it.
@@ -115,12 +118,14 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     if (settings.geometry == Geometry::compute) {
         need.device_fixed += 2 * sizeof(std::uint32_t) * triangle_count(scene);
     }
+    if (plan.kernels.shadows) need.device_fixed += shadow_scene_bytes(scene);
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
     constexpr Bytes kForwardTarget = 20;
     if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
     if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
     need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
+    if (plan.kernels.shadows) need.band_pixel += kShadowPixel;
     if (settings.samples > 1) need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
     if (decodes || settings.want.counts) need.band_pixel += 4 * sizeof(std::uint32_t);
     if (decodes) {

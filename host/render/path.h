@@ -12,6 +12,7 @@
 #include "host/render/render_scene.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
+#include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 
 namespace kilolux {
@@ -24,6 +25,7 @@ struct PathContext {
     const Tuning& tuning;
     const RenderScene& scene;
     std::shared_ptr<SurfaceScene>& surfaces;  // the scene on the device, made when first asked for
+    std::shared_ptr<ShadowScene>& shadows;    // what of it casts shadows, likewise
 
     /// Whether OpenCL makes the surfaces of OpenGL's ids: not for what OpenGL's fragments light.
     bool resolves() const {

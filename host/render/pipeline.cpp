@@ -43,7 +43,7 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings&
       memory(limit_buffers(gpu, plan_memory(scene->scene(), settings, plan, gpu.info))),
       tuning_(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       lights_(gpu, tuning_, scene->scene(), settings),
-      context_{settings, plan, gpu, tuning_, *scene, surface_scene_},
+      context_{settings, plan, gpu, tuning_, *scene, surface_scene_, shadow_scene_},
       sum_(gpu, tuning_),
       tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
       whole_light_(gpu, "bloom"),

@@ -79,6 +79,7 @@ class Pipeline {
     Tuning tuning_;
     LightSource lights_;
     std::shared_ptr<SurfaceScene> surface_scene_;
+    std::shared_ptr<ShadowScene> shadow_scene_;
     PathContext context_;
     std::map<RendererKind, Path> paths_;   // made when first asked for
     std::unique_ptr<Pipeline> reference_;  // for the view of differences from it

@@ -70,6 +70,17 @@ void check_forced(const std::vector<std::string>& names) {
     }
 }
 
+// Rays end where OpenCL resolved a triangle.
+void check_shadows(const RenderSettings& settings) {
+    if (settings.shadows == Shadows::off) return;
+    if (is_forward(settings.renderer)) {
+        throw Error("shadows: the forward renderers cast none; take --renderer deferred");
+    }
+    if (!resolves_ids(settings.geometry)) {
+        throw Error("shadows: none with --geometry planes; take ids or compute");
+    }
+}
+
 bool is_forced(const RenderSettings& settings, std::string_view name) {
     const std::vector<std::string>& forced = settings.force_features;
     return std::find(forced.begin(), forced.end(), name) != forced.end();
@@ -133,11 +144,13 @@ const std::vector<std::string>& forceable_features() {
 ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
                           std::uint64_t light_count) {
     check_forced(settings.force_features);
+    check_shadows(settings);
     const std::vector<Material> materials = materials_in_use(scene);
     const int shading = shading_of(settings, materials);
     SceneFeatures features = features_of(scene, materials);
     features.point_lights = light_count > 0;
     features.wide_light_index = light_count > 65536;
+    features.shadows = settings.shadows != Shadows::off && triangle_count(scene) > 0;
     features = needed(features, shading != SHADING_LAMBERT, settings);
     ScenePlan plan;
     static_cast<SceneFeatures&>(plan.kernels) = features;

@@ -28,6 +28,10 @@ enum class Geometry { automatic, ids, compute, planes };
 /// Whether OpenCL makes the surfaces.
 constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::planes; }
 
+/// Which lights a surface sees: all; or those that no triangle hides, a ray for each light of a
+/// pixel's list.
+enum class Shadows { off, exact };
+
 enum class Shading { automatic, lambert, blinn_phong, pbr };
 enum class ToneCurve { none, neutral, aces, agx };
 
@@ -73,6 +77,7 @@ struct RenderSettings {
                          // CPUs, 8 on GPUs
     bool no_reuse = false;  // also makes what did not change since the last frame; no other bits
     Shading shading = Shading::automatic;
+    Shadows shadows = Shadows::off;
     float ambient = 0.02f;  // radiance that falls in from everywhere
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/surface_pass.h"
 
+#include <chrono>
+
 #include "host/base/log.h"
 #include "host/render/grid_request.h"
 
@@ -10,6 +12,11 @@ int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device) 
     constexpr int kGpuAnisotropy = 8;
     if (settings.anisotropy > 0) return settings.anisotropy;
     return device.is_cpu ? 1 : kGpuAnisotropy;
+}
+
+SurfaceFeatures path_surfaces(const PathContext& context) {
+    return surface_features(context.scene.scene(), context.plan.gbuffer,
+                            chosen_anisotropy(context.settings, context.gpu.info));
 }
 
 SurfacePass::SurfacePass(const PathContext& context)
@@ -23,8 +30,7 @@ SurfacePass::SurfacePass(const PathContext& context)
     // A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
     const Gpu gpu = context.gpu.info.is_cpu ? context.gpu : context.gpu.with_lanes(1);
     const Scene& scene = context.scene.scene();
-    const SurfaceFeatures features = surface_features(
-        scene, context.plan.gbuffer, chosen_anisotropy(context.settings, context.gpu.info));
+    const SurfaceFeatures features = path_surfaces(context);
     if (!context.surfaces) {
         context.surfaces =
             std::make_shared<SurfaceScene>(context.gpu, context.tuning, scene, features);
@@ -38,6 +44,11 @@ SurfacePass::SurfacePass(const PathContext& context)
         ids_.emplace(context.meshes());
     }
     resolve_.emplace(gpu, context.tuning, context.plan.kernels, features);
+    if (!context.plan.kernels.shadows) return;
+    origins_.emplace(gpu, context.tuning, context.plan.kernels);
+    if (!context.shadows) {
+        context.shadows = std::make_shared<ShadowScene>(context.gpu, scene, features.masks);
+    }
 }
 
 GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
@@ -85,7 +96,7 @@ GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
     const DeviceArray<uint> ids =
         bridge_.transfer_ids(ids_->targets(), view, band.first_row - tile.first_row);
     add_stage_time(out.stats.stages, "gbuffer_bridge", bridge_.last_ms());
-    return resolve(ids, context_.surfaces->at(ids_->draws()), view, out.timer);
+    return resolve(ids, context_.surfaces->at(ids_->draws()), view, sample, out);
 }
 
 GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
@@ -97,14 +108,31 @@ GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
     const DeviceArray<uint> ids = triangles_->enqueue(scene, draws, view, out.timer);
     out.stats.triangles = triangles_->triangles();
     out.stats.triangle_pairs = triangles_->pairs();
-    return resolve(ids, scene, view, out.timer);
+    return resolve(ids, scene, view, sample, out);
 }
 
 GBuffer SurfacePass::resolve(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
-                             const View& view, StageTimer& timer) {
-    return resolve_->enqueue(ids, scene,
-                             make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height),
-                             view, timer);
+                             const View& view, const Sample& sample, Measured out) {
+    const GBuffer gbuffer = resolve_->enqueue(
+        ids, scene, make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height), view,
+        out.timer);
+    if (origins_) place_origins(ids, scene, gbuffer, sample, out);
+    return gbuffer;
+}
+
+void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
+                                const GBuffer& gbuffer, const Sample& sample, Measured out) {
+    const auto start = std::chrono::steady_clock::now();
+    shadows_.casters = context_.shadows->casters();
+    const std::chrono::duration<double, std::milli> spent =
+        std::chrono::steady_clock::now() - start;
+    add_stage_time(out.stats.stages, "shadow_scene", spent.count());
+    shadows_.casters.materials = scene.materials;
+    shadows_.casters.textures = scene.textures;
+    shadows_.casters.texels = scene.texels;
+    shadows_.view = context_.shadows->view(sample.camera);
+    shadows_.origins =
+        origins_->enqueue(ids, scene, gbuffer, shadows_.casters, shadows_.view, out.timer);
 }
 
 DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& grid) {

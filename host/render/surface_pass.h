@@ -8,6 +8,7 @@
 #include "host/picture/pixel_probe.h"
 #include "host/render/path.h"
 #include "host/stages/decode_gbuffer.h"
+#include "host/stages/shadow_origins.h"
 #include "host/surfaces/triangle_ids.h"
 #include "raster/geometry_pass.h"
 #include "raster/ids_pass.h"
@@ -28,6 +29,10 @@ class SurfacePass {
     /// Adds the stages geometry and gbuffer_bridge; resolve_surfaces goes to the timer. Does
     /// nothing where the last call made the same, unless settings.no_reuse.
     GBuffer draw(const Sample& sample, Measured out);
+
+    /// What casts shadows onto the last draw()'s surfaces, and where their rays end; empty without
+    /// shadows.
+    const ShadowInput& shadows() const { return shadows_; }
 
     /// The surfaces of the last draw() on the host. Blocks.
     DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);
@@ -51,18 +56,25 @@ class SurfacePass {
     GBuffer draw_ids(const Sample& sample, Measured out);
     GBuffer draw_in_opencl(const Sample& sample, Measured out);
     GBuffer resolve(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
-                    StageTimer& timer);
+                    const Sample& sample, Measured out);
+    void place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
+                       const GBuffer& gbuffer, const Sample& sample, Measured out);
 
     PathContext context_;
     std::optional<GeometryPass> planes_;
     std::optional<IdsPass> ids_;              // else
     std::optional<TriangleIds> triangles_;    // else
     std::optional<ResolveSurfaces> resolve_;  // of ids_ or triangles_
+    std::optional<ShadowOrigins> origins_;    // with shadows
     GBufferBridge bridge_;
     DecodeGBuffer decode_;
+    ShadowInput shadows_;
     std::optional<Source> source_;  // of gbuffer_
     GBuffer gbuffer_;
 };
+
+/// What resolve_surfaces, and what casts shadows, reads of the scene's materials.
+SurfaceFeatures path_surfaces(const PathContext& context);
 
 /// The coarse grid of a frame.
 ClusterGrid coarse_grid(const PathContext& context, const Camera& camera, FrameStats& stats);

@@ -161,10 +161,13 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
                                     DrawOrder order) const {
     const glm::dmat4 clip = clip_from_view(camera, width, height);
     std::vector<Draw> draws;
+    std::size_t casters = 0;  // triangles of the instances before
     for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
         const Instance& instance = scene_.instances[i];
         const MeshBox& mesh = box_of(instance.mesh);
         if (mesh.blended != blended || mesh.box.empty()) continue;
+        const std::size_t first_caster = casters;
+        casters += scene_.meshes[static_cast<std::size_t>(instance.mesh)].indices.size() / 3;
         const glm::dmat4 transform = view_from_object(camera, instance.world_from_object);
         const std::array<glm::dvec4, 8> corners = corners_of(mesh.box, transform);
         if (outside(corners, clip)) continue;
@@ -178,6 +181,7 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
         const double determinant = glm::determinant(glm::dmat3(transform));
         draws.push_back({static_cast<int>(i), instance.mesh, nearest, determinant < 0.0,
                          row_of(transform, determinant)});
+        draws.back().row.first_caster = static_cast<uint>(first_caster);
     }
     sort_draws(draws, order);
     number_triangles(draws, scene_);

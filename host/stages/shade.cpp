@@ -21,6 +21,18 @@ std::size_t stored_light_rows(const KernelFeatures& features) {
     return features.spot_lights ? 3 : 2;
 }
 
+// Of kernels/device/sum_lights.h: SHADOWS.
+constexpr int kShadowBits = 1;
+constexpr int kShadowRays = 2;
+
+BuildOptions all_options(const ShadingResources& resources, const KernelFeatures& features,
+                         const SurfaceFeatures& surfaces, const Tuning& tuning) {
+    BuildOptions options = resources.options();
+    if (!features.shadows) return options;
+    define_casters(options.define("SHADOWS", kShadowRays), surfaces, tuning);
+    return options;
+}
+
 }  // namespace
 
 ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
@@ -70,32 +82,57 @@ Radiance ShadingResources::radiance(const View& view) {
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : resources_(gpu, tuning, features),
-      kernel_(gpu, build_program(gpu, kStage, resources_.options()), kStage, "shade") {}
+      kernel_(
+          gpu,
+          build_program(gpu, kStage,
+                        resources_.options().define("SHADOWS", features.shadows ? kShadowBits : 0)),
+          kStage, "shade"),
+      has_shadows_(features.shadows) {}
 
 Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                         const ClusterGrid& grid, const ActiveClusters& clusters,
-                        const RefinedLists& lists, StageTimer& timer) {
+                        const RefinedLists& lists, StageTimer& timer, const ShadowWords& shadows) {
     const View& view = gbuffer.view;
     const Radiance out = resources_.radiance(view);
-    kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
-                    resources_.srgb(), lights.directional, lights.directional_count,
-                    resources_.stored_lights(lights, timer), grid, clusters.offsets,
-                    clusters.clusters, clusters.capacity, clusters.order, lists.lists, ambient_,
-                    out.planes);
+    const auto enqueue = [&](const auto&... rest) {
+        kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
+                        resources_.srgb(), lights.directional, lights.directional_count,
+                        resources_.stored_lights(lights, timer), grid, clusters.offsets,
+                        clusters.clusters, clusters.capacity, clusters.order, lists.lists, ambient_,
+                        rest...);
+    };
+    if (has_shadows_) {
+        enqueue(shadows.offsets, shadows.words, out.planes);
+    } else {
+        enqueue(out.planes);
+    }
     return out;
 }
 
-ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                   const SurfaceFeatures& surfaces)
     : resources_(gpu, tuning, features),
-      kernel_(gpu, build_program(gpu, "shade_all", resources_.options()), kStage, "shade_all") {}
+      kernel_(gpu,
+              build_program(gpu, "shade_all", all_options(resources_, features, surfaces, tuning)),
+              kStage, "shade_all"),
+      has_shadows_(features.shadows) {}
 
-Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
-                           StageTimer& timer) {
+Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
+                           const ShadowInput& shadows) {
     const View& view = gbuffer.view;
     const Radiance out = resources_.radiance(view);
-    kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
-                    resources_.srgb(), lights.directional, lights.directional_count,
-                    resources_.stored_lights(lights, timer), lights.count, ambient_, out.planes);
+    const auto enqueue = [&](const auto&... rest) {
+        kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
+                        resources_.srgb(), lights.directional, lights.directional_count,
+                        resources_.stored_lights(lights, timer), lights.count, ambient_, rest...);
+    };
+    if (has_shadows_) {
+        const ShadowCasters& c = shadows.casters;
+        enqueue(shadows.view, shadows.origins, lights.bounds, c.nodes, c.triangles, c.masked,
+                c.materials, c.textures, c.texels, out.planes);
+    } else {
+        enqueue(out.planes);
+    }
     return out;
 }
 

@@ -6,6 +6,7 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
 
 namespace kilolux {
 
@@ -37,9 +38,10 @@ class Shade {
  public:
     Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Enqueues only.
+    /// Enqueues only. `shadows`: with KernelFeatures::shadows, what CastShadows made of the lists.
     Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
-                     const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer);
+                     const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer,
+                     const ShadowWords& shadows = {});
 
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient) { ambient_ = ambient; }
@@ -47,16 +49,20 @@ class Shade {
  private:
     ShadingResources resources_;
     Kernel kernel_;
+    bool has_shadows_;
     float ambient_ = 0.0f;
 };
 
 /// Radiance of every pixel from every light: the reference for Shade, bit for bit.
 class ShadeAll {
  public:
-    ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+    ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+             const SurfaceFeatures& surfaces = {});
 
-    /// Enqueues only.
-    Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer);
+    /// Enqueues only. `shadows`: with KernelFeatures::shadows, what casts them; each work-item
+    /// casts the rays of its pixels.
+    Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
+                     const ShadowInput& shadows = {});
 
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient) { ambient_ = ambient; }
@@ -64,6 +70,7 @@ class ShadeAll {
  private:
     ShadingResources resources_;
     Kernel kernel_;
+    bool has_shadows_;
     float ambient_ = 0.0f;
 };
 

@@ -8,6 +8,20 @@
 #include "kernels/device/stored_light.h"
 #include "kernels/shared/evaluate.h"
 
+// Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
+// SHADOWS_RAYS: found out where it is asked.
+#define SHADOWS_NONE 0
+#define SHADOWS_BITS 1
+#define SHADOWS_RAYS 2
+#ifndef SHADOWS
+#define SHADOWS SHADOWS_NONE
+#endif
+#if SHADOWS == SHADOWS_BITS
+#include "kernels/device/shadow_bits.h"
+#elif SHADOWS == SHADOWS_RAYS
+#include "kernels/device/shadow_rays.h"
+#endif
+
 #ifndef ALL_LIGHTS
 #define ALL_LIGHTS 0
 #endif
@@ -24,7 +38,48 @@ typedef struct LightSet {
     local ShadeLight* staged;    // [STAGE]
     local uint* staged_indices;  // [STAGE]
 #endif
+#if SHADOWS == SHADOWS_BITS
+    ShadowBits shadows;
+    uint directional_count;
+#elif SHADOWS == SHADOWS_RAYS
+    ShadowRays shadows;
+#endif
 } LightSet;
+
+#if SHADOWS
+static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
+    a.diffuse = select3(mask, a.diffuse, b.diffuse);
+    a.specular = select3(mask, a.specular, b.specular);
+    return a;
+}
+
+// The lanes that see the light of a list's entry.
+static inline MASK sees_entry(LightSet set, uint entry, uint light) {
+#if SHADOWS == SHADOWS_BITS
+    return sees_light(set.shadows, set.directional_count + entry);
+#else
+    return sees_point_light(set.shadows, light);
+#endif
+}
+
+static inline MASK sees_directional(LightSet set, uint i) {
+#if SHADOWS == SHADOWS_BITS
+    return sees_light(set.shadows, i);
+#else
+    return sees_directional_light(set.shadows, i);
+#endif
+}
+
+// ADD_SEEN(sum, seen, lit): `lit`, what `sum` becomes, in the lanes that see the light. It is made
+// only if any does.
+#define ADD_SEEN(sum, seen, lit)                                    \
+    {                                                               \
+        MASK lanes = (seen);                                        \
+        if (lane_any(lanes)) (sum) = select_sum(lanes, (lit), sum); \
+    }
+#else
+#define ADD_SEEN(sum, seen, lit) (sum) = (lit);
+#endif
 
 static inline uint light_of_entry(global const LIGHT_INDEX* list, uint entry) {
 #if ALL_LIGHTS
@@ -58,8 +113,10 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         stage_batch(set, list, first, end);
         barrier(CLK_LOCAL_MEM_FENCE);  // the batch is complete
         for (uint i = 0; wanted && i < end - first; ++i) {
-            sum = enter_block(sum, set.staged_indices[i]);
-            sum.block = evaluate(sum.block, p, set.staged[i]);
+            uint light = set.staged_indices[i];
+            sum = enter_block(sum, light);
+            ADD_SEEN(sum.block, sees_entry(set, first + i, light),
+                     evaluate(sum.block, p, set.staged[i]))
         }
     }
 #else
@@ -67,17 +124,20 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
     for (uint i = 0; i < count; ++i) {
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
-        sum.block = evaluate(sum.block, p, LIGHT_AT(set.lights, light));
+        ADD_SEEN(sum.block, sees_entry(set, i, light),
+                 evaluate(sum.block, p, LIGHT_AT(set.lights, light)))
     }
 #endif
     return finish_sum(sum);
 }
 
-static inline LightSum sum_directional(ShadingPoint p, global const DirectionalLight* lights,
-                                       uint count) {
+static inline LightSum sum_directional(ShadingPoint p, LightSet set,
+                                       global const DirectionalLight* lights, uint count) {
     LightSum sum = zero_sum();
 #if HAS_DIRECTIONAL_LIGHTS
-    for (uint i = 0; i < count; ++i) sum = evaluate_directional(sum, p, lights[i]);
+    for (uint i = 0; i < count; ++i) {
+        ADD_SEEN(sum, sees_directional(set, i), evaluate_directional(sum, p, lights[i]))
+    }
 #endif
     return sum;
 }

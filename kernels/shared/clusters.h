@@ -24,7 +24,8 @@ SHARED_STRUCT(ActiveCluster) {
     uint pixel_count;
     uint list_begin;  // in the refined list
     uint list_count;
-    uint unused0, unused1;
+    uint first_pixel;  // in the tile's order; set where shadows are cast
+    uint first_word;   // of its shadows' bits among the tile's; likewise
 };
 SHARED_ASSERT(active_cluster_size, sizeof(ActiveCluster) == 48);
 

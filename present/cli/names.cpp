@@ -67,6 +67,13 @@ const Choices& choices_of(Shading) {
     return choices;
 }
 
+const Choices& choices_of(Shadows) {
+    static const Choices choices = {
+        {"off", "every light is seen"},
+        {"exact", "a ray for each light of a pixel's list, against all triangles"}};
+    return choices;
+}
+
 const Choices& choices_of(ToneCurve) {
     static const Choices choices = {{"none", "clamp at 1"},
                                     {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},

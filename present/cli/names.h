@@ -25,6 +25,7 @@ struct Choices {
 const Choices& choices_of(RendererKind);
 const Choices& choices_of(Geometry);
 const Choices& choices_of(Shading);
+const Choices& choices_of(Shadows);
 const Choices& choices_of(BenchMotion);
 const Choices& choices_of(ToneCurve);
 const Choices& choices_of(Rig);

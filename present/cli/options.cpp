@@ -78,6 +78,7 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
                s.anisotropy, kAnisotropyRange)
         .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame")
         .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading)
+        .choice({"--shadows", "", "off", "Which lights a surface sees"}, s.shadows)
         .value({"--ambient", "L", "0.02; with the rig studio 0.2",
                 "Radiance from everywhere, times the albedo"},
                take_ambient, [&s] { return text_of(s.ambient); });

@@ -40,6 +40,7 @@ Json settings_json(const SharedOptions& shared) {
             {"anisotropy", s.anisotropy},
             {"reuse", !s.no_reuse},
             {"shading", name_of(s.shading)},
+            {"shadows", name_of(s.shadows)},
             {"ambient", s.ambient},
             {"math", name_of(s.kernels.math)},
             {"light_colors", name_of(s.kernels.light_colors)},

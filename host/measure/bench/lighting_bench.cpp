@@ -25,8 +25,8 @@ bool draws_alike(const LightingRequest& a, const LightingRequest& b) {
     const Tuning& s = a.tuning.tuning;
     const Tuning& t = b.tuning.tuning;
     return same_planes(a.plan.gbuffer, b.plan.gbuffer) && a.drawn_by == b.drawn_by &&
-           s.raster_group == t.raster_group && s.raster_lanes == t.raster_lanes &&
-           s.raster_tile_width == t.raster_tile_width &&
+           a.plan.kernels.shadows == b.plan.kernels.shadows && s.raster_group == t.raster_group &&
+           s.raster_lanes == t.raster_lanes && s.raster_tile_width == t.raster_tile_width &&
            s.raster_tile_height == t.raster_tile_height && s.geometry == t.geometry;
 }
 
@@ -50,8 +50,9 @@ RenderSettings drawn_settings(RenderSettings settings, Geometry geometry) {
 
 // The stages after the G-buffer.
 struct LightingBench::Stages {
-    Stages(const Gpu& gpu, const LightingRequest& request, const RenderSettings& settings)
-        : lighting(gpu, request.tuning.tuning, request.plan.kernels),
+    Stages(const Gpu& gpu, const LightingRequest& request, const RenderSettings& settings,
+           const SurfaceFeatures& surfaces)
+        : lighting(gpu, request.tuning.tuning, request.plan.kernels, surfaces),
           tonemap(gpu, request.tuning.tuning, static_cast<int>(settings.tone_curve)) {
         lighting.set_ambient(settings.ambient);
     }
@@ -66,13 +67,14 @@ struct LightingBench::Drawing {
         : request(the_request),
           settings(drawn_settings(asked, request.drawn_by)),
           gpu(the_gpu),
-          context{settings, request.plan, gpu, request.tuning.tuning, scene, surfaces},
+          context{settings, request.plan, gpu, request.tuning.tuning, scene, surfaces, shadows},
           pass(context) {}
 
     LightingRequest request;
     RenderSettings settings;
     Gpu gpu;
     std::shared_ptr<SurfaceScene> surfaces;
+    std::shared_ptr<ShadowScene> shadows;
     PathContext context;
     SurfacePass pass;
 };
@@ -124,7 +126,8 @@ Radiance LightingBench::light(Stages& stages) {
     const ClusterGrid grid =
         make_cluster_grid(grid_request(settings_.grid, camera_, box_, static_cast<float>(pad)),
                           gbuffer_.view.width, gbuffer_.view.height);
-    return stages.lighting.light({gbuffer_, lights_, grid}, timer_, [&](const Radiance& radiance) {
+    const LightingInput input{gbuffer_, lights_, grid, drawing_->pass.shadows()};
+    return stages.lighting.light(input, timer_, [&](const Radiance& radiance) {
         stages.tonemap.enqueue(radiance, settings_.exposure, timer_);
     });
 }
@@ -133,7 +136,8 @@ LightingRun LightingBench::run(const LightingRequest& request) {
     return in_stage("lighting bench", [&] {
         render_scene_.make_current();
         set_drawing(request);
-        Stages stages(gpu_.with_lanes(request.tuning.lanes), request, settings_);
+        Stages stages(gpu_.with_lanes(request.tuning.lanes), request, settings_,
+                      path_surfaces(drawing_->context));
         LightingRun out;
         out.stats = light_stats_;
         Radiance radiance = light(stages);

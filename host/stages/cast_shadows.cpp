@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/cast_shadows.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kStage = "cast_shadows";
+constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
+
+cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                       const SurfaceFeatures& surfaces) {
+    BuildOptions options = feature_options(features);
+    define_casters(options, surfaces, tuning);
+    return build_program(gpu, "cast_shadows_by_item", options);
+}
+
+}  // namespace
+
+CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                         const SurfaceFeatures& surfaces)
+    : tuning_(tuning),
+      program_(program_of(gpu, tuning, features, surfaces)),
+      reserve_(gpu, program_, kStage, "cast_shadows_reserve"),
+      cast_(gpu, program_, kStage, "cast_shadows"),
+      words_(gpu, tuning, kStage, sizeof(uint)) {
+    words_.reserve(kFirstWords);
+}
+
+ShadowWords CastShadows::enqueue(const ShadowInput& input, const PreparedLights& lights,
+                                 const ActiveClusters& clusters, const RefinedLists& lists,
+                                 const View& view, StageTimer& timer) {
+    const uint tiles = clusters.tile_count;
+    reserve_.enqueue(items(tiles, tuning_.light_group), timer, tiles, lights.directional_count,
+                     clusters.offsets, clusters.clusters, clusters.capacity, words_.counts(tiles));
+    ShadowWords out;
+    out.offsets = words_.enqueue_offsets(tiles, timer);
+    words_.fits(words_.read_total());
+    out.words = words_.entries<uint>();
+    const ShadowCasters& c = input.casters;
+    cast_.enqueue(groups(tiles, 1), timer, view, input.view, input.origins, lights.bounds,
+                  lights.directional, lights.directional_count, clusters.offsets, clusters.clusters,
+                  clusters.capacity, clusters.order, lists.lists, out.offsets, c.nodes, c.triangles,
+                  c.masked, c.materials, c.textures, c.texels, out.words);
+    return out;
+}
+
+}  // namespace kilolux

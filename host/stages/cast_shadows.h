@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
+#include "host/stages/prefix_sum.h"
+
+namespace kilolux {
+
+/// Casts the shadows of the lights in each active cluster's list onto the cluster's pixels.
+class CastShadows {
+ public:
+    CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                const SurfaceFeatures& surfaces);
+
+    /// Sets first_pixel and first_word of the clusters. Blocks for the number of words. Throws
+    /// Error when the device cannot hold them. Valid until the next call.
+    ShadowWords enqueue(const ShadowInput& input, const PreparedLights& lights,
+                        const ActiveClusters& clusters, const RefinedLists& lists, const View& view,
+                        StageTimer& timer);
+
+    /// Words of 32 bits of the last enqueue().
+    std::uint64_t words() const { return words_.read_total(); }
+
+ private:
+    Tuning tuning_;
+    cl::Program program_;
+    Kernel reserve_, cast_;
+    CountedList words_;
+};
+
+}  // namespace kilolux

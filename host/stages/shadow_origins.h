@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
+
+namespace kilolux {
+
+/// Where every pixel's shadow rays end.
+class ShadowOrigins {
+ public:
+    ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Of a G-buffer made of `ids`, which number the triangles of `scene`'s instances. Background
+    /// is undefined. Enqueues only.
+    DeviceArray<float> enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
+                               const GBuffer& gbuffer, const ShadowCasters& casters,
+                               const ShadowView& shadow, StageTimer& timer);
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    Kernel kernel_;
+    GrowingArray<float> origins_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/surfaces/shadow_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "host/base/error.h"
+#include "host/scene/material_row.h"
+#include "host/surfaces/shadow_hierarchy.h"
+#include "host/surfaces/vertex_rows.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kOwner = "shadows";
+
+bool casts(const Scene& scene, const Mesh& mesh) {
+    return material_of(scene, mesh).alpha_mode != AlphaMode::blend;
+}
+
+std::uint64_t caster_count(const Scene& scene) {
+    std::uint64_t count = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        if (casts(scene, mesh)) count += mesh.indices.size() / 3;
+    }
+    return count;
+}
+
+// Vertex colours and texture coordinates of a masked triangle.
+MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t triangle,
+                           uint number) {
+    const Material& material = material_of(scene, mesh);
+    const auto& set = mesh.texcoords.at(texture_use(material, USE_BASE_COLOR).uv_set == 1 ? 1 : 0);
+    MaskedCaster out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t vertex = mesh.indices[3 * triangle + i];
+        out.u[i] = set.empty() ? 0.0f : set[vertex].x;
+        out.v[i] = set.empty() ? 0.0f : set[vertex].y;
+        out.alpha[i] = mesh.colors.empty() ? 1.0f : mesh.colors[vertex].w;
+    }
+    out.triangle = number;
+    out.material = static_cast<uint>(mesh.material < 0 ? scene.materials.size()
+                                                       : static_cast<std::size_t>(mesh.material));
+    return out;
+}
+
+// Everything that casts, on its way to the device.
+struct Casters {
+    std::vector<float> triangles;
+    std::vector<CasterBox> boxes;
+    std::vector<MaskedCaster> masked;
+    float extent = 0.0f;
+};
+
+// The box of a triangle, wider by SHADOW_PAD; false where it is not finite.
+bool padded_box(const float* corners, CasterBox& box) {
+    float largest = 0.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax({corners[axis], corners[3 + axis], corners[6 + axis]});
+        box.low[axis] = low;
+        box.high[axis] = high;
+        largest = std::max({largest, std::abs(low), std::abs(high)});
+        if (!std::isfinite(corners[axis] + corners[3 + axis] + corners[6 + axis])) return false;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] -= largest * SHADOW_PAD;
+        box.high[axis] += largest * SHADOW_PAD;
+    }
+    return true;
+}
+
+void add_triangle(const float* corners, uint child, Casters& out) {
+    CasterBox box;
+    box.child = SHADOW_LEAF | child;
+    if (!padded_box(corners, box)) return;
+    for (int i = 0; i < 3; ++i) {
+        const float* p = corners + std::size_t{3} * static_cast<std::size_t>(i);
+        out.extent = std::max(out.extent, std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));
+    }
+    out.boxes.push_back(box);
+}
+
+void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3& anchor,
+                  Casters& out) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    if (!casts(scene, mesh)) return;
+    const bool masked = material_of(scene, mesh).alpha_mode == AlphaMode::mask;
+    glm::dmat4 shadow_from_object = instance.world_from_object;
+    shadow_from_object[3] -= glm::dvec4(anchor, 0.0);
+    std::vector<glm::vec3> positions;
+    positions.reserve(mesh.positions.size());
+    for (const glm::vec3& p : mesh.positions) {
+        positions.emplace_back(glm::dvec3(shadow_from_object * glm::dvec4(glm::dvec3(p), 1.0)));
+    }
+    for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) {
+        const auto number = static_cast<uint>(out.triangles.size() / 9);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const glm::vec3& p = positions[mesh.indices[3 * i + corner]];
+            out.triangles.insert(out.triangles.end(), {p.x, p.y, p.z});
+        }
+        uint child = number;
+        if (masked) {
+            child = SHADOW_MASKED | static_cast<uint>(out.masked.size());
+            out.masked.push_back(masked_caster(scene, mesh, i, number));
+        }
+        add_triangle(&out.triangles[std::size_t{9} * number], child, out);
+    }
+}
+
+// The middle of what casts.
+glm::dvec3 anchor_of(const Scene& scene) {
+    const Box box = bounds(scene);
+    return box.empty() ? glm::dvec3(0.0) : 0.5 * (box.min + box.max);
+}
+
+float4 row(const glm::dvec3& axis, double offset) {
+    return {static_cast<float>(axis.x), static_cast<float>(axis.y), static_cast<float>(axis.z),
+            static_cast<float>(offset)};
+}
+
+}  // namespace
+
+std::uint64_t shadow_scene_bytes(const Scene& scene) {
+    // A node has four children or more, so there is at most a node for three triangles.
+    constexpr std::uint64_t kTriangle = 9 * sizeof(float) + sizeof(ShadowNode) / 3;
+    return caster_count(scene) * kTriangle;
+}
+
+ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene, bool masks)
+    : gpu_(gpu),
+      scene_(scene),
+      masks_(masks),
+      nodes_(gpu, kOwner),
+      triangles_(gpu, kOwner),
+      masked_(gpu, kOwner) {
+    build();
+}
+
+void ShadowScene::build() {
+    revision_ = scene_.revision;
+    const std::uint64_t count = caster_count(scene_);
+    if (count > SHADOW_NUMBER) {
+        throw Error("shadows: scene '" + scene_.name + "' has " + std::to_string(count) +
+                    " triangles; at most " + std::to_string(SHADOW_NUMBER) + " can cast shadows");
+    }
+    anchor_ = anchor_of(scene_);
+    Casters all;
+    all.triangles.reserve(9 * count);
+    all.boxes.reserve(count);
+    for (const Instance& instance : scene_.instances) add_instance(scene_, instance, anchor_, all);
+    extent_ = all.extent;
+    const std::vector<ShadowNode> nodes = build_shadow_hierarchy(all.boxes);
+    upload<ShadowNode>(gpu_, nodes_.reserve(nodes.size()), nodes);
+    upload<float>(gpu_, triangles_.reserve(all.triangles.size()), all.triangles);
+    if (masks_) upload<MaskedCaster>(gpu_, masked_.reserve(all.masked.size()), all.masked);
+}
+
+ShadowCasters ShadowScene::casters() {
+    if (revision_ != scene_.revision) build();
+    ShadowCasters out;
+    out.nodes = nodes_.get();
+    out.triangles = triangles_.get();
+    out.masked = masked_.get();
+    return out;
+}
+
+ShadowView ShadowScene::view(const Camera& camera) const {
+    const glm::dmat3 world_from_view(camera.world_from_view);
+    const glm::dmat3 rows = glm::transpose(world_from_view);
+    const glm::dvec3 offset = camera.position - anchor_;
+    ShadowView out{};
+    for (int i = 0; i < 3; ++i) out.shadow_from_view[i] = row(rows[i], offset[i]);
+    out.extent = extent_;
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/gpu/surface_flow.h"
+#include "host/scene/camera.h"
+#include "host/scene/scene.h"
+
+namespace kilolux {
+
+/// Bytes that a ShadowScene takes on the device, about.
+std::uint64_t shadow_scene_bytes(const Scene& scene);
+
+/// What of a scene casts shadows, on the OpenCL device: all triangles but those of materials that
+/// blend, numbered along the scene's instances, and the hierarchy of their boxes.
+class ShadowScene {
+ public:
+    /// The scene must outlive this; its meshes must stay as many. `masks`: some material is cut by
+    /// its alpha.
+    ShadowScene(const Gpu& gpu, const Scene& scene, bool masks);
+
+    /// The casters as the scene has them now; built anew where its revision says that something
+    /// moved. Materials and textures are not set. Valid until the next call.
+    ShadowCasters casters();
+
+    /// From the camera's view space to shadow space.
+    ShadowView view(const Camera& camera) const;
+
+ private:
+    void build();
+
+    Gpu gpu_;
+    const Scene& scene_;
+    bool masks_;
+    std::uint32_t revision_ = 0;
+    glm::dvec3 anchor_{0.0};  // shadow space's origin in the world [m]
+    float extent_ = 0.0f;
+    GrowingArray<ShadowNode> nodes_;
+    GrowingArray<float> triangles_;
+    GrowingArray<MaskedCaster> masked_;
+};
+
+}  // namespace kilolux

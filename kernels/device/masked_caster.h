@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What alpha cuts out of a triangle that casts shadows. A ray has no footprint: the base colour's
+// alpha is read at its finest level.
+#ifndef KILOLUX_DEVICE_MASKED_CASTER_H
+#define KILOLUX_DEVICE_MASKED_CASTER_H
+#include "kernels/device/texture.h"
+#include "kernels/shared/shadow.h"
+
+#ifndef HAS_MASKED_CASTERS
+#define HAS_MASKED_CASTERS 0
+#endif
+
+typedef struct MaskedScene {
+    global const MaskedCaster* casters;
+    global const SurfaceMaterial* materials;
+    TextureBuffers textures;
+} MaskedScene;
+
+#if HAS_MASKED_CASTERS
+// Where alpha leaves caster `number`. u0..u2: in proportion to the weights of its corners, but for
+// rounding not negative.
+static inline MASK is_opaque_at(MaskedScene scene, uint number, FV u0, FV u1, FV u2) {
+    MaskedCaster caster = scene.casters[number];
+    global const SurfaceMaterial* material = scene.materials + caster.material;
+    u0 = max(u0, fv(0.0f));
+    u1 = max(u1, fv(0.0f));
+    u2 = max(u2, fv(0.0f));
+    FV inv = fv(1.0f) / max(u0 + u1 + u2, fv(1e-36f));
+    u1 *= inv;
+    u2 *= inv;
+    FV alpha = fma(u2, fv(caster.alpha[2] - caster.alpha[0]),
+                   fma(u1, fv(caster.alpha[1] - caster.alpha[0]), fv(caster.alpha[0])));
+    alpha *= material->row.base_color.w;
+    uint texture = material->textures[USE_BASE_COLOR];
+    if (texture != SURFACE_ABSENT) {
+        FV s = fma(u2, fv(caster.u[2] - caster.u[0]),
+                   fma(u1, fv(caster.u[1] - caster.u[0]), fv(caster.u[0])));
+        FV t = fma(u2, fv(caster.v[2] - caster.v[0]),
+                   fma(u1, fv(caster.v[1] - caster.v[0]), fv(caster.v[0])));
+#if HAS_UV_TRANSFORM
+        float4 x = material->row.uv_x[USE_BASE_COLOR];
+        float4 y = material->row.uv_y[USE_BASE_COLOR];
+        FV u = fma(fv(x.x), s, fma(fv(x.y), t, fv(x.z)));
+        t = fma(fv(y.x), s, fma(fv(y.y), t, fv(y.z)));
+        s = u;
+#endif
+        global const TextureRow* row = scene.textures.rows + texture;
+        Lookup at = make_lookup(row, s, t, fv(-1.0f));
+        alpha *= fetch_alpha(scene.textures, row, &at);
+    }
+    return lane_mask(!(alpha < fv(material->row.emissive_cutoff.w)));
+}
+#endif
+#endif

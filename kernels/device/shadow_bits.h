@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the bits of cast_shadows are.
+#ifndef KILOLUX_DEVICE_SHADOW_BITS_H
+#define KILOLUX_DEVICE_SHADOW_BITS_H
+#include "kernels/device/lanes.h"
+
+// Words for each light of a cluster whose pixels are first .. end - 1 in the tile's order.
+static inline uint shadow_words(uint first, uint end) { return (end + 31u) / 32u - first / 32u; }
+
+// One work-item's bits of a cluster: word i * stride is that of the cluster's i-th light.
+typedef struct ShadowBits {
+    global const uint* words;
+    uint stride;
+    uint shift;  // bit of lane 0
+} ShadowBits;
+
+// The lanes that see the cluster's i-th light, directional ones first.
+static inline MASK sees_light(ShadowBits bits, uint i) {
+    UV mine = (UV)(bits.words[i * bits.stride] >> bits.shift) >> lane_numbers & 1u;
+    return lane_mask(mine != (UV)(0u));
+}
+#endif

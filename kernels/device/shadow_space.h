@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pixels and lights in shadow space.
+#ifndef KILOLUX_DEVICE_SHADOW_SPACE_H
+#define KILOLUX_DEVICE_SHADOW_SPACE_H
+#include "kernels/device/lanes.h"
+#include "kernels/shared/gbuffer.h"
+#include "kernels/shared/light.h"
+#include "kernels/shared/shadow.h"
+
+// Planes of every pixel's end of its rays: position [m], and the normal of its triangle on the side
+// that the eye sees, as packed_normal().
+#define ORIGIN_X 0
+#define ORIGIN_Y 1
+#define ORIGIN_Z 2
+#define ORIGIN_NORMAL 3
+#define ORIGIN_PLANES 4
+
+static inline float row_of_shadow(float4 row, float3 v) {
+    return fma(row.z, v.z, fma(row.y, v.y, row.x * v.x));
+}
+
+// A direction from view space.
+static inline float3 shadow_direction(ShadowView view, float3 v) {
+    return (float3)(row_of_shadow(view.shadow_from_view[0], v),
+                    row_of_shadow(view.shadow_from_view[1], v),
+                    row_of_shadow(view.shadow_from_view[2], v));
+}
+
+// A point from view space [m].
+static inline float3 shadow_point(ShadowView view, float3 p) {
+    return shadow_direction(view, p) + (float3)(view.shadow_from_view[0].w,
+                                                view.shadow_from_view[1].w,
+                                                view.shadow_from_view[2].w);
+}
+
+// A light as rays see it: points have an end, directions do not.
+typedef struct ShadowLight {
+    float3 at;  // position [m]; or the unit direction towards the light
+    float inv_range2;
+    float reach;  // no ray is longer [m]
+    bool is_direction;
+} ShadowLight;
+
+// `bound`: position in view space and 1 / range^2.
+static inline ShadowLight shadow_point_light(ShadowView view, float4 bound) {
+    ShadowLight out;
+    out.at = shadow_point(view, bound.xyz);
+    out.inv_range2 = bound.w;
+    out.reach = fmin(1.0f / sqrt(fmax(bound.w, 1e-30f)), 2.0f * view.extent);
+    out.is_direction = false;
+    return out;
+}
+
+static inline ShadowLight shadow_directional_light(ShadowView view, DirectionalLight light) {
+    ShadowLight out;
+    out.at = shadow_direction(view, light.to_light.xyz);
+    out.inv_range2 = 0.0f;
+    out.reach = 2.0f * view.extent;
+    out.is_direction = true;
+    return out;
+}
+
+// A unit vector in a float's bits: octahedral, 16 bits a coordinate; and back.
+static inline FV packed_normal(FV3 n) {
+    FV3 p = octahedral_encode(n);
+    UV x = lane_to_uint(fma(p.x, fv(32767.5f), fv(32768.0f)));
+    UV y = lane_to_uint(fma(p.y, fv(32767.5f), fv(32768.0f)));
+    return lane_from_bits(min(x, (UV)(65535u)) | min(y, (UV)(65535u)) << 16);
+}
+
+static inline FV3 unpacked_normal(FV packed) {
+    UV code = lane_bits(packed);
+    return octahedral_decode(fma(lane_to_float(code & 0xffffu), fv(2.0f / 65535.0f), fv(-1.0f)),
+                             fma(lane_to_float(code >> 16), fv(2.0f / 65535.0f), fv(-1.0f)));
+}
+#endif

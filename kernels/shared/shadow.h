@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What casts shadows: triangles and the hierarchy of their boxes, in shadow space.
+//
+// Shadow space has the world's axes and its origin at an anchor near the scene's middle, so that it
+// moves with neither camera nor lights and floats lose nothing that the scene's size does not ask
+// for.
+#ifndef KILOLUX_SHARED_SHADOW_H
+#define KILOLUX_SHARED_SHADOW_H
+#include "kernels/shared/types.h"
+
+// Children of a node: boxes are tested so many at a time.
+#define SHADOW_WIDTH 16
+// Levels of nodes at most, and the stack that a walk needs for them.
+#define SHADOW_LEVELS 32
+#define SHADOW_STACK (SHADOW_LEVELS * (SHADOW_WIDTH - 1) + 1)
+
+// Bits of a child's number: it is a triangle, or else a node; and alpha cuts it: the number is that
+// of a MaskedCaster.
+#define SHADOW_LEAF (1u << 31)
+#define SHADOW_MASKED (1u << 30)
+#define SHADOW_NUMBER (SHADOW_MASKED - 1u)
+
+// By how much boxes are wider than their triangles, relative to the largest coordinate [m/m]: more
+// than what the tests of kernels/device/shadow_triangle.h grant beyond a triangle's edges.
+#define SHADOW_PAD (1.0f / (1 << 17))
+
+// Ends of the box of a child that is not there: no shaft meets it.
+#define SHADOW_NOWHERE 1e30f
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// 16 boxes [m] by their ends, and what is in them.
+SHARED_STRUCT(ShadowNode) {
+    float low_x[SHADOW_WIDTH];
+    float low_y[SHADOW_WIDTH];
+    float low_z[SHADOW_WIDTH];
+    float high_x[SHADOW_WIDTH];
+    float high_y[SHADOW_WIDTH];
+    float high_z[SHADOW_WIDTH];
+    uint child[SHADOW_WIDTH];
+};
+SHARED_ASSERT(shadow_node_size, sizeof(ShadowNode) == 448);
+
+// A triangle of a material that alpha cuts (glTF's MASK).
+SHARED_STRUCT(MaskedCaster) {
+    float u[3], v[3];  // texture coordinates of the vertices, in the set that the base colour reads
+    float alpha[3];    // of the vertices' colours
+    uint triangle;     // among the casters
+    uint material;     // row
+    uint unused0;
+};
+SHARED_ASSERT(masked_caster_size, sizeof(MaskedCaster) == 48);
+
+// From view space to shadow space.
+SHARED_STRUCT(ShadowView) {
+    float4 shadow_from_view[3];  // xyz: a row of the rotation; w: of the camera's position [m]
+    float extent;                // no caster's |x| + |y| + |z| is larger [m]
+    uint unused0, unused1, unused2;
+};
+SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif
