@@ -42,7 +42,7 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
     for (uint word = 0; word < shadow_words(first, end); ++word) words[word] = 0u;
     if (!lane_any(any)) return;
     for (uint row = first_row; row < end_row; ++row) {
-        uint bits = lane_ballot(lane_load(points->lit + row * VW));
+        uint bits = lane_ballot(lit_of(points, row));
         words[row * VW / 32u - first / 32u] |= bits << (row * VW % 32u);
     }
 }

@@ -31,18 +31,6 @@ typedef struct ClusterLists {
 #endif
 } ClusterLists;
 
-#if SHADOWS
-// The work-item's bits of a cluster that has some of its pixels.
-static inline ShadowBits bits_of_cluster(ClusterLists from, global const ActiveCluster* c) {
-    ShadowBits out;
-    uint word = from.place / 32u - c->first_pixel / 32u;
-    out.words = from.shadows + c->first_word + word;
-    out.stride = shadow_words(c->first_pixel, c->first_pixel + c->pixel_count);
-    out.shift = from.place % 32u;
-    return out;
-}
-#endif
-
 // What the lights of a tile's clusters add up to, each cluster's at the drawn pixels of its slice.
 // `any_drawn`: else the work-item only helps to stage.
 static inline LightSum sum_clusters(ClusterLists from, uint tile, UV slice, MASK drawn,
@@ -60,7 +48,7 @@ static inline LightSum sum_clusters(ClusterLists from, uint tile, UV slice, MASK
         bool wanted = any_drawn && lane_any(mine);
 #if SHADOWS
         if (wanted) {
-            set.shadows = bits_of_cluster(from, from.clusters + i);
+            set.shadows = bits_of_cluster(from.shadows, from.clusters + i, from.place);
             unlit = sum_directional(p, set, from.directional, from.directional_count);
         }
 #endif

@@ -45,6 +45,7 @@ struct Tuning {
     int raster_tile_width = 64;  // of triangles' tiles, powers of two of at least 16 [pixel]
     int raster_tile_height = 64;
     int geometry = 0;      // what --geometry auto is: 0 OpenGL's ids, 1 OpenCL's
+    int shadow_group = 1;  // work-items that share a cluster's shadows: 1, or 32..256
     int raster_lanes = 1;  // of triangles and their pixels; the device's lane width bounds them
     bool operator==(const Tuning&) const = default;
 };

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-constexpr CacheKind kKind = {"tuning", 4};  // 4: with raster_*
+constexpr CacheKind kKind = {"tuning", 5};  // 5: with shadow_group
 
 constexpr TuningParameter kParameters[] = {
     {"shade_rows", &Tuning::shade_rows},
@@ -26,6 +26,7 @@ constexpr TuningParameter kParameters[] = {
     {"raster_tile_width", &Tuning::raster_tile_width},
     {"raster_tile_height", &Tuning::raster_tile_height},
     {"raster_lanes", &Tuning::raster_lanes},
+    {"shadow_group", &Tuning::shadow_group},
     {"geometry", &Tuning::geometry},
 };
 
@@ -71,6 +72,8 @@ bool is_valid(const StoredTuning& stored, const DeviceInfo& device) {
     const bool by_group = t.raster_group >= 32 && t.raster_group <= kMostRasterGroup &&
                           t.raster_group <= t.raster_tile_width * t.raster_tile_height;
     if (!is_group(t.raster_group) || (t.raster_group > 1 && !by_group)) return false;
+    const bool shares_shadows = t.shadow_group >= 32 && t.shadow_group <= FINE_TILE_PIXELS;
+    if (!is_group(t.shadow_group) || (t.shadow_group > 1 && !shares_shadows)) return false;
     if (!is_power_of_two(t.raster_lanes) || t.raster_lanes > FINE_TILE) return false;
     if (t.cull_chunks < 1 || t.cull_chunks > 65536 || t.prefix_per_item < 1) return false;
     return is_group(t.cull_group) && is_group(t.refine_group) && is_group(t.prefix_group) &&

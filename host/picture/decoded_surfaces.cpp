@@ -72,7 +72,22 @@ Layer cluster_layer(const DecodedSurfaces& s) {
     return layer;
 }
 
+Layer visibility_layer(const DecodedSurfaces& s) {
+    if (s.seen.empty()) throw UsageError("aov visibility: no shadows were cast");
+    Layer layer{"visibility", {"visibility"}};
+    fill(layer.values, 1, s.view, [&](std::size_t pixel, float* out) {
+        const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
+        *out = drawn ? static_cast<float>(1.0 - hidden_share(s, pixel)) : 0.0f;
+    });
+    return layer;
+}
+
 }  // namespace
+
+double hidden_share(const DecodedSurfaces& s, std::size_t i) {
+    if (s.facing[i] == 0) return 0.0;
+    return 1.0 - static_cast<double>(s.seen[i]) / static_cast<double>(s.facing[i]);
+}
 
 std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixel) {
     const float z = value_at(s, SURFACE_DEPTH, pixel);
@@ -94,9 +109,9 @@ double mean_of_drawn(const std::vector<uint>& counts) {
 }
 
 const std::vector<std::string>& aov_names() {
-    static const std::vector<std::string> names = {"depth",    "position",    "normal",
-                                                   "albedo",   "roughness",   "metallic",
-                                                   "emissive", "light-count", "cluster"};
+    static const std::vector<std::string> names = {
+        "depth",    "position", "normal",      "albedo",  "roughness",
+        "metallic", "emissive", "light-count", "cluster", "visibility"};
     return names;
 }
 
@@ -107,6 +122,7 @@ Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& ca
     if (name == "albedo")
         return plane_layer(name, {"albedo.R", "albedo.G", "albedo.B"}, s, SURFACE_ALBEDO);
     if (name == "roughness") return plane_layer(name, {"roughness"}, s, SURFACE_ROUGHNESS);
+    if (name == "visibility") return visibility_layer(s);
     if (name == "metallic") return plane_layer(name, {"metallic"}, s, SURFACE_METALLIC);
     if (name == "emissive")
         return plane_layer(name, {"emissive.R", "emissive.G", "emissive.B"}, s, SURFACE_EMISSIVE);

@@ -27,6 +27,9 @@ struct DecodedSurfaces {
     std::vector<float> planes;    // [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]
     std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground
     std::vector<uint> covering;   // [height][stride] k*: those that reach it; empty if not counted
+    // [height][stride] with shadows: lights that the pixel faces within their range, and those of
+    // them that it sees; empty if not counted.
+    std::vector<uint> facing, seen;
     ClusterGrid grid{};
     bool specular = false;  // whether there are planes of the dielectrics' reflectance
     bool unlit = false;     // whether a roughness of 0 means an unlit surface
@@ -41,6 +44,10 @@ struct LitSurfaces {
 
 /// The coarse cluster of the pixel at an index of the planes; none for background.
 std::optional<uint> coarse_cluster_at(const DecodedSurfaces& surfaces, std::size_t pixel);
+
+/// The share of the lights that pixel `i` of the planes faces within their range which something
+/// hides; 0 where there are none.
+double hidden_share(const DecodedSurfaces& surfaces, std::size_t i);
 
 /// The AOV layers' names, as `--aov` takes them.
 const std::vector<std::string>& aov_names();

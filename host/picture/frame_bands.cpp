@@ -52,6 +52,8 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
     place_planes(whole.planes, band.planes, band.view, rows);
     place_planes(whole.evaluated, band.evaluated, band.view, rows);
     place_planes(whole.covering, band.covering, band.view, rows);
+    place_planes(whole.facing, band.facing, band.view, rows);
+    place_planes(whole.seen, band.seen, band.view, rows);
     whole.view = band.view;
     whole.view.first_row = 0;
     whole.view.height = static_cast<uint>(height);

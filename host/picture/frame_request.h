@@ -21,7 +21,8 @@ enum class ViewKind {
     active,
     overdraw,
     difference,
-    false_positives
+    false_positives,
+    shadows
 };
 
 /// The words of the command line, in the enumeration's order.

@@ -14,9 +14,10 @@ namespace kilolux {
 
 /// A light of a pixel's list.
 struct ProbedLight {
-    uint index = 0;      // among the point and spot lights in use
-    Light light{};       // camera-relative, world axes
-    ShadeLight shade{};  // as shading has it, view space
+    uint index = 0;            // among the point and spot lights in use
+    Light light{};             // camera-relative, world axes
+    ShadeLight shade{};        // as shading has it, view space
+    std::optional<bool> seen;  // with shadows: whether nothing hides it from the pixel
 };
 
 /// What is known of one pixel and of the lists that light it.

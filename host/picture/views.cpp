@@ -155,6 +155,17 @@ Canvas false_positives(const ViewInput& input) {
     });
 }
 
+// The share of the lights that a pixel faces within their range which something hides.
+Canvas shadows(const ViewInput& input) {
+    const DecodedSurfaces& pixels = input.pixels;
+    if (pixels.seen.empty()) {
+        throw UsageError("--show shadows: needs --shadows exact and --renderer deferred");
+    }
+    const PixelReader read(input);
+    return heat_map(input, {0.0, 1.0, false, "SHARE HIDDEN"},
+                    [&](uint x, uint y) { return hidden_share(pixels, read.index(x, y)); });
+}
+
 Canvas clusters(const ViewInput& input) {
     const PixelReader read(input);
     return id_map(input, [&](uint x, uint y) {
@@ -222,7 +233,8 @@ constexpr NamedView kViews[] = {{ViewKind::lit, "lit", nullptr},
                                 {ViewKind::active, "active", active},
                                 {ViewKind::overdraw, "overdraw", overdraw},
                                 {ViewKind::difference, "difference", difference},
-                                {ViewKind::false_positives, "false-positives", false_positives}};
+                                {ViewKind::false_positives, "false-positives", false_positives},
+                                {ViewKind::shadows, "shadows", shadows}};
 
 }  // namespace
 

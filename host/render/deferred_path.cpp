@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/deferred_path.h"
 
+#include <algorithm>
+
 namespace kilolux {
 namespace {
 
@@ -69,7 +71,36 @@ PixelProbe DeferredPath::probe(const Camera&, int x, int y) {
     out.coarse_count = found.coarse_count;
     out.active = found.active;
     out.has_list = found.active.has_value();
-    for (const uint light : found.lights) out.lights.push_back({light, {}, {}});
+    for (const uint light : found.lights) out.lights.push_back({light, {}, {}, {}});
+    if (context_.plan.kernels.shadows && found.active) {
+        const std::vector<bool> seen =
+            seen_lights(*found.active, static_cast<uint>(x), static_cast<uint>(y));
+        for (std::size_t i = 0; i < out.lights.size(); ++i) out.lights[i].seen = seen[i];
+    }
+    return out;
+}
+
+// Of the point and spot lights in the cluster's list, those that pixel (x, y) sees.
+std::vector<bool> DeferredPath::seen_lights(const ActiveCluster& cluster, uint x, uint y) const {
+    const Gpu& gpu = context_.gpu;
+    const ListedLights& lists = lighting_.lists();
+    const uint tile = fine_tile_of(gbuffer_.view, x, y);
+    const auto order = download(gpu, lists.clusters.order, cluster.pixel_count,
+                                std::size_t{tile} * FINE_TILE_PIXELS + cluster.first_pixel);
+    const auto code = static_cast<std::uint8_t>(y % FINE_TILE * FINE_TILE + x % FINE_TILE);
+    const auto found = static_cast<uint>(std::ranges::find(order, code) - order.begin());
+    const uint place = cluster.first_pixel + found;
+    const uint last = cluster.first_pixel + cluster.pixel_count;
+    const std::size_t stride = (last + 31) / 32 - cluster.first_pixel / 32;
+    const std::size_t directional = lists.lights.directional_count;
+    const auto offset = download(gpu, lighting_.shadows().offsets, 1, tile).front();
+    const auto words = download(gpu, lighting_.shadows().words, stride * cluster.list_count,
+                                std::size_t{offset} + cluster.first_word + stride * directional);
+    std::vector<bool> out;
+    for (std::size_t i = 0; i < cluster.list_count; ++i) {
+        const uint word = words[i * stride + place / 32 - cluster.first_pixel / 32];
+        out.push_back((word >> place % 32 & 1u) != 0);
+    }
     return out;
 }
 
@@ -83,7 +114,21 @@ DecodedSurfaces DeferredPath::pixels(const Camera&) {
     const LightCounts counts = count_lights();
     out.evaluated = download<uint>(context_.gpu, counts.evaluated, size);
     out.covering = download<uint>(context_.gpu, counts.covering, size);
+    if (context_.plan.kernels.shadows) count_seen(out);
     return out;
+}
+
+void DeferredPath::count_seen(DecodedSurfaces& out) {
+    const Gpu& gpu = context_.gpu;
+    if (!count_seen_) count_seen_.emplace(gpu, context_.tuning, context_.plan.kernels);
+    StageTimer untimed;
+    const ListedLights& lists = lighting_.lists();
+    const SeenCounts counts =
+        count_seen_->enqueue(gbuffer_, lists.lights, lists.grid, lists.clusters, lists.refined,
+                             lighting_.shadows(), untimed);
+    const std::size_t size = std::size_t{out.view.stride} * out.view.height;
+    out.facing = download<uint>(gpu, counts.facing, size);
+    out.seen = download<uint>(gpu, counts.seen, size);
 }
 
 DeferredAllPath::DeferredAllPath(const PathContext& context)

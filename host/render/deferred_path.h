@@ -7,6 +7,7 @@
 #include "host/render/blended_pass.h"
 #include "host/render/surface_pass.h"
 #include "host/stages/count_lights.h"
+#include "host/stages/count_seen.h"
 
 namespace kilolux {
 
@@ -34,11 +35,14 @@ class DeferredPath {
  private:
     void set_counts(FrameStats& stats);
     LightCounts count_lights();
+    void count_seen(DecodedSurfaces& out);
+    std::vector<bool> seen_lights(const ActiveCluster& cluster, uint x, uint y) const;
 
     PathContext context_;
     SurfacePass surfaces_;
     DeferredLighting lighting_;
     std::optional<CountLights> count_lights_;  // made when first asked for
+    std::optional<CountSeen> count_seen_;      // likewise
     std::optional<BlendedPass> blended_;       // none without materials that blend
     GBuffer gbuffer_;                          // of the last light()
 };

@@ -80,7 +80,7 @@ PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
     const uint cluster = cluster_index(grid_, out.tile_x, out.tile_y, out.slice);
     out.has_list = true;
     for (uint i = lists_.offsets[cluster]; i < lists_.offsets[cluster + 1]; ++i) {
-        out.lights.push_back({lists_.lists[i], {}, {}});
+        out.lights.push_back({lists_.lists[i], {}, {}, {}});
     }
     out.coarse_count = static_cast<uint>(out.lights.size());
     return out;

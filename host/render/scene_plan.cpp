@@ -70,8 +70,15 @@ void check_forced(const std::vector<std::string>& names) {
     }
 }
 
-// Rays end where OpenCL resolved a triangle.
+// Rays end where OpenCL resolved a triangle; deferred keeps what they found.
 void check_shadows(const RenderSettings& settings) {
+    const FrameRequest& want = settings.want;
+    const bool wants_bits = want.view == ViewKind::shadows ||
+                            std::ranges::find(want.aovs, "visibility") != want.aovs.end();
+    if (wants_bits &&
+        (settings.shadows == Shadows::off || settings.renderer != RendererKind::deferred)) {
+        throw Error("shadows: to show them takes --shadows exact and --renderer deferred");
+    }
     if (settings.shadows == Shadows::off) return;
     if (is_forward(settings.renderer)) {
         throw Error("shadows: the forward renderers cast none; take --renderer deferred");

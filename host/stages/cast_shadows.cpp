@@ -5,13 +5,17 @@ namespace kilolux {
 namespace {
 
 constexpr std::string_view kStage = "cast_shadows";
+// Work-groups that share a tile's lights: the longest lists decide when the last group ends.
+constexpr int kSplit = 4;
 constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
 
 cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces) {
     BuildOptions options = feature_options(features);
     define_casters(options, surfaces, tuning);
-    return build_program(gpu, "cast_shadows_by_item", options);
+    if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
+    options.define("GROUP", tuning.shadow_group).define("SPLIT", kSplit);
+    return build_program(gpu.with_lanes(1), "cast_shadows_by_group", options);
 }
 
 }  // namespace
@@ -37,10 +41,12 @@ ShadowWords CastShadows::enqueue(const ShadowInput& input, const PreparedLights&
     words_.fits(words_.read_total());
     out.words = words_.entries<uint>();
     const ShadowCasters& c = input.casters;
-    cast_.enqueue(groups(tiles, 1), timer, view, input.view, input.origins, lights.bounds,
-                  lights.directional, lights.directional_count, clusters.offsets, clusters.clusters,
-                  clusters.capacity, clusters.order, lists.lists, out.offsets, c.nodes, c.triangles,
-                  c.masked, c.materials, c.textures, c.texels, out.words);
+    const std::size_t split = tuning_.shadow_group == 1 ? 1 : kSplit;
+    cast_.enqueue(groups(tiles * split, tuning_.shadow_group), timer, view, input.view,
+                  input.origins, lights.bounds, lights.directional, lights.directional_count,
+                  clusters.offsets, clusters.clusters, clusters.capacity, clusters.order,
+                  lists.lists, out.offsets, c.nodes, c.triangles, c.masked, c.materials, c.textures,
+                  c.texels, out.words);
     return out;
 }
 

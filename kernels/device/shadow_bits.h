@@ -3,6 +3,7 @@
 #ifndef KILOLUX_DEVICE_SHADOW_BITS_H
 #define KILOLUX_DEVICE_SHADOW_BITS_H
 #include "kernels/device/lanes.h"
+#include "kernels/shared/clusters.h"
 
 // Words for each light of a cluster whose pixels are first .. end - 1 in the tile's order.
 static inline uint shadow_words(uint first, uint end) { return (end + 31u) / 32u - first / 32u; }
@@ -13,6 +14,17 @@ typedef struct ShadowBits {
     uint stride;
     uint shift;  // bit of lane 0
 } ShadowBits;
+
+// Those of a work-item whose first pixel has `place` in its tile's order, which has some of the
+// cluster's pixels. `tile_words`: of its tile.
+static inline ShadowBits bits_of_cluster(global const uint* tile_words,
+                                         global const ActiveCluster* c, uint place) {
+    ShadowBits out;
+    out.words = tile_words + c->first_word + (place / 32u - c->first_pixel / 32u);
+    out.stride = shadow_words(c->first_pixel, c->first_pixel + c->pixel_count);
+    out.shift = place % 32u;
+    return out;
+}
 
 // The lanes that see the cluster's i-th light, directional ones first.
 static inline MASK sees_light(ShadowBits bits, uint i) {

@@ -4,6 +4,7 @@
 #ifndef KILOLUX_DEVICE_SHADOW_CAST_H
 #define KILOLUX_DEVICE_SHADOW_CAST_H
 #include "kernels/device/masked_caster.h"
+#include "kernels/device/prefetch.h"
 #include "kernels/device/shadow_shaft.h"
 
 // Triangles that wait for their test: whole vectors, and room for a node's children.
@@ -23,7 +24,7 @@ typedef struct ShadowPoints {
     float nx[SHADOW_POINTS], ny[SHADOW_POINTS], nz[SHADOW_POINTS];
     // What edges' forms take, see ShadowForm.
     float ex[SHADOW_POINTS], ey[SHADOW_POINTS], ez[SHADOW_POINTS];
-    int lit[SHADOW_POINTS];          // -1, or 0
+    float lit[SHADOW_POINTS];        // masks in the bits of floats
     uchar rows[SHADOW_POINTS / VW];  // those with lit points
     uint row_count;
 } ShadowPoints;
@@ -72,8 +73,12 @@ static inline MASK face_light(ShadowPoints* points, uint row, ShadowLight light,
     lane_store(e.x, points->ex + at);
     lane_store(e.y, points->ey + at);
     lane_store(e.z, points->ez + at);
-    lane_store(lit, points->lit + at);
+    lane_store(KX_CONCAT(as_, FV)(lit), points->lit + at);
     return lit;
+}
+
+static inline MASK lit_of(const ShadowPoints* points, uint row) {
+    return KX_CONCAT(as_, IV)(lane_load(points->lit + row * VW));
 }
 
 static inline FV3 load_edge_points(const ShadowPoints* points, uint row) {
@@ -85,64 +90,84 @@ static inline FV3 load_points(const ShadowPoints* points, uint row) {
     return fv3(lane_load(points->x + at), lane_load(points->y + at), lane_load(points->z + at));
 }
 
-// One triangle's forms in all lanes: g.x, g.y, g.z, c of the three edges and the plane, and the
-// edges' units.
-#define FORM_FLOATS 19
+// A bit for each lane of the mask.
+static inline uint lane_ballot(MASK mask) {
+    return lane_sum(KX_CONCAT(as_, UV)(mask) & ((UV)(1u) << lane_numbers));
+}
+static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
+
+// The forms of VW triangles: g.x, g.y, g.z, c of the three edges and of the plane, each in all
+// lanes; and the edges' units.
+#define FORM_ROWS 19
 typedef struct FormRows {
-    float of[FORM_FLOATS][VW];
+    float of[FORM_ROWS][VW];
 } FormRows;
+
+static inline void store_form(ShadowForm form, FormRows* to, uint row) {
+    lane_store(form.g.x, to->of[row]);
+    lane_store(form.g.y, to->of[row + 1]);
+    lane_store(form.g.z, to->of[row + 2]);
+    lane_store(form.c, to->of[row + 3]);
+}
 
 static inline void store_forms(const ShadowTriangles* t, FormRows* to) {
     for (uint i = 0; i < 3; ++i) {
-        lane_store(t->edge[i].g.x, to->of[4 * i]);
-        lane_store(t->edge[i].g.y, to->of[4 * i + 1]);
-        lane_store(t->edge[i].g.z, to->of[4 * i + 2]);
-        lane_store(t->edge[i].c, to->of[4 * i + 3]);
+        store_form(t->edge[i], to, 4 * i);
         lane_store(t->unit[i], to->of[16 + i]);
     }
-    lane_store(t->plane.g.x, to->of[12]);
-    lane_store(t->plane.g.y, to->of[13]);
-    lane_store(t->plane.g.z, to->of[14]);
-    lane_store(t->plane.c, to->of[15]);
+    store_form(t->plane, to, 12);
 }
 
-static inline FV form_at(const float* f, FV3 x) {
-    return fma(fv(f[0]), x.x, fma(fv(f[1]), x.y, fma(fv(f[2]), x.z, fv(f[3]))));
+// A form of triangle `lane` at points.
+static inline FV form_at(const FormRows* forms, uint row, uint lane, FV3 x) {
+    return fma(fv(forms->of[row][lane]), x.x,
+               fma(fv(forms->of[row + 1][lane]), x.y,
+                   fma(fv(forms->of[row + 2][lane]), x.z, fv(forms->of[row + 3][lane]))));
 }
 
-// What the points of a row are of a triangle.
-typedef struct RowForms {
-    FV u[3];
-    MASK shaded;
-} RowForms;
+// The triangles of one vector that are tested.
+typedef struct FoundTriangles {
+    FormRows forms;
+    uint wanted;           // a bit for each
+    const uint* children;  // [VW]
+} FoundTriangles;
 
-static inline RowForms test_row(const float* f, const ShadowPoints* points, uint row) {
-    RowForms out;
-    FV3 e = load_edge_points(points, row);
-    out.u[0] = form_at(f, e);
-    out.u[1] = form_at(f + 4, e);
-    out.u[2] = form_at(f + 8, e);
-    FV behind = form_at(f + 12, load_points(points, row));
-    out.shaded = lane_mask(min(min(out.u[0], out.u[1]), min(out.u[2], behind)) >= fv(-1.0f));
-    return out;
-}
-
-static inline void shade_rows(ShadowPoints* points, const FormRows* forms, uint lane,
-                              ShadowScene scene, uint child) {
-    float f[FORM_FLOATS];
-    for (uint i = 0; i < FORM_FLOATS; ++i) f[i] = forms->of[i][lane];
-    for (uint i = 0; i < points->row_count; ++i) {
-        uint row = points->rows[i];
-        RowForms r = test_row(f, points, row);
-        MASK lit = lane_load(points->lit + row * VW);
+// Of a row's points, `lit` is left where none of the triangles stands between them and the light.
+static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, FV3 edge_point,
+                              FV3 point, MASK lit) {
+    for (uint bits = found->wanted; bits != 0u; bits &= bits - 1u) {
+        uint lane = lowest_bit(bits);
+        FV u0 = form_at(&found->forms, 0, lane, edge_point);
+        FV u1 = form_at(&found->forms, 4, lane, edge_point);
+        FV u2 = form_at(&found->forms, 8, lane, edge_point);
+        FV behind = form_at(&found->forms, 12, lane, point);
+        MASK shaded = lane_mask(min(min(u0, u1), min(u2, behind)) >= fv(-1.0f));
 #if HAS_MASKED_CASTERS
-        if ((child & SHADOW_MASKED) != 0u && lane_any(r.shaded & lit)) {
-            r.shaded &= is_opaque_at(scene.masked, child & SHADOW_NUMBER, r.u[0] * f[16],
-                                     r.u[1] * f[17], r.u[2] * f[18]);
+        uint child = found->children[lane];
+        if ((child & SHADOW_MASKED) != 0u && lane_any(shaded & lit)) {
+            shaded &=
+                is_opaque_at(scene.masked, child & SHADOW_NUMBER, u0 * found->forms.of[16][lane],
+                             u1 * found->forms.of[17][lane], u2 * found->forms.of[18][lane]);
         }
 #endif
-        lane_store(lit & ~r.shaded, points->lit + row * VW);
+        lit &= ~shaded;
     }
+    return lit;
+}
+
+static inline void shade_rows(ShadowPoints* points, const FoundTriangles* found,
+                              ShadowScene scene) {
+    uint count = 0;
+    for (uint i = 0; i < points->row_count; ++i) {
+        uint row = points->rows[i];
+        MASK lit = lit_of(points, row);
+        lit =
+            lit_by_row(found, scene, load_edge_points(points, row), load_points(points, row), lit);
+        lane_store(KX_CONCAT(as_, FV)(lit), points->lit + row * VW);
+        points->rows[count] = (uchar)row;
+        count += lane_any(lit) ? 1u : 0u;
+    }
+    points->row_count = count;
 }
 
 // Lists the rows that still have lit points.
@@ -150,7 +175,7 @@ static inline void find_lit_rows(ShadowPoints* points, uint first, uint end) {
     uint count = 0;
     for (uint row = first; row < end; ++row) {
         points->rows[count] = (uchar)row;
-        count += lane_any(lane_load(points->lit + row * VW)) ? 1u : 0u;
+        count += lane_any(lit_of(points, row)) ? 1u : 0u;
     }
     points->row_count = count;
 }
@@ -177,12 +202,6 @@ static inline void load_casters(ShadowScene scene, const uint* children, FV3* v)
     }
 }
 
-// A bit for each lane of the mask.
-static inline uint lane_ballot(MASK mask) {
-    return lane_sum(KX_CONCAT(as_, UV)(mask) & ((UV)(1u) << lane_numbers));
-}
-static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
-
 // Tests the triangles that the walk found. `found` has room for whole vectors.
 static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint* found,
                                uint count, ShadowPoints* points) {
@@ -194,12 +213,18 @@ static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft
         ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
         MASK may = sure & may_shade(shaft, &t) & lane_mask(lane_numbers < (UV)(count - first));
         if (!lane_any(may)) continue;
-        FormRows forms;
-        store_forms(&t, &forms);
-        for (uint bits = lane_ballot(may); bits != 0u; bits &= bits - 1u) {
-            uint lane = lowest_bit(bits);
-            shade_rows(points, &forms, lane, scene, found[first + lane]);
-        }
+        FoundTriangles triangles;
+        triangles.wanted = lane_ballot(may);
+        triangles.children = found + first;
+        store_forms(&t, &triangles.forms);
+        shade_rows(points, &triangles, scene);
+    }
+}
+
+// Asks for a node that will be read soon.
+static inline void prefetch_node(global const ShadowNode* node) {
+    for (uint i = 0; i < sizeof(ShadowNode) / 64; ++i) {
+        prefetch_to_read((global const uchar*)node + i * 64);
     }
 }
 
@@ -223,13 +248,13 @@ static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 
                 if ((number & SHADOW_LEAF) != 0u) {
                     found[count++] = number;
                 } else {
+                    prefetch_node(scene.nodes + number);
                     stack[top++] = number;
                 }
             }
         }
         if (count > SHADOW_BATCH - SHADOW_WIDTH || (top == 0u && count > 0u)) {
             shade_found(scene, light, shaft, found, count, points);
-            find_lit_rows(points, first, end);
             count = 0;
         }
     }

@@ -22,7 +22,7 @@ static inline MASK sees(ShadowRays rays, ShadowLight light) {
     float3 low = (float3)(lane_min(box.low.x), lane_min(box.low.y), lane_min(box.low.z));
     float3 high = (float3)(lane_max(box.high.x), lane_max(box.high.y), lane_max(box.high.z));
     cast_shadows_of(rays.scene, light, low, high, 0u, 1u, rays.points);
-    return lane_load(rays.points->lit);
+    return lit_of(rays.points, 0u);
 }
 
 static inline MASK sees_point_light(ShadowRays rays, uint light) {

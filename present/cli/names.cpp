@@ -134,7 +134,8 @@ Choices aov_choices() {
                                  {"metallic", "0 to 1"},
                                  {"emissive", "emissive.R, .G, .B: radiance"},
                                  {"light-count", "lights evaluated, integers"},
-                                 {"cluster", "coarse cluster + 1, integers; 0: background"}});
+                                 {"cluster", "coarse cluster + 1, integers; 0: background"},
+                                 {"visibility", "share of the lights in reach that are seen"}});
 }
 
 Choices metric_choices() {
@@ -148,21 +149,21 @@ Choices metric_choices() {
 }
 
 const Choices& choices_of(ViewKind) {
-    static const Choices choices =
-        ordered(view_names(),
-                {{"lit", "the lit picture"},
-                 {"albedo", "base colour"},
-                 {"normal", "world normal as colour"},
-                 {"depth", "heat map of the distance, in metres"},
-                 {"position", "place in the scene's box as colour"},
-                 {"roughness", "heat map from 0 to 1"},
-                 {"lights", "heat map of lights evaluated a pixel"},
-                 {"clusters", "coarse clusters in random colours"},
-                 {"slices", "depth slices of the coarse grid in random colours"},
-                 {"active", "active clusters in random colours"},
-                 {"overdraw", "heat map of fragments drawn a pixel"},
-                 {"difference", "heat map of the difference to deferred-all"},
-                 {"false-positives", "heat map of lights evaluated in vain (deferred only)"}});
+    static const Choices choices = ordered(
+        view_names(), {{"lit", "the lit picture"},
+                       {"albedo", "base colour"},
+                       {"normal", "world normal as colour"},
+                       {"depth", "heat map of the distance, in metres"},
+                       {"position", "place in the scene's box as colour"},
+                       {"roughness", "heat map from 0 to 1"},
+                       {"lights", "heat map of lights evaluated a pixel"},
+                       {"clusters", "coarse clusters in random colours"},
+                       {"slices", "depth slices of the coarse grid in random colours"},
+                       {"active", "active clusters in random colours"},
+                       {"overdraw", "heat map of fragments drawn a pixel"},
+                       {"difference", "heat map of the difference to deferred-all"},
+                       {"false-positives", "heat map of lights evaluated in vain (deferred only)"},
+                       {"shadows", "heat map of the share of lights hidden (deferred only)"}});
     return choices;
 }
 

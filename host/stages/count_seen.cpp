@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/count_seen.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kStage = "count_seen";
+
+}  // namespace
+
+CountSeen::CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : gpu_(gpu),
+      tuning_(tuning),
+      kernel_(gpu, build_program(gpu, kStage, feature_options(features)), kStage, "count_seen"),
+      facing_(gpu, kStage),
+      seen_(gpu, kStage) {}
+
+SeenCounts CountSeen::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
+                              const ClusterGrid& grid, const ActiveClusters& clusters,
+                              const RefinedLists& lists, const ShadowWords& shadows,
+                              StageTimer& timer) {
+    const View& view = gbuffer.view;
+    const std::size_t pixels = std::size_t{view.stride} * view.height;
+    const SeenCounts out{facing_.reserve(pixels), seen_.reserve(pixels)};
+    kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer,
+                    gbuffer.bytes, gbuffer.layout, view, lights.directional,
+                    lights.directional_count, lights.bounds, grid, clusters.offsets,
+                    clusters.clusters, clusters.capacity, clusters.order, lists.lists,
+                    shadows.offsets, shadows.words, out.facing, out.seen);
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
+
+namespace kilolux {
+
+/// Lights per pixel: planes uint[height][stride], undefined for background.
+struct SeenCounts {
+    DeviceArray<uint> facing;  // lights that the pixel faces within their range
+    DeviceArray<uint> seen;    // those of them that nothing hides
+};
+
+/// Counts what shadows hide. For views.
+class CountSeen {
+ public:
+    CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Enqueues only.
+    SeenCounts enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
+                       const ClusterGrid& grid, const ActiveClusters& clusters,
+                       const RefinedLists& lists, const ShadowWords& shadows, StageTimer& timer);
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    Kernel kernel_;
+    GrowingArray<uint> facing_, seen_;
+};
+
+}  // namespace kilolux

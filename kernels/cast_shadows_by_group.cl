@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// cast_shadows by a work-group for every SPLIT-th light of a tile: GROUP / SHADOW_WIDTH nodes at a
+// time, an item a child; then an item a triangle; then an item a few pixels. For GPUs; one pixel a
+// lane. In which order items find triangles decides nothing.
+#define ORDERED_PIXELS 1
+#define SHADOW_POINTS (FINE_TILE_PIXELS / GROUP)
+#include "kernels/device/cast_shadows.h"
+#include "kernels/device/shadow_cast.h"
+
+#ifndef SPLIT
+#define SPLIT 4
+#endif
+#define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
+// Triangles that wait for their test, at most.
+#define GROUP_FOUND (2 * GROUP)
+#define FORM_FLOATS (FORM_ROWS + 1)
+#define TILE_WORDS (FINE_TILE_PIXELS / 32)
+
+// What the items share.
+typedef struct GroupWalk {
+    uint stack[SHADOW_STACK];
+    uint found[GROUP_FOUND];
+    float forms[GROUP][FORM_FLOATS];  // of the triangles that are tested, and their children
+    uint top, count;                  // of stack and found
+    uint tested;                      // triangles
+    uint lit;                         // 1 while some point is
+    uint words[TILE_WORDS];
+    int low[3], high[3];  // of the cluster's points, as ordered_bits
+} GroupWalk;
+
+// Floats' order, negative ones included, as integers'; its own inverse on bits.
+static inline int ordered_bits(int bits) { return bits ^ (bits >> 31 & 0x7fffffff); }
+
+static inline uint this_item(void) { return get_local_id(0); }
+
+// The item's points: places from this_item() * SHADOW_POINTS on in the tile's order.
+static inline void load_points_of_item(global const float* origins, View view, uint tile,
+                                       global const uchar* order, ShadowPoints* points) {
+    uint tiles_x = fine_tiles_x(view);
+    for (uint i = 0; i < SHADOW_POINTS; ++i) {
+        Pixels pixels =
+            ordered_pixels(view, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE,
+                           order + tile * FINE_TILE_PIXELS + this_item() * SHADOW_POINTS + i);
+        load_origins(points, i, origins, view.stride * view.height, pixels);
+    }
+}
+
+// The box of the cluster's points, whose places are first .. end - 1.
+static inline void find_box(const ShadowPoints* points, uint first, uint end,
+                            local GroupWalk* walk) {
+    barrier(CLK_LOCAL_MEM_FENCE);  // the last cluster's is used up
+    if (this_item() < 3u) {
+        walk->low[this_item()] = ordered_bits(as_int(SHADOW_NOWHERE));
+        walk->high[this_item()] = ordered_bits(as_int(-SHADOW_NOWHERE));
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // empty before it grows
+    for (uint i = 0; i < SHADOW_POINTS; ++i) {
+        uint place = this_item() * SHADOW_POINTS + i;
+        if (place < first || place >= end) continue;
+        const float at[3] = {points->x[i], points->y[i], points->z[i]};
+        for (uint axis = 0; axis < 3; ++axis) {
+            atomic_min(&walk->low[axis], ordered_bits(as_int(at[axis])));
+            atomic_max(&walk->high[axis], ordered_bits(as_int(at[axis])));
+        }
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // complete
+}
+
+static inline float3 box_end(local const int* end) {
+    return (float3)(as_float(ordered_bits(end[0])), as_float(ordered_bits(end[1])),
+                    as_float(ordered_bits(end[2])));
+}
+
+// The forms of the item's triangle, if it may shade.
+static inline void set_up_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint child,
+                                local GroupWalk* walk) {
+    FV3 v[3];
+    load_casters(scene, &child, v);
+    MASK sure;
+    ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
+    if (!lane_any(sure & may_shade(shaft, &t))) return;
+    local float* to = walk->forms[atomic_inc(&walk->tested)];
+    FormRows forms;
+    store_forms(&t, &forms);
+    for (uint i = 0; i < FORM_ROWS; ++i) to[i] = forms.of[i][0];
+    to[FORM_ROWS] = as_float(child);
+}
+
+static inline float local_form_at(local const float* f, FV3 x) {
+    return fma(f[0], x.x, fma(f[1], x.y, fma(f[2], x.z, f[3])));
+}
+
+// Tests the triangles that are set up on the item's points; whether any is still lit.
+static inline bool shade_points(ShadowScene scene, local const GroupWalk* walk,
+                                ShadowPoints* points) {
+    bool any = false;
+    for (uint i = 0; i < SHADOW_POINTS; ++i) {
+        MASK lit = lit_of(points, i);
+        FV3 e = load_edge_points(points, i);
+        FV3 p = load_points(points, i);
+        for (uint j = 0; lane_any(lit) && j < walk->tested; ++j) {
+            local const float* f = walk->forms[j];
+            FV u0 = local_form_at(f, e);
+            FV u1 = local_form_at(f + 4, e);
+            FV u2 = local_form_at(f + 8, e);
+            MASK shaded = lane_mask(min(min(u0, u1), min(u2, local_form_at(f + 12, p))) >= -1.0f);
+#if HAS_MASKED_CASTERS
+            uint child = as_uint(f[FORM_ROWS]);
+            if (shaded && (child & SHADOW_MASKED) != 0u) {
+                shaded &= is_opaque_at(scene.masked, child & SHADOW_NUMBER, u0 * f[16], u1 * f[17],
+                                       u2 * f[18]);
+            }
+#endif
+            lit &= ~shaded;
+        }
+        points->lit[i] = as_float(lit);
+        any |= lane_any(lit);
+    }
+    return any;
+}
+
+// Tests what was found, GROUP triangles at a time.
+static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
+                              local GroupWalk* walk, ShadowPoints* points) {
+    for (uint first = 0; first < count; first += GROUP) {
+        if (this_item() == 0u) {
+            walk->tested = 0u;
+            walk->lit = 0u;
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any adds to it
+        uint i = first + this_item();
+        if (i < count) set_up_found(scene, light, shaft, walk->found[i], walk);
+        barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
+        if (shade_points(scene, walk, points)) walk->lit = 1u;
+        barrier(CLK_LOCAL_MEM_FENCE);  // all have tested
+    }
+}
+
+// Puts out the item's lit flags where something stands between its points and the light.
+static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, Shaft shaft,
+                                         local GroupWalk* walk, ShadowPoints* points) {
+    for (;;) {
+        barrier(CLK_LOCAL_MEM_FENCE);  // stack and found are complete
+        uint top = walk->top;
+        uint count = walk->count;
+        if (walk->lit == 0u || (top == 0u && count == 0u)) return;
+        uint mine = this_item() / SHADOW_WIDTH;
+        uint take = min(top, (uint)NODES_AT_ONCE);
+        uint number = mine < take ? walk->stack[top - 1u - mine] : 0u;
+        barrier(CLK_LOCAL_MEM_FENCE);  // read by all before it changes
+        if (top == 0u || count > GROUP) {
+            test_found(scene, light, shaft, count, walk, points);
+            if (this_item() == 0u) walk->count = 0u;
+            continue;
+        }
+        if (this_item() == 0u) walk->top = top - take;
+        barrier(CLK_LOCAL_MEM_FENCE);  // popped before any is pushed
+        uint place = this_item() % SHADOW_WIDTH;
+        global const ShadowNode* node = scene.nodes + number;
+        if (mine < take && lane_any(meets_children(shaft, node, place))) {
+            uint child = node->child[place];
+            if ((child & SHADOW_LEAF) != 0u) {
+                walk->found[atomic_inc(&walk->count)] = child;
+            } else {
+                walk->stack[atomic_inc(&walk->top)] = child;
+            }
+        }
+    }
+}
+
+// One light's bits of one cluster, whose box is found.
+static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, uint end,
+                              local GroupWalk* walk, ShadowPoints* points, global uint* words) {
+    bool any = false;
+    for (uint i = 0; i < SHADOW_POINTS; ++i) {
+        uint place = this_item() * SHADOW_POINTS + i;
+        MASK mine = lane_mask(place >= first && place < end);
+        any |= lane_any(face_light(points, i, light, mine));
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
+    if (this_item() < TILE_WORDS) walk->words[this_item()] = 0u;
+    if (this_item() == 0u) {
+        walk->stack[0] = 0u;
+        walk->top = 1u;
+        walk->count = 0u;
+        walk->lit = 0u;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item's points are lit
+    if (any) walk->lit = 1u;
+    cast_shadows_of_group(scene, light, make_shaft(light, box_end(walk->low), box_end(walk->high)),
+                          walk, points);
+    uint bits = 0u;
+    for (uint i = 0; i < SHADOW_POINTS; ++i) bits |= lane_any(lit_of(points, i)) ? 1u << i : 0u;
+    uint place = this_item() * SHADOW_POINTS;
+    if (bits != 0u) atomic_or(&walk->words[place / 32u], bits << place % 32u);
+    barrier(CLK_LOCAL_MEM_FENCE);  // all bits are set
+    for (uint i = this_item(); i < shadow_words(first, end); i += GROUP) {
+        words[i] = walk->words[first / 32u + i];
+    }
+}
+
+kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
+    View view, ShadowView shadow, global const float* restrict origins,
+    global const float4* restrict bounds,                        // [light_count]
+    global const DirectionalLight* restrict directional_lights,  // [directional_count]
+    uint directional_count,
+    global const uint* restrict cluster_offsets,    // [tiles + 1]
+    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
+    uint cluster_capacity,
+    global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
+    global const LIGHT_INDEX* restrict lists,
+    global const uint* restrict word_offsets,  // [tiles + 1]
+    global const ShadowNode* restrict nodes, global const float* restrict casters,
+    global const MaskedCaster* restrict masked_casters,
+    global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
+    global const ulong* restrict texels,
+    global uint* restrict words) {  // out
+    local GroupWalk walk;
+    uint tile = get_group_id(0) / SPLIT;
+    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+    if (word_offsets[tile] == word_offsets[tile + 1]) return;
+    ShadowScene scene = {nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
+    ShadowPoints points;
+    load_points_of_item(origins, view, tile, order, &points);
+    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+        uint first = clusters[i].first_pixel;
+        uint last = first + clusters[i].pixel_count;
+        find_box(&points, first, last, &walk);
+        global uint* out = words + word_offsets[tile] + clusters[i].first_word;
+        for (uint j = get_group_id(0) % SPLIT; j < directional_count + clusters[i].list_count;
+             j += SPLIT) {
+            ShadowLight light =
+                j < directional_count
+                    ? shadow_directional_light(shadow, directional_lights[j])
+                    : shadow_point_light(
+                          shadow, bounds[lists[clusters[i].list_begin + j - directional_count]]);
+            cast_light(scene, light, first, last, &walk, &points,
+                       out + j * shadow_words(first, last));
+        }
+    }
+}
