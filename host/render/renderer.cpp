@@ -264,6 +264,7 @@ std::uint64_t Renderer::light_count(const RenderSettings& settings) const {
     return settings.lights.count + pipeline_->scene->scene().lights.size();
 }
 
+const Scene& Renderer::scene() const { return pipeline_->scene->scene(); }
 const RenderSettings& Renderer::settings() const { return pipeline_->settings; }
 const DeviceInfo& Renderer::device() const { return pipeline_->gpu.info; }
 const ScenePlan& Renderer::plan() const { return pipeline_->plan; }

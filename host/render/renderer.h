@@ -50,6 +50,7 @@ class Renderer {
     void change(const RenderSettings& settings);
 
     const RenderSettings& settings() const;
+    const Scene& scene() const;
 
     /// What settings().want asks for of the picture at `time` [s]: the mean of settings.samples
     /// jittered samples (sample_pattern.h). AOVs, views and counts are those of the sample through

@@ -6,6 +6,7 @@
 #define KILOLUX_DEVICE_SUM_LIGHTS_H
 #include "kernels/device/light_index.h"
 #include "kernels/device/stored_light.h"
+#include "kernels/shared/clusters.h"  // not where a switch may leave it out
 #include "kernels/shared/evaluate.h"
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;

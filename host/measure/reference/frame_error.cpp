@@ -21,12 +21,16 @@ void make_small(RenderSettings& settings, std::uint64_t lights) {
 }
 
 // The float64 reference of the surfaces of the renderer's last picture.
-ReferencePicture reference_of(Renderer& renderer, bool orthographic, const OnProgress& progress) {
+ReferencePicture reference_of(Renderer& renderer, const Camera& camera,
+                              const OnProgress& progress) {
+    std::optional<ShadowCaster> shadows;
+    if (renderer.plan().kernels.shadows) shadows.emplace(renderer.scene(), camera);
     return shade_reference(renderer.lit_surfaces(),
                            {.shading = shading_of(renderer.plan().kernels),
                             .ambient = static_cast<double>(renderer.settings().ambient),
-                            .orthographic = orthographic,
-                            .progress = progress});
+                            .orthographic = camera.orthographic,
+                            .progress = progress,
+                            .shadows = shadows ? &*shadows : nullptr});
 }
 
 ReferenceError error_of(const RgbImage& picture, const ReferencePicture& reference) {
@@ -56,14 +60,13 @@ FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, cons
         return OnProgress([=](double share) { progress(from + share * (to - from)); });
     };
     if (stored) {
-        out.kernels =
-            error_of(picture, reference_of(renderer, camera.orthographic, part(0.0, first)));
+        out.kernels = error_of(picture, reference_of(renderer, camera, part(0.0, first)));
     }
     settings.renderer = RendererKind::deferred;
     settings.gbuffer = GBUFFER_FULL;
     renderer.change(settings);
     renderer.render(camera, time);
-    const ReferencePicture full = reference_of(renderer, camera.orthographic, part(first, 1.0));
+    const ReferencePicture full = reference_of(renderer, camera, part(first, 1.0));
     out.whole = error_of(picture, full);
     out.relative = pixel_errors(picture, full.radiance, &full.scale);
     out.lights_per_pixel = full.lights_per_pixel;

@@ -14,7 +14,8 @@ struct LightContribution {
     uint index = 0;            // of the light, see ProbedLight
     double distance = 0.0;     // from the surface [m]
     double range = 0.0;        // [m]
-    glm::dvec3 radiance{0.0};  // added to the pixel, in float64
+    glm::dvec3 radiance{0.0};  // added to the pixel, in float64; 0 where something hides the light
+    bool hidden = false;       // by what casts shadows
 };
 
 /// One per light of a probed pixel's list, the brightest first. `model`: shading, projection and

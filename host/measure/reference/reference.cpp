@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "host/measure/metrics/compensated_sum.h"
 #include "host/measure/reference/reference_brdf.h"
@@ -64,12 +65,32 @@ glm::dvec3 direction_to_eye(const glm::dvec3& position, bool orthographic) {
     return -position / distance;
 }
 
-// Adds light that arrives with `irradiance` on a surface that faces it.
+// Which lights a pixel sees.
+class Visibility {
+ public:
+    Visibility(const SurfaceSample& surface, const ShadowCaster* shadows) : shadows_(shadows) {
+        if (shadows != nullptr) point_ = shadows->point_at(surface.position);
+    }
+    bool sees(const ReferenceLight& light) const {
+        return !point_ || shadows_->sees(*point_, light.position);
+    }
+    bool sees(const ReferenceDirectionalLight& light) const {
+        return !point_ || shadows_->sees_direction(*point_, light.to_light);
+    }
+
+ private:
+    const ShadowCaster* shadows_;
+    std::optional<ShadowPoint> point_;
+};
+
+// Adds light that arrives with `irradiance` on a surface that faces it and sees it.
+template <typename Light>
 void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& to_light,
-                  const glm::dvec3& irradiance, const ReferenceOptions& options) {
+                  const glm::dvec3& irradiance, const ReferenceOptions& options,
+                  const Visibility& visibility, const Light& light) {
     pixel.scale.add(glm::abs(irradiance));
     const double n_dot_l = glm::dot(surface.normal, to_light);
-    if (!(n_dot_l > 0.0)) return;
+    if (!(n_dot_l > 0.0) || !visibility.sees(light)) return;
     const glm::dvec3 to_eye = direction_to_eye(surface.position, options.orthographic);
     const glm::dvec3 brdf = reference_brdf(surface, to_eye, to_light, options.shading);
     pixel.radiance.add(brdf * irradiance * n_dot_l);
@@ -81,15 +102,17 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
     pixel.radiance.add(surface.emissive);
     if (surface.kind != SurfaceKind::lit) return pixel;
     pixel.radiance.add(options.ambient * surface.occlusion * surface.albedo);
+    const Visibility visibility(surface, options.shadows);
     for (const ReferenceDirectionalLight& light : lights.directional) {
-        add_incident(pixel, surface, light.to_light, light.illuminance, options);
+        add_incident(pixel, surface, light.to_light, light.illuminance, options, visibility, light);
     }
     for (const ReferenceLight& light : lights.lights) {
         const Incidence in = incidence(light, surface.position, options);
         if (in.attenuation == 0.0) continue;
         ++pixel.lights;
         pixel.reaching += in.reaches;
-        add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options);
+        add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options,
+                     visibility, light);
     }
     return pixel;
 }

@@ -8,6 +8,7 @@
 #include "host/measure/metrics/parallel_rows.h"
 #include "host/measure/metrics/rgb_image.h"
 #include "host/measure/reference/reference_lights.h"
+#include "host/measure/reference/shadow_caster.h"
 #include "host/measure/reference/surface_samples.h"
 #include "host/render/settings.h"
 
@@ -28,6 +29,7 @@ struct ReferenceOptions {
     double light_d_min = 0.01;           // nearer than this the inverse square stops growing [m]
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     OnProgress progress{};
+    const ShadowCaster* shadows = nullptr;  // none: every light is seen
 };
 
 struct ReferencePicture {

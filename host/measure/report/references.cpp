@@ -44,7 +44,9 @@ ReferenceLights usable_lights(const ReportView& view, const RenderSettings& sett
 }  // namespace
 
 ReportReferences::ReportReferences(const ReportView& view, const RenderSettings& asked)
-    : view_(view), asked_(asked) {}
+    : view_(view), asked_(asked) {
+    if (asked.shadows != Shadows::off) shadows_.emplace(view.scene, view.camera);
+}
 
 ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bool windowed) const {
     const auto& plan = make_scene_plan(view_.scene, settings, 0).kernels;
@@ -53,7 +55,8 @@ ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bo
             .orthographic = view_.camera.orthographic,
             .light_d_min = double{plan.light_d_min},
             .windowed = windowed,
-            .progress = [this](double) { on_step_(); }};
+            .progress = [this](double) { on_step_(); },
+            .shadows = shadows_ ? &*shadows_ : nullptr};
 }
 
 const ComparedReference& ReportReferences::kernels(const RenderSettings& settings) {

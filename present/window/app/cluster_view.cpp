@@ -68,7 +68,8 @@ void share_row(const LightContribution& share, double total) {
     ImGui::Text("%.2f m", share.range);
     ImGui::TableNextColumn();
     const double part = total > 0.0 ? brightness(share.radiance) / total : 0.0;
-    const std::string text = fmt::format("{:.3g}", brightness(share.radiance));
+    const std::string text =
+        share.hidden ? "hidden" : fmt::format("{:.3g}", brightness(share.radiance));
     ImGui::ProgressBar(static_cast<float>(part), {-FLT_MIN, ImGui::GetFontSize()}, text.c_str());
 }
 

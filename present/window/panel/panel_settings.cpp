@@ -32,6 +32,7 @@ void Panel::picture() const {
     RenderSettings& s = state.settings;
     ui.choice("Renderer", s.renderer, names_of<RendererKind>());
     ui.choice("Shading", s.shading, names_of<Shading>());
+    ui.choice("Shadows", s.shadows, names_of<Shadows>());
     ui.choice("G-buffer", s.gbuffer, gbuffer_choices().names);
     ui.choice("Show", s.want.view, view_names());
     ui.slider("Exposure", s.exposure, {-8.0, 8.0, false, "%+.1f EV"});

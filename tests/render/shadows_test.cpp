@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact shadows: against rays in double, and the same bits however they are found.
+#include <gtest/gtest.h>
+
+#include "host/base/error.h"
+#include "host/measure/bench/lighting_bench.h"
+#include "host/measure/reference/decoded_samples.h"
+#include "host/measure/reference/shadow_caster.h"
+#include "tests/support/render_fixture.h"
+#include "tests/support/shadow_scenes.h"
+
+namespace kilolux {
+namespace {
+
+RenderSettings shadow_settings(int width = 96, int height = 54, std::uint64_t lights = 0) {
+    RenderSettings settings = small_settings(width, height, lights);
+    settings.shadows = Shadows::exact;
+    settings.ambient = 0.0f;
+    return settings;
+}
+
+// Which pixels see the scenario's light, by the device and in double.
+struct Compared {
+    int pixels = 0;     // that face the light
+    int hidden = 0;     // from it, in double
+    int differ = 0;     // device and double
+    int unfounded = 0;  // differ although no edge is near
+};
+
+// Whether a shadow's edge passes within `distance` [m] of the point.
+bool is_near_edge(const ShadowCaster& caster, const ShadowPoint& point, const glm::dvec3& light,
+                  double distance) {
+    const bool seen = caster.sees(point, light);
+    for (int i = 0; i < 26; ++i) {
+        const int code = i < 13 ? i : i + 1;
+        const glm::dvec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+        if (caster.sees_moved(point, distance * way, light) != seen) return true;
+    }
+    return false;
+}
+
+Compared compare(const ShadowScenario& scenario, Geometry geometry) {
+    RenderSettings settings = shadow_settings(160, 90);
+    settings.geometry = geometry;
+    settings.want.view = ViewKind::shadows;
+    settings.want.aovs = {"visibility"};
+    Renderer renderer(scenario.scene, settings);
+    const Frame frame = renderer.render(scenario.camera, 0.0);
+    const ShadowCaster caster(scenario.scene, scenario.camera);
+    const glm::dvec3 world_light = scenario.scene.lights.front().position;
+    const glm::dmat3 view_from_world = glm::transpose(scenario.camera.world_from_view);
+    const glm::dvec3 light = view_from_world * (world_light - scenario.camera.position);
+    const SurfaceSamples surfaces = surface_samples(renderer.lit_surfaces().surfaces);
+    Compared out;
+    for (std::size_t i = 0; i < surfaces.pixels.size(); ++i) {
+        const SurfaceSample& surface = surfaces.pixels[i];
+        if (surface.kind == SurfaceKind::background) continue;
+        const glm::dvec3 to_light = light - surface.position;
+        if (!(glm::dot(surface.normal, to_light) > 0.0)) continue;
+        const auto point = caster.point_at(surface.position);
+        if (!point) continue;
+        ++out.pixels;
+        const bool seen = caster.sees(*point, light);
+        const bool device = frame.aovs[0].values[i] > 0.5f;
+        out.hidden += seen ? 0 : 1;
+        if (seen == device) continue;
+        ++out.differ;
+        // 2^-17 of the scene's and the light's distances, as the kernels state.
+        const double stated = 0x1p-15 * (glm::length(to_light) + 15.0);
+        out.unfounded += is_near_edge(caster, *point, light, stated) ? 0 : 1;
+    }
+    return out;
+}
+
+void expect_like_rays_in_double(const ShadowScenario& scenario, double least_hidden) {
+    for (const Geometry geometry : {Geometry::ids, Geometry::compute}) {
+        SCOPED_TRACE(scenario.name);
+        const Compared found = compare(scenario, geometry);
+        EXPECT_GT(found.pixels, 1000);
+        EXPECT_GE(found.hidden, least_hidden * found.pixels);
+        EXPECT_EQ(found.unfounded, 0);
+        EXPECT_LE(found.differ, found.pixels / 200);
+    }
+}
+
+// Exactly representable, so that only the sums with it round.
+const glm::dvec3 kFar(0x1p20, -0x1p20, 0x1p20);
+
+TEST(Shadows, OfARowOfColumnsAreThoseOfRaysInDouble) {
+    expect_like_rays_in_double(columns_scenario(), 0.05);
+    expect_like_rays_in_double(moved(columns_scenario(), kFar), 0.05);
+}
+
+TEST(Shadows, NoLightComesThroughAWallOfAMillimetre) {
+    expect_like_rays_in_double(thin_wall_scenario(), 0.5);
+    expect_like_rays_in_double(moved(thin_wall_scenario(), kFar), 0.5);
+}
+
+TEST(Shadows, AFloorUnderAGrazingLightHidesNothing) {
+    expect_like_rays_in_double(grazing_scenario(), 0.0);
+    expect_like_rays_in_double(moved(grazing_scenario(), kFar), 0.0);
+}
+
+TEST(Shadows, OfRoundBodiesAreThoseOfRaysInDouble) {
+    expect_like_rays_in_double(spheres_scenario(), 0.05);
+}
+
+TEST(Shadows, AreTheSameBitsWithEveryLight) {
+    const Scene scene = grid_with_every_light();
+    RenderSettings settings = shadow_settings(96, 54, 300);
+    settings.samples = 2;
+    const Frame listed = render_once(scene, settings);
+    settings.renderer = RendererKind::deferred_all;
+    EXPECT_EQ(render_once(scene, settings).radiance, listed.radiance);
+    settings.renderer = RendererKind::deferred;
+    settings.shadows = Shadows::off;
+    EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
+}
+
+TEST(Shadows, AreTheSameBitsInBandsAndInAnotherGrid) {
+    const Scene scene = grid_with_every_light();
+    RenderSettings settings = shadow_settings(96, 64, 300);
+    settings.want.aovs = {"visibility"};
+    const Frame whole = render_once(scene, settings);
+    settings.band_rows = 16;
+    const Frame banded = render_once(scene, settings);
+    EXPECT_EQ(banded.radiance, whole.radiance);
+    EXPECT_EQ(banded.aovs.front().values, whole.aovs.front().values);
+    settings.band_rows = 0;
+    settings.grid = {5, 3, 2, 2};
+    EXPECT_EQ(render_once(scene, settings).radiance, whole.radiance);
+}
+
+TEST(Shadows, AreTheSameBitsForEveryLaunch) {
+    const Scene scene = grid_with_every_light();
+    const RenderSettings settings = shadow_settings(96, 54, 200);
+    LightingBench bench(scene, settings, first_camera(scene));
+    LightingRequest request = bench.request();
+    request.runs = 1;
+    request.tuning.tuning.shadow_group = 1;
+    const std::uint64_t picture = bench.run(request).picture;
+    for (const int group : {32, 64, 256}) {
+        request.tuning.tuning.shadow_group = group;
+        EXPECT_EQ(bench.run(request).picture, picture) << group << " work-items";
+    }
+    request.tuning.tuning.shadow_group = 1;
+    for (const int lanes : {1, 2, 4, 8, 16}) {
+        request.tuning.lanes = lanes;
+        request.tuning.tuning.shade_rows = 1;
+        EXPECT_EQ(bench.run(request).picture, picture) << lanes << " lanes";
+    }
+}
+
+// A lamp over a floor with a board between them, half of which alpha cuts away.
+ShadowScenario masked_scenario() {
+    Scene scene = shadow_stage();
+    add_box(scene, {12.0, 0.5, 12.0}, {0.0, -0.25, 0.0});
+    Material leaf = scene.materials.front();
+    leaf.alpha_mode = AlphaMode::mask;
+    leaf.alpha_cutoff = 0.5f;
+    Image image;
+    image.width = 4;
+    image.height = 1;
+    image.rgba = {200, 200, 200, 255, 200, 200, 200, 255, 200, 200, 200, 0, 200, 200, 200, 0};
+    scene.images.push_back(image);
+    scene.textures.push_back({0, {}});
+    scene.textures.front().sampler.magnify = Filter::nearest;
+    leaf.base_color_texture.texture = 0;
+    scene.materials.push_back(leaf);
+    Mesh board;
+    board.positions = {{-2, 2, -2}, {2, 2, -2}, {2, 2, 2}, {-2, 2, 2}};
+    board.normals.assign(4, {0, 1, 0});
+    board.texcoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    board.indices = {0, 2, 1, 0, 3, 2};
+    board.material = 1;
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()), glm::dmat4(1.0)});
+    scene.meshes.push_back(board);
+    scene.lights.push_back(lamp({0.0, 4.0, 0.0}));
+    return {"masked", scene, look_at({0.0, 3.0, 9.0}, {0.0, 0.0, 1.0}, {0, 1, 0}, 0.9)};
+}
+
+TEST(Shadows, AlphaCutsThem) {
+    expect_like_rays_in_double(masked_scenario(), 0.05);
+    // Twice as much is hidden where nothing is cut.
+    ShadowScenario whole = masked_scenario();
+    whole.scene.materials[1].alpha_mode = AlphaMode::opaque;
+    const int cut = compare(masked_scenario(), Geometry::ids).hidden;
+    EXPECT_GT(compare(whole, Geometry::ids).hidden, cut + cut / 2);
+}
+
+TEST(Shadows, FollowWhatMoves) {
+    ShadowScenario scenario = columns_scenario();
+    const RenderSettings settings = shadow_settings();
+    Renderer renderer(scenario.scene, settings);
+    const Frame before = renderer.render(scenario.camera, 0.0);
+    scenario.scene.instances[3].world_from_object[3].x += 1.5;
+    ++scenario.scene.revision;
+    const Frame after = renderer.render(scenario.camera, 0.0);
+    EXPECT_NE(after.radiance, before.radiance);
+    EXPECT_EQ(after.radiance,
+              Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance);
+}
+
+TEST(Shadows, ThatAreOffLeaveNothingInTheFrame) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings();
+    const Frame frame = render_once(scene, settings);
+    for (const StageTime& stage : frame.stats.stages) {
+        EXPECT_EQ(stage.name.find("shadow"), std::string::npos) << stage.name;
+    }
+    EXPECT_FALSE(make_scene_plan(scene, settings, 300).kernels.shadows);
+    settings.shadows = Shadows::exact;
+    EXPECT_TRUE(make_scene_plan(scene, settings, 300).kernels.shadows);
+}
+
+TEST(Shadows, AProbeSaysWhichLightsAPixelSees) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = shadow_settings(96, 54, 40);
+    settings.want.aovs = {"visibility"};
+    Renderer renderer(scene, settings);
+    const Frame frame = renderer.render(first_camera(scene), 0.0);
+    int hidden = 0;
+    for (int y = 2; y < 54; y += 10) {
+        for (int x = 3; x < 96; x += 15) {
+            const PixelProbe probe = renderer.probe(x, y);
+            if (!probe.drawn()) continue;
+            const float share = frame.aovs.front().values[static_cast<std::size_t>(y * 96 + x)];
+            bool any_seen = false;
+            for (const ProbedLight& light : probe.lights) {
+                ASSERT_TRUE(light.seen.has_value());
+                any_seen |= *light.seen;
+                hidden += *light.seen ? 0 : 1;
+            }
+            EXPECT_TRUE(any_seen || share == 0.0f || share == 1.0f);
+        }
+    }
+    EXPECT_GT(hidden, 0);
+}
+
+void expect_refused(const RenderSettings& settings, std::string_view reason) {
+    const Scene scene = make_generated_scene("plain");
+    try {
+        Renderer renderer(scene, settings);
+        FAIL() << "accepted";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+}
+
+TEST(Shadows, AreRefusedWhereTheyCannotBe) {
+    RenderSettings settings = shadow_settings();
+    settings.renderer = RendererKind::forward;
+    expect_refused(settings, "forward");
+    settings = shadow_settings();
+    settings.geometry = Geometry::planes;
+    expect_refused(settings, "planes");
+    settings = small_settings();
+    settings.want.view = ViewKind::shadows;
+    expect_refused(settings, "--shadows exact");
+}
+
+}  // namespace
+}  // namespace kilolux
