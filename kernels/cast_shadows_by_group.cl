@@ -20,6 +20,7 @@
 typedef struct GroupWalk {
     uint stack[SHADOW_STACK];
     uint found[GROUP_FOUND];
+    uint nodes[NODES_AT_ONCE];        // off the stack
     float forms[GROUP][FORM_FLOATS];  // of the triangles that are tested, and their children
     uint top, count;                  // of stack and found
     uint tested;                      // triangles
@@ -136,34 +137,41 @@ static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft,
     }
 }
 
+// Takes the next nodes off the stack, and puts their children that the shaft meets where they
+// belong.
+static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, local GroupWalk* walk) {
+    uint take = min(top, (uint)NODES_AT_ONCE);
+    if (this_item() == 0u) walk->top = top - take;
+    if (this_item() < take) walk->nodes[this_item()] = walk->stack[top - 1u - this_item()];
+    barrier(CLK_LOCAL_MEM_FENCE);  // popped before any is pushed
+    uint place = this_item() % SHADOW_WIDTH;
+    uint mine = this_item() / SHADOW_WIDTH;
+    global const ShadowNode* node = scene.nodes + (mine < take ? walk->nodes[mine] : 0u);
+    if (mine < take && lane_any(meets_children(shaft, node, place))) {
+        uint child = node->child[place];
+        if ((child & SHADOW_LEAF) != 0u) {
+            walk->found[atomic_inc(&walk->count)] = child;
+        } else {
+            walk->stack[atomic_inc(&walk->top)] = child;
+        }
+    }
+}
+
 // Puts out the item's lit flags where something stands between its points and the light.
 static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, Shaft shaft,
                                          local GroupWalk* walk, ShadowPoints* points) {
-    for (;;) {
+    bool goes_on = true;
+    while (goes_on) {
         barrier(CLK_LOCAL_MEM_FENCE);  // stack and found are complete
         uint top = walk->top;
         uint count = walk->count;
-        if (walk->lit == 0u || (top == 0u && count == 0u)) return;
-        uint mine = this_item() / SHADOW_WIDTH;
-        uint take = min(top, (uint)NODES_AT_ONCE);
-        uint number = mine < take ? walk->stack[top - 1u - mine] : 0u;
+        goes_on = walk->lit != 0u && (top > 0u || count > 0u);
         barrier(CLK_LOCAL_MEM_FENCE);  // read by all before it changes
-        if (top == 0u || count > GROUP) {
+        if (goes_on && (top == 0u || count > GROUP)) {
             test_found(scene, light, shaft, count, walk, points);
             if (this_item() == 0u) walk->count = 0u;
-            continue;
-        }
-        if (this_item() == 0u) walk->top = top - take;
-        barrier(CLK_LOCAL_MEM_FENCE);  // popped before any is pushed
-        uint place = this_item() % SHADOW_WIDTH;
-        global const ShadowNode* node = scene.nodes + number;
-        if (mine < take && lane_any(meets_children(shaft, node, place))) {
-            uint child = node->child[place];
-            if ((child & SHADOW_LEAF) != 0u) {
-                walk->found[atomic_inc(&walk->count)] = child;
-            } else {
-                walk->stack[atomic_inc(&walk->top)] = child;
-            }
+        } else if (goes_on) {
+            walk_nodes(scene, shaft, top, walk);
         }
     }
 }
