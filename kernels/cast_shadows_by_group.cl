@@ -13,20 +13,20 @@
 #define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
 // Triangles that wait for their test, at most.
 #define GROUP_FOUND (2 * GROUP)
-#define FORM_FLOATS (FORM_ROWS + 1)
-#define TILE_WORDS (FINE_TILE_PIXELS / 32)
+// float4 of a triangle: its forms, and the edges' units with its child's number.
+#define FORM_FLOAT4S 5
 
 // What the items share.
 typedef struct GroupWalk {
     uint stack[SHADOW_STACK];
     uint found[GROUP_FOUND];
-    uint nodes[NODES_AT_ONCE];        // off the stack
-    float forms[GROUP][FORM_FLOATS];  // of the triangles that are tested, and their children
-    uint top, count;                  // of stack and found
-    uint tested;                      // triangles
-    uint lit;                         // 1 while some point is
-    uint words[TILE_WORDS];
-    int low[3], high[3];  // of the cluster's points, as ordered_bits
+    uint nodes[NODES_AT_ONCE];          // off the stack
+    float4 forms[GROUP][FORM_FLOAT4S];  // of the triangles that are tested
+    uint top, count;                    // of stack and found
+    uint tested;                        // triangles
+    uint lit;                           // 1 while some point is
+    uchar flags[FINE_TILE_PIXELS];      // of places: 1 where lit
+    int low[3], high[3];                // of the cluster's points, as ordered_bits
 } GroupWalk;
 
 // Floats' order, negative ones included, as integers'; its own inverse on bits.
@@ -34,31 +34,36 @@ static inline int ordered_bits(int bits) { return bits ^ (bits >> 31 & 0x7ffffff
 
 static inline uint this_item(void) { return get_local_id(0); }
 
-// The item's points: places from this_item() * SHADOW_POINTS on in the tile's order.
+// Place in the tile's order of the item's k-th point of a cluster whose first pixel is `first`.
+static inline uint place_of_point(uint first, uint k) { return first + k * GROUP + this_item(); }
+
+// The item's points of a cluster.
 static inline void load_points_of_item(global const float* origins, View view, uint tile,
-                                       global const uchar* order, ShadowPoints* points) {
+                                       global const uchar* order, uint first, uint end,
+                                       ShadowPoints* points) {
     uint tiles_x = fine_tiles_x(view);
-    for (uint i = 0; i < SHADOW_POINTS; ++i) {
-        Pixels pixels =
-            ordered_pixels(view, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE,
-                           order + tile * FINE_TILE_PIXELS + this_item() * SHADOW_POINTS + i);
-        load_origins(points, i, origins, view.stride * view.height, pixels);
+    points->row_count = (end - first + GROUP - 1u) / GROUP;
+#pragma unroll
+    for (uint k = 0; k < SHADOW_POINTS; ++k) {
+        uint place = min(place_of_point(first, k), end - 1u);
+        Pixels pixels = ordered_pixels(view, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE,
+                                       order + tile * FINE_TILE_PIXELS + place);
+        load_origins(points, k, origins, view.stride * view.height, pixels);
     }
 }
 
-// The box of the cluster's points, whose places are first .. end - 1.
-static inline void find_box(const ShadowPoints* points, uint first, uint end,
-                            local GroupWalk* walk) {
+// The box of the cluster's points.
+static inline void find_box(const ShadowPoints* points, local GroupWalk* walk) {
     barrier(CLK_LOCAL_MEM_FENCE);  // the last cluster's is used up
     if (this_item() < 3u) {
         walk->low[this_item()] = ordered_bits(as_int(SHADOW_NOWHERE));
         walk->high[this_item()] = ordered_bits(as_int(-SHADOW_NOWHERE));
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // empty before it grows
-    for (uint i = 0; i < SHADOW_POINTS; ++i) {
-        uint place = this_item() * SHADOW_POINTS + i;
-        if (place < first || place >= end) continue;
-        const float at[3] = {points->x[i], points->y[i], points->z[i]};
+#pragma unroll
+    for (uint k = 0; k < SHADOW_POINTS; ++k) {
+        const float at[3] = {points->x[k], points->y[k], points->z[k]};
+#pragma unroll
         for (uint axis = 0; axis < 3; ++axis) {
             atomic_min(&walk->low[axis], ordered_bits(as_int(at[axis])));
             atomic_max(&walk->high[axis], ordered_bits(as_int(at[axis])));
@@ -72,6 +77,10 @@ static inline float3 box_end(local const int* end) {
                     as_float(ordered_bits(end[2])));
 }
 
+static inline float4 float4_of(ShadowForm form) {
+    return (float4)(form.g.x, form.g.y, form.g.z, form.c);
+}
+
 // The forms of the item's triangle, if it may shade.
 static inline void set_up_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint child,
                                 local GroupWalk* walk) {
@@ -80,44 +89,50 @@ static inline void set_up_found(ShadowScene scene, ShadowLight light, Shaft shaf
     MASK sure;
     ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
     if (!lane_any(sure & may_shade(shaft, &t))) return;
-    local float* to = walk->forms[atomic_inc(&walk->tested)];
-    FormRows forms;
-    store_forms(&t, &forms);
-    for (uint i = 0; i < FORM_ROWS; ++i) to[i] = forms.of[i][0];
-    to[FORM_ROWS] = as_float(child);
+    local float4* to = walk->forms[atomic_inc(&walk->tested)];
+    for (uint i = 0; i < 3; ++i) to[i] = float4_of(t.edge[i]);
+    to[3] = float4_of(t.plane);
+    to[4] = (float4)(t.unit[0], t.unit[1], t.unit[2], as_float(child));
 }
 
-static inline float local_form_at(local const float* f, FV3 x) {
-    return fma(f[0], x.x, fma(f[1], x.y, fma(f[2], x.z, f[3])));
+static inline float form4_at(float4 f, FV3 x) {
+    return fma(f.x, x.x, fma(f.y, x.y, fma(f.z, x.z, f.w)));
 }
 
 // Tests the triangles that are set up on the item's points; whether any is still lit.
 static inline bool shade_points(ShadowScene scene, local const GroupWalk* walk,
                                 ShadowPoints* points) {
-    bool any = false;
-    for (uint i = 0; i < SHADOW_POINTS; ++i) {
-        MASK lit = lit_of(points, i);
-        FV3 e = load_edge_points(points, i);
-        FV3 p = load_points(points, i);
-        for (uint j = 0; lane_any(lit) && j < walk->tested; ++j) {
-            local const float* f = walk->forms[j];
-            FV u0 = local_form_at(f, e);
-            FV u1 = local_form_at(f + 4, e);
-            FV u2 = local_form_at(f + 8, e);
-            MASK shaded = lane_mask(min(min(u0, u1), min(u2, local_form_at(f + 12, p))) >= -1.0f);
+    MASK any = 0;
+#pragma unroll
+    for (uint k = 0; k < SHADOW_POINTS; ++k) {
+        if (k < points->row_count) any |= lit_of(points, k);
+    }
+    for (uint j = 0; lane_any(any) && j < walk->tested; ++j) {
+        local const float4* f = walk->forms[j];
+        float4 f0 = f[0], f1 = f[1], f2 = f[2], f3 = f[3];
+        any = 0;
+#pragma unroll
+        for (uint k = 0; k < SHADOW_POINTS; ++k) {
+            if (k >= points->row_count) continue;  // the same for all items
+            MASK lit = lit_of(points, k);
+            FV3 e = load_edge_points(points, k);
+            FV u0 = form4_at(f0, e);
+            FV u1 = form4_at(f1, e);
+            FV u2 = form4_at(f2, e);
+            FV behind = form4_at(f3, load_points(points, k));
+            MASK shaded = lane_mask(min(min(u0, u1), min(u2, behind)) >= -1.0f);
 #if HAS_MASKED_CASTERS
-            uint child = as_uint(f[FORM_ROWS]);
-            if (shaded && (child & SHADOW_MASKED) != 0u) {
-                shaded &= is_opaque_at(scene.masked, child & SHADOW_NUMBER, u0 * f[16], u1 * f[17],
-                                       u2 * f[18]);
+            if (shaded && (as_uint(f[4].w) & SHADOW_MASKED) != 0u) {
+                shaded &= is_opaque_at(scene.masked, as_uint(f[4].w) & SHADOW_NUMBER, u0 * f[4].x,
+                                       u1 * f[4].y, u2 * f[4].z);
             }
 #endif
             lit &= ~shaded;
+            points->lit[k] = as_float(lit);
+            any |= lit;
         }
-        points->lit[i] = as_float(lit);
-        any |= lane_any(lit);
     }
-    return any;
+    return lane_any(any);
 }
 
 // Tests what was found, GROUP triangles at a time.
@@ -176,17 +191,30 @@ static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, S
     }
 }
 
+// The words of the cluster's flags, each byte by an item.
+static inline void store_words(uint first, uint end, local GroupWalk* walk, global uint* words) {
+    uint count = shadow_words(first, end);
+    uint from = first / 32u * 32u;
+    for (uint i = this_item(); i < count * 4u; i += GROUP) {
+        uint bits = 0u;
+        for (uint bit = 0; bit < 8u; ++bit) {
+            uint place = from + i * 8u + bit;
+            if (place >= first && place < end && walk->flags[place]) bits |= 1u << bit;
+        }
+        ((global uchar*)words)[i] = (uchar)bits;
+    }
+}
+
 // One light's bits of one cluster, whose box is found.
 static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, uint end,
                               local GroupWalk* walk, ShadowPoints* points, global uint* words) {
     bool any = false;
-    for (uint i = 0; i < SHADOW_POINTS; ++i) {
-        uint place = this_item() * SHADOW_POINTS + i;
-        MASK mine = lane_mask(place >= first && place < end);
-        any |= lane_any(face_light(points, i, light, mine));
+#pragma unroll
+    for (uint k = 0; k < SHADOW_POINTS; ++k) {
+        if (k >= points->row_count) continue;
+        any |= lane_any(face_light(points, k, light, lane_mask(place_of_point(first, k) < end)));
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
-    if (this_item() < TILE_WORDS) walk->words[this_item()] = 0u;
     if (this_item() == 0u) {
         walk->stack[0] = 0u;
         walk->top = 1u;
@@ -197,14 +225,13 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
     if (any) walk->lit = 1u;
     cast_shadows_of_group(scene, light, make_shaft(light, box_end(walk->low), box_end(walk->high)),
                           walk, points);
-    uint bits = 0u;
-    for (uint i = 0; i < SHADOW_POINTS; ++i) bits |= lane_any(lit_of(points, i)) ? 1u << i : 0u;
-    uint place = this_item() * SHADOW_POINTS;
-    if (bits != 0u) atomic_or(&walk->words[place / 32u], bits << place % 32u);
-    barrier(CLK_LOCAL_MEM_FENCE);  // all bits are set
-    for (uint i = this_item(); i < shadow_words(first, end); i += GROUP) {
-        words[i] = walk->words[first / 32u + i];
+#pragma unroll
+    for (uint k = 0; k < SHADOW_POINTS; ++k) {
+        uint place = place_of_point(first, k);
+        if (place < end) walk->flags[place] = lane_any(lit_of(points, k));
     }
+    barrier(CLK_LOCAL_MEM_FENCE);  // all flags are set
+    store_words(first, end, walk, words);
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
@@ -229,11 +256,11 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     if (word_offsets[tile] == word_offsets[tile + 1]) return;
     ShadowScene scene = {nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
     ShadowPoints points;
-    load_points_of_item(origins, view, tile, order, &points);
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
         uint first = clusters[i].first_pixel;
         uint last = first + clusters[i].pixel_count;
-        find_box(&points, first, last, &walk);
+        load_points_of_item(origins, view, tile, order, first, last, &points);
+        find_box(&points, &walk);
         global uint* out = words + word_offsets[tile] + clusters[i].first_word;
         for (uint j = get_group_id(0) % SPLIT; j < directional_count + clusters[i].list_count;
              j += SPLIT) {

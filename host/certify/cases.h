@@ -33,6 +33,8 @@ TryCase try_srgb_rounding;
 TryCase try_octahedral_wrap;
 // cases_triangles.cpp
 TryCase try_triangle_edges;
+// cases_shadows.cpp
+TryCase try_shadow_edges;
 // cases_metamorphic.cpp
 TryCase try_other_grids, try_idle_lights, try_scaled_intensities, try_scaled_world, try_mirror,
     try_split_light, try_permuted_lights, try_lane_widths;

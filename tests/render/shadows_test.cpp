@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
+#include "host/certify/shadow_scenarios.h"
 #include "host/measure/bench/lighting_bench.h"
-#include "host/measure/reference/decoded_samples.h"
-#include "host/measure/reference/shadow_caster.h"
 #include "tests/support/render_fixture.h"
-#include "tests/support/shadow_scenes.h"
 
 namespace kilolux {
 namespace {
@@ -19,63 +17,16 @@ RenderSettings shadow_settings(int width = 96, int height = 54, std::uint64_t li
     return settings;
 }
 
-// Which pixels see the scenario's light, by the device and in double.
-struct Compared {
-    int pixels = 0;     // that face the light
-    int hidden = 0;     // from it, in double
-    int differ = 0;     // device and double
-    int unfounded = 0;  // differ although no edge is near
-};
-
-// Whether a shadow's edge passes within `distance` [m] of the point.
-bool is_near_edge(const ShadowCaster& caster, const ShadowPoint& point, const glm::dvec3& light,
-                  double distance) {
-    const bool seen = caster.sees(point, light);
-    for (int i = 0; i < 26; ++i) {
-        const int code = i < 13 ? i : i + 1;
-        const glm::dvec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
-        if (caster.sees_moved(point, distance * way, light) != seen) return true;
-    }
-    return false;
-}
-
-Compared compare(const ShadowScenario& scenario, Geometry geometry) {
+ShadowAgreement compare(const ShadowScenario& scenario, Geometry geometry) {
     RenderSettings settings = shadow_settings(160, 90);
     settings.geometry = geometry;
-    settings.want.view = ViewKind::shadows;
-    settings.want.aovs = {"visibility"};
-    Renderer renderer(scenario.scene, settings);
-    const Frame frame = renderer.render(scenario.camera, 0.0);
-    const ShadowCaster caster(scenario.scene, scenario.camera);
-    const glm::dvec3 world_light = scenario.scene.lights.front().position;
-    const glm::dmat3 view_from_world = glm::transpose(scenario.camera.world_from_view);
-    const glm::dvec3 light = view_from_world * (world_light - scenario.camera.position);
-    const SurfaceSamples surfaces = surface_samples(renderer.lit_surfaces().surfaces);
-    Compared out;
-    for (std::size_t i = 0; i < surfaces.pixels.size(); ++i) {
-        const SurfaceSample& surface = surfaces.pixels[i];
-        if (surface.kind == SurfaceKind::background) continue;
-        const glm::dvec3 to_light = light - surface.position;
-        if (!(glm::dot(surface.normal, to_light) > 0.0)) continue;
-        const auto point = caster.point_at(surface.position);
-        if (!point) continue;
-        ++out.pixels;
-        const bool seen = caster.sees(*point, light);
-        const bool device = frame.aovs[0].values[i] > 0.5f;
-        out.hidden += seen ? 0 : 1;
-        if (seen == device) continue;
-        ++out.differ;
-        // 2^-17 of the scene's and the light's distances, as the kernels state.
-        const double stated = 0x1p-15 * (glm::length(to_light) + 15.0);
-        out.unfounded += is_near_edge(caster, *point, light, stated) ? 0 : 1;
-    }
-    return out;
+    return compare_shadows(scenario, settings);
 }
 
 void expect_like_rays_in_double(const ShadowScenario& scenario, double least_hidden) {
     for (const Geometry geometry : {Geometry::ids, Geometry::compute}) {
         SCOPED_TRACE(scenario.name);
-        const Compared found = compare(scenario, geometry);
+        const ShadowAgreement found = compare(scenario, geometry);
         EXPECT_GT(found.pixels, 1000);
         EXPECT_GE(found.hidden, least_hidden * found.pixels);
         EXPECT_EQ(found.unfounded, 0);

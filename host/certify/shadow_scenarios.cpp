@@ -1,44 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes whose shadows are known to be hard, each before one light.
-#pragma once
+#include "host/certify/shadow_scenarios.h"
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
-#include "tests/support/box_scene.h"
+#include "host/measure/reference/decoded_samples.h"
+#include "host/measure/reference/shadow_caster.h"
+#include "host/render/renderer.h"
+#include "host/scene/generated/mesh_builder.h"
 
 namespace kilolux {
+namespace {
 
-/// A scene, a camera and one point light in it.
-struct ShadowScenario {
-    std::string name;
-    Scene scene;
-    Camera camera;
-};
-
-inline SceneLight lamp(const glm::dvec3& position, float range = 40.0f) {
-    SceneLight light;
-    light.position = position;
-    light.intensity = {50.0f, 50.0f, 50.0f};
-    light.range = range;
-    return light;
-}
-
-inline void add_box(Scene& scene, const glm::dvec3& size, const glm::dvec3& center,
-                    double turn_rad = 0.0) {
-    Mesh mesh = box_mesh(size);
-    mesh.material = 0;
-    glm::dmat4 place(1.0);
-    place[0] = {std::cos(turn_rad), 0.0, std::sin(turn_rad), 0.0};
-    place[2] = {-std::sin(turn_rad), 0.0, std::cos(turn_rad), 0.0};
-    place[3] = glm::dvec4(center, 1.0);
-    scene.instances.push_back({static_cast<int>(scene.meshes.size()), place});
-    scene.meshes.push_back(std::move(mesh));
-}
-
-/// A sphere of `rings` x 2 `rings` quads with normals, which shared corners make closed.
-inline Mesh sphere_mesh(double radius, int rings) {
+// A sphere whose quads share corners.
+Mesh sphere_mesh(double radius, int rings) {
     Mesh mesh;
     const int columns = 2 * rings;
     for (int i = 0; i <= rings; ++i) {
@@ -63,8 +38,41 @@ inline Mesh sphere_mesh(double radius, int rings) {
     return mesh;
 }
 
-/// An empty room with one matt material.
-inline Scene shadow_stage() {
+// Whether a shadow's edge passes within `distance` [m] of the point.
+bool is_near_edge(const ShadowCaster& caster, const ShadowPoint& point, const glm::dvec3& light,
+                  double distance) {
+    const bool seen = caster.sees(point, light);
+    for (int i = 0; i < 26; ++i) {
+        const int code = i < 13 ? i : i + 1;
+        const glm::dvec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
+        if (caster.sees_moved(point, distance * way, light) != seen) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+SceneLight lamp(const glm::dvec3& position, float range) {
+    SceneLight light;
+    light.position = position;
+    light.intensity = {50.0f, 50.0f, 50.0f};
+    light.range = range;
+    return light;
+}
+
+void add_box(Scene& scene, const glm::dvec3& size, const glm::dvec3& center, double turn_rad) {
+    MeshBuilder builder;
+    builder.box(-0.5 * size, 0.5 * size);
+    Mesh mesh = builder.build("box", 0, 1.0, false);
+    glm::dmat4 place(1.0);
+    place[0] = {std::cos(turn_rad), 0.0, std::sin(turn_rad), 0.0};
+    place[2] = {-std::sin(turn_rad), 0.0, std::cos(turn_rad), 0.0};
+    place[3] = glm::dvec4(center, 1.0);
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()), place});
+    scene.meshes.push_back(std::move(mesh));
+}
+
+Scene shadow_stage() {
     Scene scene;
     scene.name = "stage";
     Material material;
@@ -75,8 +83,7 @@ inline Scene shadow_stage() {
     return scene;
 }
 
-/// A row of columns before a light.
-inline ShadowScenario columns_scenario() {
+ShadowScenario columns_scenario() {
     Scene scene = shadow_stage();
     add_box(scene, {30.0, 0.5, 30.0}, {0.0, -0.25, 0.0});
     for (int i = 0; i < 7; ++i) {
@@ -86,8 +93,7 @@ inline ShadowScenario columns_scenario() {
     return {"columns", scene, look_at({1.0, 8.0, 14.0}, {0.0, 0.5, 2.0}, {0, 1, 0}, 0.8)};
 }
 
-/// A wall of one millimetre between a light and the floor, the gap below it closed by touching.
-inline ShadowScenario thin_wall_scenario() {
+ShadowScenario thin_wall_scenario() {
     Scene scene = shadow_stage();
     add_box(scene, {20.0, 0.5, 20.0}, {0.0, -0.25, 0.0});
     add_box(scene, {20.0, 10.0, 0.001}, {0.0, 5.0, 0.0});
@@ -95,8 +101,7 @@ inline ShadowScenario thin_wall_scenario() {
     return {"thin wall", scene, look_at({0.0, 4.0, 9.0}, {0.0, 0.0, 2.0}, {0, 1, 0}, 0.9)};
 }
 
-/// A light one millimetre above a floor of many triangles: all of it is lit.
-inline ShadowScenario grazing_scenario() {
+ShadowScenario grazing_scenario() {
     Scene scene = shadow_stage();
     Mesh floor;
     constexpr int kSide = 40;
@@ -126,8 +131,7 @@ inline ShadowScenario grazing_scenario() {
     return {"grazing", scene, look_at({-3.0, 9.0, 9.0}, {0.0, 0.0, 0.0}, {0, 1, 0}, 0.9)};
 }
 
-/// Spheres over a floor, coarse and fine, and a light among them.
-inline ShadowScenario spheres_scenario() {
+ShadowScenario spheres_scenario() {
     Scene scene = shadow_stage();
     add_box(scene, {20.0, 0.5, 20.0}, {0.0, -0.25, 0.0});
     for (int i = 0; i < 3; ++i) {
@@ -140,8 +144,7 @@ inline ShadowScenario spheres_scenario() {
     return {"spheres", scene, look_at({1.0, 5.0, 9.0}, {0.0, 0.8, 0.0}, {0, 1, 0}, 0.8)};
 }
 
-/// The same, moved as a whole.
-inline ShadowScenario moved(ShadowScenario from, const glm::dvec3& by) {
+ShadowScenario moved(ShadowScenario from, const glm::dvec3& by) {
     for (Instance& instance : from.scene.instances) {
         instance.world_from_object[3] += glm::dvec4(by, 0.0);
     }
@@ -149,6 +152,38 @@ inline ShadowScenario moved(ShadowScenario from, const glm::dvec3& by) {
     from.camera.position += by;
     from.name += " far away";
     return from;
+}
+
+ShadowAgreement compare_shadows(const ShadowScenario& scenario, RenderSettings settings) {
+    settings.shadows = Shadows::exact;
+    settings.want.view = ViewKind::shadows;
+    settings.want.aovs = {"visibility"};
+    Renderer renderer(scenario.scene, settings);
+    const Frame frame = renderer.render(scenario.camera, 0.0);
+    const ShadowCaster caster(scenario.scene, scenario.camera);
+    const glm::dvec3 world_light = scenario.scene.lights.front().position;
+    const glm::dmat3 view_from_world = glm::transpose(scenario.camera.world_from_view);
+    const glm::dvec3 light = view_from_world * (world_light - scenario.camera.position);
+    const SurfaceSamples surfaces = surface_samples(renderer.lit_surfaces().surfaces);
+    ShadowAgreement out;
+    for (std::size_t i = 0; i < surfaces.pixels.size(); ++i) {
+        const SurfaceSample& surface = surfaces.pixels[i];
+        if (surface.kind == SurfaceKind::background) continue;
+        const glm::dvec3 to_light = light - surface.position;
+        if (!(glm::dot(surface.normal, to_light) > 0.0)) continue;
+        const auto point = caster.point_at(surface.position);
+        if (!point) continue;
+        ++out.pixels;
+        const bool seen = caster.sees(*point, light);
+        const bool device = frame.aovs[0].values[i] > 0.5f;
+        out.hidden += seen ? 0 : 1;
+        if (seen == device) continue;
+        ++out.differ;
+        // 2^-17 of the scene's and the light's distances, as the kernels state.
+        const double stated = 0x1p-15 * (glm::length(to_light) + 15.0);
+        out.unfounded += is_near_edge(caster, *point, light, stated) ? 0 : 1;
+    }
+    return out;
 }
 
 }  // namespace kilolux
