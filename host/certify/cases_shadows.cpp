@@ -37,7 +37,8 @@ void try_all_lights(const Gpu& gpu, Findings& findings) {
 
 void try_shadow_edges(const Gpu& gpu, Findings& findings) {
     for (const ShadowScenario& scenario :
-         {columns_scenario(), thin_wall_scenario(), grazing_scenario(), spheres_scenario()}) {
+         {columns_scenario(), thin_wall_scenario(), grazing_scenario(), spheres_scenario(),
+          sheet_scenario()}) {
         try_scenario(gpu, findings, scenario);
         try_scenario(gpu, findings, moved(scenario, kFar));
     }

@@ -144,6 +144,27 @@ ShadowScenario spheres_scenario() {
     return {"spheres", scene, look_at({1.0, 5.0, 9.0}, {0.0, 0.8, 0.0}, {0, 1, 0}, 0.8)};
 }
 
+ShadowScenario sheet_scenario() {
+    Scene scene = shadow_stage();
+    Mesh sheet;
+    // Of blunt triangles, whose planes float32 knows least.
+    constexpr std::uint32_t kStrips = 200;
+    for (std::uint32_t i = 0; i <= kStrips; ++i) {
+        const float z = -5.0f + 0.05f * static_cast<float>(i);
+        sheet.positions.insert(sheet.positions.end(), {{-5, 0, z}, {0, 0, z}, {5, 0, z}});
+        if (i == kStrips) break;
+        const std::uint32_t a = 3 * i;
+        sheet.indices.insert(sheet.indices.end(),
+                             {a, a + 4, a + 2, a, a + 3, a + 4, a + 2, a + 4, a + 5});
+    }
+    sheet.normals.assign(sheet.positions.size(), glm::normalize(glm::vec3(2, 1, 0)));
+    sheet.material = 0;
+    scene.meshes.push_back(sheet);
+    scene.instances.push_back({0, glm::dmat4(1.0)});
+    scene.lights.push_back(lamp({9.0, -0.5, 0.0}));
+    return {"sheet", scene, look_at({0.0, 8.0, 6.0}, {0.0, 0.0, 0.0}, {0, 1, 0}, 0.9)};
+}
+
 ShadowScenario moved(ShadowScenario from, const glm::dvec3& by) {
     for (Instance& instance : from.scene.instances) {
         instance.world_from_object[3] += glm::dvec4(by, 0.0);

@@ -34,6 +34,8 @@ ShadowScenario thin_wall_scenario();
 ShadowScenario grazing_scenario();
 /// Spheres over a floor, coarse and fine.
 ShadowScenario spheres_scenario();
+/// A sheet without thickness whose normals turn to a light behind it: it sees none of it.
+ShadowScenario sheet_scenario();
 
 /// The same, moved as a whole.
 ShadowScenario moved(ShadowScenario from, const glm::dvec3& by);

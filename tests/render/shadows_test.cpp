@@ -56,6 +56,25 @@ TEST(Shadows, OfRoundBodiesAreThoseOfRaysInDouble) {
     expect_like_rays_in_double(spheres_scenario(), 0.05);
 }
 
+TEST(Shadows, ASheetSeesNoLightBehindIt) { expect_like_rays_in_double(sheet_scenario(), 1.0); }
+
+// Stored positions stray by millimetres; the rays end on the triangles all the same.
+TEST(Shadows, AreThoseOfTheTrianglesWhateverTheGBufferStores) {
+    // To where half floats round, the floor downwards.
+    const ShadowScenario scenario = moved(columns_scenario(), {0.1234, 1.3372, 0.271});
+    RenderSettings settings = shadow_settings(160, 90);
+    settings.want.aovs = {"visibility"};
+    const auto visibility = [&](uint layout) {
+        settings.gbuffer = layout;
+        return Renderer(scenario.scene, settings).render(scenario.camera, 0.0).aovs.front().values;
+    };
+    const std::vector<float> exact = visibility(GBUFFER_PACKED);
+    const std::vector<float> stray = visibility(GBUFFER_HALF);
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) differ += exact[i] != stray[i] ? 1 : 0;
+    EXPECT_LE(differ, exact.size() / 50);
+}
+
 TEST(Shadows, AreTheSameBitsWithEveryLight) {
     const Scene scene = grid_with_every_light();
     RenderSettings settings = shadow_settings(96, 54, 300);
