@@ -201,7 +201,11 @@ static inline void store_words(uint first, uint end, local GroupWalk* walk, glob
             uint place = from + i * 8u + bit;
             if (place >= first && place < end && walk->flags[place]) bits |= 1u << bit;
         }
+#if DRAWN_ONLY
+        ((global uchar*)words)[i] &= (uchar)~bits;
+#else
         ((global uchar*)words)[i] = (uchar)bits;
+#endif
     }
 }
 
@@ -212,7 +216,12 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         if (k >= points->row_count) continue;
-        any |= lane_any(face_light(points, k, light, lane_mask(place_of_point(first, k) < end)));
+        uint place = place_of_point(first, k);
+        MASK mine = lane_mask(place < end);
+#if DRAWN_ONLY
+        mine &= lane_mask(place < end && (words[place / 32u - first / 32u] >> place % 32u & 1u));
+#endif
+        any |= lane_any(face_light(points, k, light, mine));
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
     if (this_item() == 0u) {

@@ -20,6 +20,14 @@ static inline void load_tile(global const float* origins, View view, uint tile,
     }
 }
 
+#if DRAWN_ONLY
+// The lanes of a row that draw the light.
+static inline MASK drawn_lanes(global const uint* words, uint first, uint row) {
+    uint word = words[row * VW / 32u - first / 32u] >> (row * VW % 32u);
+    return lane_mask(((UV)(word) >> lane_numbers & 1u) != (UV)(0u));
+}
+#endif
+
 // One light's bits of one cluster: its pixels in the tile's order are first .. end - 1.
 static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, uint end,
                               ShadowPoints* points, global uint* words) {
@@ -30,6 +38,9 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
     for (uint row = first_row; row < end_row; ++row) {
         UV place = lane_numbers + row * VW;
         MASK mine = lane_mask(place >= (UV)(first)) & lane_mask(place < (UV)(end));
+#if DRAWN_ONLY
+        mine &= drawn_lanes(words, first, row);
+#endif
         MASK lit = face_light(points, row, light, mine);
         box = grown_box(box, lit, load_points(points, row));
         any |= lit;
@@ -39,11 +50,17 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
         float3 high = (float3)(lane_max(box.high.x), lane_max(box.high.y), lane_max(box.high.z));
         cast_shadows_of(scene, light, low, high, first_row, end_row, points);
     }
+#if !DRAWN_ONLY
     for (uint word = 0; word < shadow_words(first, end); ++word) words[word] = 0u;
+#endif
     if (!lane_any(any)) return;
     for (uint row = first_row; row < end_row; ++row) {
-        uint bits = lane_ballot(lit_of(points, row));
-        words[row * VW / 32u - first / 32u] |= bits << (row * VW % 32u);
+        uint bits = lane_ballot(lit_of(points, row)) << (row * VW % 32u);
+#if DRAWN_ONLY
+        words[row * VW / 32u - first / 32u] &= ~bits;
+#else
+        words[row * VW / 32u - first / 32u] |= bits;
+#endif
     }
 }
 

@@ -75,6 +75,11 @@ kernel void shade(
     global const uint* restrict shadow_offsets,  // [tiles + 1]
     global const uint* restrict shadow_words_of_tiles,
 #endif
+#if SAMPLED_SHADOWS
+    global const float* restrict whole,  // [3][height][stride]: radiance if all lights are seen
+    float rays, uint seed,
+    global float* restrict variance,  // out [height][stride]: of the luminance, its estimate
+#endif
     global float* restrict radiance) {  // out [3][height][stride]
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
@@ -119,7 +124,16 @@ kernel void shade(
     from.place = row % FINE_TILE * FINE_TILE + x % FINE_TILE;
     set.directional_count = directional_count;
 #endif
+#if SAMPLED_SHADOWS
+    FV spread = fv(0.0f);
+    set.variance = &spread;
+    set.draw = make_draw(s, load_radiance(whole, view, pixels), rays, x / FINE_TILE,
+                         (row + view.first_row) / FINE_TILE, seed);
+#endif
     LightSum sum = sum_clusters(from, tile, fine_slice_of_depth(grid, z), drawn, any_drawn, p, set);
     FV3 color = finish_shading(s, sum, ambient);
     if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
+#if SAMPLED_SHADOWS
+    if (inside) store_plane(variance, pixels, lane_select(drawn, spread, fv(0.0f)));
+#endif
 }

@@ -21,6 +21,11 @@ kernel void shade_all(
     global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
     global const ulong* restrict texels,
 #endif
+#if SAMPLED_SHADOWS
+    global const float* restrict whole,  // [3][height][stride]: radiance if all lights are seen
+    float rays, uint seed,
+    global float* restrict variance,  // out [height][stride]: of the luminance, its estimate
+#endif
     global float* restrict radiance) {  // out [3][height][stride]
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
@@ -61,8 +66,17 @@ kernel void shade_all(
     set.shadows.directional = directional_lights;
     load_origins(&points, 0u, origins, view.stride * view.height, pixels);
 #endif
+#if SAMPLED_SHADOWS
+    FV spread = fv(0.0f);
+    set.variance = &spread;
+    set.draw = make_draw(s, load_radiance(whole, view, pixels), rays, x / FINE_TILE,
+                         (row + view.first_row) / FINE_TILE, seed);
+#endif
     LightSum sum = sum_directional(p, set, directional_lights, directional_count);
     sum = sum_lights(sum, any_drawn, p, set, 0, light_count);
     FV3 color = finish_shading(s, sum, ambient);
     if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
+#if SAMPLED_SHADOWS
+    if (inside) store_plane(variance, pixels, lane_select(drawn, spread, fv(0.0f)));
+#endif
 }

@@ -17,6 +17,7 @@ struct KernelFeatures : SceneFeatures {
     bool fast_relaxed_math = false;  // -cl-fast-relaxed-math
     bool native_math = false;        // native_sqrt, native_rsqrt, native_recip
     bool half_light_colors = false;
+    bool sampled_shadows = false;  // with `shadows`: of drawn lights only
     bool operator==(const KernelFeatures&) const = default;
 };
 

@@ -54,6 +54,16 @@ struct ShadowInput {
     ShadowCasters casters;
     ShadowView view{};
     DeviceArray<float> origins;  // [4][height][stride], see kernels/device/shadow_space.h
+    // With KernelFeatures::sampled_shadows, see kernels/device/shadow_draw.h.
+    float rays = 0.0f;  // a pixel at most, on average
+    uint seed = 0;      // of the frame and sample
+};
+
+/// What sampled shadows are drawn by.
+struct ShadowSamples {
+    DeviceArray<float> whole;  // [3][height][stride]: radiance if all lights are seen
+    float rays = 0.0f;         // see ShadowInput
+    uint seed = 0;
 };
 
 /// What kernels that cast shadows are compiled with.

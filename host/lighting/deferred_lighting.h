@@ -38,7 +38,10 @@ class DeferredLighting {
     Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
 
     /// Radiance that falls in from everywhere.
-    void set_ambient(float ambient) { shade_.set_ambient(ambient); }
+    void set_ambient(float ambient) {
+        shade_.set_ambient(ambient);
+        if (unshadowed_) unshadowed_->set_ambient(ambient);
+    }
 
     LightLists& light_lists() { return light_lists_; }
     const LightLists& light_lists() const { return light_lists_; }
@@ -49,9 +52,16 @@ class DeferredLighting {
     /// Which pixels saw which lights in the last light(), with KernelFeatures::shadows.
     const ShadowWords& shadows() const { return shadows_; }
 
+    /// With sampled shadows, of the last light(): see Shade::variance().
+    DeviceArray<float> variance() const { return shade_.variance(); }
+
  private:
     LightLists light_lists_;
-    std::optional<CastShadows> cast_;
+    Radiance shade(const LightingInput& input, const ListedLights& lists, StageTimer& timer);
+
+    std::optional<CastShadows> cast_;  // with shadows
+    std::optional<DrawShadows> draw_;  // with sampled ones
+    std::optional<Shade> unshadowed_;  // likewise
     Shade shade_;
     ListedLights lists_;
     ShadowWords shadows_;
@@ -66,13 +76,20 @@ class AllLightsLighting {
     /// As DeferredLighting::light().
     Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
 
-    void set_ambient(float ambient) { shade_.set_ambient(ambient); }
+    void set_ambient(float ambient) {
+        shade_.set_ambient(ambient);
+        if (unshadowed_) unshadowed_->set_ambient(ambient);
+    }
+
+    /// As DeferredLighting's.
+    DeviceArray<float> variance() const { return shade_.variance(); }
 
     /// Those of the last light(), view space.
     const PreparedLights& lights() const { return lights_; }
 
  private:
     PrepareLights prepare_;
+    std::optional<ShadeAll> unshadowed_;  // with sampled shadows
     ShadeAll shade_;
     PreparedLights lights_;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/decoded_surfaces.h"
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "host/base/error.h"
@@ -82,6 +84,16 @@ Layer visibility_layer(const DecodedSurfaces& s) {
     return layer;
 }
 
+Layer error_layer(const DecodedSurfaces& s) {
+    if (s.variance.empty()) throw UsageError("aov error-standard: no shadows were sampled");
+    Layer layer{"error-standard", {"error.standard"}};
+    fill(layer.values, 1, s.view, [&](std::size_t pixel, float* out) {
+        const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
+        *out = drawn ? std::sqrt(s.variance[pixel]) : 0.0f;
+    });
+    return layer;
+}
+
 }  // namespace
 
 double hidden_share(const DecodedSurfaces& s, std::size_t i) {
@@ -110,8 +122,8 @@ double mean_of_drawn(const std::vector<uint>& counts) {
 
 const std::vector<std::string>& aov_names() {
     static const std::vector<std::string> names = {
-        "depth",    "position", "normal",      "albedo",  "roughness",
-        "metallic", "emissive", "light-count", "cluster", "visibility"};
+        "depth",    "position",    "normal",  "albedo",     "roughness",     "metallic",
+        "emissive", "light-count", "cluster", "visibility", "error-standard"};
     return names;
 }
 
@@ -122,6 +134,7 @@ Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& ca
     if (name == "albedo")
         return plane_layer(name, {"albedo.R", "albedo.G", "albedo.B"}, s, SURFACE_ALBEDO);
     if (name == "roughness") return plane_layer(name, {"roughness"}, s, SURFACE_ROUGHNESS);
+    if (name == "error-standard") return error_layer(s);
     if (name == "visibility") return visibility_layer(s);
     if (name == "metallic") return plane_layer(name, {"metallic"}, s, SURFACE_METALLIC);
     if (name == "emissive")

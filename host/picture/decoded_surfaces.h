@@ -30,6 +30,8 @@ struct DecodedSurfaces {
     // [height][stride] with shadows: lights that the pixel faces within their range, and those of
     // them that it sees; empty if not counted.
     std::vector<uint> facing, seen;
+    // [height][stride] with sampled shadows: the estimated variance of the luminance; else empty.
+    std::vector<float> variance;
     ClusterGrid grid{};
     bool specular = false;  // whether there are planes of the dielectrics' reflectance
     bool unlit = false;     // whether a roughness of 0 means an unlit surface

@@ -54,6 +54,7 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
     place_planes(whole.covering, band.covering, band.view, rows);
     place_planes(whole.facing, band.facing, band.view, rows);
     place_planes(whole.seen, band.seen, band.view, rows);
+    place_planes(whole.variance, band.variance, band.view, rows);
     whole.view = band.view;
     whole.view.first_row = 0;
     whole.view.height = static_cast<uint>(height);

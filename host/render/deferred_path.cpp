@@ -26,7 +26,7 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
     lighting_.set_ambient(context_.settings.ambient);
     gbuffer_ = surfaces_.draw(sample, out);
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
-    const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows()};
+    const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows(sample)};
     const Radiance radiance = lighting_.light(input, out.timer, blended_ ? AfterShading() : then);
     set_counts(out.stats);
     if (blended_) {
@@ -72,7 +72,8 @@ PixelProbe DeferredPath::probe(const Camera&, int x, int y) {
     out.active = found.active;
     out.has_list = found.active.has_value();
     for (const uint light : found.lights) out.lights.push_back({light, {}, {}, {}});
-    if (context_.plan.kernels.shadows && found.active) {
+    const KernelFeatures& kernels = context_.plan.kernels;
+    if (kernels.shadows && !kernels.sampled_shadows && found.active) {
         const std::vector<bool> seen =
             seen_lights(*found.active, static_cast<uint>(x), static_cast<uint>(y));
         for (std::size_t i = 0; i < out.lights.size(); ++i) out.lights[i].seen = seen[i];
@@ -114,7 +115,9 @@ DecodedSurfaces DeferredPath::pixels(const Camera&) {
     const LightCounts counts = count_lights();
     out.evaluated = download<uint>(context_.gpu, counts.evaluated, size);
     out.covering = download<uint>(context_.gpu, counts.covering, size);
-    if (context_.plan.kernels.shadows) count_seen(out);
+    const KernelFeatures& kernels = context_.plan.kernels;
+    if (kernels.shadows && !kernels.sampled_shadows) count_seen(out);
+    if (kernels.sampled_shadows) out.variance = download(context_.gpu, lighting_.variance());
     return out;
 }
 
@@ -143,7 +146,7 @@ Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterS
     gbuffer_ = surfaces_.draw(sample, out);
     grid_ = coarse_grid(context_, sample.camera, out.stats);
     const Radiance radiance =
-        lighting_.light({gbuffer_, sample.lights, grid_, surfaces_.shadows()}, out.timer);
+        lighting_.light({gbuffer_, sample.lights, grid_, surfaces_.shadows(sample)}, out.timer);
     out.stats.evaluations_per_pixel = sample.lights.count;
     out.stats.useful_evaluations_per_pixel = -1.0;
     if (blended_) {
@@ -163,6 +166,9 @@ PixelProbe DeferredAllPath::probe(const Camera&, int x, int y) {
 
 DecodedSurfaces DeferredAllPath::pixels(const Camera&) {
     DecodedSurfaces out = surfaces_.decode(gbuffer_, grid_);
+    if (context_.plan.kernels.sampled_shadows) {
+        out.variance = download(context_.gpu, lighting_.variance());
+    }
     for (std::size_t i = 0; i < std::size_t{out.view.stride} * out.view.height; ++i) {
         out.evaluated.push_back(out.planes[i] == 0.0f ? kBackground : lighting_.lights().count);
     }

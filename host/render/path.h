@@ -53,6 +53,7 @@ struct Sample {
     LightInput lights;
     Band band;
     bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
+    uint number = 0;     // of the pixel's samples
 };
 
 /// What a path adds to while it lights a sample.

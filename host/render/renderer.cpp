@@ -103,7 +103,8 @@ void Pipeline::light_samples(const Sample& band, Measured out, const AfterShadin
     for (int i = settings.samples - 1; i >= 0; --i) {
         Camera jittered = band.camera;
         jittered.jitter += sample_offset(static_cast<std::uint32_t>(i));
-        sum_.add(light({jittered, band.rows, band.lights, band.band, true}, [](const Radiance&) {}),
+        sum_.add(light({jittered, band.rows, band.lights, band.band, true, static_cast<uint>(i)},
+                       [](const Radiance&) {}),
                  timer_);
         take_times(timer_, out.stats);  // lists of the next sample may be made twice
     }

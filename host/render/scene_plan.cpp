@@ -76,8 +76,12 @@ void check_shadows(const RenderSettings& settings) {
     const bool wants_bits = want.view == ViewKind::shadows ||
                             std::ranges::find(want.aovs, "visibility") != want.aovs.end();
     if (wants_bits &&
-        (settings.shadows == Shadows::off || settings.renderer != RendererKind::deferred)) {
+        (settings.shadows != Shadows::exact || settings.renderer != RendererKind::deferred)) {
         throw Error("shadows: to show them takes --shadows exact and --renderer deferred");
+    }
+    const bool wants_error = std::ranges::find(want.aovs, "error-standard") != want.aovs.end();
+    if (wants_error && settings.shadows != Shadows::sampled) {
+        throw Error("aov error-standard: only --shadows sampled has one");
     }
     if (settings.shadows == Shadows::off) return;
     if (is_forward(settings.renderer)) {
@@ -166,6 +170,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     plan.kernels.light_index_bits = features.wide_light_index ? 32 : 16;
     plan.kernels.fast_relaxed_math = settings.kernels.math == MathMode::fast_relaxed;
     plan.kernels.native_math = settings.kernels.math == MathMode::native;
+    plan.kernels.sampled_shadows = features.shadows && settings.shadows == Shadows::sampled;
     plan.kernels.half_light_colors = settings.kernels.light_colors == LightColors::half;
     float emission = 0.0f;
     for (const Material& m : materials) emission = std::max(emission, largest_emission(m));

@@ -29,8 +29,8 @@ enum class Geometry { automatic, ids, compute, planes };
 constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::planes; }
 
 /// Which lights a surface sees: all; or those that no triangle hides, a ray for each light of a
-/// pixel's list.
-enum class Shadows { off, exact };
+/// pixel's list; or, in the mean, the same from a few rays a pixel (kernels/device/shadow_draw.h).
+enum class Shadows { off, exact, sampled };
 
 enum class Shading { automatic, lambert, blinn_phong, pbr };
 enum class ToneCurve { none, neutral, aces, agx };
@@ -78,6 +78,8 @@ struct RenderSettings {
     bool no_reuse = false;  // also makes what did not change since the last frame; no other bits
     Shading shading = Shading::automatic;
     Shadows shadows = Shadows::off;
+    int shadow_rays = 4;    // of sampled shadows: a pixel at most, on average
+    uint shadow_seed = 1;   // of sampled shadows
     float ambient = 0.02f;  // radiance that falls in from everywhere
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]

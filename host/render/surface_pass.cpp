@@ -135,6 +135,14 @@ void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffe
         origins_->enqueue(ids, scene, gbuffer, shadows_.casters, shadows_.view, out.timer);
 }
 
+ShadowInput SurfacePass::shadows(const Sample& sample) const {
+    constexpr uint kSeedStep = 0x9e3779b9u;  // spreads the samples of neighbouring seeds
+    ShadowInput out = shadows_;
+    out.rays = static_cast<float>(context_.settings.shadow_rays);
+    out.seed = context_.settings.shadow_seed * kSeedStep + sample.number;
+    return out;
+}
+
 DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& grid) {
     StageTimer untimed;
     const View& view = gbuffer.view;

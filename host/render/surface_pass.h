@@ -32,7 +32,7 @@ class SurfacePass {
 
     /// What casts shadows onto the last draw()'s surfaces, and where their rays end; empty without
     /// shadows.
-    const ShadowInput& shadows() const { return shadows_; }
+    ShadowInput shadows(const Sample& sample) const;
 
     /// The surfaces of the last draw() on the host. Blocks.
     DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);

@@ -20,6 +20,7 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeature
                        const SurfaceFeatures& surfaces) {
     BuildOptions options = feature_options(features);
     define_casters(options, surfaces, tuning);
+    options.define("DRAWN_ONLY", features.sampled_shadows);
     if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
     options.define("GROUP", tuning.shadow_group).define("SPLIT", kSplit);
     return build_program(gpu.with_lanes(1), "cast_shadows_by_group", options);
@@ -37,9 +38,8 @@ CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
     words_.reserve(kFirstWords);
 }
 
-ShadowWords CastShadows::enqueue(const ShadowInput& input, const PreparedLights& lights,
-                                 const ActiveClusters& clusters, const RefinedLists& lists,
-                                 const View& view, StageTimer& timer) {
+ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClusters& clusters,
+                                 StageTimer& timer) {
     const uint tiles = clusters.tile_count;
     reserve_.enqueue(items(tiles, tuning_.light_group), timer, tiles, lights.directional_count,
                      clusters.offsets, clusters.clusters, clusters.capacity, words_.counts(tiles));
@@ -47,14 +47,20 @@ ShadowWords CastShadows::enqueue(const ShadowInput& input, const PreparedLights&
     out.offsets = words_.enqueue_offsets(tiles, timer);
     words_.fits(words_.read_total());
     out.words = words_.entries<uint>();
+    return out;
+}
+
+void CastShadows::enqueue(const ShadowInput& input, const PreparedLights& lights,
+                          const ActiveClusters& clusters, const RefinedLists& lists,
+                          const View& view, const ShadowWords& words, StageTimer& timer) {
+    const uint tiles = clusters.tile_count;
     const ShadowCasters& c = input.casters;
     const std::size_t split = tuning_.shadow_group == 1 ? 1 : kSplit;
     cast_.enqueue(groups(tiles * split, tuning_.shadow_group), timer, view, input.view,
                   input.origins, lights.bounds, lights.directional, lights.directional_count,
                   clusters.offsets, clusters.clusters, clusters.capacity, clusters.order,
-                  lists.lists, out.offsets, c.nodes, c.triangles, c.masked, c.materials, c.textures,
-                  c.texels, out.words);
-    return out;
+                  lists.lists, words.offsets, c.nodes, c.triangles, c.masked, c.materials,
+                  c.textures, c.texels, words.words);
 }
 
 }  // namespace kilolux

@@ -14,13 +14,19 @@ class CastShadows {
     CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                 const SurfaceFeatures& surfaces);
 
-    /// Sets first_pixel and first_word of the clusters. Blocks for the number of words. Throws
-    /// Error when the device cannot hold them. Valid until the next call.
-    ShadowWords enqueue(const ShadowInput& input, const PreparedLights& lights,
-                        const ActiveClusters& clusters, const RefinedLists& lists, const View& view,
+    /// Makes room for the words, and sets first_pixel and first_word of the clusters. Blocks for
+    /// the number of words. Throws Error when the device cannot hold them. Valid until the next
+    /// call.
+    ShadowWords reserve(const PreparedLights& lights, const ActiveClusters& clusters,
                         StageTimer& timer);
 
-    /// Words of 32 bits of the last enqueue().
+    /// Casts into what reserve() returned; with KernelFeatures::sampled_shadows the words hold what
+    /// DrawShadows drew. Enqueues only.
+    void enqueue(const ShadowInput& input, const PreparedLights& lights,
+                 const ActiveClusters& clusters, const RefinedLists& lists, const View& view,
+                 const ShadowWords& words, StageTimer& timer);
+
+    /// Words of 32 bits of the last reserve().
     std::uint64_t words() const { return words_.read_total(); }
 
  private:

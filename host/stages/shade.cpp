@@ -7,6 +7,7 @@ namespace kilolux {
 namespace {
 
 constexpr std::string_view kStage = "shade";
+constexpr std::string_view kDrawStage = "draw_shadows";
 
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
 // make, and reads through a wild pointer (hard case 17). A CPU has no local memory to gain by
@@ -29,7 +30,8 @@ BuildOptions all_options(const ShadingResources& resources, const KernelFeatures
                          const SurfaceFeatures& surfaces, const Tuning& tuning) {
     BuildOptions options = resources.options();
     if (!features.shadows) return options;
-    define_casters(options.define("SHADOWS", kShadowRays), surfaces, tuning);
+    options.define("SHADOWS", kShadowRays).define("SAMPLED_SHADOWS", features.sampled_shadows);
+    define_casters(options, surfaces, tuning);
     return options;
 }
 
@@ -80,18 +82,41 @@ Radiance ShadingResources::radiance(const View& view) {
     return {radiance_.reserve(std::size_t{3} * view.stride * view.height), view};
 }
 
+DrawShadows::DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : resources_(gpu, tuning, features),
+      program_(build_program(gpu, kDrawStage, resources_.options())),
+      clear_(gpu, program_, kDrawStage, "draw_shadows_clear"),
+      draw_(gpu, program_, kDrawStage, "draw_shadows") {}
+
+void DrawShadows::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
+                          const ClusterGrid& grid, const ActiveClusters& clusters,
+                          const RefinedLists& lists, const ShadowWords& words,
+                          const ShadowSamples& samples, StageTimer& timer) {
+    constexpr std::size_t kClearItems = 16384;
+    clear_.enqueue(items(kClearItems, 1), timer, words.offsets, clusters.tile_count, words.words);
+    draw_.enqueue(resources_.work_size(gbuffer.view), timer, gbuffer.bytes, gbuffer.layout,
+                  gbuffer.view, resources_.srgb(), samples.whole, lights.directional,
+                  lights.directional_count, resources_.stored_lights(lights, timer), grid,
+                  clusters.offsets, clusters.clusters, clusters.capacity, clusters.order,
+                  lists.lists, words.offsets, samples.rays, samples.seed, words.words);
+}
+
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : resources_(gpu, tuning, features),
-      kernel_(
-          gpu,
-          build_program(gpu, kStage,
-                        resources_.options().define("SHADOWS", features.shadows ? kShadowBits : 0)),
-          kStage, "shade"),
-      has_shadows_(features.shadows) {}
+      kernel_(gpu,
+              build_program(gpu, kStage,
+                            resources_.options()
+                                .define("SHADOWS", features.shadows ? kShadowBits : 0)
+                                .define("SAMPLED_SHADOWS", features.sampled_shadows)),
+              kStage, "shade"),
+      has_shadows_(features.shadows),
+      samples_shadows_(features.sampled_shadows),
+      variance_(gpu, kStage) {}
 
 Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                         const ClusterGrid& grid, const ActiveClusters& clusters,
-                        const RefinedLists& lists, StageTimer& timer, const ShadowWords& shadows) {
+                        const RefinedLists& lists, StageTimer& timer, const ShadowWords& shadows,
+                        const ShadowSamples& samples) {
     const View& view = gbuffer.view;
     const Radiance out = resources_.radiance(view);
     const auto enqueue = [&](const auto&... rest) {
@@ -101,7 +126,10 @@ Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                         clusters.clusters, clusters.capacity, clusters.order, lists.lists, ambient_,
                         rest...);
     };
-    if (has_shadows_) {
+    if (samples_shadows_) {
+        enqueue(shadows.offsets, shadows.words, samples.whole, samples.rays, samples.seed,
+                variance_.reserve(std::size_t{view.stride} * view.height), out.planes);
+    } else if (has_shadows_) {
         enqueue(shadows.offsets, shadows.words, out.planes);
     } else {
         enqueue(out.planes);
@@ -115,10 +143,12 @@ ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& f
       kernel_(gpu,
               build_program(gpu, "shade_all", all_options(resources_, features, surfaces, tuning)),
               kStage, "shade_all"),
-      has_shadows_(features.shadows) {}
+      has_shadows_(features.shadows),
+      samples_shadows_(features.sampled_shadows),
+      variance_(gpu, kStage) {}
 
 Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
-                           const ShadowInput& shadows) {
+                           const ShadowInput& shadows, const ShadowSamples& samples) {
     const View& view = gbuffer.view;
     const Radiance out = resources_.radiance(view);
     const auto enqueue = [&](const auto&... rest) {
@@ -126,8 +156,12 @@ Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                         resources_.srgb(), lights.directional, lights.directional_count,
                         resources_.stored_lights(lights, timer), lights.count, ambient_, rest...);
     };
-    if (has_shadows_) {
-        const ShadowCasters& c = shadows.casters;
+    const ShadowCasters& c = shadows.casters;
+    if (samples_shadows_) {
+        enqueue(shadows.view, shadows.origins, lights.bounds, c.nodes, c.triangles, c.masked,
+                c.materials, c.textures, c.texels, samples.whole, samples.rays, samples.seed,
+                variance_.reserve(std::size_t{view.stride} * view.height), out.planes);
+    } else if (has_shadows_) {
         enqueue(shadows.view, shadows.origins, lights.bounds, c.nodes, c.triangles, c.masked,
                 c.materials, c.textures, c.texels, out.planes);
     } else {

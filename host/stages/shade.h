@@ -33,6 +33,22 @@ class ShadingResources {
     GrowingArray<float4> stored_;
 };
 
+/// Draws the lights to which pixels cast shadow rays, as bits in words that CastShadows reserved.
+class DrawShadows {
+ public:
+    DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Enqueues only.
+    void enqueue(const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
+                 const ActiveClusters& clusters, const RefinedLists& lists,
+                 const ShadowWords& words, const ShadowSamples& samples, StageTimer& timer);
+
+ private:
+    ShadingResources resources_;
+    cl::Program program_;
+    Kernel clear_, draw_;
+};
+
 /// Radiance of every pixel from the lists of its active cluster.
 class Shade {
  public:
@@ -41,7 +57,11 @@ class Shade {
     /// Enqueues only. `shadows`: with KernelFeatures::shadows, what CastShadows made of the lists.
     Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
                      const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer,
-                     const ShadowWords& shadows = {});
+                     const ShadowWords& shadows = {}, const ShadowSamples& samples = {});
+
+    /// With sampled shadows, of the last enqueue(): the estimated variance of each pixel's
+    /// luminance, [height][stride]; undefined for background.
+    DeviceArray<float> variance() const { return variance_.get(); }
 
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient) { ambient_ = ambient; }
@@ -49,7 +69,8 @@ class Shade {
  private:
     ShadingResources resources_;
     Kernel kernel_;
-    bool has_shadows_;
+    bool has_shadows_, samples_shadows_;
+    GrowingArray<float> variance_;
     float ambient_ = 0.0f;
 };
 
@@ -62,7 +83,10 @@ class ShadeAll {
     /// Enqueues only. `shadows`: with KernelFeatures::shadows, what casts them; each work-item
     /// casts the rays of its pixels.
     Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
-                     const ShadowInput& shadows = {});
+                     const ShadowInput& shadows = {}, const ShadowSamples& samples = {});
+
+    /// As Shade's.
+    DeviceArray<float> variance() const { return variance_.get(); }
 
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient) { ambient_ = ambient; }
@@ -70,7 +94,8 @@ class ShadeAll {
  private:
     ShadingResources resources_;
     Kernel kernel_;
-    bool has_shadows_;
+    bool has_shadows_, samples_shadows_;
+    GrowingArray<float> variance_;
     float ambient_ = 0.0f;
 };
 

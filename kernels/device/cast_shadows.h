@@ -6,6 +6,11 @@
 // 32 w + i in the tile's order, w counted from the cluster's first pixel's.
 #ifndef KILOLUX_DEVICE_CAST_SHADOWS_H
 #define KILOLUX_DEVICE_CAST_SHADOWS_H
+// With DRAWN_ONLY the words hold the pixels that draw a light (draw_shadows), and then those of
+// them from which it is hidden; else those that see it.
+#ifndef DRAWN_ONLY
+#define DRAWN_ONLY 0
+#endif
 #include "kernels/device/light_index.h"
 #include "kernels/device/pixels.h"
 #include "kernels/device/shadow_bits.h"

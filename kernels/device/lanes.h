@@ -124,4 +124,9 @@ static inline uint lane_sum(UV v) {
     return v;
 #endif
 }
+
+// A bit for each lane of the mask.
+static inline uint lane_ballot(MASK mask) {
+    return lane_sum(KX_CONCAT(as_, UV)(mask) & ((UV)(1u) << lane_numbers));
+}
 #endif

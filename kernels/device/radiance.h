@@ -24,6 +24,12 @@ static inline void store_radiance(global float* radiance, View view, Pixels pixe
     store_plane(radiance + 2 * plane, pixels, color.z);
 }
 
+static inline FV3 load_radiance(global const float* radiance, View view, Pixels pixels) {
+    uint plane = view.stride * view.height;
+    return fv3(LOAD_PLANE(FV, radiance, pixels), LOAD_PLANE(FV, radiance + plane, pixels),
+               LOAD_PLANE(FV, radiance + 2 * plane, pixels));
+}
+
 // Asks for the row's pixels in the tile to the right, which a CPU's thread shades next.
 static inline void prefetch_next_tile(GBuffer g, global float* radiance, uint x, uint y) {
     uint place = y * g.view.stride + x + FINE_TILE;

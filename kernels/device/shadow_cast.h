@@ -90,10 +90,6 @@ static inline FV3 load_points(const ShadowPoints* points, uint row) {
     return fv3(lane_load(points->x + at), lane_load(points->y + at), lane_load(points->z + at));
 }
 
-// A bit for each lane of the mask.
-static inline uint lane_ballot(MASK mask) {
-    return lane_sum(KX_CONCAT(as_, UV)(mask) & ((UV)(1u) << lane_numbers));
-}
 static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 
 // The forms of VW triangles: g.x, g.y, g.z, c of the three edges and of the plane, each in all

@@ -10,10 +10,13 @@
 #include "kernels/shared/evaluate.h"
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
-// SHADOWS_RAYS: found out where it is asked.
+// SHADOWS_RAYS: found out where it is asked. SAMPLED_SHADOWS: only of the lights that are drawn.
 #define SHADOWS_NONE 0
 #define SHADOWS_BITS 1
 #define SHADOWS_RAYS 2
+#ifndef SAMPLED_SHADOWS
+#define SAMPLED_SHADOWS 0
+#endif
 #ifndef SHADOWS
 #define SHADOWS SHADOWS_NONE
 #endif
@@ -21,6 +24,10 @@
 #include "kernels/device/shadow_bits.h"
 #elif SHADOWS == SHADOWS_RAYS
 #include "kernels/device/shadow_rays.h"
+#endif
+
+#if SAMPLED_SHADOWS
+#include "kernels/device/shadow_draw.h"
 #endif
 
 #ifndef ALL_LIGHTS
@@ -44,6 +51,10 @@ typedef struct LightSet {
     uint directional_count;
 #elif SHADOWS == SHADOWS_RAYS
     ShadowRays shadows;
+#endif
+#if SAMPLED_SHADOWS
+    ShadowDraw draw;
+    FV* variance;  // of the luminance, its estimate
 #endif
 } LightSet;
 
@@ -70,6 +81,51 @@ static inline MASK sees_directional(LightSet set, uint i) {
     return sees_directional_light(set.shadows, i);
 #endif
 }
+
+#if SAMPLED_SHADOWS
+// The lanes that draw the light and from which it is hidden; `one`: its sum alone.
+static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum one) {
+#if SHADOWS == SHADOWS_BITS
+    uint i = (light & DRAWN_DIRECTIONAL) != 0u ? entry : set.directional_count + entry;
+    return sees_light(set.shadows, i);  // the bits are those of hidden lights
+#else
+    FV q = draw_probability(set.draw, light_alone(set.draw, one));
+    MASK drawn = set.shadows.drawn & draws_light(set.draw, q, light);
+    if (!lane_any(drawn)) return drawn;
+    set.shadows.drawn = drawn;
+    MASK seen = (light & DRAWN_DIRECTIONAL) != 0u ? sees_directional(set, entry)
+                                                  : sees_entry(set, entry, light);
+    return drawn & ~seen;
+#endif
+}
+
+// `lit`, which is `sum` with the light, but for the lanes that drew it and do not see it.
+static inline LightSum sampled_sum(LightSet set, uint entry, uint light, LightSum sum, LightSum one,
+                                   LightSum lit) {
+    MASK hidden = hides_drawn(set, entry, light, one);
+    if (!lane_any(hidden)) return lit;
+    FV alone = light_alone(set.draw, one);
+    FV q = draw_probability(set.draw, alone);
+    *set.variance += lane_select(hidden, variance_of(alone, q), fv(0.0f));
+    return select_sum(hidden, add_hidden(sum, one, q), lit);
+}
+
+// Adds a light whatever hides it, and takes away what is hidden of those that are drawn. WITH(sum):
+// `sum` with the light.
+#if SHADOWS == SHADOWS_BITS
+#define ADD_SAMPLED(set, entry, light, sum, WITH)                                           \
+    {                                                                                       \
+        LightSum with_light = WITH(sum);                                                    \
+        if (lane_any(hides_drawn(set, entry, light, sum))) {                                \
+            with_light = sampled_sum(set, entry, light, sum, WITH(zero_sum()), with_light); \
+        }                                                                                   \
+        (sum) = with_light;                                                                 \
+    }
+#else
+#define ADD_SAMPLED(set, entry, light, sum, WITH) \
+    (sum) = sampled_sum(set, entry, light, sum, WITH(zero_sum()), WITH(sum));
+#endif
+#endif
 
 // ADD_SEEN(sum, seen, lit): `lit`, what `sum` becomes, in the lanes that see the light. It is made
 // only if any does.
@@ -116,8 +172,13 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         for (uint i = 0; wanted && i < end - first; ++i) {
             uint light = set.staged_indices[i];
             sum = enter_block(sum, light);
+#if SAMPLED_SHADOWS
+#define WITH_STAGED(s) evaluate(s, p, set.staged[i])
+            ADD_SAMPLED(set, first + i, light, sum.block, WITH_STAGED)
+#else
             ADD_SEEN(sum.block, sees_entry(set, first + i, light),
                      evaluate(sum.block, p, set.staged[i]))
+#endif
         }
     }
 #else
@@ -125,8 +186,13 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
     for (uint i = 0; i < count; ++i) {
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
+#if SAMPLED_SHADOWS
+#define WITH_LISTED(s) evaluate(s, p, LIGHT_AT(set.lights, light))
+        ADD_SAMPLED(set, i, light, sum.block, WITH_LISTED)
+#else
         ADD_SEEN(sum.block, sees_entry(set, i, light),
                  evaluate(sum.block, p, LIGHT_AT(set.lights, light)))
+#endif
     }
 #endif
     return finish_sum(sum);
@@ -137,7 +203,12 @@ static inline LightSum sum_directional(ShadingPoint p, LightSet set,
     LightSum sum = zero_sum();
 #if HAS_DIRECTIONAL_LIGHTS
     for (uint i = 0; i < count; ++i) {
+#if SAMPLED_SHADOWS
+#define WITH_DIRECTIONAL(s) evaluate_directional(s, p, lights[i])
+        ADD_SAMPLED(set, i, DRAWN_DIRECTIONAL + i, sum, WITH_DIRECTIONAL)
+#else
         ADD_SEEN(sum, sees_directional(set, i), evaluate_directional(sum, p, lights[i]))
+#endif
     }
 #endif
     return sum;

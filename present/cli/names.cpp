@@ -70,7 +70,8 @@ const Choices& choices_of(Shading) {
 const Choices& choices_of(Shadows) {
     static const Choices choices = {
         {"off", "every light is seen"},
-        {"exact", "a ray for each light of a pixel's list, against all triangles"}};
+        {"exact", "a ray for each light of a pixel's list, against all triangles"},
+        {"sampled", "the same in the mean, by --shadow-rays a pixel"}};
     return choices;
 }
 
@@ -126,16 +127,18 @@ Choices gbuffer_choices() {
 }
 
 Choices aov_choices() {
-    return ordered(aov_names(), {{"depth", "Z: distance along the view direction, in metres"},
-                                 {"position", "P.X, P.Y, P.Z: in the world, in metres"},
-                                 {"normal", "N.X, N.Y, N.Z: in the world"},
-                                 {"albedo", "albedo.R, .G, .B: linear"},
-                                 {"roughness", "0 to 1"},
-                                 {"metallic", "0 to 1"},
-                                 {"emissive", "emissive.R, .G, .B: radiance"},
-                                 {"light-count", "lights evaluated, integers"},
-                                 {"cluster", "coarse cluster + 1, integers; 0: background"},
-                                 {"visibility", "share of the lights in reach that are seen"}});
+    return ordered(aov_names(),
+                   {{"depth", "Z: distance along the view direction, in metres"},
+                    {"position", "P.X, P.Y, P.Z: in the world, in metres"},
+                    {"normal", "N.X, N.Y, N.Z: in the world"},
+                    {"albedo", "albedo.R, .G, .B: linear"},
+                    {"roughness", "0 to 1"},
+                    {"metallic", "0 to 1"},
+                    {"emissive", "emissive.R, .G, .B: radiance"},
+                    {"light-count", "lights evaluated, integers"},
+                    {"cluster", "coarse cluster + 1, integers; 0: background"},
+                    {"visibility", "share of the lights in reach that are seen"},
+                    {"error-standard", "of one sample's luminance (--shadows sampled)"}});
 }
 
 Choices metric_choices() {

@@ -42,6 +42,8 @@ inline constexpr NumberRange kAmbientRange = kZeroOrAboveRange;
 inline constexpr CountRange kEdgeRange{1, 65536};  // of a picture [pixel]
 inline constexpr CountRange kSamplesRange{1, 65536};
 inline constexpr CountRange kAnisotropyRange{1, 16};
+inline constexpr CountRange kShadowRaysRange{1, 65536};
+inline constexpr CountRange kShadowSeedRange{0, 4294967295};
 // 31 bits: indices of lights and offsets of lists have 32 on the device.
 inline constexpr CountRange kLightsRange{0, std::uint64_t{1} << 31};
 inline constexpr CountRange kLightSeedRange{0, std::numeric_limits<std::uint64_t>::max()};

@@ -79,6 +79,10 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
         .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame")
         .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading)
         .choice({"--shadows", "", "off", "Which lights a surface sees"}, s.shadows)
+        .count({"--shadow-rays", "N", "4", "Rays a pixel of sampled shadows, at most on average"},
+               s.shadow_rays, kShadowRaysRange)
+        .count({"--shadow-seed", "N", "1", "Random numbers of sampled shadows"}, s.shadow_seed,
+               kShadowSeedRange)
         .value({"--ambient", "L", "0.02; with the rig studio 0.2",
                 "Radiance from everywhere, times the albedo"},
                take_ambient, [&s] { return text_of(s.ambient); });

@@ -131,8 +131,8 @@ CastFrame cast_frame(int lanes, int group) {
     const ShadowInput input{random_casters(gpu), unmoved_view(),
                             origins_of(gpu, features, gbuffer)};
     CastShadows cast(gpu, tuning, features, {});
-    const ShadowWords words =
-        cast.enqueue(input, lists.lights, lists.clusters, lists.refined, view, timer);
+    const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
+    cast.enqueue(input, lists.lights, lists.clusters, lists.refined, view, words, timer);
     const std::size_t size = std::size_t{3} * view.stride * view.height;
     CastFrame out;
     out.words = download(gpu, words.words, cast.words());

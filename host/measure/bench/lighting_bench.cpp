@@ -126,7 +126,9 @@ Radiance LightingBench::light(Stages& stages) {
     const ClusterGrid grid =
         make_cluster_grid(grid_request(settings_.grid, camera_, box_, static_cast<float>(pad)),
                           gbuffer_.view.width, gbuffer_.view.height);
-    const LightingInput input{gbuffer_, lights_, grid, drawing_->pass.shadows()};
+    const LightRows no_rows;
+    const LightingInput input{gbuffer_, lights_, grid,
+                              drawing_->pass.shadows({camera_, no_rows, lights_, {}, true})};
     return stages.lighting.light(input, timer_, [&](const Radiance& radiance) {
         stages.tonemap.enqueue(radiance, settings_.exposure, timer_);
     });

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which pixels draw a shadow ray to which light of their cluster's list, as bits in cast_shadows'
+// words: see kernels/device/shadow_draw.h.
+//   draw_shadows_clear  words to 0
+//   draw_shadows        one work-item draws for VW pixels, neighbours in the order of their tile's
+//                       clusters
+#define ORDERED_PIXELS 1
+#include "kernels/device/cast_shadows.h"
+#include "kernels/device/radiance.h"
+#include "kernels/device/shadow_draw.h"
+#include "kernels/device/stored_light.h"
+
+kernel void draw_shadows_clear(global const uint* restrict word_offsets, uint tile_count,
+                               global uint* restrict words) {  // out
+    for (size_t i = get_global_id(0); i < word_offsets[tile_count]; i += get_global_size(0)) {
+        words[i] = 0u;
+    }
+}
+
+static inline void put_bits(ShadowBits bits, uint i, MASK drawn, global uint* words) {
+    uint mine = lane_ballot(drawn);
+    if (mine != 0u) atomic_or(words + (bits.words - words) + i * bits.stride, mine << bits.shift);
+}
+
+kernel void draw_shadows(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+    global const float* restrict srgb,      // [256]
+    global const float* restrict radiance,  // [3][height][stride], if all lights are seen
+    global const DirectionalLight* restrict directional, uint directional_count,
+    global const StoredLight* restrict lights, ClusterGrid grid,
+    global const uint* restrict cluster_offsets,    // [tiles + 1]
+    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
+    uint cluster_capacity,
+    global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
+    global const LIGHT_INDEX* restrict lists,
+    global const uint* restrict word_offsets,  // [tiles + 1]
+    float rays, uint seed,
+    global uint* restrict words) {  // out: bits set
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    uint tile = fine_tile_of(view, x, y);
+    uint place = y % FINE_TILE * FINE_TILE + x % FINE_TILE;
+    if (cluster_offsets[tile] == cluster_offsets[tile + 1]) return;
+    Pixels pixels = ordered_pixels(view, x / FINE_TILE * FINE_TILE, y / FINE_TILE * FINE_TILE,
+                                   order + tile * FINE_TILE_PIXELS + place);
+    GBuffer g = {gbuffer, layout, view, srgb};
+    FV depth01 = load_depth01(g, pixels);
+    MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
+    if (!lane_any(drawn)) return;
+    FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
+    Surface s = load_surface(g, pixels, z);
+    ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+    ShadowDraw draw = make_draw(s, load_radiance(radiance, view, pixels), rays, x / FINE_TILE,
+                                (y + view.first_row) / FINE_TILE, seed);
+    UV slice = fine_slice_of_depth(grid, z);
+    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+        MASK mine = lane_mask(slice == (UV)(clusters[i].slice)) & drawn;
+        if (!lane_any(mine)) continue;
+        ShadowBits bits = bits_of_cluster(words + word_offsets[tile], clusters + i, place);
+#if HAS_DIRECTIONAL_LIGHTS
+        for (uint j = 0; j < directional_count; ++j) {
+            LightSum one = evaluate_directional(zero_sum(), p, directional[j]);
+            FV q = draw_probability(draw, light_alone(draw, one));
+            put_bits(bits, j, mine & draws_light(draw, q, DRAWN_DIRECTIONAL + j), words);
+        }
+#endif
+        for (uint j = 0; j < clusters[i].list_count; ++j) {
+            uint light = lists[clusters[i].list_begin + j];
+            LightSum one = evaluate(zero_sum(), p, LIGHT_AT(lights, light));
+            FV q = draw_probability(draw, light_alone(draw, one));
+            put_bits(bits, directional_count + j, mine & draws_light(draw, q, light), words);
+        }
+    }
+}
