@@ -18,8 +18,8 @@ kernel void draw_shadows_clear(global const uint* restrict word_offsets, uint ti
 }
 
 static inline void put_bits(ShadowBits bits, uint i, MASK drawn, global uint* words) {
-    uint mine = lane_ballot(drawn);
-    if (mine != 0u) atomic_or(words + (bits.words - words) + i * bits.stride, mine << bits.shift);
+    if (!lane_any(drawn)) return;
+    atomic_or(words + (bits.words - words) + i * bits.stride, lane_ballot(drawn) << bits.shift);
 }
 
 kernel void draw_shadows(
@@ -62,15 +62,15 @@ kernel void draw_shadows(
 #if HAS_DIRECTIONAL_LIGHTS
         for (uint j = 0; j < directional_count; ++j) {
             LightSum one = evaluate_directional(zero_sum(), p, directional[j]);
-            FV q = draw_probability(draw, light_alone(draw, one));
-            put_bits(bits, j, mine & draws_light(draw, q, DRAWN_DIRECTIONAL + j), words);
+            FV alone = light_alone(draw, one);
+            put_bits(bits, j, mine & draws_light(draw, alone, DRAWN_DIRECTIONAL + j), words);
         }
 #endif
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint light = lists[clusters[i].list_begin + j];
             LightSum one = evaluate(zero_sum(), p, LIGHT_AT(lights, light));
-            FV q = draw_probability(draw, light_alone(draw, one));
-            put_bits(bits, directional_count + j, mine & draws_light(draw, q, light), words);
+            FV alone = light_alone(draw, one);
+            put_bits(bits, directional_count + j, mine & draws_light(draw, alone, light), words);
         }
     }
 }

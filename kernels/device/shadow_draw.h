@@ -16,18 +16,11 @@
 // Number of a directional light among all that are drawn.
 #define DRAWN_DIRECTIONAL 0x80000000u
 
-// In [0, 1), of 24 bits: a hash of (fine tile of the picture, light, seed); Jarzynski and Olano
-// 2020, "Hash Functions for GPU Rendering", pcg4d.
-static inline float random_of(uint tile_x, uint tile_y, uint light, uint seed) {
-    uint4 v = (uint4)(tile_x, tile_y, light, seed) * 1664525u + 1013904223u;
-    for (uint i = 0; i < 2; ++i) {
-        v.x += v.y * v.w;
-        v.y += v.z * v.x;
-        v.z += v.x * v.y;
-        v.w += v.y * v.z;
-        if (i == 0u) v ^= v >> 16;
-    }
-    return (float)(v.x >> 8) * (1.0f / 16777216.0f);
+// A hash of 32 bits (Wellons, "hash-prospector", lowbias32).
+static inline uint hash_of(uint x) {
+    x = (x ^ x >> 16) * 0x7feb352du;
+    x = (x ^ x >> 15) * 0x846ca68bu;
+    return x ^ x >> 16;
 }
 
 // What a work-item's pixels draw by.
@@ -35,7 +28,7 @@ typedef struct ShadowDraw {
     Surface surface;  // without its own light
     FV whole;         // luminance of the radiance if all lights are seen
     float rays;       // n
-    uint tile_x, tile_y, seed;
+    uint tile;  // a hash of the fine tile of the picture, and the seed
 } ShadowDraw;
 
 static inline FV luminance(FV3 c) {
@@ -49,9 +42,7 @@ static inline ShadowDraw make_draw(Surface s, FV3 radiance, float rays, uint til
     out.surface.emissive = zero3();
     out.whole = luminance(radiance);
     out.rays = rays;
-    out.tile_x = tile_x;
-    out.tile_y = tile_y;
-    out.seed = seed;
+    out.tile = hash_of(hash_of(hash_of(seed) ^ tile_x) ^ tile_y);
     return out;
 }
 
@@ -64,8 +55,11 @@ static inline FV draw_probability(ShadowDraw draw, FV light) {
     return min(light * draw.rays / max(draw.whole, fv(1e-30f)), fv(1.0f));
 }
 
-static inline MASK draws_light(ShadowDraw draw, FV probability, uint light) {
-    return lane_mask(fv(random_of(draw.tile_x, draw.tile_y, light, draw.seed)) < probability);
+// The lanes whose probability, of a light that alone is `alone`, is above the light's random number
+// in the tile, which is in [0, 1).
+static inline MASK draws_light(ShadowDraw draw, FV alone, uint light) {
+    float random = (float)(hash_of(light ^ draw.tile) >> 8) * (1.0f / 16777216.0f);
+    return lane_mask(max(draw.whole, fv(1e-30f)) * random < alone * draw.rays);
 }
 
 // `sum` with a light of which `one` is the sum alone, where a hidden light was drawn.

@@ -89,8 +89,7 @@ static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum on
     uint i = (light & DRAWN_DIRECTIONAL) != 0u ? entry : set.directional_count + entry;
     return sees_light(set.shadows, i);  // the bits are those of hidden lights
 #else
-    FV q = draw_probability(set.draw, light_alone(set.draw, one));
-    MASK drawn = set.shadows.drawn & draws_light(set.draw, q, light);
+    MASK drawn = set.shadows.drawn & draws_light(set.draw, light_alone(set.draw, one), light);
     if (!lane_any(drawn)) return drawn;
     set.shadows.drawn = drawn;
     MASK seen = (light & DRAWN_DIRECTIONAL) != 0u ? sees_directional(set, entry)

@@ -207,6 +207,100 @@ TEST(Shadows, AProbeSaysWhichLightsAPixelSees) {
     EXPECT_GT(hidden, 0);
 }
 
+RenderSettings sampled_settings(int width, int height, std::uint64_t lights, int rays) {
+    RenderSettings settings = shadow_settings(width, height, lights);
+    settings.shadows = Shadows::sampled;
+    settings.shadow_rays = rays;
+    settings.want.aovs = {"error-standard"};
+    return settings;
+}
+
+TEST(SampledShadows, AreTheSameBitsHoweverTheyAreMade) {
+    const Scene scene = grid_with_every_light();
+    RenderSettings settings = sampled_settings(96, 64, 200, 2);
+    const Frame listed = render_once(scene, settings);
+    const auto expect_same = [&](const char* what) {
+        const Frame frame = render_once(scene, settings);
+        EXPECT_EQ(frame.radiance, listed.radiance) << what;
+        EXPECT_EQ(frame.aovs.front().values, listed.aovs.front().values) << what;
+    };
+    settings.band_rows = 16;
+    expect_same("bands");
+    settings.band_rows = 0;
+    settings.grid = {5, 3, 2, 2};
+    expect_same("grid");
+    settings.grid = {};
+    settings.kernels.lanes = 4;
+    expect_same("lanes");
+    settings.kernels.lanes = 0;
+    settings.renderer = RendererKind::deferred_all;
+    expect_same("all lights");
+    settings.shadow_seed = 2;
+    EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
+}
+
+TEST(SampledShadows, WhereNothingHidesAreThoseOfNone) {
+    const ShadowScenario scenario = grazing_scenario();
+    RenderSettings settings = sampled_settings(96, 54, 0, 1);
+    const Frame sampled = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
+    settings.shadows = Shadows::off;
+    settings.want.aovs.clear();
+    EXPECT_EQ(Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance,
+              sampled.radiance);
+}
+
+float luminance_of(const std::vector<float>& radiance, std::size_t i) {
+    return 0.2126f * radiance[3 * i] + 0.7152f * radiance[3 * i + 1] +
+           0.0722f * radiance[3 * i + 2];
+}
+
+// Of many seeds: the mean of each pixel is the exact one within its own error, and the errors that
+// are told are those that are seen.
+TEST(SampledShadows, AreRightInTheMeanAndTellTheirError) {
+    constexpr int kSeeds = 400;
+    constexpr std::size_t kPixels = 48 * 27;
+    ShadowScenario scenario = columns_scenario();
+    for (int i = 0; i < 9; ++i) {
+        scenario.scene.lights.push_back(lamp({1.7 * i - 7.0, 1.0 + 0.4 * i, -4.0 + i}));
+    }
+    RenderSettings settings = sampled_settings(48, 27, 0, 2);
+    settings.shadows = Shadows::exact;
+    settings.want.aovs.clear();
+    const Frame exact = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
+    settings = sampled_settings(48, 27, 0, 2);
+    Renderer renderer(scenario.scene, settings);
+    std::vector<double> sum(kPixels), squares(kPixels), told(kPixels);
+    for (int seed = 1; seed <= kSeeds; ++seed) {
+        settings.shadow_seed = static_cast<uint>(seed);
+        renderer.change(settings);
+        const Frame frame = renderer.render(scenario.camera, 0.0);
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            const double off = luminance_of(frame.radiance, i) - luminance_of(exact.radiance, i);
+            const double error = frame.aovs.front().values[i];
+            sum[i] += off;
+            squares[i] += off * off;
+            told[i] += error * error;
+        }
+    }
+    int noisy = 0, beyond = 0;
+    double seen_variance = 0.0, told_variance = 0.0;
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        const double mean = sum[i] / kSeeds;
+        const double variance = squares[i] / kSeeds - mean * mean;
+        if (variance < 1e-12) {
+            EXPECT_NEAR(mean, 0.0, 1e-5);
+            continue;
+        }
+        ++noisy;
+        beyond += std::abs(mean) > 3.0 * std::sqrt(variance / kSeeds) ? 1 : 0;
+        seen_variance += variance;
+        told_variance += told[i] / kSeeds;
+    }
+    EXPECT_GT(noisy, 100);
+    EXPECT_LE(beyond, noisy / 50 + 2);
+    EXPECT_NEAR(told_variance / seen_variance, 1.0, 0.1);
+}
+
 void expect_refused(const RenderSettings& settings, std::string_view reason) {
     const Scene scene = make_generated_scene("plain");
     try {
@@ -227,6 +321,9 @@ TEST(Shadows, AreRefusedWhereTheyCannotBe) {
     settings = small_settings();
     settings.want.view = ViewKind::shadows;
     expect_refused(settings, "--shadows exact");
+    settings = shadow_settings();
+    settings.want.aovs = {"error-standard"};
+    expect_refused(settings, "--shadows sampled");
 }
 
 }  // namespace
