@@ -28,7 +28,7 @@ typedef struct ShadowDraw {
     Surface surface;  // without its own light
     FV whole;         // luminance of the radiance if all lights are seen
     float rays;       // n
-    uint tile;  // a hash of the fine tile of the picture, and the seed
+    uint tile;        // a hash of the fine tile of the picture, and the seed
 } ShadowDraw;
 
 static inline FV luminance(FV3 c) {
