@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
@@ -12,6 +13,7 @@
 #include "host/render/render_scene.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
+#include "host/stages/fill_background.h"
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 
@@ -26,6 +28,17 @@ struct PathContext {
     const RenderScene& scene;
     std::shared_ptr<SurfaceScene>& surfaces;  // the scene on the device, made when first asked for
     std::shared_ptr<ShadowScene>& shadows;    // what of it casts shadows, likewise
+    std::optional<FillBackground>* background = nullptr;  // where settings.background is set
+
+    /// What a path's lighting enqueues after it: the background, where there is one, and `then`.
+    AfterShading with_background(const GBuffer& gbuffer, StageTimer& timer,
+                                 const AfterShading& then) const {
+        if (!settings.background) return then;
+        return [&, then](const Radiance& radiance) {
+            (*background)->enqueue(gbuffer, radiance, timer);
+            if (then) then(radiance);
+        };
+    }
 
     /// Whether OpenCL makes the surfaces of OpenGL's ids: not for what OpenGL's fragments light.
     bool resolves() const {

@@ -13,6 +13,7 @@ namespace {
 RenderSettings reference_of(RenderSettings settings) {
     settings.renderer = RendererKind::deferred_all;
     settings.want = radiance_only();
+    settings.background.reset();  // differences are those of surfaces
     return settings;
 }
 
@@ -43,12 +44,13 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings&
       memory(limit_buffers(gpu, plan_memory(scene->scene(), settings, plan, gpu.info))),
       tuning_(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       lights_(gpu, tuning_, scene->scene(), settings),
-      context_{settings, plan, gpu, tuning_, *scene, surface_scene_, shadow_scene_},
+      context_{settings, plan, gpu, tuning_, *scene, surface_scene_, shadow_scene_, &background_},
       sum_(gpu, tuning_),
       tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
       whole_light_(gpu, "bloom"),
       reader_(gpu) {
     make_optional_parts();
+    make_background();
 }
 
 Pipeline::~Pipeline() { scene->make_current_or_lost(); }
@@ -71,6 +73,16 @@ void Pipeline::make_optional_parts() {
     if (view == ViewKind::difference) change(reference_, scene, reference_of(settings));
 }
 
+// After a failure the former one stays.
+void Pipeline::make_background() {
+    if (!settings.background) return background_.reset();
+    const Environment& image = *settings.background;
+    FillBackground next(gpu, tuning_);
+    next.set_image({&image.rows.data()->x, 3 * image.rows.size()}, static_cast<uint>(image.width),
+                   static_cast<uint>(image.height));
+    background_.emplace(std::move(next));
+}
+
 // Whether other settings need neither other kernels nor another device.
 bool Pipeline::is_built_for(const RenderSettings& other) const {
     return other.device == settings.device && other.geometry == settings.geometry &&
@@ -88,6 +100,7 @@ void Pipeline::take(const RenderSettings& next) {
         if (next.tone_curve != former.tone_curve) {
             tonemap_ = Tonemap(gpu, tuning_, static_cast<int>(next.tone_curve));
         }
+        if (next.background != former.background) make_background();
     } catch (...) {
         settings = former;
         memory = former_memory;

@@ -61,6 +61,7 @@ class Pipeline {
     bool is_built_for(const RenderSettings& other) const;
     void take(const RenderSettings& next);
     void make_optional_parts();
+    void make_background();
     // Whether OpenGL's fragments are lit.
     bool lights_on_host() const {
         return is_forward(settings.renderer) || has_blended_surfaces(scene->scene());
@@ -80,6 +81,7 @@ class Pipeline {
     LightSource lights_;
     std::shared_ptr<SurfaceScene> surface_scene_;
     std::shared_ptr<ShadowScene> shadow_scene_;
+    std::optional<FillBackground> background_;  // of settings.background
     PathContext context_;
     std::map<RendererKind, Path> paths_;   // made when first asked for
     std::unique_ptr<Pipeline> reference_;  // for the view of differences from it

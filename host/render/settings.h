@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/picture/frame_request.h"
+#include "host/scene/lights/environment.h"
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_ranges.h"
 #include "kernels/shared/gbuffer.h"
@@ -79,6 +81,8 @@ struct RenderSettings {
     Shading shading = Shading::automatic;
     Shadows shadows = Shadows::off;
     float ambient = 0.02f;  // radiance that falls in from everywhere
+    // Seen where no surface covers a pixel; null: black. Changes no surface's light.
+    std::shared_ptr<const Environment> background;
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]
     ToneCurve tone_curve = ToneCurve::neutral;

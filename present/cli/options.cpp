@@ -106,6 +106,10 @@ void add_display_options(CLI::App& command, SharedOptions& o) {
         const bool whole_name = place == names_of<ToneCurve>().size();
         s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
     };
+    const auto take_background = [&o](const std::string& name, const std::string& text) {
+        if (!o.shows_background) throw UsageError(name + ": only render and view show it");
+        return parse_background(name, text);
+    };
     OptionBuilder(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
         .value({"--exposure", o.takes_automatic_exposure ? "EV|auto" : "EV", "0",
                 o.takes_automatic_exposure
@@ -115,6 +119,10 @@ void add_display_options(CLI::App& command, SharedOptions& o) {
                take_exposure, [&s] { return text_of(s.exposure); })
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
                 tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
+        .value({"--background", "COLOUR|none|auto", "auto",
+                "What is behind the scene: R,G,B linear or #RRGGBB in sRGB, as light that exposure "
+                "and tone curve apply to; none: black; auto: the environment, else none"},
+               o.background, take_background)
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
                 kBloomRange);
 }
@@ -139,9 +147,10 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
             l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
-        .text({"--environment", "FILE", "",
+        .text({"--environment", "FILE|studio|sky", "",
                "Light from all around: .hdr or .exr, longitude by latitude, its middle towards -Z; "
-               "lights surfaces, is not shown. Then --rig auto is none and --ambient 0"},
+               "studio: soft boxes in a dim room; sky: a clear sky with a sun. Then --rig auto is "
+               "none and --ambient 0"},
               o.environment)
         .rest()
         .count({"--environment-lights", "N", "128", "Directional lights that stand for it"},

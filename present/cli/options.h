@@ -5,12 +5,14 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "host/render/settings.h"
 #include "host/scene/gltf/load_scene.h"
 #include "host/scene/lights/rig.h"
+#include "present/cli/background_choice.h"
 #include "present/cli/camera_choice.h"
 #include "present/cli/sequence.h"
 #include "present/image/display_picture.h"
@@ -23,11 +25,14 @@ struct SharedOptions {
     LoadOptions load;              // how a file is read; its time and memory are the picture's
     RenderSettings settings;
     Rig rig = Rig::automatic;
-    std::string environment;                 // file; empty: none
-    std::uint64_t environment_lights = 128;  // that stand for it
-    bool lights_given = false;               // settings.lights.count was asked for
-    bool ambient_given = false;              // settings.ambient was
-    bool takes_automatic_exposure = false;   // the command can make it
+    std::string environment;                              // file or built-in name; empty: none
+    BackgroundChoice background;                          // behind the scene
+    std::shared_ptr<const Environment> shown_background;  // as light_scene() settles it
+    bool shows_background = false;                        // the command can show it
+    std::uint64_t environment_lights = 128;               // that stand for it
+    bool lights_given = false;                            // settings.lights.count was asked for
+    bool ambient_given = false;                           // settings.ambient was
+    bool takes_automatic_exposure = false;                // the command can make it
     bool automatic_exposure = false;
     CameraChoice camera;
     double time = 0.0;        // [s]

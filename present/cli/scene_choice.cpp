@@ -12,7 +12,7 @@
 #include "host/base/suggest.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
-#include "host/scene/lights/environment.h"
+#include "host/scene/lights/built_in_environments.h"
 #include "present/cli/names.h"
 #include "present/cli/progress.h"
 
@@ -96,11 +96,22 @@ std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, st
     return line + fmt::format("{} of the scene's own lights, ambient {}", own, settings.ambient);
 }
 
-std::string add_environment(const SharedOptions& options, AnimatedScene& scene) {
+// Settles what is behind the scene, too.
+std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
+    using Kind = BackgroundChoice::Kind;
+    const BackgroundChoice& background = options.background;
+    if (background.kind == Kind::color) {
+        options.shown_background =
+            std::make_shared<const Environment>(Environment{1, 1, {background.color}});
+    }
     if (options.environment.empty()) return "";
-    const auto lights = environment_lights(read_environment(options.environment),
-                                           static_cast<std::size_t>(options.environment_lights));
+    Environment environment = environment_of(options.environment);
+    const auto lights =
+        environment_lights(environment, static_cast<std::size_t>(options.environment_lights));
     scene.add_lights(lights);
+    if (background.kind == Kind::environment) {
+        options.shown_background = std::make_shared<const Environment>(std::move(environment));
+    }
     return fmt::format("; environment {}: {} directional", options.environment, lights.size());
 }
 

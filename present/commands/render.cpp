@@ -194,6 +194,7 @@ void expose_automatically(RenderOptions& options, AnimatedScene& scene, Renderer
     const RenderSettings wanted = renderer.settings();
     RenderSettings settings = wanted;
     settings.want = radiance_only();
+    settings.background.reset();
     renderer.change(settings);
     const Frame frame =
         renderer.render(choose_camera(options.shared, scene.scene()), time, check_interrupt);
@@ -237,6 +238,7 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
 RenderSettings settings_of(const RenderOptions& options, const ReportView& view) {
     RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
     settings.want = request_of(options, settings.want);
+    settings.background = options.shared.shown_background;
     return settings;
 }
 
@@ -271,6 +273,7 @@ void run_render(RenderOptions& options) {
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
     options.shared.takes_automatic_exposure = true;
+    options.shared.shows_background = true;
     add_shared_options(command, options.shared);
     add_output_options(command, options.output);
     add_budget_options(command, options.budget);

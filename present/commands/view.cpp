@@ -28,6 +28,7 @@ struct ViewOptions {
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file) {
     ViewState state;
     state.settings = options.shared.settings;
+    state.settings.background = options.shared.shown_background;
     state.settings.want.aovs.clear();
     state.settings.want.probes = true;
     if (is_given(command, "--resolution")) {
@@ -76,6 +77,7 @@ void run_view(ViewOptions& options, const CLI::App& command) {
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
+    options.shared.shows_background = true;
     add_shared_options(command, options.shared);
     leave_to_help_all(command, {"--aov"});
     OptionBuilder(command, "Window")

@@ -81,6 +81,7 @@ void ViewSession::reset_settings() {
     ViewState fresh;
     fresh.settings = SharedOptions().settings;
     fresh.settings.device = state_.settings.device;
+    fresh.settings.background = options_.shared.shown_background;
     fresh.window_size = state_.window_size;
     state_ = std::move(fresh);
     file_.forget();
