@@ -56,8 +56,8 @@ double seen(const SoftBox& box, const glm::dvec3& d) {
 
 glm::dvec3 studio_radiance(const glm::dvec3& d) {
     static const SoftBox boxes[] = {{{-0.8, 0.9, 1.2}, {0.45, 0.35}, {3.6, 3.4, 3.1}},
-                                    {{1.2, 0.2, 0.7}, {0.3, 0.55}, {0.95, 1.0, 1.1}},
-                                    {{0.6, 0.7, -1.2}, {0.75, 0.15}, {3.2, 3.3, 3.5}},
+                                    {{1.2, 0.2, 0.9}, {0.3, 0.55}, {0.70, 0.75, 0.82}},
+                                    {{0.45, 0.7, -1.2}, {0.75, 0.15}, {3.2, 3.3, 3.5}},
                                     {{0.0, 1.0, 0.0}, {0.6, 0.4}, {1.2, 1.2, 1.2}}};
     // Walls, lighter towards the ceiling, and a floor that throws light back.
     const double height = smoothstep(-0.35, 0.9, d.y);
