@@ -107,14 +107,16 @@ void add_display_options(CLI::App& command, SharedOptions& o) {
         s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
     };
     const auto take_background = [&o](const std::string& name, const std::string& text) {
-        if (!o.shows_background) throw UsageError(name + ": only render and view show it");
+        if (!o.shows_background && text != "auto")
+            throw UsageError(name + ": only render and view show it");
         return parse_background(name, text);
     };
     OptionBuilder(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
         .value({"--exposure", o.takes_automatic_exposure ? "EV|auto" : "EV", "0",
                 o.takes_automatic_exposure
                     ? "Each step doubles the brightness; auto: the log average of the picture's "
-                      "luminance becomes 0.18, a sequence keeps that of its first frame"
+                      "luminance becomes 0.18, or less where more than 2 % would clip; a sequence "
+                      "keeps that of its first frame"
                     : "Each step doubles the brightness"},
                take_exposure, [&s] { return text_of(s.exposure); })
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},

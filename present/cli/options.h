@@ -50,6 +50,8 @@ struct OutputOptions {
     std::optional<FrameRange> frames;
     double frames_per_second = 24.0;
     Shard shard;
+    std::optional<double> turntable;    // [degree] over the frames
+    std::filesystem::path camera_keys;  // empty: none
     bool skip_existing = false;
     std::string stats;  // file, "-" for stdout, empty: none
     std::string reference;
