@@ -42,7 +42,7 @@ class Pipeline {
                        const std::shared_ptr<RenderScene>& scene, const RenderSettings& settings);
 
     Frame render(const Camera& camera, double time, const std::function<void()>& between,
-                 DisplayMemory memory);
+                 DisplayMemory memory, int samples);
     PixelProbe probe(int x, int y);
     Path& path() { return paths_.at(settings.renderer); }
 
@@ -68,6 +68,17 @@ class Pipeline {
     }
     bool blooms_at_end() const { return settings.bloom > 0.0f && !is_whole(); }
 
+    // A picture of which sum_ has the first samples.
+    struct Refined {
+        RenderSettings settings;
+        Camera camera;
+        double time = 0.0;  // [s]
+        std::uint32_t scene_revision = 0;
+        int samples = 0;
+        bool operator==(const Refined&) const = default;
+    };
+
+    void refine(const Camera& camera, double time, int samples);
     LightInput begin(const Camera& camera, double time, Frame& frame);
     void render_band(const Sample& band, Frame& frame);
     void light_samples(const Sample& band, Measured out, const AfterShading& then);
@@ -92,7 +103,11 @@ class Pipeline {
     GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
     FrameReader reader_;
     StageTimer timer_;
-    DisplayMemory display_memory_;  // of the render() that runs
+    // Of the render() that runs.
+    DisplayMemory display_memory_;
+    int refining_ = 0;  // samples of a picture that is refined; 0: it is made whole
+    int summed_ = 0;    // of them in sum_ before
+    std::optional<Refined> refined_;
     // Of the last render().
     LightRows rows_;
     Camera camera_;

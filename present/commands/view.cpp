@@ -31,6 +31,9 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     state.settings.background = options.shared.shown_background;
     state.settings.want.aovs.clear();
     state.settings.want.probes = true;
+    // Pictures that are counted are made one by one, each whole.
+    const bool counts = options.exit_after > 0;
+    if (!is_given(command, "--samples") && !counts) state.settings.samples = kRestSamples;
     if (is_given(command, "--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
@@ -38,7 +41,8 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     const bool rig_decides = options.shared.rig != Rig::automatic;
     return file.load(state, [&](const std::string& name) {
         const bool of_rig = name == "--lights" || name == "--ambient";
-        return is_given(command, name) || (rig_decides && of_rig);
+        return is_given(command, name) || (rig_decides && of_rig) ||
+               (counts && name == "--samples");
     });
 }
 
