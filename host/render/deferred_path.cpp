@@ -28,7 +28,7 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
     const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows()};
     const AfterShading after =
-        context_.with_background(gbuffer_, out.timer, blended_ ? AfterShading() : then);
+        context_.with_environment(gbuffer_, out.timer, blended_ ? AfterShading() : then);
     const Radiance radiance = lighting_.light(input, out.timer, after);
     set_counts(out.stats);
     if (blended_) {
@@ -146,7 +146,7 @@ Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterS
     grid_ = coarse_grid(context_, sample.camera, out.stats);
     const Radiance radiance =
         lighting_.light({gbuffer_, sample.lights, grid_, surfaces_.shadows()}, out.timer,
-                        context_.with_background(gbuffer_, out.timer, {}));
+                        context_.with_environment(gbuffer_, out.timer, {}));
     out.stats.evaluations_per_pixel = sample.lights.count;
     out.stats.useful_evaluations_per_pixel = -1.0;
     if (blended_) {

@@ -14,6 +14,7 @@
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/stages/fill_background.h"
+#include "host/stages/reflect_environment.h"
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 
@@ -28,14 +29,17 @@ struct PathContext {
     const RenderScene& scene;
     std::shared_ptr<SurfaceScene>& surfaces;  // the scene on the device, made when first asked for
     std::shared_ptr<ShadowScene>& shadows;    // what of it casts shadows, likewise
-    std::optional<FillBackground>* background = nullptr;  // where settings.background is set
+    // Made where settings.background and settings.reflections are set.
+    std::optional<FillBackground>* background = nullptr;
+    std::optional<ReflectEnvironment>* reflections = nullptr;
 
-    /// What a path's lighting enqueues after it: the background, where there is one, and `then`.
-    AfterShading with_background(const GBuffer& gbuffer, StageTimer& timer,
-                                 const AfterShading& then) const {
-        if (!settings.background) return then;
+    /// What a path's lighting enqueues after it: what the environment adds, and `then`.
+    AfterShading with_environment(const GBuffer& gbuffer, StageTimer& timer,
+                                  const AfterShading& then) const {
+        if (!settings.background && !settings.reflections) return then;
         return [&, then](const Radiance& radiance) {
-            (*background)->enqueue(gbuffer, radiance, timer);
+            if (settings.reflections) (*reflections)->enqueue(gbuffer, radiance, timer);
+            if (settings.background) (*background)->enqueue(gbuffer, radiance, timer);
             if (then) then(radiance);
         };
     }

@@ -44,13 +44,15 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings&
       memory(limit_buffers(gpu, plan_memory(scene->scene(), settings, plan, gpu.info))),
       tuning_(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       lights_(gpu, tuning_, scene->scene(), settings),
-      context_{settings, plan, gpu, tuning_, *scene, surface_scene_, shadow_scene_, &background_},
+      context_{settings,       plan,          gpu,          tuning_,      *scene,
+               surface_scene_, shadow_scene_, &background_, &reflections_},
       sum_(gpu, tuning_),
       tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
       whole_light_(gpu, "bloom"),
       reader_(gpu) {
     make_optional_parts();
     make_background();
+    make_reflections();
 }
 
 Pipeline::~Pipeline() { scene->make_current_or_lost(); }
@@ -83,6 +85,14 @@ void Pipeline::make_background() {
     background_.emplace(std::move(next));
 }
 
+void Pipeline::make_reflections() {
+    if (!settings.reflections) return reflections_.reset();
+    const PrefilteredEnvironment& maps = *settings.reflections;
+    ReflectEnvironment next(gpu, tuning_, plan.kernels);
+    next.set_maps({maps.texels, maps.levels, maps.table, maps.table_size});
+    reflections_.emplace(std::move(next));
+}
+
 // Whether other settings need neither other kernels nor another device.
 bool Pipeline::is_built_for(const RenderSettings& other) const {
     return other.device == settings.device && other.geometry == settings.geometry &&
@@ -100,6 +110,7 @@ void Pipeline::take(const RenderSettings& next) {
         if (next.tone_curve != former.tone_curve) {
             tonemap_ = Tonemap(gpu, tuning_, static_cast<int>(next.tone_curve));
         }
+        if (next.reflections != former.reflections) make_reflections();
         if (next.background != former.background) make_background();
     } catch (...) {
         settings = former;

@@ -62,6 +62,7 @@ class Pipeline {
     void take(const RenderSettings& next);
     void make_optional_parts();
     void make_background();
+    void make_reflections();
     // Whether OpenGL's fragments are lit.
     bool lights_on_host() const {
         return is_forward(settings.renderer) || has_blended_surfaces(scene->scene());
@@ -92,7 +93,8 @@ class Pipeline {
     LightSource lights_;
     std::shared_ptr<SurfaceScene> surface_scene_;
     std::shared_ptr<ShadowScene> shadow_scene_;
-    std::optional<FillBackground> background_;  // of settings.background
+    std::optional<FillBackground> background_;       // of settings.background
+    std::optional<ReflectEnvironment> reflections_;  // of settings.reflections
     PathContext context_;
     std::map<RendererKind, Path> paths_;   // made when first asked for
     std::unique_ptr<Pipeline> reference_;  // for the view of differences from it

@@ -11,6 +11,7 @@
 #include "host/scene/lights/environment.h"
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_ranges.h"
+#include "host/scene/lights/prefiltered_environment.h"
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
@@ -83,6 +84,9 @@ struct RenderSettings {
     float ambient = 0.02f;  // radiance that falls in from everywhere
     // Seen where no surface covers a pixel; null: black. Changes no surface's light.
     std::shared_ptr<const Environment> background;
+    // Lights surfaces by prefiltered maps, beside all other lights; null: nothing. Not for what
+    // blends, nor for the forward renderers.
+    std::shared_ptr<const PrefilteredEnvironment> reflections;
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]
     ToneCurve tone_curve = ToneCurve::neutral;

@@ -107,7 +107,7 @@ void add_display_options(CLI::App& command, SharedOptions& o) {
         s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
     };
     const auto take_background = [&o](const std::string& name, const std::string& text) {
-        if (!o.shows_background && text != "auto")
+        if (!o.shows_environment && text != "auto")
             throw UsageError(name + ": only render and view show it");
         return parse_background(name, text);
     };
@@ -155,6 +155,9 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
                "none and --ambient 0"},
               o.environment)
         .rest()
+        .flag("--reflections", o.reflections,
+              "The environment lights by prefiltered maps (split sum) in place of lights, so that "
+              "shiny metals reflect it; render and view; not what blends, no forward renderers")
         .count({"--environment-lights", "N", "128", "Directional lights that stand for it"},
                o.environment_lights, {1, 65536})
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
@@ -223,6 +226,16 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
                 s.kernels.light_colors);
 }
 
+void check_reflections(const SharedOptions& options) {
+    if (!options.shows_environment) throw UsageError("--reflections: only render and view show it");
+    if (options.environment.empty()) {
+        throw UsageError("--reflections: needs --environment FILE|studio|sky");
+    }
+    if (is_forward(options.settings.renderer)) {
+        throw UsageError("--reflections: needs --renderer deferred or deferred-all");
+    }
+}
+
 }  // namespace
 
 void add_shared_options(CLI::App& command, SharedOptions& options) {
@@ -244,6 +257,7 @@ void begin_command(const SharedOptions& options, bool compares) {
     if (options.show_error && !compares) {
         throw UsageError("--show error: needs --reference FILE, which render takes");
     }
+    if (options.reflections) check_reflections(options);
     if (options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0) {
         throw UsageError("--rig swarm: needs lights, and --lights is 0");
     }

@@ -28,11 +28,13 @@ struct SharedOptions {
     std::string environment;                              // file or built-in name; empty: none
     BackgroundChoice background;                          // behind the scene
     std::shared_ptr<const Environment> shown_background;  // as light_scene() settles it
-    bool shows_background = false;                        // the command can show it
-    std::uint64_t environment_lights = 128;               // that stand for it
-    bool lights_given = false;                            // settings.lights.count was asked for
-    bool ambient_given = false;                           // settings.ambient was
-    bool takes_automatic_exposure = false;                // the command can make it
+    bool reflections = false;  // the environment lights by prefiltered maps, not by lights
+    std::shared_ptr<const PrefilteredEnvironment> maps;  // as light_scene() settles it
+    bool shows_environment = false;          // the command can show background and reflections
+    std::uint64_t environment_lights = 128;  // that stand for it
+    bool lights_given = false;               // settings.lights.count was asked for
+    bool ambient_given = false;              // settings.ambient was
+    bool takes_automatic_exposure = false;   // the command can make it
     bool automatic_exposure = false;
     CameraChoice camera;
     double time = 0.0;        // [s]

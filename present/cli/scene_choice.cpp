@@ -106,13 +106,37 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     }
     if (options.environment.empty()) return "";
     Environment environment = environment_of(options.environment);
-    const auto lights =
-        environment_lights(environment, static_cast<std::size_t>(options.environment_lights));
-    scene.add_lights(lights);
+    std::string line = fmt::format("; environment {}: ", options.environment);
+    if (options.reflections) {
+        options.maps = std::make_shared<const PrefilteredEnvironment>(prefiltered(environment));
+        line += "prefiltered";
+        if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
+    } else {
+        const auto lights =
+            environment_lights(environment, static_cast<std::size_t>(options.environment_lights));
+        scene.add_lights(lights);
+        line += fmt::format("{} directional", lights.size());
+    }
     if (background.kind == Kind::environment) {
         options.shown_background = std::make_shared<const Environment>(std::move(environment));
     }
-    return fmt::format("; environment {}: {} directional", options.environment, lights.size());
+    return line;
+}
+
+// Metal shows what is around it: a studio of few lights leaves it dark.
+bool wants_reflections(const SharedOptions& options, const Scene& scene) {
+    constexpr double kMostly = 0.5;
+    return options.shows_environment && !options.ambient_given &&
+           !is_forward(options.settings.renderer) && metallic_share(scene) > kMostly;
+}
+
+// The studio's room in place of its lights.
+void reflect_studio(SharedOptions& options) {
+    options.environment = "studio";
+    options.reflections = true;
+    if (options.background.kind == BackgroundChoice::Kind::environment) {
+        options.background.kind = BackgroundChoice::Kind::none;
+    }
 }
 
 }  // namespace
@@ -132,7 +156,12 @@ AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
 
 std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     const bool automatic = options.rig == Rig::automatic;
-    const Rig rig = rig_of(options, scene.scene());
+    Rig rig = rig_of(options, scene.scene());
+    const bool metal = automatic && rig == Rig::studio && wants_reflections(options, scene.scene());
+    if (metal) {
+        reflect_studio(options);
+        rig = Rig::none;
+    }
     const std::size_t own = scene.scene().lights.size();
     scene.add_lights(rig_lights(rig));
     const std::string from_around = add_environment(options, scene);
@@ -144,7 +173,8 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     }
     // A swarm stays automatic: what another command line has to say for it is --lights.
     options.rig = rig == Rig::swarm ? Rig::automatic : rig;
-    return rig_line(rig, automatic, options.settings, own) + from_around;
+    return rig_line(rig, automatic, options.settings, own) + from_around +
+           (metal ? " (a studio's room, as most of the surface is metal)" : "");
 }
 
 void measure_swarm(SharedOptions& options) {

@@ -241,6 +241,7 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
     RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
     settings.want = request_of(options, settings.want);
     settings.background = options.shared.shown_background;
+    settings.reflections = options.shared.maps;
     return settings;
 }
 
@@ -276,7 +277,7 @@ void run_render(RenderOptions& options) {
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
     options.shared.takes_automatic_exposure = true;
-    options.shared.shows_background = true;
+    options.shared.shows_environment = true;
     add_shared_options(command, options.shared);
     add_output_options(command, options.output);
     add_budget_options(command, options.budget);

@@ -29,6 +29,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     ViewState state;
     state.settings = options.shared.settings;
     state.settings.background = options.shared.shown_background;
+    state.settings.reflections = options.shared.maps;
     state.settings.want.aovs.clear();
     state.settings.want.probes = true;
     // Pictures that are counted are made one by one, each whole.
@@ -81,7 +82,7 @@ void run_view(ViewOptions& options, const CLI::App& command) {
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
-    options.shared.shows_background = true;
+    options.shared.shows_environment = true;
     add_shared_options(command, options.shared);
     leave_to_help_all(command, {"--aov"});
     OptionBuilder(command, "Window")
