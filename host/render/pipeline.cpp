@@ -60,6 +60,9 @@ Pipeline::~Pipeline() { scene->make_current_or_lost(); }
 // What some settings need and others do not.
 void Pipeline::make_optional_parts() {
     const RendererKind kind = settings.renderer;
+    if (settings.reflections && is_forward(kind)) {
+        throw Error("reflections: the forward renderers have none; deferred and deferred-all do");
+    }
     if (!paths_.contains(kind)) {
         if (is_forward(kind)) {
             paths_.try_emplace(kind, std::in_place_type<ForwardPath>, context_);

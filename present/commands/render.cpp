@@ -245,10 +245,20 @@ RenderSettings settings_of(const RenderOptions& options, const ReportView& view)
     return settings;
 }
 
+// What is chosen by its error is measured without reflections.
+void check_budget(RenderOptions& options) {
+    if (!options.budget.max_error) return;
+    if (options.shared.reflections) {
+        throw UsageError("--max-error and --reflections exclude each other");
+    }
+    options.shared.shows_environment = false;
+}
+
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     begin_command(options.shared, !out.reference.empty());
+    check_budget(options);
     const Tasks tasks(options);
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");

@@ -2,6 +2,7 @@
 // What is seen behind a scene: in every renderer, behind what blends, in bands and samples; and
 // nothing else changes.
 #include "host/base/error.h"
+#include "host/scene/lights/prefiltered_environment.h"
 #include "tests/support/box_scene.h"
 #include "tests/support/render_fixture.h"
 
@@ -130,6 +131,50 @@ TEST(Background, ComesAndGoesWithTheSettings) {
     const Frame again = renderer.render(camera, 0.0);
     EXPECT_EQ(again.radiance, black.radiance);
     for (const StageTime& stage : again.stats.stages) EXPECT_NE(stage.name, "fill_background");
+}
+
+Scene box_with(const Material& material) {
+    Scene scene = lonely_box();
+    scene.materials[0] = material;
+    return scene;
+}
+
+TEST(Reflections, AreAddedInEveryBandAndSampleAndByBothDeferredRenderers) {
+    Material metal;
+    metal.roughness = 0.4f;
+    const Scene scene = box_with(metal);
+    RenderSettings settings = small_settings(96, 70, 0);
+    settings.ambient = 0.0f;
+    const Frame plain = render_box(scene, settings);
+    settings.reflections =
+        std::make_shared<const PrefilteredEnvironment>(prefiltered(*map_of_directions()));
+    const Frame lit = render_box(scene, settings);
+    for (std::size_t i = 0; i < 96u * 70u; ++i) {
+        const bool drawn = plain.aovs[0].values[i] != 0.0f;
+        const float added = lit.radiance[3 * i] - plain.radiance[3 * i];
+        ASSERT_EQ(added > 0.05f, drawn) << i;
+    }
+    settings.renderer = RendererKind::deferred_all;
+    EXPECT_EQ(render_box(scene, settings).radiance, lit.radiance);
+    settings.renderer = RendererKind::deferred;
+    settings.samples = 3;
+    settings.background = color(glm::vec3(0.5f));
+    const Frame whole = render_once(scene, settings);
+    settings.band_rows = 16;
+    EXPECT_EQ(render_once(scene, settings).radiance, whole.radiance);
+    settings.renderer = RendererKind::forward_plus;
+    EXPECT_THROW(render_once(scene, settings), Error);
+}
+
+TEST(Reflections, LeaveUnlitSurfacesAlone) {
+    Material unlit;
+    unlit.unlit = true;
+    const Scene scene = box_with(unlit);
+    RenderSettings settings = small_settings(48, 27, 0);
+    const Frame plain = render_once(scene, settings);
+    settings.reflections =
+        std::make_shared<const PrefilteredEnvironment>(prefiltered(*map_of_directions()));
+    EXPECT_EQ(render_once(scene, settings).radiance, plain.radiance);
 }
 
 TEST(Background, ItsTexelsCountAsMemory) {

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRoughnessMin = 0.045;  // ROUGHNESS_MIN of kernels/shared/surface.h
+constexpr double kNDotVMin = 1e-4;       // N_DOT_V_MIN, ibid.
 constexpr unsigned kTableSize = 64;
 // Of half the angle to a lobe's axis, in alphas: 96 % of its light.
 constexpr double kLobeAlphas = 5.0;
@@ -193,10 +194,10 @@ double diffuse_loss(double n_dot_v) {
 std::vector<float> reflectance_table() {
     std::vector<float> table(std::size_t{3} * kTableSize * kTableSize);
     tbb::parallel_for(0u, kTableSize, [&](unsigned column) {
-        const double n_dot_v = (column + 0.5) / kTableSize;
+        const double n_dot_v = std::max(column / (kTableSize - 1.0), kNDotVMin);
         const double loss = diffuse_loss(n_dot_v);
         for (unsigned row = 0; row < kTableSize; ++row) {
-            const glm::dvec2 shares = specular_shares(n_dot_v, (row + 0.5) / kTableSize);
+            const glm::dvec2 shares = specular_shares(n_dot_v, row / (kTableSize - 1.0));
             const std::size_t place = 3 * (std::size_t{row} * kTableSize + column);
             table[place] = static_cast<float>(shares.x);
             table[place + 1] = static_cast<float>(shares.y);

@@ -15,8 +15,8 @@ struct PrefilteredEnvironment {
     // Width, height and first texel of each level: light through GGX lobes of roughness 0 to 1 in
     // equal steps, seen along their axis; then irradiance / pi.
     std::vector<uint4> levels;
-    // [table_size][table_size][3], columns by n.v, rows by roughness: what a surface returns of f0
-    // and of f90, and what its diffuse light loses to Schlick's rise.
+    // [table_size][table_size][3], columns by n.v, rows by roughness, from 0 to 1: what a surface
+    // returns of f0 and of f90, and what its diffuse light loses to Schlick's rise.
     std::vector<float> table;
     unsigned table_size = 0;
 };
