@@ -100,6 +100,24 @@ TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
               std::tuple(false, true, false, 3u));
 }
 
+TEST_F(RigTest, ExportSaysThatAmbientLightIsLost) {
+    const auto warning = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"export", (folder_ / "object.glb").string(), "-q", "-o",
+                                          (folder_ / "out.glb").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_EQ(warning({}),
+              "kilolux: warning: ambient light of 0.2 of the rig studio is not written: glTF has "
+              "none, other renderers show the scene darker\n");
+    EXPECT_TRUE(
+        contains(warning({"--rig", "none", "--ambient", "0.5"}), "ambient light of 0.5 is"));
+    EXPECT_EQ(warning({"--rig", "headlight"}), "");
+    EXPECT_EQ(warning({"--rig", "studio", "--ambient", "0"}), "");
+}
+
 TEST_F(RigTest, ReflectionsSayWhatTheyNeed) {
     EXPECT_EQ(message_of<UsageError>([&] { lights("grid", "--reflections"); }),
               "--reflections: only render and view show it");
