@@ -72,7 +72,8 @@ void ForwardPass::prepare(int width, int height) {
     targets_ = std::make_unique<GBufferTargets>(radiance_plan(), width, height);
 }
 
-void ForwardPass::draw(const Camera& camera, int width, int height, const ForwardLights& lights) {
+void ForwardPass::draw(const Camera& camera, int width, int height, const ForwardLights& lights,
+                       std::span<const float> background) {
     prepare(width, height);
     light_buffers_.upload(lights, view_of(camera, width, height));
     timer_.begin();
@@ -80,6 +81,7 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
         targets_->clear();
+        if (!background.empty()) load_radiance(*targets_, background);
         draw_opaque(camera);
         draw_transparent(camera);
     }

@@ -30,8 +30,9 @@ class ForwardPass {
     /// Compiles the variants that the scene needs. The GpuScene must outlive this.
     ForwardPass(const GpuScene& scene, const ForwardFeatures& features);
 
-    /// Draws the whole scene; the background is 0. Enqueues only.
-    void draw(const Camera& camera, int width, int height, const ForwardLights& lights);
+    /// Draws the whole scene over `background` (float[3][height][stride]; empty: 0). Enqueues only.
+    void draw(const Camera& camera, int width, int height, const ForwardLights& lights,
+              std::span<const float> background = {});
 
     /// Draws what blends over `radiance` (float[3][height][stride], red, green, blue) with the
     /// depth of a G-buffer of the same size. `camera` sees what the targets hold, a band of the

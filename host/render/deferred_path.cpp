@@ -27,7 +27,9 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
     gbuffer_ = surfaces_.draw(sample, out);
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
     const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows(sample)};
-    const Radiance radiance = lighting_.light(input, out.timer, blended_ ? AfterShading() : then);
+    const AfterShading after =
+        context_.with_environment(gbuffer_, out.timer, blended_ ? AfterShading() : then);
+    const Radiance radiance = lighting_.light(input, out.timer, after);
     set_counts(out.stats);
     if (blended_) {
         const HostCoarseLists lists = lighting_.light_lists().download_coarse(lighting_.lists());
@@ -146,7 +148,8 @@ Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterS
     gbuffer_ = surfaces_.draw(sample, out);
     grid_ = coarse_grid(context_, sample.camera, out.stats);
     const Radiance radiance =
-        lighting_.light({gbuffer_, sample.lights, grid_, surfaces_.shadows(sample)}, out.timer);
+        lighting_.light({gbuffer_, sample.lights, grid_, surfaces_.shadows(sample)}, out.timer,
+                        context_.with_environment(gbuffer_, out.timer, {}));
     out.stats.evaluations_per_pixel = sample.lights.count;
     out.stats.useful_evaluations_per_pixel = -1.0;
     if (blended_) {

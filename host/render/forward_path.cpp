@@ -25,10 +25,17 @@ Radiance ForwardPath::light(const Sample& sample, Measured out, const AfterShadi
     grid_ = coarse_grid(context_, sample.camera, out.stats);
     local_lights_ = sample.lights.count;
     if (clustered_) lists_ = make_lists(sample, view, out);
+    const std::size_t size = std::size_t{3} * view.stride * view.height;
+    const Radiance radiance{radiance_.reserve(size), view};
+    std::vector<float> background;
+    if (settings.background) {
+        (*context_.background)->enqueue_everywhere(radiance, out.timer);
+        background = download<float>(context_.gpu, radiance.planes, size);
+    }
     forward_.draw(sample.camera, settings.width, settings.height,
-                  forward_lights(sample.rows, settings.ambient, clustered_ ? &lists_ : nullptr));
+                  forward_lights(sample.rows, settings.ambient, clustered_ ? &lists_ : nullptr),
+                  background);
     const std::vector<float> planes = forward_.read_radiance(view.stride);
-    const Radiance radiance{radiance_.reserve(planes.size()), view};
     upload<float>(context_.gpu, radiance.planes, planes);
     then(radiance);
     add_stage_time(out.stats.stages, clustered_ ? "forward_plus" : "forward", forward_.last_ms());

@@ -114,6 +114,13 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
         need.device_fixed +=
             surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
     }
+    // Texels of all levels.
+    if (settings.background) {
+        need.device_fixed += settings.background->rows.size() * sizeof(glm::vec3) * 4 / 3;
+    }
+    if (settings.reflections) {
+        need.device_fixed += settings.reflections->texels.size() * sizeof(float);
+    }
     // The tiles of each triangle; their lists are like those of lights.
     if (settings.geometry == Geometry::compute) {
         need.device_fixed += 2 * sizeof(std::uint32_t) * triangle_count(scene);

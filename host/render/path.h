@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
@@ -12,6 +13,8 @@
 #include "host/render/render_scene.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
+#include "host/stages/fill_background.h"
+#include "host/stages/reflect_environment.h"
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 
@@ -26,6 +29,20 @@ struct PathContext {
     const RenderScene& scene;
     std::shared_ptr<SurfaceScene>& surfaces;  // the scene on the device, made when first asked for
     std::shared_ptr<ShadowScene>& shadows;    // what of it casts shadows, likewise
+    // Made where settings.background and settings.reflections are set.
+    std::optional<FillBackground>* background = nullptr;
+    std::optional<ReflectEnvironment>* reflections = nullptr;
+
+    /// What a path's lighting enqueues after it: what the environment adds, and `then`.
+    AfterShading with_environment(const GBuffer& gbuffer, StageTimer& timer,
+                                  const AfterShading& then) const {
+        if (!settings.background && !settings.reflections) return then;
+        return [&, then](const Radiance& radiance) {
+            if (settings.reflections) (*reflections)->enqueue(gbuffer, radiance, timer);
+            if (settings.background) (*background)->enqueue(gbuffer, radiance, timer);
+            if (then) then(radiance);
+        };
+    }
 
     /// Whether OpenCL makes the surfaces of OpenGL's ids: not for what OpenGL's fragments light.
     bool resolves() const {

@@ -13,6 +13,7 @@ namespace {
 RenderSettings reference_of(RenderSettings settings) {
     settings.renderer = RendererKind::deferred_all;
     settings.want = radiance_only();
+    settings.background.reset();  // differences are those of surfaces
     return settings;
 }
 
@@ -43,12 +44,15 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings&
       memory(limit_buffers(gpu, plan_memory(scene->scene(), settings, plan, gpu.info))),
       tuning_(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       lights_(gpu, tuning_, scene->scene(), settings),
-      context_{settings, plan, gpu, tuning_, *scene, surface_scene_, shadow_scene_},
+      context_{settings,       plan,          gpu,          tuning_,      *scene,
+               surface_scene_, shadow_scene_, &background_, &reflections_},
       sum_(gpu, tuning_),
       tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
       whole_light_(gpu, "bloom"),
       reader_(gpu) {
     make_optional_parts();
+    make_background();
+    make_reflections();
 }
 
 Pipeline::~Pipeline() { scene->make_current_or_lost(); }
@@ -56,6 +60,9 @@ Pipeline::~Pipeline() { scene->make_current_or_lost(); }
 // What some settings need and others do not.
 void Pipeline::make_optional_parts() {
     const RendererKind kind = settings.renderer;
+    if (settings.reflections && is_forward(kind)) {
+        throw Error("reflections: the forward renderers have none; deferred and deferred-all do");
+    }
     if (!paths_.contains(kind)) {
         if (is_forward(kind)) {
             paths_.try_emplace(kind, std::in_place_type<ForwardPath>, context_);
@@ -69,6 +76,24 @@ void Pipeline::make_optional_parts() {
     if (settings.bloom > 0.0f && !bloom_) bloom_.emplace(gpu);
     if (view == ViewKind::overdraw && !overdraw_) overdraw_.emplace(context_.meshes());
     if (view == ViewKind::difference) change(reference_, scene, reference_of(settings));
+}
+
+// After a failure the former one stays.
+void Pipeline::make_background() {
+    if (!settings.background) return background_.reset();
+    const Environment& image = *settings.background;
+    FillBackground next(gpu, tuning_);
+    next.set_image({&image.rows.data()->x, 3 * image.rows.size()}, static_cast<uint>(image.width),
+                   static_cast<uint>(image.height));
+    background_.emplace(std::move(next));
+}
+
+void Pipeline::make_reflections() {
+    if (!settings.reflections) return reflections_.reset();
+    const PrefilteredEnvironment& maps = *settings.reflections;
+    ReflectEnvironment next(gpu, tuning_, plan.kernels);
+    next.set_maps({maps.texels, maps.levels, maps.table, maps.table_size});
+    reflections_.emplace(std::move(next));
 }
 
 // Whether other settings need neither other kernels nor another device.
@@ -88,6 +113,8 @@ void Pipeline::take(const RenderSettings& next) {
         if (next.tone_curve != former.tone_curve) {
             tonemap_ = Tonemap(gpu, tuning_, static_cast<int>(next.tone_curve));
         }
+        if (next.reflections != former.reflections) make_reflections();
+        if (next.background != former.background) make_background();
     } catch (...) {
         settings = former;
         memory = former_memory;

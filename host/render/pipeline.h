@@ -42,7 +42,7 @@ class Pipeline {
                        const std::shared_ptr<RenderScene>& scene, const RenderSettings& settings);
 
     Frame render(const Camera& camera, double time, const std::function<void()>& between,
-                 DisplayMemory memory);
+                 DisplayMemory memory, int samples);
     PixelProbe probe(int x, int y);
     Path& path() { return paths_.at(settings.renderer); }
 
@@ -61,12 +61,25 @@ class Pipeline {
     bool is_built_for(const RenderSettings& other) const;
     void take(const RenderSettings& next);
     void make_optional_parts();
+    void make_background();
+    void make_reflections();
     // Whether OpenGL's fragments are lit.
     bool lights_on_host() const {
         return is_forward(settings.renderer) || has_blended_surfaces(scene->scene());
     }
     bool blooms_at_end() const { return settings.bloom > 0.0f && !is_whole(); }
 
+    // A picture of which sum_ has the first samples.
+    struct Refined {
+        RenderSettings settings;
+        Camera camera;
+        double time = 0.0;  // [s]
+        std::uint32_t scene_revision = 0;
+        int samples = 0;
+        bool operator==(const Refined&) const = default;
+    };
+
+    void refine(const Camera& camera, double time, int samples);
     LightInput begin(const Camera& camera, double time, Frame& frame);
     void render_band(const Sample& band, Frame& frame);
     void light_samples(const Sample& band, Measured out, const AfterShading& then);
@@ -80,6 +93,8 @@ class Pipeline {
     LightSource lights_;
     std::shared_ptr<SurfaceScene> surface_scene_;
     std::shared_ptr<ShadowScene> shadow_scene_;
+    std::optional<FillBackground> background_;       // of settings.background
+    std::optional<ReflectEnvironment> reflections_;  // of settings.reflections
     PathContext context_;
     std::map<RendererKind, Path> paths_;   // made when first asked for
     std::unique_ptr<Pipeline> reference_;  // for the view of differences from it
@@ -90,7 +105,11 @@ class Pipeline {
     GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
     FrameReader reader_;
     StageTimer timer_;
-    DisplayMemory display_memory_;  // of the render() that runs
+    // Of the render() that runs.
+    DisplayMemory display_memory_;
+    int refining_ = 0;  // samples of a picture that is refined; 0: it is made whole
+    int summed_ = 0;    // of them in sum_ before
+    std::optional<Refined> refined_;
     // Of the last render().
     LightRows rows_;
     Camera camera_;

@@ -28,8 +28,9 @@ void take_times(StageTimer& timer, FrameStats& stats) {
 
 // A frame: its lights, then band by band surfaces -> lighting -> bloom -> tonemap -> picture.
 Frame Pipeline::render(const Camera& camera, double time, const std::function<void()>& between,
-                       DisplayMemory display_memory) {
+                       DisplayMemory display_memory, int samples) {
     display_memory_ = display_memory;
+    refine(camera, time, samples);
     Frame frame;
     const QueueDrain drain(gpu.queue);
     const LightInput lights = begin(camera, time, frame);
@@ -41,7 +42,21 @@ Frame Pipeline::render(const Camera& camera, double time, const std::function<vo
     if (blooms_at_end()) bloom_whole(frame);
     if (settings.want.view != ViewKind::lit) show_view(time, frame);
     if (!settings.want.radiance) frame.radiance.clear();
+    if (refining_ > 0)
+        refined_ = Refined{settings, camera, time, scene->scene().revision, refining_};
     return frame;
+}
+
+// How many of the samples are wanted, and which of them the last frame has summed.
+void Pipeline::refine(const Camera& camera, double time, int samples) {
+    const bool partly = settings.samples > 1 && is_whole() && settings.want.view == ViewKind::lit;
+    refining_ = partly ? std::min(samples, settings.samples) : 0;
+    summed_ = 0;
+    if (refining_ > 0 && refined_) {
+        const Refined same{settings, camera, time, scene->scene().revision, refined_->samples};
+        if (*refined_ == same && refined_->samples < refining_) summed_ = refined_->samples;
+    }
+    refined_.reset();  // a frame that fails leaves no sum
 }
 
 // The frame's size, and its lights on the device.
@@ -99,14 +114,19 @@ void Pipeline::light_samples(const Sample& band, Measured out, const AfterShadin
         light(band, then);
         return;
     }
-    sum_.clear();
-    for (int i = settings.samples - 1; i >= 0; --i) {
+    const auto add = [&](int i) {
         Camera jittered = band.camera;
         jittered.jitter += sample_offset(static_cast<std::uint32_t>(i));
         sum_.add(light({jittered, band.rows, band.lights, band.band, true, static_cast<uint>(i)},
                        [](const Radiance&) {}),
                  timer_);
         take_times(timer_, out.stats);  // lists of the next sample may be made twice
+    };
+    if (summed_ == 0) sum_.clear();
+    if (refining_ > 0) {
+        for (int i = summed_; i < refining_; ++i) add(i);
+    } else {
+        for (int i = settings.samples - 1; i >= 0; --i) add(i);
     }
     then(sum_.mean(timer_));
 }
@@ -181,7 +201,7 @@ void Pipeline::show_view(double time, Frame& frame) {
         fragments = overdraw_->count(camera_, settings.width, settings.height);
     }
     if (view == ViewKind::difference) {
-        reference_light = reference_->render(camera_, time, {}, {}).radiance;
+        reference_light = reference_->render(camera_, time, {}, {}, 0).radiance;
     }
     frame.display = make_view(
         view, {surfaces_, camera_, scene->box(), fragments, frame.radiance, reference_light});
@@ -214,16 +234,17 @@ std::vector<DeviceInfo> list_devices() {
 std::size_t display_stride(int width) { return view_of(Camera{}, width, 1).stride; }
 
 Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
-    return in_stage("render", [&] { return pipeline_->render(camera, time, between, {}); });
+    return in_stage("render", [&] { return pipeline_->render(camera, time, between, {}, 0); });
 }
 
-Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double time) {
+Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double time, int samples) {
     const RenderSettings& s = settings();
     const std::size_t stride = display_stride(s.width);
     pixels = pixels.first(stride * static_cast<std::size_t>(s.height));
     const bool direct = s.want.view == ViewKind::lit && pipeline_->is_whole();
     return in_stage("render", [&] {
-        Frame frame = pipeline_->render(camera, time, {}, direct ? pixels : DisplayMemory());
+        Frame frame =
+            pipeline_->render(camera, time, {}, direct ? pixels : DisplayMemory(), samples);
         if (direct) return frame;
         const auto row = static_cast<std::size_t>(s.width);
         for (std::size_t y = 0; y < static_cast<std::size_t>(s.height); ++y) {

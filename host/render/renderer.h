@@ -62,7 +62,12 @@ class Renderer {
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
     /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display
     /// and Frame::radiance are empty. A device that shares the host's memory writes there itself.
-    Frame render_to(std::span<uint> pixels, const Camera& camera, double time);
+    ///
+    /// `samples` above 0: the mean of only the first of settings().samples, to be refined by calls
+    /// with more: those that the last call had of the same picture are kept. Their sum has more
+    /// bits than float64 and is rounded once, so the last one's picture is render()'s. A picture in
+    /// bands, or of another view, is made whole.
+    Frame render_to(std::span<uint> pixels, const Camera& camera, double time, int samples = 0);
 
     /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a
     /// float64 reference of the kernels starts from. Throws Error for the forward renderers, which

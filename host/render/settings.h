@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/picture/frame_request.h"
+#include "host/scene/lights/environment.h"
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_ranges.h"
+#include "host/scene/lights/prefiltered_environment.h"
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
@@ -81,6 +84,11 @@ struct RenderSettings {
     int shadow_rays = 4;    // of sampled shadows: a pixel at most, on average
     uint shadow_seed = 1;   // of sampled shadows
     float ambient = 0.02f;  // radiance that falls in from everywhere
+    // Seen where no surface covers a pixel; null: black. Changes no surface's light.
+    std::shared_ptr<const Environment> background;
+    // Lights surfaces by prefiltered maps, beside all other lights; null: nothing. Not for what
+    // blends, nor for the forward renderers.
+    std::shared_ptr<const PrefilteredEnvironment> reflections;
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]
     ToneCurve tone_curve = ToneCurve::neutral;

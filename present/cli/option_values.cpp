@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "host/base/error.h"
+#include "host/base/srgb.h"
 #include "host/base/suggest.h"
 
 namespace kilolux {
@@ -143,6 +144,29 @@ std::vector<int> parse_counts(const std::string& option, std::string_view text,
     return values;
 }
 
+BackgroundChoice parse_background(const std::string& option, std::string_view text) {
+    using Kind = BackgroundChoice::Kind;
+    if (text == "auto") return {};
+    if (text == "none") return {Kind::none};
+    std::string_view hex = text.starts_with('#') ? text.substr(1) : text;
+    unsigned code = 0;
+    const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), code, 16);
+    if (hex.size() == 6 && error == std::errc() && end == hex.data() + hex.size()) {
+        const auto table = srgb_to_linear_table();
+        return {Kind::color, {table[code >> 16], table[code >> 8 & 255u], table[code & 255u]}};
+    }
+    glm::vec3 color(-1.0f);
+    const auto parts = split(text, ',');
+    for (std::size_t i = 0; i < 3 && parts.size() == 3; ++i) {
+        const double value = number_of<double>(parts[i]).value_or(-1.0);
+        color[static_cast<int>(i)] =
+            contains(kZeroOrAboveRange, value) ? static_cast<float>(value) : -1.0f;
+    }
+    if (glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f)))) return {Kind::color, color};
+    refuse(option, text,
+           "'auto', 'none', or a colour: R,G,B linear, each at least 0, or #RRGGBB in sRGB");
+}
+
 std::pair<int, int> parse_resolution(const std::string& option, std::string_view text) {
     const auto size = int_pair(text, text.find('x') == std::string_view::npos ? ',' : 'x');
     if (!size || !contains(kEdgeRange, size->first) || !contains(kEdgeRange, size->second)) {
@@ -240,6 +264,11 @@ std::string text_of(float value) { return fmt::format("{}", value); }
 std::string text_of(std::uint64_t value) { return fmt::format("{}", value); }
 std::string text_of(int value) { return fmt::format("{}", value); }
 std::string text_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+std::string text_of(const BackgroundChoice& choice) {
+    using Kind = BackgroundChoice::Kind;
+    if (choice.kind == Kind::environment) return "auto";
+    return choice.kind == Kind::none ? "none" : text_of(glm::dvec3(choice.color));
+}
 std::string text_of(const Box& box) {
     return box.empty() ? "" : text_of(box.min) + "," + text_of(box.max);
 }

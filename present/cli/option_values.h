@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/scene/gltf/load_scene.h"
+#include "present/cli/background_choice.h"
 #include "present/cli/sequence.h"
 
 namespace kilolux {
@@ -72,6 +73,9 @@ std::uint64_t parse_bytes(const std::string& option, std::string_view text);
 std::vector<int> parse_counts(const std::string& option, std::string_view text,
                               std::string_view form, const CountRange& range);
 
+/// "auto": the environment; "none"; "R,G,B" linear, each at least 0; "#RRGGBB" or "RRGGBB" in sRGB.
+BackgroundChoice parse_background(const std::string& option, std::string_view text);
+
 /// Width and height "W,H" or "WxH", each from 1 to 65536 [pixel].
 std::pair<int, int> parse_resolution(const std::string& option, std::string_view text);
 
@@ -116,6 +120,7 @@ std::string text_of(std::uint64_t value);
 std::string text_of(int value);
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const Box& value);
+std::string text_of(const BackgroundChoice& value);
 inline std::string text_of(const std::string& value) { return value; }
 template <typename T>
 requires requires(const T& value) { text_of(value); }

@@ -110,15 +110,25 @@ void add_display_options(CLI::App& command, SharedOptions& o) {
         const bool whole_name = place == names_of<ToneCurve>().size();
         s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
     };
+    const auto take_background = [&o](const std::string& name, const std::string& text) {
+        if (!o.shows_environment && text != "auto")
+            throw UsageError(name + ": only render and view show it");
+        return parse_background(name, text);
+    };
     OptionBuilder(command, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
         .value({"--exposure", o.takes_automatic_exposure ? "EV|auto" : "EV", "0",
                 o.takes_automatic_exposure
                     ? "Each step doubles the brightness; auto: the log average of the picture's "
-                      "luminance becomes 0.18, a sequence keeps that of its first frame"
+                      "luminance becomes 0.18, or less where more than 2 % would clip; a sequence "
+                      "keeps that of its first frame"
                     : "Each step doubles the brightness"},
                take_exposure, [&s] { return text_of(s.exposure); })
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
                 tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
+        .value({"--background", "COLOUR|none|auto", "auto",
+                "What is behind the scene: R,G,B linear or #RRGGBB in sRGB, as light that exposure "
+                "and tone curve apply to; none: black; auto: the environment, else none"},
+               o.background, take_background)
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
                 kBloomRange);
 }
@@ -143,11 +153,15 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
             l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
-        .text({"--environment", "FILE", "",
+        .text({"--environment", "FILE|studio|sky", "",
                "Light from all around: .hdr or .exr, longitude by latitude, its middle towards -Z; "
-               "lights surfaces, is not shown. Then --rig auto is none and --ambient 0"},
+               "studio: soft boxes in a dim room; sky: a clear sky with a sun. Then --rig auto is "
+               "none and --ambient 0"},
               o.environment)
         .rest()
+        .flag("--reflections", o.reflections,
+              "The environment lights by prefiltered maps (split sum) in place of lights, so that "
+              "shiny metals reflect it; render and view; not what blends, no forward renderers")
         .count({"--environment-lights", "N", "128", "Directional lights that stand for it"},
                o.environment_lights, {1, 65536})
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
@@ -216,6 +230,16 @@ void add_device_options(CLI::App& command, SharedOptions& o) {
                 s.kernels.light_colors);
 }
 
+void check_reflections(const SharedOptions& options) {
+    if (!options.shows_environment) throw UsageError("--reflections: only render and view show it");
+    if (options.environment.empty()) {
+        throw UsageError("--reflections: needs --environment FILE|studio|sky");
+    }
+    if (is_forward(options.settings.renderer)) {
+        throw UsageError("--reflections: needs --renderer deferred or deferred-all");
+    }
+}
+
 }  // namespace
 
 void add_shared_options(CLI::App& command, SharedOptions& options) {
@@ -237,6 +261,7 @@ void begin_command(const SharedOptions& options, bool compares) {
     if (options.show_error && !compares) {
         throw UsageError("--show error: needs --reference FILE, which render takes");
     }
+    if (options.reflections) check_reflections(options);
     if (options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0) {
         throw UsageError("--rig swarm: needs lights, and --lights is 0");
     }

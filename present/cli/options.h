@@ -5,12 +5,14 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "host/render/settings.h"
 #include "host/scene/gltf/load_scene.h"
 #include "host/scene/lights/rig.h"
+#include "present/cli/background_choice.h"
 #include "present/cli/camera_choice.h"
 #include "present/cli/sequence.h"
 #include "present/image/display_picture.h"
@@ -23,7 +25,12 @@ struct SharedOptions {
     LoadOptions load;              // how a file is read; its time and memory are the picture's
     RenderSettings settings;
     Rig rig = Rig::automatic;
-    std::string environment;                 // file; empty: none
+    std::string environment;                              // file or built-in name; empty: none
+    BackgroundChoice background;                          // behind the scene
+    std::shared_ptr<const Environment> shown_background;  // as light_scene() settles it
+    bool reflections = false;  // the environment lights by prefiltered maps, not by lights
+    std::shared_ptr<const PrefilteredEnvironment> maps;  // as light_scene() settles it
+    bool shows_environment = false;          // the command can show background and reflections
     std::uint64_t environment_lights = 128;  // that stand for it
     bool lights_given = false;               // settings.lights.count was asked for
     bool ambient_given = false;              // settings.ambient was
@@ -45,6 +52,8 @@ struct OutputOptions {
     std::optional<FrameRange> frames;
     double frames_per_second = 24.0;
     Shard shard;
+    std::optional<double> turntable;    // [degree] over the frames
+    std::filesystem::path camera_keys;  // empty: none
     bool skip_existing = false;
     std::string stats;  // file, "-" for stdout, empty: none
     std::string reference;

@@ -46,6 +46,14 @@ void add_sequence_options(CLI::App& command, OutputOptions& o) {
         .number({"--fps", "F", "24", "Frames a second"}, o.frames_per_second, {0.0, 1e6, true})
         .value({"--shard", "I/N", "0/1", "Only every N-th frame, from the I-th on, counted from 0"},
                o.shard, parse_shard)
+        .number({"--turntable", "DEGREES", "",
+                 "The camera goes so far around the vertical axis through the scene's middle over "
+                 "the frames; 360 ends one step before its start"},
+                o.turntable)
+        .text({"--camera-keys", "FILE", "",
+               "JSON list of {\"time\", \"position\", \"focal_point\", \"angle\"}, in seconds, "
+               "metres and degrees: a smooth way through them"},
+              o.camera_keys)
         .flag("--skip-existing", o.skip_existing, "Leave out frames whose file exists");
 }
 
@@ -77,6 +85,17 @@ void check_sequence(const OutputOptions& options) {
     check("--output", options.output);
     if (!options.difference.empty()) check("--difference", options.difference);
     if (!options.frames && options.shard.count > 1) throw UsageError("--shard: needs --frames A:B");
+}
+
+void check_motion(const CameraChoice& camera, const OutputOptions& options) {
+    if (options.turntable && !options.frames) throw UsageError("--turntable: needs --frames A:B");
+    if (options.camera_keys.empty()) return;
+    if (options.turntable) throw UsageError("--turntable and --camera-keys exclude each other");
+    if (camera.position || camera.focal_point || camera.index || camera.framed) {
+        throw UsageError(
+            "--camera-keys: says where the camera is; leave out --camera-position, "
+            "--camera-focal-point and --camera-index");
+    }
 }
 
 void check_format(const SharedOptions& shared, const OutputOptions& options) {
@@ -111,6 +130,7 @@ void add_output_options(CLI::App& command, OutputOptions& options) {
 void check_output_options(const SharedOptions& shared, const OutputOptions& options) {
     if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o picture.png");
     check_sequence(options);
+    check_motion(shared.camera, options);
     check_format(shared, options);
     if (options.reference.empty() && options.threshold) {
         throw UsageError("--threshold: needs --reference FILE");

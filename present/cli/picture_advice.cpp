@@ -91,6 +91,7 @@ std::string picture_advice(const Scene& scene, const Camera& camera, const Rende
     if (counted ? stats.active_clusters == 0 : !in_view) {
         return "picture is empty: " + why_no_surface(scene, camera, aspect);
     }
+    if (settings.reflections) return "";
     if (stats.lights_used == 0) {
         return stats.lights_given == 0
                    ? "picture has no lights, only ambient and emitted light; try --rig studio"

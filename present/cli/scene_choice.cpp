@@ -12,7 +12,7 @@
 #include "host/base/suggest.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
-#include "host/scene/lights/environment.h"
+#include "host/scene/lights/built_in_environments.h"
 #include "present/cli/names.h"
 #include "present/cli/progress.h"
 
@@ -96,12 +96,47 @@ std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, st
     return line + fmt::format("{} of the scene's own lights, ambient {}", own, settings.ambient);
 }
 
-std::string add_environment(const SharedOptions& options, AnimatedScene& scene) {
+// Settles what is behind the scene, too.
+std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
+    using Kind = BackgroundChoice::Kind;
+    const BackgroundChoice& background = options.background;
+    if (background.kind == Kind::color) {
+        options.shown_background =
+            std::make_shared<const Environment>(Environment{1, 1, {background.color}});
+    }
     if (options.environment.empty()) return "";
-    const auto lights = environment_lights(read_environment(options.environment),
-                                           static_cast<std::size_t>(options.environment_lights));
-    scene.add_lights(lights);
-    return fmt::format("; environment {}: {} directional", options.environment, lights.size());
+    Environment environment = environment_of(options.environment);
+    std::string line = fmt::format("; environment {}: ", options.environment);
+    if (options.reflections) {
+        options.maps = std::make_shared<const PrefilteredEnvironment>(prefiltered(environment));
+        line += "prefiltered";
+        if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
+    } else {
+        const auto lights =
+            environment_lights(environment, static_cast<std::size_t>(options.environment_lights));
+        scene.add_lights(lights);
+        line += fmt::format("{} directional", lights.size());
+    }
+    if (background.kind == Kind::environment) {
+        options.shown_background = std::make_shared<const Environment>(std::move(environment));
+    }
+    return line;
+}
+
+// Metal shows what is around it: a studio of few lights leaves it dark.
+bool wants_reflections(const SharedOptions& options, const Scene& scene) {
+    constexpr double kMostly = 0.5;
+    return options.shows_environment && !options.ambient_given &&
+           !is_forward(options.settings.renderer) && metallic_share(scene) > kMostly;
+}
+
+// The studio's room in place of its lights.
+void reflect_studio(SharedOptions& options) {
+    options.environment = "studio";
+    options.reflections = true;
+    if (options.background.kind == BackgroundChoice::Kind::environment) {
+        options.background.kind = BackgroundChoice::Kind::none;
+    }
 }
 
 }  // namespace
@@ -121,7 +156,12 @@ AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
 
 std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     const bool automatic = options.rig == Rig::automatic;
-    const Rig rig = rig_of(options, scene.scene());
+    Rig rig = rig_of(options, scene.scene());
+    const bool metal = automatic && rig == Rig::studio && wants_reflections(options, scene.scene());
+    if (metal) {
+        reflect_studio(options);
+        rig = Rig::none;
+    }
     const std::size_t own = scene.scene().lights.size();
     scene.add_lights(rig_lights(rig));
     const std::string from_around = add_environment(options, scene);
@@ -133,7 +173,8 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     }
     // A swarm stays automatic: what another command line has to say for it is --lights.
     options.rig = rig == Rig::swarm ? Rig::automatic : rig;
-    return rig_line(rig, automatic, options.settings, own) + from_around;
+    return rig_line(rig, automatic, options.settings, own) + from_around +
+           (metal ? " (a studio's room, as most of the surface is metal)" : "");
 }
 
 void measure_swarm(SharedOptions& options) {

@@ -11,8 +11,9 @@ namespace kilolux {
 /// nor looks like a file, Error if the file fails.
 AnimatedScene open_animated_scene(const SharedOptions& options, double time);
 
-/// Adds the lights of the options' rig. Which rig that is, and how many lights are generated, is
-/// then settled in the options; returns the lines that say it.
+/// Adds the lights of the options' rig and environment. Which rig that is, how many lights are
+/// generated and what is behind the scene is then settled in the options; returns the lines that
+/// say it.
 std::string light_scene(SharedOptions& options, AnimatedScene& scene);
 
 /// Has a command that measures many lights do so where no rig was asked for.

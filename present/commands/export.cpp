@@ -61,6 +61,17 @@ Scene scene_to_export(ExportOptions& options) {
     return scene;
 }
 
+// glTF has no light from everywhere.
+void warn_of_ambient(const SharedOptions& shared) {
+    const bool of_rig = rig_ambient(shared.rig, 0.0f) > 0.0f;
+    if (!shared.ambient_given && !of_rig) return;
+    if (shared.settings.ambient <= 0.0f) return;
+    warn(
+        fmt::format("ambient light of {}{} is not written: glTF has none, other renderers show "
+                    "the scene darker",
+                    shared.settings.ambient, of_rig ? " of the rig studio" : ""));
+}
+
 std::string summary(const Scene& scene, const ExportedScene& exported, const fs::path& file) {
     std::size_t bytes = 0;
     for (const ExportedFile& part : exported.files) bytes += part.bytes.size();
@@ -80,6 +91,7 @@ void run_export(ExportOptions& options) {
     begin_command(options.shared);
     check_can_write(options.output);
     const Scene scene = scene_to_export(options);
+    warn_of_ambient(options.shared);
     check_interrupt();
     const ExportedScene exported = export_scene(scene, options.output);
     check_interrupt();

@@ -12,6 +12,7 @@
 #include "host/measure/roofline/roofline.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/renderer.h"
+#include "present/cli/camera_motion.h"
 #include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
@@ -155,8 +156,8 @@ void add(Made& made, FrameRecord record) {
     made.last = std::move(record);
 }
 
-Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScene& scene,
-                  Renderer& renderer) {
+Made render_tasks(const RenderOptions& options, const Tasks& tasks, const CameraMotion& motion,
+                  AnimatedScene& scene, Renderer& renderer) {
     Made made;
     // What each stage would take at the device's limits, which are measured once a device.
     std::optional<DeviceLimits> limits;
@@ -171,7 +172,7 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
         const Task task = tasks[i];
         if (!tasks.is_done(task)) {
             scene.set_time(task.time);
-            const Camera camera = choose_camera(options.shared, scene.scene());
+            const Camera camera = motion.at(scene.scene(), task.frame, task.time);
             FrameRecord record = render_task(options, renderer, camera, task);
             if (made.count == 0) advise(scene.scene(), camera, renderer, record);
             if (limits) {
@@ -186,17 +187,19 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
 }
 
 // By the sequence's first frame, also in a shard that does not have it.
-void expose_automatically(RenderOptions& options, AnimatedScene& scene, Renderer& renderer) {
+void expose_automatically(RenderOptions& options, const CameraMotion& motion, AnimatedScene& scene,
+                          Renderer& renderer) {
     const OutputOptions& out = options.output;
-    const double time =
-        options.shared.time + (out.frames ? out.frames->first / out.frames_per_second : 0.0);
+    const int first = out.frames ? out.frames->first : 0;
+    const double time = options.shared.time + (out.frames ? first / out.frames_per_second : 0.0);
     scene.set_time(time);
     const RenderSettings wanted = renderer.settings();
     RenderSettings settings = wanted;
     settings.want = radiance_only();
+    settings.background.reset();
     renderer.change(settings);
     const Frame frame =
-        renderer.render(choose_camera(options.shared, scene.scene()), time, check_interrupt);
+        renderer.render(motion.at(scene.scene(), first, time), time, check_interrupt);
     settings = wanted;
     settings.exposure = options.shared.settings.exposure = automatic_exposure(frame.radiance);
     renderer.change(settings);
@@ -237,27 +240,40 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
 RenderSettings settings_of(const RenderOptions& options, const ReportView& view) {
     RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
     settings.want = request_of(options, settings.want);
+    settings.background = options.shared.shown_background;
+    settings.reflections = options.shared.maps;
     return settings;
+}
+
+// What is chosen by its error is measured without reflections.
+void check_budget(RenderOptions& options) {
+    if (!options.budget.max_error) return;
+    if (options.shared.reflections) {
+        throw UsageError("--max-error and --reflections exclude each other");
+    }
+    options.shared.shows_environment = false;
 }
 
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     begin_command(options.shared, !out.reference.empty());
+    check_budget(options);
     const Tasks tasks(options);
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");
     const Task first = tasks[begin];
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
+    const CameraMotion motion(options.shared, out);
     AnimatedScene scene = open_animated_scene(options.shared, first.time);
     const std::string rig = light_scene(options.shared, scene);
-    const Camera camera = choose_camera(options.shared, scene.scene());
+    const Camera camera = motion.at(scene.scene(), first.frame, first.time);
     check_interrupt();
     Renderer renderer(scene.scene(), settings_of(options, {scene.scene(), camera, first.time}));
     check_interrupt();
-    if (options.shared.automatic_exposure) expose_automatically(options, scene, renderer);
-    const Made made = render_tasks(options, tasks, scene, renderer);
+    if (options.shared.automatic_exposure) expose_automatically(options, motion, scene, renderer);
+    const Made made = render_tasks(options, tasks, motion, scene, renderer);
     if (!out.stats.empty()) {
         auto document = stats_json(renderer.device(), renderer.plan(), made.last);
         document["program"] = program_json();
@@ -271,6 +287,7 @@ void run_render(RenderOptions& options) {
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
     options.shared.takes_automatic_exposure = true;
+    options.shared.shows_environment = true;
     add_shared_options(command, options.shared);
     add_output_options(command, options.output);
     add_budget_options(command, options.budget);
@@ -280,6 +297,7 @@ constexpr const char* kExamples =
     "  kilolux render -o atrium.png\n"
     "  kilolux render -o atrium.exr --lights 100000 --aov depth,normal,light-count\n"
     "  kilolux render town.glb -o town.png --lights 0 --camera-index 1 --resolution 3840x2160\n"
+    "  kilolux render mug.glb -o turn.###.png --frames 0:119 --turntable 360\n"
     "  kilolux render -o frame.####.exr --frames 0:239 --fps 24 --shard 3/8 --skip-existing\n"
     "  kilolux render -o now.exr --reference all.exr --threshold 0 --difference where.png\n"
     "  kilolux render -o atrium.png --stats - --quiet";

@@ -28,8 +28,13 @@ struct ViewOptions {
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file) {
     ViewState state;
     state.settings = options.shared.settings;
+    state.settings.background = options.shared.shown_background;
+    state.settings.reflections = options.shared.maps;
     state.settings.want.aovs.clear();
     state.settings.want.probes = true;
+    // Pictures that are counted are made one by one, each whole.
+    const bool counts = options.exit_after > 0;
+    if (!is_given(command, "--samples") && !counts) state.settings.samples = kRestSamples;
     if (is_given(command, "--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
@@ -37,7 +42,8 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     const bool rig_decides = options.shared.rig != Rig::automatic;
     return file.load(state, [&](const std::string& name) {
         const bool of_rig = name == "--lights" || name == "--ambient";
-        return is_given(command, name) || (rig_decides && of_rig);
+        return is_given(command, name) || (rig_decides && of_rig) ||
+               (counts && name == "--samples");
     });
 }
 
@@ -76,6 +82,7 @@ void run_view(ViewOptions& options, const CLI::App& command) {
 }
 
 void add_view_options(CLI::App& command, ViewOptions& options) {
+    options.shared.shows_environment = true;
     add_shared_options(command, options.shared);
     leave_to_help_all(command, {"--aov"});
     OptionBuilder(command, "Window")

@@ -7,6 +7,7 @@
 #include "host/stages/bloom.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/count_pairs.h"
+#include "host/stages/fill_background.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
 #include "kernels/shared/evaluate_modes.h"
@@ -98,6 +99,9 @@ void run_every_kernel(const Variant& v) {
     Shade shade(gpu, tuning, features);
     ShadeAll shade_all(gpu, tuning, features);
     const Radiance radiance = shade_both_ways(gpu, shade, shade_all, gbuffer, lists);
+    FillBackground background(gpu, tuning);
+    background.set_image(std::vector<float>(6, 0.5f), 2, 1);
+    background.enqueue(gbuffer, radiance, timer);
     Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
     tonemap.enqueue(radiance, 0.0f, timer);
     CountLights count(gpu, tuning, features);

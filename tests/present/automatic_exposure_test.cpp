@@ -25,6 +25,21 @@ TEST(AutomaticExposure, BringsTheLogAverageToMiddleGrey) {
     EXPECT_EQ(automatic_exposure(green), 0.0f);
 }
 
+// A black object with highlights: its log average alone would make all of them white.
+TEST(AutomaticExposure, AtMostAFiftiethOfTheLitPixelsClips) {
+    std::vector<float> luminances(900, 0.001f);
+    luminances.insert(luminances.end(), 82, 0.4f);
+    luminances.insert(luminances.end(), 18, 50.0f);
+    luminances.insert(luminances.end(), 5000, 0.0f);
+    EXPECT_EQ(automatic_exposure(grey(luminances)), 1.32f) << "log2(1 / 0.4), rounded down";
+    luminances.insert(luminances.end(), 5, 50.0f);
+    EXPECT_EQ(automatic_exposure(grey(luminances)), -5.65f) << "log2(1 / 50): too many to clip";
+    // One saturated channel clips as well as three.
+    std::vector<float> red;
+    for (int i = 0; i < 100; ++i) red.insert(red.end(), {i < 90 ? 0.001f : 0.5f, 0.001f, 0.001f});
+    EXPECT_EQ(automatic_exposure(red), 1.0f);
+}
+
 TEST(AutomaticExposure, BackgroundAndWhatIsNoNumberDoNotCount) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinity = std::numeric_limits<float>::infinity();

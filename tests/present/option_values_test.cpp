@@ -120,6 +120,24 @@ TEST(OptionValues, LineWidthsAreMetresOrPercent) {
     }
 }
 
+TEST(OptionValues, BackgroundsAreColoursOrNone) {
+    using Kind = BackgroundChoice::Kind;
+    const auto parsed = [](const char* text) { return parse_background("--background", text); };
+    EXPECT_EQ(parsed("auto"), BackgroundChoice{});
+    EXPECT_EQ(parsed("none").kind, Kind::none);
+    EXPECT_EQ(parsed("0,0.5,8").color, glm::vec3(0.0f, 0.5f, 8.0f));
+    EXPECT_EQ(parsed("#ff0080").kind, Kind::color);
+    EXPECT_EQ(parsed("#ff0080").color.x, 1.0f);
+    EXPECT_NEAR(parsed("ff0080").color.z, 0.2158605f, 1e-6f) << "sRGB code 128";
+    for (const char* text : {"auto", "none", "0,0.5,8"}) EXPECT_EQ(text_of(parsed(text)), text);
+    for (const char* bad : {"", "#ff00", "#ff00zz", "1,2", "1,2,-3", "1,2,nan", "1,2,3,4", "red"}) {
+        EXPECT_EQ(message_of<UsageError>([&] { parsed(bad); }),
+                  "--background: '" + std::string(bad) +
+                      "' is not 'auto', 'none', or a colour: R,G,B linear, each at least 0, or "
+                      "#RRGGBB in sRGB");
+    }
+}
+
 TEST(OptionValues, ListsHaveNoEmptyNames) {
     EXPECT_EQ(parse_list("--clip", "a, b c,2"), (std::vector<std::string>{"a", "b c", "2"}));
     for (const char* odd : {"", "a,", ",a", "a,,b", " "}) {

@@ -74,6 +74,69 @@ TEST_F(RigTest, ARigAskedForIsTheRigAndTheFilesLightsCount) {
               "--rig swarm: needs lights, and --lights is 0");
 }
 
+TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
+    Scene metal = box_scene(glm::dvec3(2.0));
+    metal.materials[0].metallic = 1.0f;
+    write("metal.glb", metal);
+    EXPECT_EQ(lights("metal.glb"), "0+5 0.2") << "a command that has no reflections";
+    const auto settled = [&](const std::string& more) {
+        CLI::App app;
+        SharedOptions options;
+        options.shows_environment = true;
+        add_shared_options(app, options);
+        app.parse((folder_ / "metal.glb").string() + " -q " + more);
+        AnimatedScene scene = open_animated_scene(options, 0.0);
+        const std::string line = light_scene(options, scene);
+        return std::tuple(options.maps != nullptr, options.shown_background != nullptr,
+                          contains(line, "most of the surface is metal"),
+                          scene.scene().lights.size());
+    };
+    EXPECT_EQ(settled(""), std::tuple(true, false, true, 0u));
+    EXPECT_EQ(settled("--background 1,1,1"), std::tuple(true, true, true, 0u));
+    EXPECT_EQ(settled("--rig studio"), std::tuple(false, false, false, 5u)) << "asked for";
+    EXPECT_EQ(settled("--renderer forward"), std::tuple(false, false, false, 5u));
+    EXPECT_EQ(settled("--environment sky --reflections"), std::tuple(true, true, false, 0u));
+    EXPECT_EQ(settled("--environment sky --environment-lights 3"),
+              std::tuple(false, true, false, 3u));
+}
+
+TEST_F(RigTest, ExportSaysThatAmbientLightIsLost) {
+    const auto warning = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"export", (folder_ / "object.glb").string(), "-q", "-o",
+                                          (folder_ / "out.glb").string()};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_EQ(warning({}),
+              "kilolux: warning: ambient light of 0.2 of the rig studio is not written: glTF has "
+              "none, other renderers show the scene darker\n");
+    EXPECT_TRUE(
+        contains(warning({"--rig", "none", "--ambient", "0.5"}), "ambient light of 0.5 is"));
+    EXPECT_EQ(warning({"--rig", "headlight"}), "");
+    EXPECT_EQ(warning({"--rig", "studio", "--ambient", "0"}), "");
+}
+
+TEST_F(RigTest, ReflectionsSayWhatTheyNeed) {
+    EXPECT_EQ(message_of<UsageError>([&] { lights("grid", "--reflections"); }),
+              "--reflections: only render and view show it");
+    EXPECT_EQ(message_of<UsageError>([&] { lights("grid", "--background none"); }),
+              "--background: only render and view show it");
+    const auto refused = [](std::vector<std::string> more) {
+        std::vector<std::string> words = {"render", "grid", "-o", "x.png", "--reflections"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 2);
+        return result.err;
+    };
+    EXPECT_TRUE(contains(refused({}), "--reflections: needs --environment FILE|studio|sky"));
+    EXPECT_TRUE(contains(refused({"--environment", "sky", "--renderer", "forward"}),
+                         "--reflections: needs --renderer deferred or deferred-all"));
+    EXPECT_TRUE(contains(refused({"--environment", "sky", "--max-error", "0.1"}),
+                         "--max-error and --reflections exclude each other"));
+}
+
 TEST_F(RigTest, AnEnvironmentIsLightsOfItsOwn) {
     Frame white;
     white.width = 8;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jittered samples: an even pattern, exact means, AOVs through the pixels' centres.
 #include <cmath>
+#include <cstring>
 
 #include "host/picture/sample_pattern.h"
 #include "tests/support/render_fixture.h"
@@ -69,6 +70,44 @@ TEST(Samples, AovsAndCountsAreThoseOfTheCentre) {
     }
     EXPECT_EQ(one.stats.refined_pairs, three.stats.refined_pairs);
     EXPECT_EQ(one.stats.stages.size() + 1, three.stats.stages.size());  // sum_samples
+}
+
+// A picture that gets one sample after the other ends as the one made at once, and begins anew with
+// whatever else is asked for.
+TEST(Samples, RefinedPicturesHaveTheBitsOfWholeOnes) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings(64, 36, 100);
+    const auto whole = [&](const Camera& camera, int samples) {
+        RenderSettings s = settings;
+        s.samples = samples;
+        return Renderer(scene, s).render(camera, 0.5).display;
+    };
+    settings.samples = 5;
+    Renderer renderer(scene, settings);
+    const std::size_t stride = display_stride(64);
+    std::vector<uint> pixels(stride * 36);
+    const auto refined = [&](const Camera& camera, int samples) {
+        renderer.render_to(pixels, camera, 0.5, samples);
+        std::vector<std::uint8_t> out(4u * 64 * 36);
+        for (std::size_t y = 0; y < 36; ++y) {
+            std::memcpy(&out[4 * 64 * y], &pixels[y * stride], 4 * 64);
+        }
+        return out;
+    };
+    const Camera camera = first_camera(scene);
+    Camera other = camera;
+    other.position.y += 0.25;
+    EXPECT_EQ(refined(camera, 1), whole(camera, 1));
+    EXPECT_EQ(refined(camera, 2), whole(camera, 2));
+    EXPECT_EQ(refined(camera, 4), whole(camera, 4));
+    EXPECT_EQ(refined(camera, 5), whole(camera, 5));
+    EXPECT_EQ(refined(camera, 3), whole(camera, 3)) << "fewer begin anew";
+    EXPECT_EQ(refined(other, 4), whole(other, 4)) << "another camera begins anew";
+    EXPECT_EQ(renderer.render(other, 0.5).display, whole(other, 5)) << "a whole one leaves no sum";
+    EXPECT_EQ(refined(other, 5), whole(other, 5));
+    settings.exposure = 1.0f;
+    renderer.change(settings);
+    EXPECT_EQ(refined(other, 2), whole(other, 2)) << "other settings begin anew";
 }
 
 TEST(Samples, EveryRendererJitters) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/base/error.h"
+#include "host/scene/lights/built_in_environments.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/messages.h"
 
@@ -109,6 +110,55 @@ TEST(Environment, LightInOnePixelIsOneLight) {
     const auto lights = environment_lights(e, 5);
     ASSERT_EQ(lights.size(), 1u);
     EXPECT_LT(glm::length(lights[0].direction + e.direction(5, 1)), 1e-12);
+}
+
+double luminance(const glm::dvec3& c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+
+TEST(BuiltInEnvironment, TheSkyIsBlueItsSunWarmAndBothAsBrightAsSaid) {
+    const Environment e = environment_of("sky");
+    ASSERT_EQ(e.width, 2 * e.height);
+    EXPECT_EQ(e.rows, sky_environment().rows);
+    double brightest = 0.0;
+    glm::dvec3 sun(0.0), sky(0.0), towards(0.0);
+    for (int y = 0; y < e.height / 2; ++y) {
+        for (int x = 0; x < e.width; ++x) {
+            const glm::dvec3 light = e.light(x, y);
+            const glm::vec3 c = e.rows[static_cast<std::size_t>(y * e.width + x)];
+            ASSERT_TRUE(std::isfinite(c.x + c.y + c.z) && std::min({c.x, c.y, c.z}) >= 0.0f);
+            const bool is_sun = c.y > 20.0f;
+            (is_sun ? sun : sky) += is_sun ? light : light * e.direction(x, y).y;
+            if (c.y > brightest) towards = e.direction(x, y);
+            brightest = std::max(brightest, double{c.y});
+        }
+    }
+    EXPECT_NEAR(luminance(sky), 1.0, 0.03);
+    EXPECT_NEAR(luminance(sun), 3.0, 0.03);
+    EXPECT_GT(sky.z, 1.3 * sky.x);
+    EXPECT_GT(sun.x, 1.2 * sun.z);
+    EXPECT_NEAR(std::asin(towards.y) * 180.0 / std::numbers::pi, 40.0, 0.3);
+    EXPECT_GT(towards.z, 0.3) << "ahead of the front of an object";
+    // One of few pixels is one of few lights, not most of them.
+    int narrow = 0;
+    for (const SceneLight& light : environment_lights(e, 128)) {
+        narrow += glm::dot(-light.direction, towards) > std::cos(0.02) ? 1 : 0;
+    }
+    EXPECT_GE(narrow, 1);
+    EXPECT_LE(narrow, 24);
+}
+
+TEST(BuiltInEnvironment, TheStudioLightsTheFrontMost) {
+    const Environment e = environment_of("studio");
+    const auto from = [&](const glm::dvec3& normal) { return luminance(irradiance(e, normal)); };
+    const double front = from({0, 0, 1});
+    // A face of albedo 0.5 has a radiance of 0.3 to 0.5, as in the studio of lights.
+    EXPECT_GT(0.5 * front / std::numbers::pi, 0.3);
+    EXPECT_LT(0.5 * front / std::numbers::pi, 0.5);
+    for (const glm::dvec3& other :
+         {glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0)}) {
+        EXPECT_GT(front, 1.2 * from(other));
+        EXPECT_GT(from(other), 0.15 * front) << "no side is black";
+    }
+    EXPECT_GT(from({-1, 0, 0}), from({1, 0, 0})) << "the key is on the left";
 }
 
 TEST(Environment, BrokenFilesAreOneLine) {

@@ -46,8 +46,8 @@ inline std::string recorder_asan_options() {
 
 /// A window that begins as new, small enough for any machine.
 inline std::vector<std::string> small_window(const std::string& script) {
-    return {"view",     "plain", "--fresh", "--resolution", "700,420",
-            "--lights", "150",   "--quiet", "--script",     script};
+    return {"view",    "plain",     "--fresh", "--resolution", "700,420", "--lights", "150",
+            "--quiet", "--samples", "1",       "--script",     script};
 }
 
 /// The part of a picture where the scene is.

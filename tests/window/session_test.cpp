@@ -263,6 +263,28 @@ TEST(Window, SettlesWhileItRendersAlways) {
     EXPECT_GT(mean_of(scene_part(folder / "shown.png")), 0.01);
 }
 
+// At rest the picture gets one sample after the other, and has the bits of `render --samples`; what
+// moves it begins anew.
+TEST(Window, RefinesItsPictureAtRest) {
+    const TemporaryFolder folder;
+    Script script(folder);
+    script.shot("first").line("drag 500 300 560 320").line("frames 2").shot("turned");
+    script.line("key R 0").shot("again");
+    script.line("choose show albedo").shot("albedo");
+    auto words = small_window(script.write());
+    words.insert(words.end(), {"--samples", "4"});
+    const ChildResult result = view_in_display({}, words);
+    ASSERT_EQ(result.code, 0) << result.err;
+    ExpectedPicture expected;
+    const auto four = [](RenderSettings& s) { s.samples = 4; };
+    expect_same_picture(folder / "first.png", expected.of(four));
+    expect_same_picture(folder / "again.png", expected.of(four));
+    EXPECT_GT(mean_difference(scene_part(folder / "first.png"), expected.of()), 1e-4);
+    EXPECT_GT(mean_difference(scene_part(folder / "turned.png"), expected.of(four)), 1e-2);
+    expect_same_picture(folder / "albedo.png",
+                        expected.of([](RenderSettings& s) { s.want.view = ViewKind::albedo; }));
+}
+
 TEST(Window, KeepsItsValues) {
     const TemporaryFolder folder;
     const std::string config = "XDG_CONFIG_HOME=" + folder.path().string();

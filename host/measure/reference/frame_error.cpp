@@ -47,6 +47,8 @@ FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, cons
     make_small(settings, renderer.light_count(settings));
     settings.want = radiance_only();
     settings.samples = 1;
+    settings.background.reset();  // the reference has surfaces and lights only
+    settings.reflections.reset();
     renderer.change(settings);
     const Frame frame = renderer.render(camera, time);
     const RgbImage picture = rgb_image_of(frame.width, frame.height, frame.radiance);

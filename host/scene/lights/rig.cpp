@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/lights/rig.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace kilolux {
 namespace {
 
@@ -28,7 +31,52 @@ SceneLight headlight() {
     return light;
 }
 
+// A texture's blue in the middle of a triangle.
+double blue_at(const Scene& scene, const TextureUse& use, const glm::vec2& texcoord) {
+    const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
+    const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
+    const glm::vec2 uv(use.uv_from_texcoord * glm::vec3(texcoord, 1.0f));
+    const auto texel = [](float at, int size) {
+        const float turn = std::isfinite(at) ? at - std::floor(at) : 0.0f;
+        return static_cast<std::size_t>(
+            std::min(static_cast<int>(turn * static_cast<float>(size)), size - 1));
+    };
+    const std::size_t place = texel(uv.y, image.height) * static_cast<std::size_t>(image.width) +
+                              texel(uv.x, image.width);
+    return image.rgba[4 * place + 2] / 255.0;
+}
+
+double metallic_at(const Scene& scene, const Mesh& mesh, std::size_t first) {
+    if (mesh.material < 0) return 1.0;  // of glTF's default material
+    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    const TextureUse& use = material.metallic_roughness_texture;
+    const auto& texcoords = mesh.texcoords[static_cast<std::size_t>(use.uv_set)];
+    if (!use.present() || texcoords.empty()) return double{material.metallic};
+    glm::vec2 middle(0.0f);
+    for (std::size_t i = first; i < first + 3; ++i) middle += texcoords[mesh.indices[i]] / 3.0f;
+    return double{material.metallic} * blue_at(scene, use, middle);
+}
+
 }  // namespace
+
+double metallic_share(const Scene& scene) {
+    double area = 0.0, metal = 0.0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const glm::dmat3 axes(instance.world_from_object);
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const auto corner = [&](std::size_t c) {
+                return axes * glm::dvec3(mesh.positions[mesh.indices[i + c]]);
+            };
+            const double size =
+                glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+            if (!std::isfinite(size)) continue;
+            area += size;
+            metal += size * metallic_at(scene, mesh, i);
+        }
+    }
+    return area > 0.0 ? metal / area : 0.0;
+}
 
 Rig automatic_rig(const Scene& scene, bool is_generated) {
     if (is_generated) return Rig::swarm;

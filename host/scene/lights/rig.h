@@ -14,6 +14,9 @@ enum class Rig { automatic, none, swarm, studio, headlight };
 /// generated, `none` for other scenes with lights of their own, else `studio`.
 Rig automatic_rig(const Scene& scene, bool is_generated);
 
+/// Share of the scene's surface that is metal, 0 to 1: few lights cannot show it.
+double metallic_share(const Scene& scene);
+
 /// The lights of a rig, all of them directional, so that they suit a scene of any size.
 ///
 ///   studio     key from the upper left of +Z, the front of a glTF model; fill from the right, rim

@@ -22,7 +22,8 @@ std::future<Picture> RenderWorker::render(PictureRequest request) {
     return thread_.ask_latest([this, request = std::move(request)] {
         Renderer& renderer = *renderer_;
         renderer.change(request.settings);
-        Frame frame = renderer.render_to(request.pixels, request.camera, request.time);
+        Frame frame =
+            renderer.render_to(request.pixels, request.camera, request.time, request.samples);
         return Picture{std::move(frame), renderer.device(), renderer.plan(),
                        renderer.gpu().budget->used};
     });

@@ -17,6 +17,7 @@ struct PictureRequest {
     Camera camera;
     double time = 0.0;       // [s]
     std::span<uint> pixels;  // rows display_stride() apart
+    int samples = 0;         // of settings.samples, the rest to come; 0: all
 };
 
 /// What came with a rendered picture.

@@ -88,6 +88,7 @@ class ViewSession {
     bool is_moving() const;
     bool is_resting() const;
     bool renders_always() const;
+    bool refines() const;
     Settled settled() const;
     bool take_picture(PendingPicture& pending);
     void show_picture(const PendingPicture& pending, Picture picture);

@@ -80,7 +80,10 @@ void ViewSession::obey_actions(const Actions& actions) {
 void ViewSession::reset_settings() {
     ViewState fresh;
     fresh.settings = SharedOptions().settings;
+    fresh.settings.samples = kRestSamples;
     fresh.settings.device = state_.settings.device;
+    fresh.settings.background = options_.shared.shown_background;
+    fresh.settings.reflections = options_.shared.maps;
     fresh.window_size = state_.window_size;
     state_ = std::move(fresh);
     file_.forget();

@@ -87,6 +87,9 @@ void ViewSession::describe_overlay() {
         const double ms = facts_.history.median_frame_ms();
         ImGui::Text("%.1f ms  %.0f/s", ms, 1000.0 / std::max(ms, 1e-3));
         ImGui::Text("%d x %d at %.2f", facts_.width, facts_.height, facts_.scale);
+        if (facts_.all_samples > 1) {
+            ImGui::Text("%d of %d samples", facts_.samples, facts_.all_samples);
+        }
         ImGui::Text("%s  %s lights", name_of(state_.settings.renderer).c_str(),
                     short_count(facts_.stats.lights_used).c_str());
     }

@@ -26,16 +26,21 @@ bool same_camera(const Camera& a, const Camera& b) {
            a.z_near == b.z_near && a.z_far == b.z_far;
 }
 
-// Whether two requests show the same, at whatever size.
+// Whether two requests show the same, at whatever size and smoothness.
 bool same_content(const PictureRequest& a, const PictureRequest& b) {
     RenderSettings resized = a.settings;
     resized.width = b.settings.width;
     resized.height = b.settings.height;
+    resized.samples = b.settings.samples;
     return resized == b.settings && a.time == b.time && same_camera(a.camera, b.camera);
 }
 
 bool same_request(const PictureRequest& a, const PictureRequest& b) {
     return same_content(a, b) && a.settings == b.settings;
+}
+
+bool has_all_samples(const PictureRequest& request) {
+    return request.samples == 0 || request.samples >= request.settings.samples;
 }
 
 template <typename T>
@@ -55,7 +60,8 @@ Settled ViewSession::settled() const {
     const bool busy = limits_.valid() || probing_.valid() || freezing_.valid() ||
                       measuring_.valid() || !saving_.empty() ||
                       (!renders_always() && !pending_.empty());
-    const bool shown = drawn_ && !is_moving() && same_request(*drawn_, wanted());
+    const bool shown =
+        drawn_ && !is_moving() && same_request(*drawn_, wanted()) && has_all_samples(*drawn_);
     return shown && !busy ? Settled::yes : Settled::not_yet;
 }
 
@@ -68,8 +74,17 @@ BoxTarget ViewSession::picture_area() const {
     return {left, 0, std::max(pixels[0] - left, 0), pixels[1]};
 }
 
+// Whether the picture at rest gets more samples than one that moves. Probes and frozen clusters are
+// those of the sample through the pixels' centres.
+bool ViewSession::refines() const {
+    return !renders_always() && state_.settings.want.view == ViewKind::lit && !state_.probe &&
+           !state_.frozen;
+}
+
 PictureRequest ViewSession::wanted() const {
-    return wanted(state_.adaptive ? scale_.scale(is_moving()) : state_.fixed_scale);
+    PictureRequest out = wanted(state_.adaptive ? scale_.scale(is_moving()) : state_.fixed_scale);
+    if (!renders_always() && (is_moving() || !refines())) out.settings.samples = 1;
+    return out;
 }
 
 PictureRequest ViewSession::wanted(double scale) const {
@@ -94,7 +109,16 @@ void ViewSession::request_picture() {
         next = wanted();
     }
     const bool again = renders_always() && pending_.empty();
-    if (requested_ && same_request(*requested_, next) && !again) return;
+    const bool same = requested_ && same_request(*requested_, next);
+    if (refines() && next.settings.samples > 1) {
+        next.samples = same ? requested_->samples + 1 : 1;
+        // One sample after the other, each when the one before is on the screen.
+        const bool comes = same && (!drawn_ || !same_request(*drawn_, next) ||
+                                    drawn_->samples != requested_->samples);
+        if (comes || next.samples > next.settings.samples) return;
+    } else if (same && !again) {
+        return;
+    }
     const std::size_t pixels =
         display_stride(next.settings.width) * static_cast<std::size_t>(next.settings.height);
     const std::optional<std::size_t> slot = buffers_.acquire(pixels);
@@ -131,6 +155,8 @@ void ViewSession::show_picture(const PendingPicture& pending, Picture picture) {
     facts_.scale = area.width > 0 ? static_cast<double>(drawn.width) / area.width : 1.0;
     facts_.width = drawn.width;
     facts_.height = drawn.height;
+    facts_.samples = pending.request.samples > 0 ? pending.request.samples : drawn.samples;
+    facts_.all_samples = drawn.samples;
     facts_.stats = picture.frame.stats;
     facts_.device = picture.device;
     facts_.plan = picture.plan;

@@ -27,6 +27,8 @@ struct PanelFacts {
     int width = 0;       // of the last picture [pixel]
     int height = 0;      // [pixel]
     double scale = 1.0;  // of its edges
+    int samples = 1;     // a pixel that it has, and will have
+    int all_samples = 1;
     StageHistory history{};
     std::optional<DeviceLimits> limits{};
     const char* picture_way = "";       // how pictures come to the window

@@ -40,7 +40,7 @@ void Panel::picture() const {
     ui.slider("Bloom", s.bloom, {0.0, 1.0, false, "%.2f"});
     ui.slider("Ambient", s.ambient, {0.0, 1.0, false, "%.3f"});
     ui.slider("Samples", s.samples, {1, 16, false, "%.0f"});
-    ui.tip("Jittered samples per pixel");
+    ui.tip("Jittered samples per pixel, one after the other while nothing changes");
 }
 
 void Panel::lights() const {

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/scene/lights/prefiltered_environment.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kilolux {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRoughnessMin = 0.045;  // ROUGHNESS_MIN of kernels/shared/surface.h
+constexpr double kNDotVMin = 1e-4;       // N_DOT_V_MIN, ibid.
+constexpr unsigned kTableSize = 64;
+// Of half the angle to a lobe's axis, in alphas: 96 % of its light.
+constexpr double kLobeAlphas = 5.0;
+
+// Widths of a level and of the environment that it is made of: a few texels a lobe.
+struct LevelPlan {
+    double roughness;
+    int width;
+    int source_width;
+};
+constexpr LevelPlan kLevels[] = {{0.0, 1024, 1024}, {0.125, 512, 512}, {0.25, 256, 256},
+                                 {0.375, 128, 128}, {0.5, 64, 128},    {0.625, 64, 128},
+                                 {0.75, 64, 128},   {0.875, 64, 128},  {1.0, 64, 128}};
+constexpr LevelPlan kIrradiance = {-1.0, 64, 128};
+
+double alpha_of(double roughness) {
+    const double r = std::max(roughness, kRoughnessMin);
+    return r * r;
+}
+
+// Means of squares of texels, weighted by their solid angle, until it is at most `width` wide.
+Environment shrunk(const Environment& from, int width) {
+    if (from.width <= width || from.width % 2 != 0 || from.height % 2 != 0) return from;
+    Environment out{from.width / 2, from.height / 2, {}};
+    out.rows.reserve(from.rows.size() / 4);
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x) {
+            glm::dvec3 sum(0.0);
+            for (int i = 0; i < 4; ++i) sum += from.light(2 * x + i % 2, 2 * y + i / 2);
+            out.rows.emplace_back(sum /
+                                  (2.0 * (from.solid_angle(2 * y) + from.solid_angle(2 * y + 1))));
+        }
+    }
+    return shrunk(out, width);
+}
+
+// What a sum over an environment needs of a texel.
+struct Texel {
+    glm::dvec3 direction;
+    double solid_angle;
+};
+
+std::vector<Texel> texels_of(const Environment& e) {
+    std::vector<Texel> out;
+    out.reserve(e.rows.size());
+    for (int y = 0; y < e.height; ++y) {
+        for (int x = 0; x < e.width; ++x) out.push_back({e.direction(x, y), e.solid_angle(y)});
+    }
+    return out;
+}
+
+// A lobe about an axis: GGX as light that comes and goes along it has, or a cosine.
+class Lobe {
+ public:
+    explicit Lobe(double roughness) : is_cosine_(roughness < 0.0) {
+        const double alpha = alpha_of(roughness);
+        alpha2_ = alpha * alpha;
+        reach_ = is_cosine_ ? 0.5 * kPi : std::min(0.5 * kPi, 2.0 * std::atan(kLobeAlphas * alpha));
+    }
+    double weight(double cos_angle) const {
+        if (is_cosine_) return cos_angle;
+        const double n_dot_h2 = 0.5 + 0.5 * cos_angle;  // of the half vector
+        const double d = n_dot_h2 * (alpha2_ - 1.0) + 1.0;
+        return cos_angle / (d * d);
+    }
+    double reach() const { return reach_; }  // [rad]
+
+ private:
+    bool is_cosine_;
+    double alpha2_ = 0.0;
+    double reach_;
+};
+
+// The environment's mean, weighted by the lobe about `axis`.
+glm::vec3 mean_around(const Environment& e, const std::vector<Texel>& texels, const Lobe& lobe,
+                      const glm::dvec3& axis) {
+    const double from_top = std::acos(std::clamp(axis.y, -1.0, 1.0));
+    const auto row = [&](double angle) {
+        return static_cast<int>(std::floor(angle / kPi * e.height));
+    };
+    const int first = std::max(row(from_top - lobe.reach()), 0);
+    const int last = std::min(row(from_top + lobe.reach()), e.height - 1);
+    const double around = std::sin(lobe.reach()) / std::max(std::sin(from_top), 1e-9);
+    const bool all = around >= 1.0 || lobe.reach() >= 0.5 * kPi;
+    const int half = all ? e.width / 2
+                         : std::min(e.width / 2, 1 + static_cast<int>(std::asin(around) /
+                                                                      (2.0 * kPi) * e.width));
+    const int middle =
+        static_cast<int>(std::floor((std::atan2(axis.x, -axis.z) / (2.0 * kPi) + 0.5) * e.width));
+    const double least = std::cos(lobe.reach());
+    glm::dvec3 sum(0.0);
+    double weights = 0.0;
+    for (int y = first; y <= last; ++y) {
+        for (int i = middle - half; i < middle + half + (all ? e.width % 2 : 1); ++i) {
+            const auto x = static_cast<std::size_t>((i % e.width + e.width) % e.width);
+            const std::size_t place =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(e.width) + x;
+            const double cos_angle = glm::dot(axis, texels[place].direction);
+            if (cos_angle <= least) continue;
+            const double weight = lobe.weight(cos_angle) * texels[place].solid_angle;
+            sum += weight * glm::dvec3(e.rows[place]);
+            weights += weight;
+        }
+    }
+    return sum / std::max(weights, 1e-300);
+}
+
+Environment filtered(const Environment& environment, const LevelPlan& plan) {
+    const Environment source = shrunk(environment, plan.source_width);
+    if (plan.roughness == 0.0) return source;
+    Environment out{plan.width, plan.width / 2, {}};
+    const auto width = static_cast<std::size_t>(plan.width);
+    out.rows.resize(width * static_cast<std::size_t>(out.height));
+    const std::vector<Texel> texels = texels_of(source);
+    const Lobe lobe(plan.roughness);
+    tbb::parallel_for(0, out.height, [&](int y) {
+        for (int x = 0; x < out.width; ++x) {
+            const std::size_t row = static_cast<std::size_t>(y) * width;
+            out.rows[row + static_cast<std::size_t>(x)] =
+                mean_around(source, texels, lobe, out.direction(x, y));
+        }
+    });
+    return out;
+}
+
+void append(PrefilteredEnvironment& to, const Environment& level) {
+    to.levels.push_back({static_cast<uint>(level.width), static_cast<uint>(level.height),
+                         static_cast<uint>(to.texels.size() / 3), 0});
+    const float* first = &level.rows.data()->x;
+    to.texels.insert(to.texels.end(), first, first + 3 * level.rows.size());
+}
+
+// The base-2 digits of an index behind the point, mirrored (van der Corput).
+double mirrored(unsigned i) {
+    double out = 0.0;
+    for (double digit = 0.5; i > 0; i >>= 1, digit *= 0.5) out += (i & 1u) != 0 ? digit : 0.0;
+    return out;
+}
+
+// Schlick's rise at an angle.
+double rise(double cos_angle) { return std::pow(std::max(1.0 - cos_angle, 0.0), 5.0); }
+
+// f0's and f90's shares: half vectors by GGX, height-correlated Smith (Karis 2013, listing 4).
+glm::dvec2 specular_shares(double n_dot_v, double roughness) {
+    constexpr unsigned kSamples = 512;
+    const double alpha2 = alpha_of(roughness) * alpha_of(roughness);
+    const glm::dvec3 v(std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v);
+    glm::dvec2 out(0.0);
+    for (unsigned i = 0; i < kSamples; ++i) {
+        const double u = (i + 0.5) / kSamples, phi = 2.0 * kPi * mirrored(i);
+        const double z = std::sqrt((1.0 - u) / (1.0 + (alpha2 - 1.0) * u));
+        const double r = std::sqrt(1.0 - z * z);
+        const glm::dvec3 h(r * std::cos(phi), r * std::sin(phi), z);
+        const double v_dot_h = glm::dot(v, h), n_dot_l = 2.0 * v_dot_h * h.z - v.z;
+        if (n_dot_l <= 0.0 || v_dot_h <= 0.0) continue;
+        const auto smith = [&](double a, double b) {
+            return a * std::sqrt(b * b * (1.0 - alpha2) + alpha2);
+        };
+        const double visible = 0.5 / (smith(n_dot_v, n_dot_l) + smith(n_dot_l, n_dot_v));
+        const double share = 4.0 * visible * n_dot_l * v_dot_h / z / kSamples;
+        out += share * glm::dvec2(1.0 - rise(v_dot_h), rise(v_dot_h));
+    }
+    return out;
+}
+
+// The mean of Schlick's rise over diffuse light: directions by the cosine.
+double diffuse_loss(double n_dot_v) {
+    constexpr unsigned kSamples = 512;
+    const glm::dvec3 v(std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v);
+    double out = 0.0;
+    for (unsigned i = 0; i < kSamples; ++i) {
+        const double u = (i + 0.5) / kSamples, phi = 2.0 * kPi * mirrored(i), r = std::sqrt(u);
+        const glm::dvec3 l(r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0 - u));
+        out += rise(glm::dot(v, glm::normalize(v + l))) / kSamples;
+    }
+    return out;
+}
+
+std::vector<float> reflectance_table() {
+    std::vector<float> table(std::size_t{3} * kTableSize * kTableSize);
+    tbb::parallel_for(0u, kTableSize, [&](unsigned column) {
+        const double n_dot_v = std::max(column / (kTableSize - 1.0), kNDotVMin);
+        const double loss = diffuse_loss(n_dot_v);
+        for (unsigned row = 0; row < kTableSize; ++row) {
+            const glm::dvec2 shares = specular_shares(n_dot_v, row / (kTableSize - 1.0));
+            const std::size_t place = 3 * (std::size_t{row} * kTableSize + column);
+            table[place] = static_cast<float>(shares.x);
+            table[place + 1] = static_cast<float>(shares.y);
+            table[place + 2] = static_cast<float>(loss);
+        }
+    });
+    return table;
+}
+
+}  // namespace
+
+PrefilteredEnvironment prefiltered(const Environment& environment) {
+    PrefilteredEnvironment out;
+    for (const LevelPlan& plan : kLevels) append(out, filtered(environment, plan));
+    append(out, filtered(environment, kIrradiance));
+    out.table = reflectance_table();
+    out.table_size = kTableSize;
+    return out;
+}
+
+}  // namespace kilolux

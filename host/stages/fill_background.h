@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+
+namespace kilolux {
+
+/// The light of an environment where no surface covers a pixel: bilinear in its texels, of the
+/// level whose texels are at most about as large as a pixel in the picture's middle.
+class FillBackground {
+ public:
+    FillBackground(const Gpu& gpu, const Tuning& tuning);
+
+    /// The environment: float[height][width][3], longitude by latitude, its middle column towards
+    /// -Z, its first row towards +Y. Blocks.
+    void set_image(std::span<const float> rgb, uint width, uint height);
+
+    /// Fills the pixels of `radiance` where the G-buffer has no surface. Enqueues only.
+    void enqueue(const GBuffer& gbuffer, const Radiance& radiance, StageTimer& timer);
+
+    /// Fills all pixels, before OpenGL draws over them. Enqueues only.
+    void enqueue_everywhere(const Radiance& radiance, StageTimer& timer);
+
+ private:
+    uint4 level_for(const View& view) const;
+
+    Gpu gpu_;
+    Tuning tuning_;
+    Kernel kernel_;
+    GrowingArray<float> texels_;
+    std::vector<uint4> levels_;  // width, height and first texel, each level half of the one before
+};
+
+}  // namespace kilolux

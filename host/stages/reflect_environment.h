@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+
+namespace kilolux {
+
+/// Maps by which an environment lights surfaces, on the host.
+struct ReflectionMapsView {
+    std::span<const float> texels;  // RGB of all levels
+    std::span<const uint4> levels;  // width, height, first texel: roughness from 0 to 1 in equal
+                                    // steps, then irradiance / pi
+    std::span<const float> table;   // [size][size][3]
+    uint table_size = 0;
+};
+
+/// Adds an environment's diffuse and specular light to lit surfaces.
+class ReflectEnvironment {
+ public:
+    ReflectEnvironment(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Blocks.
+    void set_maps(const ReflectionMapsView& maps);
+
+    /// Adds to `radiance` where the G-buffer has surfaces. Enqueues only.
+    void enqueue(const GBuffer& gbuffer, const Radiance& radiance, StageTimer& timer);
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    Kernel kernel_;
+    GrowingArray<float> srgb_, texels_, table_;
+    GrowingArray<uint4> levels_;
+    uint roughness_levels_ = 0;
+    uint table_size_ = 0;
+};
+
+}  // namespace kilolux
