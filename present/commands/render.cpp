@@ -25,6 +25,7 @@
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
+#include "present/video/video_file.h"
 
 namespace kilolux {
 namespace {
@@ -88,6 +89,10 @@ struct Made {
     std::optional<FrameLog> log;
 };
 
+bool is_for_the_eye(const fs::path& output) {
+    return is_video(output) || image_meaning(output) == ImageMeaning::display;
+}
+
 bool wants_own_display(const RenderOptions& options) {
     return options.output.bits == 16 || uses_ocio(options.output.ocio);
 }
@@ -109,7 +114,7 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     ImageOptions image;
     image.half_colour = out.half_colour;
     image.bits = out.bits;
-    if (image_meaning(task.file) == ImageMeaning::display && wants_own_display(options)) {
+    if (is_for_the_eye(task.file) && wants_own_display(options)) {
         image.display = options.shared.show_error
                             ? display_codes(frame)
                             : display_colours(frame, options.shared.settings, out.ocio);
@@ -117,8 +122,16 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     return image;
 }
 
+// A task's frame into its file, or the next one of the video.
+void write_picture(Frame& frame, const fs::path& file, const ImageNotes& notes,
+                   const ImageOptions& image, VideoFile* video) {
+    if (video == nullptr) return write_image(file, frame, notes, image);
+    if (!image.display.empty()) set_display(frame, image.display);
+    video->write(frame);
+}
+
 FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const Camera& camera,
-                        const Task& task) {
+                        const Task& task, VideoFile* video) {
     const OutputOptions& out = options.output;
     std::optional<Reference> reference;
     if (!task.reference.empty()) {
@@ -128,14 +141,14 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
     }
     Frame frame = renderer.render(camera, task.time, check_interrupt);
     check_interrupt();
-    FrameRecord record{task.frame, task.time, task.file.string(), frame.stats, std::nullopt};
+    FrameRecord record{task.frame, task.time, output_name(task.file), frame.stats, std::nullopt};
     if (reference) {
         record.comparison = reference->compare(frame, out.metric, out.threshold.value_or(0.0));
     }
     if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    write_image(task.file, frame, notes_of(options, renderer, camera, record),
-                image_options(options, frame, task));
+    write_picture(frame, task.file, notes_of(options, renderer, camera, record),
+                  image_options(options, frame, task), video);
     return record;
 }
 
@@ -164,6 +177,11 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
         limits = cached_device_limits(Gpu(choose_device(renderer.settings().device)));
         if (options.output.frames) made.log.emplace();
     }
+    std::optional<VideoFile> video;
+    if (const OutputOptions& out = options.output; is_video(out.output)) {
+        const RenderSettings& s = renderer.settings();
+        video.emplace(out.output, VideoFormat{s.width, s.height, out.frames_per_second});
+    }
     const std::size_t first = tasks.first_to_do();
     Progress progress("rendering", tasks.size() - first, !options.shared.quiet);
     for (std::size_t i = first; i < tasks.size(); ++i) {
@@ -172,7 +190,8 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
         if (!tasks.is_done(task)) {
             scene.set_time(task.time);
             const Camera camera = choose_camera(options.shared, scene.scene());
-            FrameRecord record = render_task(options, renderer, camera, task);
+            FrameRecord record =
+                render_task(options, renderer, camera, task, video ? &*video : nullptr);
             if (made.count == 0) advise(scene.scene(), camera, renderer, record);
             if (limits) {
                 fill_limits(record.stats, *limits,
@@ -182,6 +201,7 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
         }
         progress.advance();
     }
+    if (video) video->commit();
     return made;
 }
 
@@ -208,7 +228,11 @@ void expose_automatically(RenderOptions& options, AnimatedScene& scene, Renderer
 // Checks before rendering what would fail after it.
 void check_files(const RenderOptions& options, const Tasks& tasks, const Task& first) {
     const OutputOptions& out = options.output;
-    check_can_write(first.file);
+    if (is_video(out.output)) {
+        check_can_write_video(out.output);
+    } else {
+        check_can_write(first.file);
+    }
     if (!out.difference.empty()) check_can_write(first.difference);
     if (!out.stats.empty() && out.stats != "-") check_can_write(out.stats);
     if (out.reference.empty()) return;
@@ -224,7 +248,7 @@ void check_files(const RenderOptions& options, const Tasks& tasks, const Task& f
 FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked) {
     const OutputOptions& out = options.output;
     const bool own_display = wants_own_display(options);
-    const bool for_the_eye = image_meaning(out.output) == ImageMeaning::display;
+    const bool for_the_eye = is_for_the_eye(out.output);
     FrameRequest want = asked;
     want.display = for_the_eye || !out.reference.empty();
     want.radiance = !for_the_eye || own_display || !out.reference.empty();
@@ -281,13 +305,15 @@ constexpr const char* kExamples =
     "  kilolux render -o atrium.exr --lights 100000 --aov depth,normal,light-count\n"
     "  kilolux render town.glb -o town.png --lights 0 --camera-index 1 --resolution 3840x2160\n"
     "  kilolux render -o frame.####.exr --frames 0:239 --fps 24 --shard 3/8 --skip-existing\n"
+    "  kilolux render -o flight.mp4 --frames 0:239 --fps 24\n"
+    "  kilolux render -o - --frames 0:239 --quiet | mpv -\n"
     "  kilolux render -o now.exr --reference all.exr --threshold 0 --difference where.png\n"
     "  kilolux render -o atrium.png --stats - --quiet";
 
 }  // namespace
 
 void add_render_command(Program& program) {
-    program.add_command("render", "Render a scene to an image file or a sequence of them",
+    program.add_command("render", "Render a scene to an image file, a sequence of them or a video",
                         kExamples, add_render_options, run_render);
 }
 
