@@ -2,26 +2,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
-#include "host/measure/roofline/device_limits.h"
-#include "host/measure/roofline/roofline.h"
-#include "host/render/kernel_choice.h"
-#include "host/render/renderer.h"
-#include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
 #include "present/cli/picture_advice.h"
 #include "present/cli/progress.h"
-#include "present/cli/scene_choice.h"
-#include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
-#include "present/image/automatic_exposure.h"
+#include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
@@ -97,14 +90,14 @@ bool wants_own_display(const RenderOptions& options) {
     return options.output.bits == 16 || uses_ocio(options.output.ocio);
 }
 
-ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, const Camera& camera,
+ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
                     const FrameRecord& record) {
-    ImageNotes notes = picture_notes(options.shared, renderer.device(), record.stats);
+    ImageNotes notes = picture_notes(options.shared, pictures.renderer().device(), record.stats);
     notes.strings.emplace_back("time", text_of(record.time) + " s");
     if (record.comparison) {
         notes.strings.emplace_back("error", comparison_text(*record.comparison));
     }
-    notes.camera = camera;
+    notes.camera = pictures.camera();
     return notes;
 }
 
@@ -130,16 +123,16 @@ void write_picture(Frame& frame, const fs::path& file, const ImageNotes& notes,
     video->write(frame);
 }
 
-FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const Camera& camera,
-                        const Task& task, VideoFile* video) {
+FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures, const Task& task,
+                        VideoFile* video) {
     const OutputOptions& out = options.output;
     std::optional<Reference> reference;
     if (!task.reference.empty()) {
-        require_reference_size(task.reference, renderer.settings().width,
-                               renderer.settings().height);
+        const RenderSettings& settings = pictures.renderer().settings();
+        require_reference_size(task.reference, settings.width, settings.height);
         reference.emplace(task.reference);
     }
-    Frame frame = renderer.render(camera, task.time, check_interrupt);
+    Frame frame = pictures.render(task.time);
     check_interrupt();
     FrameRecord record{task.frame, task.time, output_name(task.file), frame.stats, std::nullopt};
     if (reference) {
@@ -147,14 +140,14 @@ FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const 
     }
     if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    write_picture(frame, task.file, notes_of(options, renderer, camera, record),
+    write_picture(frame, task.file, notes_of(options, pictures, record),
                   image_options(options, frame, task), video);
     return record;
 }
 
-void advise(const Scene& scene, const Camera& camera, const Renderer& renderer,
-            const FrameRecord& record) {
-    const std::string advice = picture_advice(scene, camera, renderer.settings(), record.stats);
+void advise(SceneRenderer& pictures, const FrameRecord& record) {
+    const std::string advice = picture_advice(pictures.scene().scene(), pictures.camera(),
+                                              pictures.renderer().settings(), record.stats);
     if (!advice.empty()) note(record.file + ": " + advice);
 }
 
@@ -168,35 +161,28 @@ void add(Made& made, FrameRecord record) {
     made.last = std::move(record);
 }
 
-Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScene& scene,
-                  Renderer& renderer) {
+// None for pictures.
+std::unique_ptr<VideoFile> open_video(const OutputOptions& out, const RenderSettings& settings) {
+    if (!is_video(out.output)) return nullptr;
+    return std::make_unique<VideoFile>(
+        out.output, VideoFormat{settings.width, settings.height, out.frames_per_second});
+}
+
+Made render_tasks(const RenderOptions& options, const Tasks& tasks, SceneRenderer& pictures) {
     Made made;
-    // What each stage would take at the device's limits, which are measured once a device.
-    std::optional<DeviceLimits> limits;
-    if (!options.output.stats.empty()) {
-        limits = cached_device_limits(Gpu(choose_device(renderer.settings().device)));
-        if (options.output.frames) made.log.emplace();
-    }
-    std::optional<VideoFile> video;
-    if (const OutputOptions& out = options.output; is_video(out.output)) {
-        const RenderSettings& s = renderer.settings();
-        video.emplace(out.output, VideoFormat{s.width, s.height, out.frames_per_second});
-    }
+    const bool counted = !options.output.stats.empty();
+    if (counted && options.output.frames) made.log.emplace();
+    const std::unique_ptr<VideoFile> video =
+        open_video(options.output, pictures.renderer().settings());
     const std::size_t first = tasks.first_to_do();
     Progress progress("rendering", tasks.size() - first, !options.shared.quiet);
     for (std::size_t i = first; i < tasks.size(); ++i) {
         check_interrupt();
         const Task task = tasks[i];
         if (!tasks.is_done(task)) {
-            scene.set_time(task.time);
-            const Camera camera = choose_camera(options.shared, scene.scene());
-            FrameRecord record =
-                render_task(options, renderer, camera, task, video ? &*video : nullptr);
-            if (made.count == 0) advise(scene.scene(), camera, renderer, record);
-            if (limits) {
-                fill_limits(record.stats, *limits,
-                            frame_setup(renderer.settings(), renderer.plan(), renderer.device()));
-            }
+            FrameRecord record = render_task(options, pictures, task, video.get());
+            if (made.count == 0) advise(pictures, record);
+            if (counted) pictures.fill_limits(record);
             add(made, std::move(record));
         }
         progress.advance();
@@ -206,23 +192,12 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, AnimatedScen
 }
 
 // By the sequence's first frame, also in a shard that does not have it.
-void expose_automatically(RenderOptions& options, AnimatedScene& scene, Renderer& renderer) {
+void expose_automatically(const RenderOptions& options, SceneRenderer& pictures) {
     const OutputOptions& out = options.output;
-    const double time =
-        options.shared.time + (out.frames ? out.frames->first / out.frames_per_second : 0.0);
-    scene.set_time(time);
-    const RenderSettings wanted = renderer.settings();
-    RenderSettings settings = wanted;
-    settings.want = radiance_only();
-    renderer.change(settings);
-    const Frame frame =
-        renderer.render(choose_camera(options.shared, scene.scene()), time, check_interrupt);
-    settings = wanted;
-    settings.exposure = options.shared.settings.exposure = automatic_exposure(frame.radiance);
-    renderer.change(settings);
-    note(fmt::format("exposure {} EV (automatic{}): --exposure {} makes it again",
-                     settings.exposure, out.frames ? ", of the sequence's first frame" : "",
-                     settings.exposure));
+    const double time = options.shared.time;
+    if (!out.frames) return pictures.expose_automatically(time);
+    pictures.expose_automatically(time + out.frames->first / out.frames_per_second,
+                                  ", of the sequence's first frame");
 }
 
 // Checks before rendering what would fail after it.
@@ -258,12 +233,6 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     return want;
 }
 
-RenderSettings settings_of(const RenderOptions& options, const ReportView& view) {
-    RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
-    settings.want = request_of(options, settings.want);
-    return settings;
-}
-
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
@@ -274,22 +243,16 @@ void run_render(RenderOptions& options) {
     const Task first = tasks[begin];
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
-    AnimatedScene scene = open_animated_scene(options.shared, first.time);
-    const std::string rig = light_scene(options.shared, scene);
-    const Camera camera = choose_camera(options.shared, scene.scene());
-    check_interrupt();
-    Renderer renderer(scene.scene(), settings_of(options, {scene.scene(), camera, first.time}));
-    check_interrupt();
-    if (options.shared.automatic_exposure) expose_automatically(options, scene, renderer);
-    const Made made = render_tasks(options, tasks, scene, renderer);
+    SceneRenderer pictures(options.shared, options.budget,
+                           request_of(options, options.shared.settings.want), first.time);
+    if (options.shared.automatic_exposure) expose_automatically(options, pictures);
+    const Made made = render_tasks(options, tasks, pictures);
     if (!out.stats.empty()) {
-        auto document = stats_json(renderer.device(), renderer.plan(), made.last);
-        document["program"] = program_json();
-        document["tuning"] =
-            tuning_json(choose_tuning(renderer.device(), renderer.settings().kernels));
-        write_json(out.stats, document, made.log ? &*made.log : nullptr);
+        write_json(out.stats, pictures.stats(made.last, false), made.log ? &*made.log : nullptr);
     }
-    note(rig + "\n" + frame_summary(scene.scene(), renderer.device(), made.last, made.count));
+    note(pictures.rig_lines() + "\n" +
+         frame_summary(pictures.scene().scene(), pictures.renderer().device(), made.last,
+                       made.count));
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }
 
