@@ -51,9 +51,10 @@ def test_flip_is_that_of_the_program(tmp_path):
         errors = json.loads(result.stdout)["error"]["errors"]
         picture = getattr(kilolux.render("grid", **darker, **SMALL), kind)
         before = getattr(kilolux.render("grid", **SMALL), kind)
-        assert kilolux.flip(picture, before) == pytest.approx(errors["flip"], rel=1e-9)
+        # The program has a file's codes in float32.
+        assert kilolux.flip(picture, before) == pytest.approx(errors["flip"], rel=1e-6)
         assert kilolux.rmse(picture, before) == pytest.approx(errors["rmse"], rel=1e-6)
-        assert kilolux.flip_map(picture, before).mean() == pytest.approx(errors["flip"], rel=1e-9)
+        assert kilolux.flip_map(picture, before).mean() == pytest.approx(errors["flip"], rel=1e-6)
 
 
 def test_bad_pictures_are_refused():

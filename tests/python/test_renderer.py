@@ -69,6 +69,19 @@ def test_lights_in_arrays_replace_each_other():
     assert kilolux.render("grid", lights=dark, **options).stats["lights"]["rejected"] == 1
 
 
+def test_surfaces_stay_while_only_lights_change():
+    def stages(frame):
+        return {stage["name"] for stage in frame.stats["stages"]}
+
+    lights = [kilolux.Lights(np.random.default_rng(i).uniform(-3, 3, (30, 3)), 1.0, 2.0) for i in (1, 2)]
+    renderer = kilolux.Renderer("grid", lights=lights[0], resolution=(64, 48))
+    assert "resolve_surfaces" in stages(renderer.render())
+    renderer.change(lights=lights[1])
+    assert "resolve_surfaces" not in stages(renderer.render())
+    renderer.change(camera_position=(3, 3, 3))
+    assert "resolve_surfaces" in stages(renderer.render())
+
+
 def test_a_probe_says_what_lights_a_pixel():
     renderer = kilolux.Renderer("grid", aov=["depth", "position", "light-count"], **SMALL)
     frame = renderer.render()

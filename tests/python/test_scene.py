@@ -31,14 +31,14 @@ def test_a_floor_is_lit_as_the_formula_says(floor, albedo):
 
 def test_normals_texcoords_colors_and_images(floor):
     positions, indices = floor
-    image = np.zeros((2, 2, 3), np.uint8)
-    image[0, 0] = (255, 0, 0)
-    image[1, 1] = (0, 0, 255)
+    image = np.zeros((8, 8, 3), np.uint8)
+    image[:4, :4] = (255, 0, 0)
+    image[4:, 4:] = (0, 0, 255)
     material = kilolux.Material(base_color_image=image, double_sided=True)
     mesh = kilolux.Mesh(positions, indices, normals=[[0, 2, 0]] * 4, texcoords=[[0, 0], [0, 1], [1, 1], [1, 0]],
                         colors=[[0.5, 1, 1]] * 4, material=material)
     frame = kilolux.render(kilolux.Scene([mesh], LIGHT), aov="albedo", gbuffer="full", **VIEW)
-    corners = frame.aovs["albedo"][[2, 61], [2, 61]]
+    corners = frame.aovs["albedo"][[16, 48], [16, 48]]
     np.testing.assert_allclose(corners, [[0.5, 0, 0], [0, 0, 1]], atol=0.06)
 
 
