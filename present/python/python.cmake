@@ -2,6 +2,7 @@
 # The Python module, where Python's headers, numpy and pybind11 are: build/python/kilolux. Debian's own interpreter is
 # taken before others in PATH, since the package lists install for it; -DPython3_EXECUTABLE=... names another.
 option(KILOLUX_PYTHON "Build the Python module where Python's headers, numpy and pybind11 are" ON)
+add_custom_target(python)  # the module, or nothing
 if(NOT KILOLUX_PYTHON)
   return()
 endif()
@@ -17,6 +18,7 @@ endif()
 
 file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/present/python/*.cpp)
 Python3_add_library(kilolux_python MODULE WITH_SOABI ${python_sources})
+add_dependencies(python kilolux_python)
 target_link_libraries(kilolux_python PRIVATE kilolux_present pybind11::headers kilolux_options)
 set(python_folder ${CMAKE_BINARY_DIR}/python/kilolux)
 set_target_properties(kilolux_python PROPERTIES OUTPUT_NAME _native LIBRARY_OUTPUT_DIRECTORY ${python_folder}
@@ -33,5 +35,5 @@ execute_process(COMMAND ${Python3_EXECUTABLE} -c "import os, sysconfig; print(os
   OUTPUT_VARIABLE python_packages OUTPUT_STRIP_TRAILING_WHITESPACE)
 set(KILOLUX_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${python_packages} CACHE STRING
   "Where the Python module is installed, below the prefix")
-install(TARGETS kilolux_python LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux)
-install(FILES ${python_files} DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux)
+install(TARGETS kilolux_python LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
+install(FILES ${python_files} DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)

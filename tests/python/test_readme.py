@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from conftest import run
+
 
 def test_the_example_runs():
     text = Path(os.environ["KILOLUX_ROOT"], "present/python/README.md").read_text(encoding="utf-8")
@@ -17,3 +19,13 @@ def test_the_example_runs():
     assert equal == "True 20000"
     assert 0 < float(error) < 1e-3
     assert result.stderr == ""
+
+
+def test_the_lesson_commands_run(tmp_path):
+    lesson = Path(os.environ["KILOLUX_ROOT"], "present/lesson/README.md").read_text(encoding="utf-8")
+    commands = re.findall(r"^kilolux (render .* -o (\w+)\.png)$", lesson, re.MULTILINE)
+    assert [name for _, name in commands] == ["slices", "clusters", "active", "lights", "difference"]
+    for command, name in commands:
+        result = run(*command.replace("480,270", "64,36").replace(f"{name}.png", str(tmp_path / f"{name}.png")).split())
+        assert result.returncode == 0, result.stderr
+        assert f"({name}.jpg)" in lesson
