@@ -86,8 +86,8 @@ std::vector<std::byte> planes_of(const OIIO::ImageBuf& image, const View& v,
         const float z = at(depth);
         if (!(z > 0.0f && z < 1e9f)) continue;  // background: Blender writes 1e10
         const auto put = [&](uint plane, float value) {
-            reinterpret_cast<float*>(
-                &bytes[layout.offset_bytes[plane]])[std::size_t{y} * v.stride + x] = value;
+            float* const values = reinterpret_cast<float*>(&bytes[layout.offset_bytes[plane]]);
+            values[std::size_t{y} * v.stride + x] = value;
         };
         const auto put3 = [&](uint plane, const FV3& value) {
             put(plane, value.x), put(plane + 1, value.y), put(plane + 2, value.z);

@@ -66,17 +66,21 @@ cl::Buffer device_copy(const Gpu& gpu, const std::vector<T>& values) {
     return buffer;
 }
 
+GBufferLayout full_layout(const View& view, const SceneFeatures& features) {
+    GBufferNeeds needs;
+    static_cast<SceneFeatures&>(needs) = features;
+    needs.layout = GBUFFER_FULL;
+    return make_gbuffer_layout(needs, view.stride, view.height);
+}
+
 // The float32 layout's planes in one buffer.
 class FullPlanes {
  public:
     FullPlanes(const HostSurfaces& surfaces, const View& view, const SceneFeatures& features)
-        : surfaces_(surfaces), view_(view) {
-        GBufferNeeds needs;
-        static_cast<SceneFeatures&>(needs) = features;
-        needs.layout = GBUFFER_FULL;
-        layout_ = make_gbuffer_layout(needs, view.stride, view.height);
-        bytes_.resize(gbuffer_bytes(layout_, view.stride, view.height));
-    }
+        : surfaces_(surfaces),
+          view_(view),
+          layout_(full_layout(view, features)),
+          bytes_(gbuffer_bytes(layout_, view.stride, view.height)) {}
 
     void fill(float z_near) {
         for (uint y = 0; y < view_.height; ++y) {
@@ -124,7 +128,7 @@ class FullPlanes {
 
     const HostSurfaces& surfaces_;
     View view_;
-    GBufferLayout layout_{};
+    GBufferLayout layout_;
     std::vector<std::byte> bytes_;
 };
 

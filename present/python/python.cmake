@@ -3,7 +3,7 @@
 # taken before others in PATH, since the package lists install for it; -DPython3_EXECUTABLE=... names another.
 option(KILOLUX_PYTHON "Build the Python module where Python's headers, numpy and pybind11 are" ON)
 add_custom_target(python)  # the module, or nothing
-if(NOT KILOLUX_PYTHON)
+if(NOT KILOLUX_PYTHON OR KILOLUX_SANITIZE)  # a plain interpreter loads nothing instrumented
   return()
 endif()
 if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
