@@ -3,6 +3,9 @@
 
 namespace kilolux {
 
-std::string version() { return KILOLUX_VERSION; }
+std::string version() {
+    return std::to_string(KILOLUX_VERSION_MAJOR) + "." + std::to_string(KILOLUX_VERSION_MINOR) +
+           "." + std::to_string(KILOLUX_VERSION_PATCH);
+}
 
 }  // namespace kilolux

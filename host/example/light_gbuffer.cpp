@@ -70,8 +70,7 @@ int main(int argc, char** argv) try {
     const GBuffer gbuffer{cl::Buffer(context, CL_MEM_COPY_HOST_PTR, floor.size(), floor.data()),
                           layout, view};
     const LightInput input{
-        cl::Buffer(context, CL_MEM_COPY_HOST_PTR, kLights * sizeof(Light), rows.data()), kLights,
-        cl::Buffer(context, CL_MEM_READ_ONLY, sizeof(DirectionalLight)), 0};
+        cl::Buffer(context, CL_MEM_COPY_HOST_PTR, kLights * sizeof(Light), rows.data()), kLights};
     KernelFeatures features;
     features.shading = SHADING_PBR;
     const Tuning tuning = default_tuning(gpu.info);

@@ -27,7 +27,8 @@ struct GBuffer {
 struct LightInput {
     DeviceArray<Light> lights;  // [count], camera-relative
     uint count = 0;
-    DeviceArray<DirectionalLight> directional;  // [directional_count], world axes
+    DeviceArray<DirectionalLight>
+        directional{};  // [directional_count], world axes; none: no buffer
     uint directional_count = 0;
 };
 

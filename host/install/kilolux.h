@@ -24,6 +24,8 @@
 #include "host/base/error.h"           // Error: what every function throws
 #include "host/base/gbuffer_layout.h"  // where a G-buffer's planes lie
 #include "host/base/log.h"             // who hears notes and warnings
+#include "host/base/make_view.h"       // a View from view and projection matrices
+#include "host/base/version.h"         // KILOLUX_VERSION
 #include "host/gpu/buffer.h"           // DeviceArray, GrowingBuffer, upload, download
 #include "host/gpu/device.h"           // choose_device, Gpu
 #include "host/gpu/features.h"         // KernelFeatures, Tuning

@@ -22,6 +22,9 @@ constexpr double kNear = 4e14;
 
 double order_time(double time) { return std::floor(time / kOrderInterval) * kOrderInterval; }
 
+// Grows with every change of the scene that may be one of its lights.
+std::uint32_t lights_revision(const Scene& scene) { return scene.revision + scene.lights_revision; }
+
 std::vector<SceneLight> lights_with_ranges(const Scene& scene, double budget) {
     std::vector<SceneLight> lights = scene.lights;
     if (const std::size_t filled = fill_missing_ranges(lights, budget); filled > 0) {
@@ -74,7 +77,7 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
                          const RenderSettings& settings)
     : gpu_(gpu),
       scene_(scene),
-      revision_(scene.revision),
+      revision_(lights_revision(scene)),
       range_budget_(settings.range_budget),
       generated_(settings.lights),
       own_(lights_with_ranges(scene, settings.range_budget)),
@@ -91,8 +94,8 @@ void LightSource::set_generated(const LightOptions& generated) {
 
 // The scene's own lights anew where they moved.
 void LightSource::take_up_changes() {
-    if (revision_ == scene_.revision) return;
-    revision_ = scene_.revision;
+    if (revision_ == lights_revision(scene_)) return;
+    revision_ = lights_revision(scene_);
     own_ = scene_.lights;
     fill_missing_ranges(own_, range_budget_);
     headlights_ = headlights_of(own_);

@@ -149,4 +149,10 @@ void Renderer::change(const RenderSettings& settings) {
     in_stage("settings", [&] { Pipeline::change(pipeline_, pipeline_->scene, settings); });
 }
 
+void Renderer::refit() {
+    pipeline_->scene->make_current();
+    const RenderSettings settings = pipeline_->settings;
+    in_stage("lights", [&] { Pipeline::change(pipeline_, pipeline_->scene, settings); });
+}
+
 }  // namespace kilolux

@@ -49,6 +49,10 @@ class Renderer {
     /// settings hold.
     void change(const RenderSettings& settings);
 
+    /// After lights of the scene were added or replaced: builds anew where the scene plan needs it,
+    /// as for the first spot light.
+    void refit();
+
     const RenderSettings& settings() const;
     const Scene& scene() const;
 

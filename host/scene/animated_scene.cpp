@@ -111,6 +111,13 @@ void AnimatedScene::survey() {
 void AnimatedScene::add_lights(const std::vector<SceneLight>& lights) {
     added_lights_.insert(added_lights_.end(), lights.begin(), lights.end());
     scene_.lights.insert(scene_.lights.end(), lights.begin(), lights.end());
+    ++scene_.lights_revision;
+}
+
+void AnimatedScene::replace_lights(const std::vector<SceneLight>& lights) {
+    scene_.lights.resize(scene_.lights.size() - added_lights_.size());
+    added_lights_.clear();
+    add_lights(lights);
 }
 
 void AnimatedScene::set_time(double time) {

@@ -37,8 +37,12 @@ class AnimatedScene {
     /// scene then stays at the time it had.
     void set_time(double time);
 
-    /// Adds lights that stay as they are at any time. Before anything renders the scene.
+    /// Adds lights that stay as they are at any time.
     void add_lights(const std::vector<SceneLight>& lights);
+
+    /// The lights that were added, and others in their place.
+    const std::vector<SceneLight>& added_lights() const { return added_lights_; }
+    void replace_lights(const std::vector<SceneLight>& lights);
 
     Scene take() && { return std::move(scene_); }
 

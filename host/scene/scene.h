@@ -169,6 +169,7 @@ struct Scene {
     Box still_box;                      // its bounds at time 0; empty: those of now
     SceneKind kind = SceneKind::open;
     std::uint32_t revision = 0;  // grows whenever instances, lights, cameras or vertices change
+    std::uint32_t lights_revision = 0;  // grows when only lights change
 };
 
 /// Box of all instances' vertices in world space.

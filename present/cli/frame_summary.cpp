@@ -8,6 +8,7 @@
 #include "host/measure/roofline/stage_report.h"
 #include "present/cli/names.h"
 #include "present/cli/option_values.h"
+#include "present/video/video_file.h"
 
 namespace kilolux {
 namespace {
@@ -85,6 +86,8 @@ std::string frame_summary(const Scene& scene, const DeviceInfo& device, const Fr
            time_line("frame", last.stats.frame_ms) + "\n";
     if (last.comparison) out += "error   " + comparison_text(*last.comparison) + "\n";
     out += "wrote   " + last.file;
+    if (is_video(last.file) || last.file == output_name("-"))
+        return out + fmt::format(", {} frames", count);
     if (count > 1) out += fmt::format(" and {} more", count - 1);
     return out;
 }

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/base/error.h"
+#include "host/base/suggest.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/image/image_file.h"
+#include "present/video/video_file.h"
 
 namespace kilolux {
 namespace {
@@ -15,6 +19,17 @@ std::string picture_file(const std::string&, const std::string& text) {
     return text;
 }
 
+// The same for an output, which may also be a video.
+std::string output_file(const std::string&, const std::string& text) {
+    if (is_video(text)) return text;
+    const std::string extension = lower(std::filesystem::path(text).extension().string());
+    std::vector<std::string> known = image_extensions();
+    if (std::ranges::find(known, extension) != known.end()) return text;
+    for (const std::string& video : video_extensions()) known.push_back(video);
+    throw UsageError(fmt::format("{}: image type '{}' is none of {}{}", text, extension,
+                                 joined(known), did_you_mean(extension, known)));
+}
+
 void add_encoding_options(CLI::App& command, OutputOptions& o) {
     const auto bits = [](const std::string& name, const std::string& text) {
         return parse_name(name, text, {"8", "16"}) == 0 ? 8 : 16;
@@ -22,8 +37,9 @@ void add_encoding_options(CLI::App& command, OutputOptions& o) {
     OptionBuilder(command, "Output")
         .value({"--output,-o", "FILE", "",
                 "Picture: .exr and .hdr linear, .png .jpg .jpeg .tif .tiff for the eye; a sequence "
-                "has #### for the frame number"},
-               o.output, picture_file)
+                "has #### for the frame number. Video: .y4m, - for y4m on standard output, and "
+                ".mp4 .mkv .webm where the program ffmpeg is installed"},
+               o.output, output_file)
         .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"}, o.stats)
         .rest()
         .flag("--exr-half", o.half_colour, "EXR colour in half precision")
@@ -82,7 +98,7 @@ void check_sequence(const OutputOptions& options) {
                             file.string()));
         }
     };
-    check("--output", options.output);
+    if (!is_video(options.output)) check("--output", options.output);
     if (!options.difference.empty()) check("--difference", options.difference);
     if (!options.frames && options.shard.count > 1) throw UsageError("--shard: needs --frames A:B");
 }
@@ -98,8 +114,27 @@ void check_motion(const CameraChoice& camera, const OutputOptions& options) {
     }
 }
 
+// A video is one file for the eye, of all frames.
+void check_video(const SharedOptions& shared, const OutputOptions& options) {
+    const std::string file = options.output.string();
+    const auto refuse = [&file](bool asked, const char* what) {
+        if (asked) throw UsageError(fmt::format("{}: '{}' is a video", what, file));
+    };
+    refuse(has_frame_pattern(file), "--output: #### for frame numbers");
+    refuse(options.shard.count > 1, "--shard");
+    refuse(!shared.settings.want.aovs.empty(), "--aov");
+    refuse(options.half_colour, "--exr-half");
+    refuse(options.bits == 16, "--bits 16");
+    if (file == "-" && options.stats == "-") {
+        throw UsageError("--stats: standard output is the video's; name a file");
+    }
+    check_video_size(file, shared.settings.width, shared.settings.height);
+    uses_ocio(options.ocio);
+}
+
 void check_format(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
+    if (is_video(file)) return check_video(shared, options);
     if (!shared.settings.want.aovs.empty() && !holds_layers(file)) {
         throw UsageError(fmt::format("--aov: '{}' cannot hold layers; use .exr", file));
     }

@@ -2,16 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
-#include "host/measure/roofline/device_limits.h"
-#include "host/measure/roofline/roofline.h"
-#include "host/render/kernel_choice.h"
-#include "host/render/renderer.h"
 #include "present/cli/camera_motion.h"
 #include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
@@ -19,13 +16,11 @@
 #include "present/cli/options.h"
 #include "present/cli/picture_advice.h"
 #include "present/cli/progress.h"
-#include "present/cli/scene_choice.h"
-#include "present/cli/stats_json.h"
-#include "present/commands/bench.h"
-#include "present/image/automatic_exposure.h"
+#include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
+#include "present/video/video_file.h"
 
 namespace kilolux {
 namespace {
@@ -89,18 +84,22 @@ struct Made {
     std::optional<FrameLog> log;
 };
 
+bool is_for_the_eye(const fs::path& output) {
+    return is_video(output) || image_meaning(output) == ImageMeaning::display;
+}
+
 bool wants_own_display(const RenderOptions& options) {
     return options.output.bits == 16 || uses_ocio(options.output.ocio);
 }
 
-ImageNotes notes_of(const RenderOptions& options, const Renderer& renderer, const Camera& camera,
+ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
                     const FrameRecord& record) {
-    ImageNotes notes = picture_notes(options.shared, renderer.device(), record.stats);
+    ImageNotes notes = picture_notes(options.shared, pictures.renderer().device(), record.stats);
     notes.strings.emplace_back("time", text_of(record.time) + " s");
     if (record.comparison) {
         notes.strings.emplace_back("error", comparison_text(*record.comparison));
     }
-    notes.camera = camera;
+    notes.camera = pictures.camera();
     return notes;
 }
 
@@ -110,7 +109,7 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     ImageOptions image;
     image.half_colour = out.half_colour;
     image.bits = out.bits;
-    if (image_meaning(task.file) == ImageMeaning::display && wants_own_display(options)) {
+    if (is_for_the_eye(task.file) && wants_own_display(options)) {
         image.display = options.shared.show_error
                             ? display_codes(frame)
                             : display_colours(frame, options.shared.settings, out.ocio);
@@ -118,31 +117,39 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     return image;
 }
 
-FrameRecord render_task(const RenderOptions& options, Renderer& renderer, const Camera& camera,
-                        const Task& task) {
+// A task's frame into its file, or the next one of the video.
+void write_picture(Frame& frame, const fs::path& file, const ImageNotes& notes,
+                   const ImageOptions& image, VideoFile* video) {
+    if (video == nullptr) return write_image(file, frame, notes, image);
+    if (!image.display.empty()) set_display(frame, image.display);
+    video->write(frame);
+}
+
+FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures, const Task& task,
+                        VideoFile* video) {
     const OutputOptions& out = options.output;
     std::optional<Reference> reference;
     if (!task.reference.empty()) {
-        require_reference_size(task.reference, renderer.settings().width,
-                               renderer.settings().height);
+        const RenderSettings& settings = pictures.renderer().settings();
+        require_reference_size(task.reference, settings.width, settings.height);
         reference.emplace(task.reference);
     }
-    Frame frame = renderer.render(camera, task.time, check_interrupt);
+    Frame frame = pictures.render(task.time, task.frame);
     check_interrupt();
-    FrameRecord record{task.frame, task.time, task.file.string(), frame.stats, std::nullopt};
+    FrameRecord record{task.frame, task.time, output_name(task.file), frame.stats, std::nullopt};
     if (reference) {
         record.comparison = reference->compare(frame, out.metric, out.threshold.value_or(0.0));
     }
     if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    write_image(task.file, frame, notes_of(options, renderer, camera, record),
-                image_options(options, frame, task));
+    write_picture(frame, task.file, notes_of(options, pictures, record),
+                  image_options(options, frame, task), video);
     return record;
 }
 
-void advise(const Scene& scene, const Camera& camera, const Renderer& renderer,
-            const FrameRecord& record) {
-    const std::string advice = picture_advice(scene, camera, renderer.settings(), record.stats);
+void advise(SceneRenderer& pictures, const FrameRecord& record) {
+    const std::string advice = picture_advice(pictures.scene().scene(), pictures.camera(),
+                                              pictures.renderer().settings(), record.stats);
     if (!advice.empty()) note(record.file + ": " + advice);
 }
 
@@ -156,62 +163,54 @@ void add(Made& made, FrameRecord record) {
     made.last = std::move(record);
 }
 
-Made render_tasks(const RenderOptions& options, const Tasks& tasks, const CameraMotion& motion,
-                  AnimatedScene& scene, Renderer& renderer) {
+// None for pictures.
+std::unique_ptr<VideoFile> open_video(const OutputOptions& out, const RenderSettings& settings) {
+    if (!is_video(out.output)) return nullptr;
+    return std::make_unique<VideoFile>(
+        out.output, VideoFormat{settings.width, settings.height, out.frames_per_second});
+}
+
+Made render_tasks(const RenderOptions& options, const Tasks& tasks, SceneRenderer& pictures) {
     Made made;
-    // What each stage would take at the device's limits, which are measured once a device.
-    std::optional<DeviceLimits> limits;
-    if (!options.output.stats.empty()) {
-        limits = cached_device_limits(Gpu(choose_device(renderer.settings().device)));
-        if (options.output.frames) made.log.emplace();
-    }
+    const bool counted = !options.output.stats.empty();
+    if (counted && options.output.frames) made.log.emplace();
+    const std::unique_ptr<VideoFile> video =
+        open_video(options.output, pictures.renderer().settings());
     const std::size_t first = tasks.first_to_do();
     Progress progress("rendering", tasks.size() - first, !options.shared.quiet);
     for (std::size_t i = first; i < tasks.size(); ++i) {
         check_interrupt();
         const Task task = tasks[i];
         if (!tasks.is_done(task)) {
-            scene.set_time(task.time);
-            const Camera camera = motion.at(scene.scene(), task.frame, task.time);
-            FrameRecord record = render_task(options, renderer, camera, task);
-            if (made.count == 0) advise(scene.scene(), camera, renderer, record);
-            if (limits) {
-                fill_limits(record.stats, *limits,
-                            frame_setup(renderer.settings(), renderer.plan(), renderer.device()));
-            }
+            FrameRecord record = render_task(options, pictures, task, video.get());
+            if (made.count == 0) advise(pictures, record);
+            if (counted) pictures.fill_limits(record);
             add(made, std::move(record));
         }
         progress.advance();
     }
+    if (video) video->commit();
     return made;
 }
 
 // By the sequence's first frame, also in a shard that does not have it.
-void expose_automatically(RenderOptions& options, const CameraMotion& motion, AnimatedScene& scene,
-                          Renderer& renderer) {
+void expose_automatically(const RenderOptions& options, SceneRenderer& pictures) {
     const OutputOptions& out = options.output;
-    const int first = out.frames ? out.frames->first : 0;
-    const double time = options.shared.time + (out.frames ? first / out.frames_per_second : 0.0);
-    scene.set_time(time);
-    const RenderSettings wanted = renderer.settings();
-    RenderSettings settings = wanted;
-    settings.want = radiance_only();
-    settings.background.reset();
-    renderer.change(settings);
-    const Frame frame =
-        renderer.render(motion.at(scene.scene(), first, time), time, check_interrupt);
-    settings = wanted;
-    settings.exposure = options.shared.settings.exposure = automatic_exposure(frame.radiance);
-    renderer.change(settings);
-    note(fmt::format("exposure {} EV (automatic{}): --exposure {} makes it again",
-                     settings.exposure, out.frames ? ", of the sequence's first frame" : "",
-                     settings.exposure));
+    const double time = options.shared.time;
+    if (!out.frames) return pictures.expose_automatically(time);
+    const int first = out.frames->first;
+    pictures.expose_automatically(time + first / out.frames_per_second,
+                                  ", of the sequence's first frame", first);
 }
 
 // Checks before rendering what would fail after it.
 void check_files(const RenderOptions& options, const Tasks& tasks, const Task& first) {
     const OutputOptions& out = options.output;
-    check_can_write(first.file);
+    if (is_video(out.output)) {
+        check_can_write_video(out.output);
+    } else {
+        check_can_write(first.file);
+    }
     if (!out.difference.empty()) check_can_write(first.difference);
     if (!out.stats.empty() && out.stats != "-") check_can_write(out.stats);
     if (out.reference.empty()) return;
@@ -227,7 +226,7 @@ void check_files(const RenderOptions& options, const Tasks& tasks, const Task& f
 FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked) {
     const OutputOptions& out = options.output;
     const bool own_display = wants_own_display(options);
-    const bool for_the_eye = image_meaning(out.output) == ImageMeaning::display;
+    const bool for_the_eye = is_for_the_eye(out.output);
     FrameRequest want = asked;
     want.display = for_the_eye || !out.reference.empty();
     want.radiance = !for_the_eye || own_display || !out.reference.empty();
@@ -235,14 +234,6 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     want.counts =
         !out.stats.empty() || std::ranges::find(want.aovs, "light-count") != want.aovs.end();
     return want;
-}
-
-RenderSettings settings_of(const RenderOptions& options, const ReportView& view) {
-    RenderSettings settings = settings_within_budget(options.shared, options.budget, view);
-    settings.want = request_of(options, settings.want);
-    settings.background = options.shared.shown_background;
-    settings.reflections = options.shared.maps;
-    return settings;
 }
 
 // What is chosen by its error is measured without reflections.
@@ -266,22 +257,17 @@ void run_render(RenderOptions& options) {
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
     const CameraMotion motion(options.shared, out);
-    AnimatedScene scene = open_animated_scene(options.shared, first.time);
-    const std::string rig = light_scene(options.shared, scene);
-    const Camera camera = motion.at(scene.scene(), first.frame, first.time);
-    check_interrupt();
-    Renderer renderer(scene.scene(), settings_of(options, {scene.scene(), camera, first.time}));
-    check_interrupt();
-    if (options.shared.automatic_exposure) expose_automatically(options, motion, scene, renderer);
-    const Made made = render_tasks(options, tasks, motion, scene, renderer);
+    SceneRenderer pictures(options.shared, options.budget,
+                           request_of(options, options.shared.settings.want),
+                           {first.time, first.frame, &motion});
+    if (options.shared.automatic_exposure) expose_automatically(options, pictures);
+    const Made made = render_tasks(options, tasks, pictures);
     if (!out.stats.empty()) {
-        auto document = stats_json(renderer.device(), renderer.plan(), made.last);
-        document["program"] = program_json();
-        document["tuning"] =
-            tuning_json(choose_tuning(renderer.device(), renderer.settings().kernels));
-        write_json(out.stats, document, made.log ? &*made.log : nullptr);
+        write_json(out.stats, pictures.stats(made.last, false), made.log ? &*made.log : nullptr);
     }
-    note(rig + "\n" + frame_summary(scene.scene(), renderer.device(), made.last, made.count));
+    note(pictures.rig_lines() + "\n" +
+         frame_summary(pictures.scene().scene(), pictures.renderer().device(), made.last,
+                       made.count));
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }
 
@@ -299,13 +285,15 @@ constexpr const char* kExamples =
     "  kilolux render town.glb -o town.png --lights 0 --camera-index 1 --resolution 3840x2160\n"
     "  kilolux render mug.glb -o turn.###.png --frames 0:119 --turntable 360\n"
     "  kilolux render -o frame.####.exr --frames 0:239 --fps 24 --shard 3/8 --skip-existing\n"
+    "  kilolux render -o flight.mp4 --frames 0:239 --fps 24\n"
+    "  kilolux render -o - --frames 0:239 --quiet | mpv -\n"
     "  kilolux render -o now.exr --reference all.exr --threshold 0 --difference where.png\n"
     "  kilolux render -o atrium.png --stats - --quiet";
 
 }  // namespace
 
 void add_render_command(Program& program) {
-    program.add_command("render", "Render a scene to an image file or a sequence of them",
+    program.add_command("render", "Render a scene to an image file, a sequence of them or a video",
                         kExamples, add_render_options, run_render);
 }
 

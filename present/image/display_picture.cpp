@@ -102,6 +102,14 @@ std::vector<float> display_codes(const Frame& frame) {
     return rgb;
 }
 
+void set_display(Frame& frame, const std::vector<float>& rgb) {
+    frame.display.assign(rgb.size() / 3 * 4, 255);
+    for (std::size_t i = 0; i < rgb.size(); ++i) {
+        frame.display[i / 3 * 4 + i % 3] =
+            static_cast<std::uint8_t>(std::lround(static_cast<double>(rgb[i]) * 255.0));
+    }
+}
+
 std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
                                    const OcioOptions& ocio) {
     if (settings.want.view != ViewKind::lit) return display_codes(frame);

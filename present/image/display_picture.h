@@ -25,6 +25,9 @@ bool uses_ocio(const OcioOptions& options);
 /// Frame::display as RGB codes from 0 to 1, as read_image() gives those of a file.
 std::vector<float> display_codes(const Frame& frame);
 
+/// RGB from 0 to 1 as Frame::display, each code the nearest.
+void set_display(Frame& frame, const std::vector<float>& rgb);
+
 /// The picture as RGB from 0 to 1, encoded for the display: exposure, then OpenColorIO's view or
 /// the tone curve and sRGB. A debug view (settings.want.view) is Frame::display as it is. Throws
 /// Error with OpenColorIO's reason, UsageError for displays, views and spaces that the

@@ -34,11 +34,10 @@ constexpr std::array kFormats = {
 
 const Format& format_of(const std::filesystem::path& file) {
     const std::string extension = lower(file.extension().string());
-    std::vector<std::string> known;
     for (const Format& format : kFormats) {
         if (extension == format.extension) return format;
-        known.emplace_back(format.extension);
     }
+    const std::vector<std::string> known = image_extensions();
     throw UsageError(file.string() + ": image type '" + extension + "' is none of " +
                      joined(known) + did_you_mean(extension, known));
 }
@@ -202,6 +201,12 @@ std::vector<unsigned char> exr_pixels(const Frame& frame, const OIIO::ImageSpec&
 }
 
 }  // namespace
+
+std::vector<std::string> image_extensions() {
+    std::vector<std::string> out;
+    for (const Format& format : kFormats) out.emplace_back(format.extension);
+    return out;
+}
 
 ImageMeaning image_meaning(const std::filesystem::path& file) { return format_of(file).meaning; }
 

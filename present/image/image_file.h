@@ -17,6 +17,9 @@ namespace kilolux {
 /// What a file's pixels mean: sRGB for the eye (PNG, JPEG, TIFF) or linear scene light (EXR, HDR).
 enum class ImageMeaning { display, linear };
 
+/// The extensions of images.
+std::vector<std::string> image_extensions();
+
 /// By the extension; throws UsageError that lists the known ones.
 ImageMeaning image_meaning(const std::filesystem::path& file);
 

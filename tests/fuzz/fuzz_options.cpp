@@ -77,6 +77,7 @@ std::vector<std::string> options_corpus() {
     return {
         "atrium\n-o\na.png\n--lights\n100\n--resolution\n64,48\n--quiet",
         "town.glb\n--output=b.exr\n--aov\ndepth,normal\n--exr-half\n--renderer=forward-plus",
+        "-o\na.mp4\n--frames\n0:9\n--resolution\n64,48",
         "-o\nf.##.png\n--frames\n0:99\n--fps\n24\n--shard\n1/4\n--skip-existing\n--time\n-1.5",
         "-o\na.png\n--camera-position\n1,2,3\n--camera-focal-point\n0,0,0\n--camera-view-up\n0,1,"
         "0\n"

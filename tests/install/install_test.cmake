@@ -47,8 +47,18 @@ get_filename_component(pc_folder ${pc} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${pc_folder})
 run(pkg-config --cflags --libs kilolux)
 separate_arguments(flags UNIX_COMMAND "${out}")
-run(${CXX} -std=c++20 -fsyntax-only ${WORK}/all_headers.cpp ${flags})
-run(${CXX} -std=c++20 -O2 ${WORK}/example/light_gbuffer.cpp ${flags} -o ${WORK}/by_pkg_config)
+file(WRITE ${WORK}/version.cpp "#include <kilolux/kilolux.h>
+#if KILOLUX_VERSION < KILOLUX_MAKE_VERSION(0, 1, 0) || KILOLUX_VERSION >= KILOLUX_MAKE_VERSION(1, 0, 0)
+#error of another version
+#endif
+int main(int, char** argv) { return kilolux::version() == argv[1] ? 0 : 1; }
+")
+run(${CXX} ${WORK}/version.cpp ${flags} -o ${WORK}/version)
+run(pkg-config --modversion kilolux)
+string(STRIP "${out}" modversion)
+run(${WORK}/version ${modversion})
+run(${CXX} -fsyntax-only ${WORK}/all_headers.cpp ${flags})
+run(${CXX} -O2 ${WORK}/example/light_gbuffer.cpp ${flags} -o ${WORK}/by_pkg_config)
 run(${WORK}/by_pkg_config ${WORK}/by_pkg_config.ppm)
 
 # The same picture both ways, and one that is neither black nor white.

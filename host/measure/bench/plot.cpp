@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/bench/plot.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "host/base/atomic_write.h"
+#include "host/base/child_process.h"
 #include "host/base/error.h"
 #include "host/measure/bench/plot_script.h"
 
@@ -44,62 +41,25 @@ class WorkFolder {
     fs::path path_;
 };
 
-std::string first_line(const fs::path& file) {
-    std::ifstream in(file);
-    std::string line;
-    // gnuplot first repeats the script's line and marks the place.
-    while (std::getline(in, line)) {
-        if (line.find("line ") != std::string::npos || line.find("rror") != std::string::npos)
-            break;
+// gnuplot first repeats the script's line and marks the place.
+std::string reason_of(const std::vector<std::string>& messages) {
+    for (const std::string& line : messages) {
+        if (line.find("line ") != std::string::npos || line.find("rror") != std::string::npos) {
+            return line;
+        }
     }
-    return line;
-}
-
-// A child process' folder, its empty input and the file for its messages.
-class SpawnActions {
- public:
-    SpawnActions(const fs::path& folder, const fs::path& messages) {
-        posix_spawn_file_actions_init(&actions_);
-        posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
-        posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&actions_, 1, "/dev/null", O_WRONLY, 0);
-        posix_spawn_file_actions_addopen(&actions_, 2, messages.c_str(),
-                                         O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    }
-    ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
-    SpawnActions(const SpawnActions&) = delete;
-    SpawnActions& operator=(const SpawnActions&) = delete;
-    const posix_spawn_file_actions_t* get() const { return &actions_; }
-
- private:
-    posix_spawn_file_actions_t actions_;
-};
-
-int wait_for(pid_t process) {
-    int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
+    return messages.empty() ? "it says nothing" : messages.back();
 }
 
 void run_gnuplot(const fs::path& folder, const std::string& script, const fs::path& stem) {
-    const fs::path messages = folder / "messages";
-    const SpawnActions actions(fs::absolute(folder), fs::absolute(messages));
-    std::string program = "gnuplot", argument = script;
-    char* const arguments[] = {program.data(), argument.data(), nullptr};
-    pid_t process = 0;
-    const int failure =
-        posix_spawnp(&process, program.c_str(), actions.get(), nullptr, arguments, environ);
     const std::string what = fmt::format("plot '{}': ", stem.string());
-    if (failure == ENOENT) {
+    if (!has_program("gnuplot")) {
         throw Error(what + "gnuplot not found; install the package gnuplot-nox");
     }
-    if (failure != 0) {
-        throw Error(fmt::format("{}cannot run gnuplot: {}", what, std::strerror(failure)));
+    ChildProcess gnuplot({"gnuplot", script}, -1, folder);
+    if (!gnuplot.succeeded()) {
+        throw Error(what + "gnuplot failed: " + reason_of(gnuplot.messages()));
     }
-    const int status = wait_for(process);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-    throw Error(fmt::format("{}gnuplot failed: {}", what, first_line(messages)));
 }
 
 void move_into_place(const fs::path& from, const fs::path& to) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "host/measure/roofline/device_limits.h"
+#include "host/render/renderer.h"
+#include "host/scene/animated_scene.h"
+#include "present/cli/camera_motion.h"
+#include "present/cli/error_budget_options.h"
+#include "present/cli/options.h"
+#include "present/cli/stats_json.h"
+
+namespace kilolux {
+
+/// When and from where a scene is seen first.
+struct FirstPicture {
+    double time = 0.0;                     // [s]
+    int frame = 0;                         // of a sequence
+    const CameraMotion* motion = nullptr;  // none: the options' camera; must outlive its user
+};
+
+/// A scene and the renderer of its pictures, as the options of a command line mean them.
+class SceneRenderer {
+ public:
+    /// Opens the scene at the first picture's time, lights it and compiles for it. Frames hold
+    /// `want`. `made` is rendered in place of the scene that the options name. What the options
+    /// leave open, such as the rig, is settled in them; they must outlive this. Throws as what it
+    /// calls.
+    SceneRenderer(SharedOptions& options, const BudgetOptions& budget, const FrameRequest& want,
+                  const FirstPicture& first, std::optional<Scene> made = {});
+
+    /// Sets the exposure of --exposure auto by the picture at `time`; says it, with `of_what`.
+    void expose_automatically(double time, const std::string& of_what = "", int frame = 0);
+
+    /// The picture at `time` [s], by the options' camera or as it moves in `frame`.
+    Frame render(double time, int frame = 0);
+
+    /// Obeys `next` in place of the options so far; the scene that they name stays. `relights`: its
+    /// lights are those of `next`, too. When it throws, everything is as before.
+    void change(const SharedOptions& next, const BudgetOptions& budget, const FrameRequest& want,
+                bool relights);
+
+    /// Lights in the world beside all others; none replaces the former ones.
+    void set_lights(std::vector<SceneLight> lights);
+
+    /// Called within long work; what it throws comes out. As made: check_interrupt().
+    void set_between(std::function<void()> between) { between_ = std::move(between); }
+
+    /// The document of --stats. `limits`: what each stage would take at the device's limits, which
+    /// are measured once a device.
+    nlohmann::ordered_json stats(FrameRecord record, bool limits);
+    void fill_limits(FrameRecord& record);
+
+    AnimatedScene& scene() { return scene_; }
+    Renderer& renderer() { return *renderer_; }
+    const Camera& camera() const { return camera_; }       // of the last render()
+    const std::string& rig_lines() const { return rig_; }  // what lights the scene
+
+ private:
+    void relight(SharedOptions& options);
+    Camera camera_at(double time, int frame) const;
+    RenderSettings settings_for(const BudgetOptions& budget, const FrameRequest& want, double time);
+
+    SharedOptions& options_;
+    const CameraMotion* motion_;
+    std::function<void()> between_;
+    AnimatedScene scene_;
+    std::vector<SceneLight> lights_;  // of set_lights()
+    std::string rig_;
+    std::optional<Renderer> renderer_;
+    Camera camera_;
+    std::optional<DeviceLimits> limits_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/base/error.h"
+#include "host/measure/metrics/flip.h"
+#include "host/measure/metrics/metrics.h"
+#include "host/measure/metrics/ssim.h"
+#include "present/python/arrays.h"
+#include "present/python/bindings.h"
+
+namespace py = pybind11;
+
+namespace kilolux {
+namespace {
+
+struct Pictures {
+    RgbImage picture, reference;
+};
+
+Pictures pictures_of(const Array<double>& picture, const Array<double>& reference) {
+    return {rgb_image_of(picture, "picture"), rgb_image_of(reference, "reference")};
+}
+
+py::dict compare(const Array<double>& picture, const Array<double>& reference, double peak) {
+    const Pictures p = pictures_of(picture, reference);
+    HdrMetrics m;
+    {
+        const py::gil_scoped_release other_threads_run;
+        m = compare_hdr(p.picture, p.reference, {.psnr_peak = peak});
+    }
+    py::dict out;
+    out["rmse"] = m.rmse;
+    out["relmse"] = m.rel_mse;
+    out["psnr"] = m.psnr_db;
+    out["mean"] = m.absolute.mean;
+    out["max"] = m.absolute.max;
+    out["different_pixels"] = m.different_pixels;
+    return out;
+}
+
+py::tuple flip(const Array<double>& picture, const Array<double>& reference, bool hdr) {
+    const Pictures p = pictures_of(picture, reference);
+    FlipResult result;
+    {
+        const py::gil_scoped_release other_threads_run;
+        result = hdr ? flip_hdr(p.picture, p.reference) : flip_ldr(p.picture, p.reference);
+    }
+    const py::ssize_t height = result.height, width = result.width;
+    return py::make_tuple(result.error.mean, array_of(std::move(result.errors), {height, width}));
+}
+
+DisplayView display_of(const Array<std::uint8_t>& codes) {
+    if (codes.ndim() != 3 || codes.shape(2) != 4) {
+        throw Error("ssim: pictures must have the shape (height, width, 4)");
+    }
+    return {static_cast<int>(codes.shape(1)),
+            static_cast<int>(codes.shape(0)),
+            {codes.data(), static_cast<std::size_t>(codes.size())}};
+}
+
+py::object ssim_of(const Array<std::uint8_t>& picture, const Array<std::uint8_t>& reference) {
+    const std::optional<double> value = ssim(display_of(picture), display_of(reference));
+    return value ? py::object(py::float_(*value)) : py::object(py::none());
+}
+
+}  // namespace
+
+void add_metrics(py::module_& module) {
+    module.def("compare", compare);
+    module.def("flip", flip);
+    module.def("ssim", ssim_of);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# The Python module, where Python's headers, numpy and pybind11 are: build/python/kilolux. Debian's own interpreter is
+# taken before others in PATH, since the package lists install for it; -DPython3_EXECUTABLE=... names another.
+option(KILOLUX_PYTHON "Build the Python module where Python's headers, numpy and pybind11 are" ON)
+add_custom_target(python)  # the module, or nothing
+if(NOT KILOLUX_PYTHON OR KILOLUX_SANITIZE)  # a plain interpreter loads nothing instrumented
+  return()
+endif()
+if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python3 COMPONENTS Interpreter Development.Module NumPy QUIET)
+find_package(pybind11 2.10 CONFIG QUIET)
+if(NOT Python3_FOUND OR NOT pybind11_FOUND)
+  message(STATUS "kilolux: no Python module: needs python3-dev, python3-numpy and pybind11-dev")
+  return()
+endif()
+
+file(GLOB python_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/present/python/*.cpp)
+Python3_add_library(kilolux_python MODULE WITH_SOABI ${python_sources})
+add_dependencies(python kilolux_python)
+target_link_libraries(kilolux_python PRIVATE kilolux_present pybind11::headers kilolux_options)
+set(python_folder ${CMAKE_BINARY_DIR}/python/kilolux)
+set_target_properties(kilolux_python PROPERTIES OUTPUT_NAME _native LIBRARY_OUTPUT_DIRECTORY ${python_folder}
+  CXX_VISIBILITY_PRESET hidden)
+file(GLOB python_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/present/python/kilolux/*)
+file(MAKE_DIRECTORY ${python_folder})
+foreach(file IN LISTS python_files)
+  get_filename_component(name ${file} NAME)
+  file(CREATE_LINK ${file} ${python_folder}/${name} SYMBOLIC)
+endforeach()
+
+# Where this Python looks below a prefix: lib/python3.11/dist-packages.
+execute_process(COMMAND ${Python3_EXECUTABLE} -c "import os, sysconfig; print(os.path.basename(sysconfig.get_path('purelib')))"
+  OUTPUT_VARIABLE python_packages OUTPUT_STRIP_TRAILING_WHITESPACE)
+set(KILOLUX_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${python_packages} CACHE STRING
+  "Where the Python module is installed, below the prefix")
+install(TARGETS kilolux_python LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
+install(FILES ${python_files} DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)

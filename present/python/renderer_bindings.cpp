@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+
+#include "present/python/arrays.h"
+#include "present/python/bindings.h"
+#include "present/python/thread_renderer.h"
+
+namespace py = pybind11;
+
+namespace kilolux {
+namespace {
+
+using Lights = ThreadRenderer::Lights;
+using Words = std::vector<std::string>;
+
+py::tuple tuple_of(const glm::dvec3& v) { return py::make_tuple(v.x, v.y, v.z); }
+
+py::array_t<double> rows_of(const std::vector<glm::dvec3>& rows) {
+    std::vector<double> values;
+    for (const glm::dvec3& row : rows) values.insert(values.end(), {row.x, row.y, row.z});
+    return array_of(std::move(values), {static_cast<py::ssize_t>(rows.size()), 3});
+}
+
+// From view space into the world.
+struct ToWorld {
+    const Camera& camera;
+    glm::dvec3 direction(const glm::dvec3& v) const { return camera.world_from_view * v; }
+    glm::dvec3 point(const glm::dvec3& p) const { return direction(p) + camera.position; }
+};
+
+py::dict probe_dict(const ThreadRenderer::Probed& probed) {
+    const PixelProbe& probe = probed.probe;
+    const auto three = [&probe](std::size_t plane) {
+        return glm::dvec3(probe.surface[plane], probe.surface[plane + 1], probe.surface[plane + 2]);
+    };
+    const ToWorld to_world{probed.camera};
+    py::dict out;
+    out["drawn"] = probe.drawn();
+    out["depth"] = probe.surface[SURFACE_DEPTH];
+    out["position"] = tuple_of(to_world.point(three(SURFACE_POSITION)));
+    out["normal"] = tuple_of(to_world.direction(three(SURFACE_NORMAL)));
+    out["albedo"] = tuple_of(three(SURFACE_ALBEDO));
+    out["roughness"] = probe.surface[SURFACE_ROUGHNESS];
+    out["metallic"] = probe.surface[SURFACE_METALLIC];
+    out["cluster"] = py::make_tuple(probe.tile_x, probe.tile_y, probe.slice);
+    out["coarse_lights"] = probe.coarse_count;
+    std::vector<glm::dvec3> positions, intensities;
+    std::vector<double> ranges;
+    for (const ProbedLight& lit : probe.lights) {
+        const float4& p = lit.light.position_range;
+        const float4& c = lit.light.color_scale;
+        positions.push_back(glm::dvec3(p.x, p.y, p.z) + probed.camera.position);
+        intensities.emplace_back(c.x, c.y, c.z);
+        ranges.push_back(p.w);
+    }
+    py::dict lights;
+    lights["position"] = rows_of(positions);
+    lights["intensity"] = rows_of(intensities);
+    const auto count = static_cast<py::ssize_t>(ranges.size());
+    lights["range"] = array_of(std::move(ranges), {count});
+    out["lights"] = lights;
+    return out;
+}
+
+py::dict reference_dict(ReferencePicture picture) {
+    const py::ssize_t height = picture.radiance.height, width = picture.radiance.width;
+    py::dict out;
+    out["radiance"] = array_of(std::move(picture.radiance.rgb), {height, width, 3});
+    out["scale"] = array_of(std::move(picture.scale.rgb), {height, width, 3});
+    out["lights_per_pixel"] = picture.lights_per_pixel;
+    return out;
+}
+
+}  // namespace
+
+void add_renderer(py::module_& module) {
+    py::class_<Frame, std::shared_ptr<Frame>>(module, "Frame");
+    py::class_<ThreadRenderer>(module, "Renderer")
+        .def(py::init([](const std::string& scene, const Words& words, const Scene* made,
+                         const Lights& lights) {
+            return std::make_unique<ThreadRenderer>(
+                parse_renderer_options(scene, words),
+                made != nullptr ? std::optional<Scene>(*made) : std::nullopt, lights);
+        }))
+        .def("change",
+             [](ThreadRenderer& self, const std::string& scene, const Words& words,
+                std::optional<Lights> lights) {
+                 self.change(parse_renderer_options(scene, words), std::move(lights));
+             })
+        .def("render",
+             [](ThreadRenderer& self, std::optional<double> time, bool counts) {
+                 const ThreadRenderer::Rendered rendered = self.render(time, counts);
+                 return py::make_tuple(frame_arrays(rendered.frame), rendered.stats);
+             })
+        .def("probe",
+             [](ThreadRenderer& self, int x, int y) { return probe_dict(self.probe(x, y)); })
+        .def("reference", [](ThreadRenderer& self) { return reference_dict(self.reference()); });
+}
+
+}  // namespace kilolux

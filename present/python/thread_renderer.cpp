@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/python/thread_renderer.h"
+
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+#include <signal.h>
+
+#include <utility>
+
+#include "host/base/error.h"
+#include "host/base/suggest.h"
+#include "host/measure/reference/decoded_samples.h"
+#include "present/program.h"
+
+namespace py = pybind11;
+
+namespace kilolux {
+namespace {
+
+// What was said of the options under headings that begin so.
+std::string said_under(const CLI::App& app, std::string_view heading) {
+    std::string out;
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->count() == 0 || !option->get_group().starts_with(heading)) continue;
+        out += option->get_name() + "=" + joined(option->results(), ",") + "\n";
+    }
+    return out;
+}
+
+// Signals are Python's, in its main thread.
+void block_signals() {
+    sigset_t signals;
+    sigfillset(&signals);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+// What Python's arrays hold, and what probes read.
+FrameRequest request_of(const SharedOptions& shared, bool counts, bool probes) {
+    FrameRequest want = shared.settings.want;
+    want.counts = counts;
+    want.probes = probes;
+    return want;
+}
+
+}  // namespace
+
+RendererOptions parse_renderer_options(const std::string& scene,
+                                       const std::vector<std::string>& words) {
+    RendererOptions options;
+    CLI::App app;
+    app.set_help_flag();
+    app.allow_extras();
+    options.shared.takes_automatic_exposure = true;
+    add_shared_options(app, options.shared);
+    add_budget_options(app, options.budget);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    refuse_extras(app, app.remaining());
+    begin_command(options.shared);
+    options.shared.scene = scene;
+    options.scene_words = scene + "\n" + said_under(app, "Scene");
+    options.light_words =
+        said_under(app, "Lights") + joined(app.get_option("--ambient")->results(), ",");
+    return options;
+}
+
+// Runs `work` in the thread and returns what it does.
+template <typename Work>
+auto ThreadRenderer::run(Work work) {
+    auto result = thread_.ask(std::move(work));
+    std::exception_ptr interruption;
+    for (;;) {
+        {
+            const py::gil_scoped_release other_threads_run;
+            if (result.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready) break;
+        }
+        if (interruption || PyErr_CheckSignals() == 0) continue;
+        interruption = std::make_exception_ptr(py::error_already_set());
+        cancelled_ = true;
+    }
+    cancelled_ = false;
+    if (interruption) std::rethrow_exception(interruption);
+    return result.get();
+}
+
+ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> made, Lights lights)
+    : options_(std::move(options)),
+      thread_(
+          block_signals, [this] { pictures_.reset(); }, [] {}) {
+    run([&] {
+        const SharedOptions& shared = options_.shared;
+        pictures_.emplace(options_.shared, options_.budget, request_of(shared, false, false),
+                          FirstPicture{.time = shared.time}, std::move(made));
+        pictures_->set_between([this] {
+            if (cancelled_) throw Interrupted();
+        });
+        if (!lights.empty()) pictures_->set_lights(std::move(lights));
+        if (shared.automatic_exposure) pictures_->expose_automatically(shared.time);
+    });
+}
+
+ThreadRenderer::~ThreadRenderer() {
+    cancelled_ = true;
+    const py::gil_scoped_release other_threads_run;
+    thread_.stop(std::chrono::hours(1));
+}
+
+void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) {
+    if (next.scene_words != options_.scene_words) {
+        throw UsageError("a renderer keeps its scene and how that is read; make a new one for '" +
+                         next.shared.scene + "'");
+    }
+    run([&] {
+        rendered_ = false;
+        const bool relights = next.light_words != options_.light_words;
+        if (!relights) {  // what was settled for the lights stays
+            next.shared.rig = options_.shared.rig;
+            next.shared.settings.ambient = options_.shared.settings.ambient;
+            next.shared.settings.lights.count = options_.shared.settings.lights.count;
+        }
+        // options_.shared is what pictures_ obeys: it takes `next` itself.
+        pictures_->change(next.shared, next.budget, request_of(next.shared, false, false),
+                          relights);
+        options_.budget = next.budget;
+        options_.light_words = next.light_words;
+        if (lights) pictures_->set_lights(std::move(*lights));
+        if (options_.shared.automatic_exposure) {
+            pictures_->expose_automatically(options_.shared.time);
+        }
+    });
+}
+
+Frame ThreadRenderer::render_now(double time) {
+    Frame frame = pictures_->render(time);
+    last_time_ = time;
+    rendered_ = true;
+    return frame;
+}
+
+ThreadRenderer::Rendered ThreadRenderer::render(std::optional<double> time, bool counts) {
+    return run([&] {
+        const double at = time.value_or(options_.shared.time);
+        const auto want = [&](bool counted) {
+            RenderSettings settings = pictures_->renderer().settings();
+            settings.want.counts = counted;
+            pictures_->renderer().change(settings);
+        };
+        if (counts) want(true);
+        Frame frame = render_now(at);
+        const std::string stats =
+            pictures_->stats({0, at, "", frame.stats, std::nullopt}, counts).dump();
+        if (counts) want(false);
+        return Rendered{std::make_shared<Frame>(std::move(frame)), stats};
+    });
+}
+
+ThreadRenderer::Probed ThreadRenderer::probe(int x, int y) {
+    return run([&] {
+        RenderSettings settings = pictures_->renderer().settings();
+        if (x < 0 || y < 0 || x >= settings.width || y >= settings.height) {
+            throw UsageError(fmt::format("probe: pixel {},{} is not in the picture of {}x{}", x, y,
+                                         settings.width, settings.height));
+        }
+        if (!settings.want.probes || !rendered_) {
+            settings.want.probes = true;
+            pictures_->renderer().change(settings);
+            render_now(rendered_ ? last_time_ : options_.shared.time);
+        }
+        return Probed{pictures_->renderer().probe(x, y), pictures_->camera()};
+    });
+}
+
+ReferencePicture ThreadRenderer::reference() {
+    return run([&] {
+        if (!rendered_) render_now(options_.shared.time);
+        Renderer& renderer = pictures_->renderer();
+        return shade_reference(renderer.lit_surfaces(),
+                               {.shading = shading_of(renderer.plan().kernels),
+                                .ambient = static_cast<double>(renderer.settings().ambient),
+                                .orthographic = pictures_->camera().orthographic,
+                                .progress = [this](double) {
+                                    if (cancelled_) throw Interrupted();
+                                }});
+    });
+}
+
+}  // namespace kilolux

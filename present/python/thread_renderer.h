@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "present/commands/scene_renderer.h"
+#include "present/window/app/task_thread.h"
+
+namespace kilolux {
+
+/// The options of a renderer, from the words of a command line.
+struct RendererOptions {
+    SharedOptions shared;
+    BudgetOptions budget;
+    std::string scene_words, light_words;  // what was said of the scene, of the lights
+};
+
+/// Throws UsageError or CLI::ParseError as the command line would. `scene`: a generated scene, a
+/// file, or the name of a scene that was made.
+RendererOptions parse_renderer_options(const std::string& scene,
+                                       const std::vector<std::string>& words);
+
+/// A SceneRenderer in a thread of its own, which its OpenGL context belongs to: any thread of
+/// Python may use it. Whoever waits for it lets other threads of Python run; an interruption from
+/// the keyboard ends the work within a band.
+class ThreadRenderer {
+ public:
+    using Lights = std::vector<SceneLight>;
+
+    ThreadRenderer(RendererOptions options, std::optional<Scene> made, Lights lights);
+    ~ThreadRenderer();
+    ThreadRenderer(const ThreadRenderer&) = delete;
+    ThreadRenderer& operator=(const ThreadRenderer&) = delete;
+
+    /// `lights`: in place of the former; none: those stay.
+    void change(RendererOptions next, std::optional<Lights> lights);
+
+    /// `time` [s]; none: that of the options. `counts`: also what --stats counts with passes and
+    /// measurements of its own.
+    struct Rendered {
+        std::shared_ptr<Frame> frame;
+        std::string stats;  // JSON
+    };
+    Rendered render(std::optional<double> time, bool counts);
+
+    /// A pixel of the last picture; without one since the last change, of one that is made.
+    struct Probed {
+        PixelProbe probe;
+        Camera camera;
+    };
+    Probed probe(int x, int y);
+
+    /// The float64 reference of what that picture shaded, and how many lights reach a pixel.
+    ReferencePicture reference();
+
+ private:
+    template <typename Work>
+    auto run(Work work);
+    Frame render_now(double time);
+
+    RendererOptions options_;
+    std::atomic<bool> cancelled_ = false;
+    double last_time_ = 0.0;                 // [s] of the last picture
+    bool rendered_ = false;                  // whether there is one
+    std::optional<SceneRenderer> pictures_;  // used in the thread only
+    TaskThread thread_;                      // last: it ends first
+};
+
+}  // namespace kilolux

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/video/y4m.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace kilolux {
+namespace {
+
+// Luma of BT.709's primaries.
+constexpr double kRed = 0.2126, kGreen = 0.7152, kBlue = 0.0722;
+
+// What a display code's step is in a code of limited range.
+constexpr double kLumaStep = 219.0 / 255.0;
+constexpr double kBlueStep = 224.0 / 255.0 / (2.0 * (1.0 - kBlue));
+constexpr double kRedStep = 224.0 / 255.0 / (2.0 * (1.0 - kRed));
+
+char nearest(double code) { return static_cast<char>(static_cast<unsigned char>(code + 0.5)); }
+
+}  // namespace
+
+// Convergents of the continued fraction: the best ratios there are.
+Ratio ratio_of(double value) {
+    constexpr double kMost = 2147483647.0;
+    double before[2] = {0.0, 1.0}, now[2] = {1.0, 0.0};
+    double rest = value;
+    for (int i = 0; i < 64; ++i) {
+        const double whole = std::floor(rest);
+        const double next[2] = {whole * now[0] + before[0], whole * now[1] + before[1]};
+        if (next[0] > kMost || next[1] > kMost) break;
+        for (int k = 0; k < 2; ++k) {
+            before[k] = now[k];
+            now[k] = next[k];
+        }
+        if (std::abs(now[0] / now[1] - value) <= 1e-9 * value || rest == whole) break;
+        rest = 1.0 / (rest - whole);
+    }
+    if (now[0] < 1.0) return {1, static_cast<std::uint32_t>(kMost)};
+    return {static_cast<std::uint32_t>(now[0]), static_cast<std::uint32_t>(now[1])};
+}
+
+std::string y4m_header(const VideoFormat& format) {
+    const Ratio pace = ratio_of(format.frames_per_second);
+    return fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C444 XCOLORRANGE=LIMITED XMATRIX=BT709\n",
+                       format.width, format.height, pace.numerator, pace.denominator);
+}
+
+void append_y4m_frame(std::string& out, std::span<const std::uint8_t> rgba) {
+    constexpr std::string_view kMark = "FRAME\n";
+    const std::size_t pixels = rgba.size() / 4;
+    out += kMark;
+    const std::size_t start = out.size();
+    out.resize(start + 3 * pixels);
+    char* const luma = &out[start];
+    char* const blue = luma + pixels;
+    char* const red = blue + pixels;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const double r = rgba[4 * i], g = rgba[4 * i + 1], b = rgba[4 * i + 2];
+        const double y = kRed * r + kGreen * g + kBlue * b;
+        luma[i] = nearest(16.0 + kLumaStep * y);
+        blue[i] = nearest(128.0 + kBlueStep * (b - y));
+        red[i] = nearest(128.0 + kRedStep * (r - y));
+    }
+}
+
+}  // namespace kilolux

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A renderer that is kept: every picture is the one that a new renderer would make."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import kilolux
+import numpy as np
+import pytest
+from conftest import SMALL
+
+
+def same(a, b):
+    return np.array_equal(a.radiance, b.radiance) and np.array_equal(a.display, b.display)
+
+
+def test_changes_give_the_pictures_of_new_renderers():
+    renderer = kilolux.Renderer("grid", **SMALL)
+    first = renderer.render()
+    so_far = dict(SMALL)
+    for change in ({"camera_position": (3, 3, 3)}, {"time": 2.0}, {"exposure": 1.0}, {"lights": 90},
+                   {"resolution": (80, 40)}, {"renderer": "forward"}, {"renderer": "deferred"},
+                   {"ambient": 0.5}, {"rig": "studio", "lights": None}, {"rig": None, "lights": 60}):
+        renderer.change(**change)
+        so_far = {name: value for name, value in {**so_far, **change}.items() if value is not None}
+        assert same(renderer.render(), kilolux.render("grid", **so_far)), change
+    assert not same(first, renderer.render())
+
+
+def test_time_of_a_picture():
+    renderer = kilolux.Renderer("grid", **SMALL)
+    later = renderer.render(time=1.5)
+    assert same(later, kilolux.render("grid", time=1.5, **SMALL))
+    assert same(renderer.render(), kilolux.render("grid", **SMALL))
+    assert not same(later, renderer.render())
+
+
+def test_a_change_that_fails_changes_nothing():
+    renderer = kilolux.Renderer("grid", **SMALL)
+    before = renderer.render()
+    for bad in ({"exposure": "bright"}, {"camera_index": 9}, {"lights": 70, "rig": "none", "samples": 0},
+                {"clip": "walk"}, {"lights": kilolux.Lights([[0, 1, 0]], range=[1, 2])}):
+        with pytest.raises(kilolux.Error):
+            renderer.change(**bad)
+        assert same(renderer.render(), before), bad
+    with pytest.raises(kilolux.Error, match="keeps its scene"):
+        renderer.change(strict=True)
+
+
+def test_lights_in_arrays_replace_each_other():
+    random = np.random.default_rng(3)
+    arrays = [kilolux.Lights(random.uniform(-3, 3, (n, 3)), random.uniform(0, 2, (n, 3)), 2.0) for n in (50, 20)]
+    options = {"resolution": (64, 48)}
+    renderer = kilolux.Renderer("grid", lights=arrays[0], **options)
+    assert renderer.render().stats["lights"] == {"given": 50, "used": 50, "rejected": 0, "dropped": 0}
+    spot = kilolux.Lights([[0, 3, 0]], 40.0, 9.0, direction=(0, -2, 0), outer_cone=0.9, kind="spot")
+    sun = kilolux.Lights([[0, 0, 0]], 1.0, direction=(1, -1, 0), kind="directional")
+    for lights, given in ((arrays[1], 20), ([arrays[1], spot, sun], 22), ([], 0), (60, 60), (arrays[0], 50)):
+        renderer.change(lights=lights)
+        frame = renderer.render()
+        assert frame.stats["lights"]["given"] == given
+        assert same(frame, kilolux.render("grid", lights=lights, **options))
+    with_swarm = kilolux.render("grid", lights=arrays[0], rig="swarm", **options)
+    assert with_swarm.stats["lights"]["given"] == 5050
+    dark = kilolux.Lights([[0, 1, 0], [np.nan, 0, 0]], 1.0, 2.0)
+    assert kilolux.render("grid", lights=dark, **options).stats["lights"]["rejected"] == 1
+
+
+def test_surfaces_stay_while_only_lights_change():
+    def stages(frame):
+        return {stage["name"] for stage in frame.stats["stages"]}
+
+    lights = [kilolux.Lights(np.random.default_rng(i).uniform(-3, 3, (30, 3)), 1.0, 2.0) for i in (1, 2)]
+    renderer = kilolux.Renderer("grid", lights=lights[0], resolution=(64, 48))
+    assert "resolve_surfaces" in stages(renderer.render())
+    renderer.change(lights=lights[1])
+    assert "resolve_surfaces" not in stages(renderer.render())
+    renderer.change(camera_position=(3, 3, 3))
+    assert "resolve_surfaces" in stages(renderer.render())
+
+
+def test_a_probe_says_what_lights_a_pixel():
+    renderer = kilolux.Renderer("grid", aov=["depth", "position", "light-count"], **SMALL)
+    frame = renderer.render()
+    y, x = np.unravel_index(np.argmax(frame.aovs["light-count"] * (frame.aovs["light-count"] < 1000)), (48, 64))
+    probe = renderer.probe(int(x), int(y))
+    assert probe.drawn and len(probe.lights["range"]) == frame.aovs["light-count"][y, x] > 0
+    assert probe.depth == pytest.approx(frame.aovs["depth"][y, x])
+    np.testing.assert_allclose(probe.position, frame.aovs["position"][y, x], atol=1e-4)
+    assert probe.lights["position"].shape == (len(probe.lights["range"]), 3)
+    distance = np.linalg.norm(probe.lights["position"] - probe.position, axis=1)
+    # A list's lights reach the box of its cluster's pixels, if not this one.
+    assert (distance < probe.lights["range"] + 2.0).all()
+    assert same(renderer.render(), frame)
+    with pytest.raises(kilolux.Error, match="pixel 64,0 is not in the picture of 64x48"):
+        renderer.probe(64, 0)
+
+
+def test_a_reference_in_float64_agrees():
+    renderer = kilolux.Renderer("grid", **SMALL)
+    reference = renderer.reference()
+    assert reference.radiance.dtype == np.float64 and reference.radiance.shape == (48, 64, 3)
+    radiance = renderer.render().radiance
+    # Float32's rounding of some ten lights a pixel.
+    assert kilolux.relmse(radiance, reference.radiance) < 1e-10
+    renderer.change(camera_position=(3, 3, 3))
+    assert kilolux.relmse(radiance, renderer.reference().radiance) > 1e-3
+
+
+def test_two_renderers_in_two_threads():
+    def work(scene, out):
+        renderer = kilolux.Renderer(scene, **SMALL)
+        out[scene] = [renderer.render(time=0.25 * i).radiance for i in range(6)]
+
+    together, alone = {}, {}
+    threads = [threading.Thread(target=work, args=(scene, together)) for scene in ("grid", "corridor")]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for scene in ("grid", "corridor"):
+        work(scene, alone)
+        assert len(together[scene]) == 6
+        np.testing.assert_array_equal(together[scene], alone[scene])
+
+
+def test_one_renderer_serves_any_thread():
+    renderer = kilolux.Renderer("grid", **SMALL)
+    expected = renderer.render().radiance
+    frames = []
+    threads = [threading.Thread(target=lambda: frames.append(renderer.render())) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(frames) == 4
+    for frame in frames:
+        np.testing.assert_array_equal(frame.radiance, expected)
+
+
+def test_python_runs_while_it_renders():
+    renderer = kilolux.Renderer("grid", resolution=(320, 240), lights=2000, renderer="deferred-all", samples=4)
+    thread = threading.Thread(target=renderer.render)
+    thread.start()
+    steps = 0
+    while thread.is_alive():
+        steps += 1
+        time.sleep(0.001)
+    assert steps > 3
+
+
+def test_an_interruption_from_the_keyboard_ends_the_work():
+    script = ("import kilolux, sys\n"
+              "r = kilolux.Renderer('grid', resolution=(64, 48), lights=60)\n"
+              "r.render(); print('ready', flush=True)\n"
+              "try:\n"
+              "    while True: r.render()\n"
+              "except KeyboardInterrupt:\n"
+              "    print(r.render().radiance.shape); sys.exit(7)\n")
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
+        assert child.stdout.readline() == "ready\n"
+        time.sleep(0.3)
+        os.kill(child.pid, signal.SIGINT)
+        assert child.stdout.read() == "(48, 64, 3)\n"
+        assert child.wait(60) == 7

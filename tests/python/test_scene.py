@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes from arrays."""
+import kilolux
+import numpy as np
+import pytest
+
+VIEW = {"resolution": (64, 64), "camera_position": (0, 3, 0.001), "camera_focal_point": (0, 0, 0),
+        "camera_view_up": (0, 0, -1), "ambient": 0, "shading": "lambert"}
+LIGHT = kilolux.Lights([[0.0, 1.0, 0.0]], intensity=(3.0, 2.0, 1.0), range=4.0)
+
+
+def lambert(position, albedo):
+    """Radiance at points of the floor below LIGHT, by the falloff that the documents state."""
+    d = np.sqrt(1.0 + position[..., 0] ** 2 + position[..., 2] ** 2)
+    falloff = np.clip(1.0 - (d / 4.0) ** 4, 0.0, 1.0) / d**2 * (1.0 / d)
+    return albedo / np.pi * falloff[..., None] * np.array([3.0, 2.0, 1.0])
+
+
+@pytest.mark.parametrize("albedo", [(0.5, 0.25, 1.0), (1.0, 1.0, 1.0)])
+def test_a_floor_is_lit_as_the_formula_says(floor, albedo):
+    positions, indices = floor
+    mesh = kilolux.Mesh(positions, indices, material=kilolux.Material(base_color=albedo))
+    frame = kilolux.render(kilolux.Scene([mesh], LIGHT), aov=["position", "normal"], gbuffer="full", **VIEW)
+    drawn = np.abs(frame.aovs["position"]).max(axis=2) > 0
+    assert drawn.sum() > 1000
+    np.testing.assert_allclose(frame.aovs["normal"][drawn], [[0, 1, 0]] * drawn.sum(), atol=1e-6)
+    expected = lambert(frame.aovs["position"].astype(np.float64), np.array(albedo))
+    np.testing.assert_allclose(frame.radiance[drawn], expected[drawn], rtol=2e-5, atol=1e-6)
+    assert frame.stats["lights"]["given"] == 1
+
+
+def test_normals_texcoords_colors_and_images(floor):
+    positions, indices = floor
+    image = np.zeros((8, 8, 3), np.uint8)
+    image[:4, :4] = (255, 0, 0)
+    image[4:, 4:] = (0, 0, 255)
+    material = kilolux.Material(base_color_image=image, double_sided=True)
+    mesh = kilolux.Mesh(positions, indices, normals=[[0, 2, 0]] * 4, texcoords=[[0, 0], [0, 1], [1, 1], [1, 0]],
+                        colors=[[0.5, 1, 1]] * 4, material=material)
+    frame = kilolux.render(kilolux.Scene([mesh], LIGHT), aov="albedo", gbuffer="full", **VIEW)
+    corners = frame.aovs["albedo"][[16, 48], [16, 48]]
+    np.testing.assert_allclose(corners, [[0.5, 0, 0], [0, 0, 1]], atol=0.06)
+
+
+def test_meshes_are_placed_and_share_materials(floor):
+    positions, indices = floor
+    material = kilolux.Material(emissive=(1, 2, 3), unlit=False)
+    lift = np.eye(4)
+    lift[:3, 3] = (0, -1, 0)
+    meshes = [kilolux.Mesh(positions, indices, material=material, world_from_object=lift),
+              kilolux.Mesh(positions, indices, material=material)]
+    scene = kilolux.Scene(meshes, name="two floors")
+    frame = kilolux.render(scene, aov=["position", "emissive"], rig="none", **VIEW)
+    assert frame.aovs["position"][32, 32, 1] == pytest.approx(0.0, abs=1e-5)
+    np.testing.assert_allclose(frame.aovs["emissive"][32, 32], [1, 2, 3], rtol=0.02)
+    alone = kilolux.render(kilolux.Scene(meshes[:1]), aov=["position"], rig="none", **VIEW)
+    assert alone.aovs["position"][32, 32, 1] == pytest.approx(-1.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("mesh, words", [
+    ({"indices": [[0, 1, 4]]}, "indices from 0 to 4, but there are 4 positions"),
+    ({"indices": [[0, 1, 4]], "normals": [[0, 1, 0]] * 4}, "index 2 is 4, but there are 4 positions"),
+    ({"normals": [[0, 1, 0]] * 3}, r"normals: shape \(3, 3\), must be \(4, 3\)"),
+    ({"positions": [[0, 0, 0], [0, 0, np.nan], [1, 0, 0], [1, 0, 1]]}, "positions: value 5 is nan"),
+    ({"texcoords": [[0, 0, 0]] * 4, "normals": [[0, 1, 0]] * 4}, "texcoords: shape"),
+    ({"indices": np.empty((0, 3), int)}, "has no triangles"),
+    ({"world_from_object": np.eye(3)}, "world_from_object must have the shape"),
+    ({"material": kilolux.Material(base_color_image=np.zeros((2, 2), np.uint8))}, "image of 'material': shape"),
+])
+def test_bad_meshes_are_refused_in_one_line(floor, mesh, words):
+    positions, indices = floor
+    with pytest.raises(kilolux.Error, match=words) as caught:
+        kilolux.Scene([kilolux.Mesh(**{"positions": positions, "indices": indices, **mesh})])
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("lights, words", [
+    ({"position": [0, 1]}, r"position has the shape \(2,\), must be \(n, 3\)"),
+    ({"range": [1, 2, 3]}, "2 positions, but"),
+    ({"kind": "area"}, "kind 'area' is none of point, spot, directional"),
+    ({"kind": "spot", "direction": (0, 0, 0)}, "direction of light 0 is zero or not finite"),
+    ({"kind": "spot", "inner_cone": 1.0, "outer_cone": 0.5}, "inner cone 1 of light 0 is not below the outer 0.5"),
+])
+def test_bad_lights_are_refused_in_one_line(lights, words):
+    made = kilolux.Lights(**{"position": [[0, 1, 0], [0, 2, 0]], **lights})
+    with pytest.raises(kilolux.Error, match=words):
+        kilolux.Renderer("grid", resolution=(64, 48), lights=made)
