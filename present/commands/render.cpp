@@ -10,7 +10,6 @@
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "present/cli/camera_motion.h"
-#include "present/cli/error_budget_options.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
@@ -199,8 +198,8 @@ void expose_automatically(const RenderOptions& options, SceneRenderer& pictures)
     const double time = options.shared.time;
     if (!out.frames) return pictures.expose_automatically(time);
     const int first = out.frames->first;
-    pictures.expose_automatically(time + first / out.frames_per_second,
-                                  ", of the sequence's first frame", first);
+    pictures.expose_automatically(time + first / out.frames_per_second, first,
+                                  ", of the sequence's first frame");
 }
 
 // Checks before rendering what would fail after it.
@@ -236,20 +235,11 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     return want;
 }
 
-// What is chosen by its error is measured without reflections.
-void check_budget(RenderOptions& options) {
-    if (!options.budget.max_error) return;
-    if (options.shared.reflections) {
-        throw UsageError("--max-error and --reflections exclude each other");
-    }
-    options.shared.shows_environment = false;
-}
-
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     begin_command(options.shared, !out.reference.empty());
-    check_budget(options);
+    check_budget(options.shared, options.budget);
     const Tasks tasks(options);
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");
@@ -257,9 +247,12 @@ void run_render(RenderOptions& options) {
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
     const CameraMotion motion(options.shared, out);
+    const auto camera = [&motion](const Scene& scene, int frame, double time) {
+        return motion.at(scene, frame, time);
+    };
     SceneRenderer pictures(options.shared, options.budget,
-                           request_of(options, options.shared.settings.want),
-                           {first.time, first.frame, &motion});
+                           {request_of(options, options.shared.settings.want), first.time,
+                            first.frame, camera, std::nullopt});
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
     const Made made = render_tasks(options, tasks, pictures);
     if (!out.stats.empty()) {

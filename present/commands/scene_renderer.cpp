@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/measure/roofline/roofline.h"
@@ -15,27 +16,36 @@
 
 namespace kilolux {
 
+void check_budget(SharedOptions& options, const BudgetOptions& budget) {
+    if (!budget.max_error) return;
+    if (options.reflections) {
+        throw UsageError("--max-error and --reflections exclude each other");
+    }
+    options.shows_environment = false;
+}
+
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
-                             const FrameRequest& want, const FirstPicture& first,
-                             std::optional<Scene> made)
+                             FirstPicture first)
     : options_(options),
-      motion_(first.motion),
       between_(check_interrupt),
-      scene_(made ? AnimatedScene(std::move(*made)) : open_animated_scene(options, first.time)) {
+      camera_at_(std::move(first.camera)),
+      scene_(first.made ? AnimatedScene(std::move(*first.made))
+                        : open_animated_scene(options, first.time)) {
+    if (!camera_at_) {
+        camera_at_ = [this](const Scene& scene, int, double) {
+            return choose_camera(options_, scene);
+        };
+    }
     rig_ = light_scene(options, scene_);
-    camera_ = camera_at(first.time, first.frame);
+    camera_ = camera_at_(scene_.scene(), first.frame, first.time);
     between_();
-    renderer_.emplace(scene_.scene(), settings_for(budget, want, first.time));
+    renderer_.emplace(scene_.scene(), settings_of(budget, first.want, first.time));
     between_();
 }
 
-Camera SceneRenderer::camera_at(double time, int frame) const {
-    if (motion_ == nullptr) return choose_camera(options_, scene_.scene());
-    return motion_->at(scene_.scene(), frame, time);
-}
-
-RenderSettings SceneRenderer::settings_for(const BudgetOptions& budget, const FrameRequest& want,
-                                           double time) {
+// For the camera as it is.
+RenderSettings SceneRenderer::settings_of(const BudgetOptions& budget, const FrameRequest& want,
+                                          double time) {
     RenderSettings settings =
         settings_within_budget(options_, budget, {scene_.scene(), camera_, time});
     settings.want = want;
@@ -44,7 +54,7 @@ RenderSettings SceneRenderer::settings_for(const BudgetOptions& budget, const Fr
     return settings;
 }
 
-void SceneRenderer::expose_automatically(double time, const std::string& of_what, int frame) {
+void SceneRenderer::expose_automatically(double time, int frame, const std::string& of_what) {
     const RenderSettings wanted = renderer_->settings();
     RenderSettings settings = wanted;
     settings.want = radiance_only();
@@ -60,7 +70,7 @@ void SceneRenderer::expose_automatically(double time, const std::string& of_what
 
 Frame SceneRenderer::render(double time, int frame) {
     scene_.set_time(time);
-    camera_ = camera_at(time, frame);
+    camera_ = camera_at_(scene_.scene(), frame, time);
     return renderer_->render(camera_, time, between_);
 }
 
@@ -77,8 +87,8 @@ void SceneRenderer::change(const SharedOptions& next, const BudgetOptions& budge
     const std::string rig = rig_;
     try {
         if (relights) relight(options_);
-        camera_ = camera_at(options_.time, 0);
-        renderer_->change(settings_for(budget, want, options_.time));
+        camera_ = camera_at_(scene_.scene(), 0, options_.time);
+        renderer_->change(settings_of(budget, want, options_.time));
         renderer_->refit();
     } catch (...) {
         options_ = former;

@@ -10,34 +10,37 @@
 #include "host/measure/roofline/device_limits.h"
 #include "host/render/renderer.h"
 #include "host/scene/animated_scene.h"
-#include "present/cli/camera_motion.h"
 #include "present/cli/error_budget_options.h"
 #include "present/cli/options.h"
 #include "present/cli/stats_json.h"
 
 namespace kilolux {
 
-/// When and from where a scene is seen first.
+/// Throws UsageError for an error budget with what is not in its measurements, and leaves those
+/// out.
+void check_budget(SharedOptions& options, const BudgetOptions& budget);
+
+/// What a SceneRenderer begins with.
 struct FirstPicture {
-    double time = 0.0;                     // [s]
-    int frame = 0;                         // of a sequence
-    const CameraMotion* motion = nullptr;  // none: the options' camera; must outlive its user
+    FrameRequest want;  // of every frame
+    double time = 0.0;  // [s]
+    int frame = 0;      // of the sequence
+    /// The camera of a frame at a time [s]; none: that of the options.
+    std::function<Camera(const Scene& scene, int frame, double time)> camera{};
+    std::optional<Scene> made{};  // in place of the scene that the options name
 };
 
 /// A scene and the renderer of its pictures, as the options of a command line mean them.
 class SceneRenderer {
  public:
-    /// Opens the scene at the first picture's time, lights it and compiles for it. Frames hold
-    /// `want`. `made` is rendered in place of the scene that the options name. What the options
-    /// leave open, such as the rig, is settled in them; they must outlive this. Throws as what it
-    /// calls.
-    SceneRenderer(SharedOptions& options, const BudgetOptions& budget, const FrameRequest& want,
-                  const FirstPicture& first, std::optional<Scene> made = {});
+    /// Opens the scene, lights it and compiles for it. What the options leave open, such as the
+    /// rig, is settled in them; they must outlive this. Throws as what it calls.
+    SceneRenderer(SharedOptions& options, const BudgetOptions& budget, FirstPicture first);
 
     /// Sets the exposure of --exposure auto by the picture at `time`; says it, with `of_what`.
-    void expose_automatically(double time, const std::string& of_what = "", int frame = 0);
+    void expose_automatically(double time, int frame = 0, const std::string& of_what = "");
 
-    /// The picture at `time` [s], by the options' camera or as it moves in `frame`.
+    /// The picture at `time` [s].
     Frame render(double time, int frame = 0);
 
     /// Obeys `next` in place of the options so far; the scene that they name stays. `relights`: its
@@ -63,12 +66,11 @@ class SceneRenderer {
 
  private:
     void relight(SharedOptions& options);
-    Camera camera_at(double time, int frame) const;
-    RenderSettings settings_for(const BudgetOptions& budget, const FrameRequest& want, double time);
+    RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
-    const CameraMotion* motion_;
     std::function<void()> between_;
+    std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
     std::vector<SceneLight> lights_;  // of set_lights()
     std::string rig_;

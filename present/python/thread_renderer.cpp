@@ -51,15 +51,20 @@ RendererOptions parse_renderer_options(const std::string& scene,
     app.set_help_flag();
     app.allow_extras();
     options.shared.takes_automatic_exposure = true;
+    options.shared.shows_environment = true;
     add_shared_options(app, options.shared);
     add_budget_options(app, options.budget);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     refuse_extras(app, app.remaining());
     begin_command(options.shared);
+    check_budget(options.shared, options.budget);
     options.shared.scene = scene;
     options.scene_words = scene + "\n" + said_under(app, "Scene");
-    options.light_words =
-        said_under(app, "Lights") + joined(app.get_option("--ambient")->results(), ",");
+    options.light_words = said_under(app, "Lights");
+    // What light_scene() asks, too.
+    for (const char* name : {"--ambient", "--background", "--renderer", "--max-error"}) {
+        options.light_words += joined(app.get_option(name)->results(), ",") + "\n";
+    }
     return options;
 }
 
@@ -88,8 +93,9 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
           block_signals, [this] { pictures_.reset(); }, [] {}) {
     run([&] {
         const SharedOptions& shared = options_.shared;
-        pictures_.emplace(options_.shared, options_.budget, request_of(shared, false, false),
-                          FirstPicture{.time = shared.time}, std::move(made));
+        pictures_.emplace(
+            options_.shared, options_.budget,
+            FirstPicture{request_of(shared, false, false), shared.time, 0, {}, std::move(made)});
         pictures_->set_between([this] {
             if (cancelled_) throw Interrupted();
         });
@@ -113,9 +119,15 @@ void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) 
         rendered_ = false;
         const bool relights = next.light_words != options_.light_words;
         if (!relights) {  // what was settled for the lights stays
-            next.shared.rig = options_.shared.rig;
-            next.shared.settings.ambient = options_.shared.settings.ambient;
-            next.shared.settings.lights.count = options_.shared.settings.lights.count;
+            const SharedOptions& settled = options_.shared;
+            next.shared.rig = settled.rig;
+            next.shared.settings.ambient = settled.settings.ambient;
+            next.shared.settings.lights.count = settled.settings.lights.count;
+            next.shared.environment = settled.environment;
+            next.shared.reflections = settled.reflections;
+            next.shared.maps = settled.maps;
+            next.shared.background = settled.background;
+            next.shared.shown_background = settled.shown_background;
         }
         // options_.shared is what pictures_ obeys: it takes `next` itself.
         pictures_->change(next.shared, next.budget, request_of(next.shared, false, false),
