@@ -18,6 +18,9 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+// Grows with every change of the scene.
+std::uint32_t revision_of(const Scene& scene) { return scene.revision + scene.lights_revision; }
+
 void take_times(StageTimer& timer, FrameStats& stats) {
     for (const StageTimer::Time& time : timer.take()) {
         add_stage_time(stats.stages, time.stage, time.ms);
@@ -43,7 +46,7 @@ Frame Pipeline::render(const Camera& camera, double time, const std::function<vo
     if (settings.want.view != ViewKind::lit) show_view(time, frame);
     if (!settings.want.radiance) frame.radiance.clear();
     if (refining_ > 0)
-        refined_ = Refined{settings, camera, time, scene->scene().revision, refining_};
+        refined_ = Refined{settings, camera, time, revision_of(scene->scene()), refining_};
     return frame;
 }
 
@@ -53,7 +56,7 @@ void Pipeline::refine(const Camera& camera, double time, int samples) {
     refining_ = partly ? std::min(samples, settings.samples) : 0;
     summed_ = 0;
     if (refining_ > 0 && refined_) {
-        const Refined same{settings, camera, time, scene->scene().revision, refined_->samples};
+        const Refined same{settings, camera, time, revision_of(scene->scene()), refined_->samples};
         if (*refined_ == same && refined_->samples < refining_) summed_ = refined_->samples;
     }
     refined_.reset();  // a frame that fails leaves no sum
