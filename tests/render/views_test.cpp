@@ -17,11 +17,12 @@ constexpr int kWidth = 160;
 constexpr int kHeight = 90;
 
 Frame frame_of(const std::string& view, RendererKind renderer = RendererKind::deferred,
-               std::vector<std::string> aovs = {}) {
+               std::vector<std::string> aovs = {}, Shadows shadows = Shadows::off) {
     static const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_settings(kWidth, kHeight, 200);
     settings.want.view = parse_view(view);
     settings.renderer = renderer;
+    settings.shadows = shadows;
     settings.want.aovs = std::move(aovs);
     return render_once(scene, settings);
 }
@@ -33,10 +34,13 @@ DisplayColor color_at(const std::vector<std::uint8_t>& rgba, int x, int y) {
 
 TEST(Views, EachIsAPictureOfItsOwnAndLeavesTheRadianceAlone) {
     const Frame lit = frame_of("lit");
+    const Frame shadowed = frame_of("lit", RendererKind::deferred, {}, Shadows::exact);
     std::set<std::string> pictures;
     for (const std::string& name : view_names()) {
-        const Frame frame = frame_of(name);
-        EXPECT_EQ(frame.radiance, lit.radiance) << name;
+        const bool shadows = name == "shadows";
+        const Frame frame =
+            frame_of(name, RendererKind::deferred, {}, shadows ? Shadows::exact : Shadows::off);
+        EXPECT_EQ(frame.radiance, (shadows ? shadowed : lit).radiance) << name;
         ASSERT_EQ(frame.display.size(), std::size_t{4} * kWidth * kHeight) << name;
         for (std::size_t i = 3; i < frame.display.size(); i += 4) ASSERT_EQ(frame.display[i], 255);
         EXPECT_TRUE(pictures.insert({frame.display.begin(), frame.display.end()}).second)
