@@ -77,18 +77,18 @@ void check_shadows(const RenderSettings& settings) {
                             std::ranges::find(want.aovs, "visibility") != want.aovs.end();
     if (wants_bits &&
         (settings.shadows != Shadows::exact || settings.renderer != RendererKind::deferred)) {
-        throw Error("shadows: to show them takes --shadows exact and --renderer deferred");
+        throw UsageError("shadows: to show them takes --shadows exact and --renderer deferred");
     }
     const bool wants_error = std::ranges::find(want.aovs, "error-standard") != want.aovs.end();
     if (wants_error && settings.shadows != Shadows::sampled) {
-        throw Error("aov error-standard: only --shadows sampled has one");
+        throw UsageError("aov error-standard: only --shadows sampled has one");
     }
     if (settings.shadows == Shadows::off) return;
     if (is_forward(settings.renderer)) {
-        throw Error("shadows: the forward renderers cast none; take --renderer deferred");
+        throw UsageError("shadows: the forward renderers cast none; take --renderer deferred");
     }
     if (!resolves_ids(settings.geometry)) {
-        throw Error("shadows: none with --geometry planes; take ids or compute");
+        throw UsageError("shadows: none with --geometry planes; take ids or compute");
     }
 }
 
