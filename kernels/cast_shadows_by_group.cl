@@ -273,11 +273,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
         global uint* out = words + word_offsets[tile] + clusters[i].first_word;
         for (uint j = get_group_id(0) % SPLIT; j < directional_count + clusters[i].list_count;
              j += SPLIT) {
-            ShadowLight light =
-                j < directional_count
-                    ? shadow_directional_light(shadow, directional_lights[j])
-                    : shadow_point_light(
-                          shadow, bounds[lists[clusters[i].list_begin + j - directional_count]]);
+            ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
+                                                 directional_count, bounds, lists);
             cast_light(scene, light, first, last, &walk, &points,
                        out + j * shadow_words(first, last));
         }

@@ -92,11 +92,8 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
     for (uint i = begin; i < end; ++i) {
         uint last = first + clusters[i].pixel_count;
         for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
-            ShadowLight light =
-                j < directional_count
-                    ? shadow_directional_light(shadow, directional_lights[j])
-                    : shadow_point_light(
-                          shadow, bounds[lists[clusters[i].list_begin + j - directional_count]]);
+            ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
+                                                 directional_count, bounds, lists);
             cast_light(scene, light, first, last, &points, out);
             out += shadow_words(first, last);
         }

@@ -60,10 +60,9 @@ kernel void count_seen(global const uchar* restrict gbuffer, GBufferLayout layou
     uint y = get_global_id(1);
     if (y >= view.height) return;
     uint tile = fine_tile_of(view, x, y);
-    uint place = y % FINE_TILE * FINE_TILE + x % FINE_TILE;
+    uint place = place_of_item(x, y);
     if (cluster_offsets[tile] == cluster_offsets[tile + 1]) return;
-    Pixels pixels = ordered_pixels(view, x / FINE_TILE * FINE_TILE, y / FINE_TILE * FINE_TILE,
-                                   order + tile * FINE_TILE_PIXELS + place);
+    Pixels pixels = pixels_of_item(view, x, y, order);
     GBuffer g = {gbuffer, layout, view, 0};
     FV depth01 = load_depth01(g, pixels);
     MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);

@@ -40,10 +40,9 @@ kernel void draw_shadows(
     uint y = get_global_id(1);
     if (y >= view.height) return;
     uint tile = fine_tile_of(view, x, y);
-    uint place = y % FINE_TILE * FINE_TILE + x % FINE_TILE;
+    uint place = place_of_item(x, y);
     if (cluster_offsets[tile] == cluster_offsets[tile + 1]) return;
-    Pixels pixels = ordered_pixels(view, x / FINE_TILE * FINE_TILE, y / FINE_TILE * FINE_TILE,
-                                   order + tile * FINE_TILE_PIXELS + place);
+    Pixels pixels = pixels_of_item(view, x, y, order);
     GBuffer g = {gbuffer, layout, view, srgb};
     FV depth01 = load_depth01(g, pixels);
     MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
@@ -51,8 +50,7 @@ kernel void draw_shadows(
     FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
     Surface s = load_surface(g, pixels, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    ShadowDraw draw = make_draw(s, load_radiance(radiance, view, pixels), rays, x / FINE_TILE,
-                                (y + view.first_row) / FINE_TILE, seed);
+    ShadowDraw draw = make_draw(s, radiance, view, pixels, x, y, rays, seed);
     UV slice = fine_slice_of_depth(grid, z);
     uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     for (uint i = cluster_offsets[tile]; i < end; ++i) {

@@ -102,9 +102,7 @@ kernel void shade(
         if (inside) store_radiance(radiance, view, row_pixels(view, x, row), zero3());
         return;
     }
-    Pixels pixels = ordered_pixels(
-        view, x / FINE_TILE * FINE_TILE, y / FINE_TILE * FINE_TILE,
-        order + tile * FINE_TILE_PIXELS + row % FINE_TILE * FINE_TILE + x % FINE_TILE);
+    Pixels pixels = pixels_of_item(view, x, row, order);
     FV depth01 = load_depth01(g, pixels);
     MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
     bool any_drawn = inside && lane_any(drawn);
@@ -121,14 +119,13 @@ kernel void shade(
                          lists,           directional_lights, directional_count};
 #if SHADOWS
     from.shadows = shadow_words_of_tiles + shadow_offsets[tile];
-    from.place = row % FINE_TILE * FINE_TILE + x % FINE_TILE;
+    from.place = place_of_item(x, row);
     set.directional_count = directional_count;
 #endif
 #if SAMPLED_SHADOWS
     FV spread = fv(0.0f);
     set.variance = &spread;
-    set.draw = make_draw(s, load_radiance(whole, view, pixels), rays, x / FINE_TILE,
-                         (row + view.first_row) / FINE_TILE, seed);
+    set.draw = make_draw(s, whole, view, pixels, x, row, rays, seed);
 #endif
     LightSum sum = sum_clusters(from, tile, fine_slice_of_depth(grid, z), drawn, any_drawn, p, set);
     FV3 color = finish_shading(s, sum, ambient);

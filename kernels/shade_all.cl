@@ -69,8 +69,7 @@ kernel void shade_all(
 #if SAMPLED_SHADOWS
     FV spread = fv(0.0f);
     set.variance = &spread;
-    set.draw = make_draw(s, load_radiance(whole, view, pixels), rays, x / FINE_TILE,
-                         (row + view.first_row) / FINE_TILE, seed);
+    set.draw = make_draw(s, whole, view, pixels, x, row, rays, seed);
 #endif
     LightSum sum = sum_directional(p, set, directional_lights, directional_count);
     sum = sum_lights(sum, any_drawn, p, set, 0, light_count);

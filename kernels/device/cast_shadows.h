@@ -14,7 +14,18 @@
 #include "kernels/device/light_index.h"
 #include "kernels/device/pixels.h"
 #include "kernels/device/shadow_bits.h"
+#include "kernels/device/shadow_space.h"
 #include "kernels/shared/clusters.h"
+
+// The j-th light of a cluster, directional ones first.
+static inline ShadowLight light_of_cluster(ShadowView shadow, global const ActiveCluster* cluster,
+                                           uint j, global const DirectionalLight* directional,
+                                           uint directional_count, global const float4* bounds,
+                                           global const LIGHT_INDEX* lists) {
+    if (j < directional_count) return shadow_directional_light(shadow, directional[j]);
+    uint light = lists[cluster->list_begin + j - directional_count];
+    return shadow_point_light(shadow, bounds[light]);
+}
 
 kernel void cast_shadows_reserve(
     uint tile_count, uint directional_count,

@@ -62,6 +62,18 @@ static inline Pixels ordered_pixels(View view, uint tile_x, uint tile_y,
     pixels.in_row = !lane_any(lane_mask(place != lane_numbers + pixels.first));
     return pixels;
 }
+
+// Place in its tile's order of the first pixel of the work-item at (x, y).
+static inline uint place_of_item(uint x, uint y) {
+    return y % FINE_TILE * FINE_TILE + x % FINE_TILE;
+}
+
+// The pixels of the work-item at (x, y). `order`: of all tiles.
+static inline Pixels pixels_of_item(View view, uint x, uint y, global const uchar* order) {
+    return ordered_pixels(
+        view, x / FINE_TILE * FINE_TILE, y / FINE_TILE * FINE_TILE,
+        order + fine_tile_of(view, x, y) * FINE_TILE_PIXELS + place_of_item(x, y));
+}
 #endif
 
 static inline MASK within_width(View view, Pixels pixels) {

@@ -11,6 +11,7 @@
 #ifndef KILOLUX_DEVICE_SHADOW_DRAW_H
 #define KILOLUX_DEVICE_SHADOW_DRAW_H
 #include "kernels/device/gbuffer.h"
+#include "kernels/device/radiance.h"
 #include "kernels/shared/evaluate.h"
 
 // Number of a directional light among all that are drawn.
@@ -35,14 +36,16 @@ static inline FV luminance(FV3 c) {
     return fma(c.z, fv(0.0722f), fma(c.y, fv(0.7152f), c.x * 0.2126f));
 }
 
-static inline ShadowDraw make_draw(Surface s, FV3 radiance, float rays, uint tile_x, uint tile_y,
-                                   uint seed) {
+// Of the pixels of the work-item at (x, y) of the planes. `radiance`: if all lights are seen.
+static inline ShadowDraw make_draw(Surface s, global const float* radiance, View view,
+                                   Pixels pixels, uint x, uint y, float rays, uint seed) {
     ShadowDraw out;
     out.surface = s;
     out.surface.emissive = zero3();
-    out.whole = luminance(radiance);
+    out.whole = luminance(load_radiance(radiance, view, pixels));
     out.rays = rays;
-    out.tile = hash_of(hash_of(hash_of(seed) ^ tile_x) ^ tile_y);
+    uint tile_y = (y + view.first_row) / FINE_TILE;
+    out.tile = hash_of(hash_of(hash_of(seed) ^ x / FINE_TILE) ^ tile_y);
     return out;
 }
 
