@@ -68,9 +68,12 @@ typedef struct TileWalk {
     global uint* lists;          // fill only
     uint capacity;               // of lists
     bool fill;
+    global const uchar* closed;  // [tiles]: 1 where no triangle is needed
+    bool some_closed;            // else nothing is read of `closed`
 } TileWalk;
 
 static inline void put_triangle(TileWalk walk, uint tile, uint triangle) {
+    if (walk.some_closed && walk.closed[tile] != 0) return;
 #if GROUP == 1
     uint slot = walk.cursors[tile]++;
 #else
@@ -215,9 +218,11 @@ kernel void bin_triangles_count(
     global const SurfaceMaterial* restrict materials, uint triangle_count,
     global const uint* restrict columns,  // [triangle_count]
     global const uint* restrict rows,     // [triangle_count]
+    uint some_closed,                     // 0: `closed` is not read
+    global const uchar* restrict closed,  // [tiles]: 1 where no triangle is needed
     global uint* restrict cursors) {      // out [chunks][cursor_stride]: pairs
     SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
-    TileWalk walk = {scene, view, CHUNK_CURSORS(view), 0, 0, 0u, false};
+    TileWalk walk = {scene, view, CHUNK_CURSORS(view), 0, 0, 0u, false, closed, some_closed != 0};
 #if GROUP == 1
     uint stride = cursor_stride(raster_tiles_x(view) * raster_tiles_y(view));
     for (uint i = 0; i < stride; ++i) walk.cursors[i] = 0u;
@@ -239,12 +244,14 @@ kernel void bin_triangles_fill(
     global const uint* restrict instance_blocks, global const MeshRow* restrict meshes,
     global const float* restrict vertices, global const uint* restrict indices,
     global const SurfaceMaterial* restrict materials, uint triangle_count,
-    global const uint* restrict columns, global const uint* restrict rows,
+    global const uint* restrict columns, global const uint* restrict rows, uint some_closed,
+    global const uchar* restrict closed,
     global uint* restrict cursors,        // in: starts [chunks][cursor_stride]; used up
     global const uint* restrict offsets,  // [tiles + 1]
     global uint* restrict lists,          // out [capacity]
     uint capacity) {
     SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
-    TileWalk walk = {scene, view, CHUNK_CURSORS(view), offsets, lists, capacity, true};
+    TileWalk walk = {scene, view,   CHUNK_CURSORS(view), offsets, lists, capacity,
+                     true,  closed, some_closed != 0};
     WALK_CHUNK(walk);
 }

@@ -13,7 +13,7 @@
 #define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
 // Triangles that wait for their test, at most.
 #define GROUP_FOUND (2 * GROUP)
-// float4 of a triangle: its forms, and the edges' units with its child's number.
+// float4 of a triangle: its forms, the edges' units with its child's number, its box.
 #define FORM_FLOAT4S 5
 
 // What the items share.
@@ -26,7 +26,10 @@ typedef struct GroupWalk {
     uint tested;                        // triangles
     uint lit;                           // 1 while some point is
     uchar flags[FINE_TILE_PIXELS];      // of places: 1 where lit
-    int low[3], high[3];                // of the cluster's points, as ordered_bits
+#if COUNT_SHADOWS
+    ShadowCounts counts[GROUP];  // of the items: nodes, triangles and shafts by each for all
+#endif
+    int low[3], high[3];  // of the cluster's points, as ordered_bits
 } GroupWalk;
 
 // Floats' order, negative ones included, as integers'; its own inverse on bits.
@@ -100,7 +103,7 @@ static inline float form4_at(float4 f, FV3 x) {
 }
 
 // Tests the triangles that are set up on the item's points; whether any is still lit.
-static inline bool shade_points(ShadowScene scene, local const GroupWalk* walk,
+static inline bool shade_points(ShadowScene scene, ShadowLight light, local const GroupWalk* walk,
                                 ShadowPoints* points) {
     MASK any = 0;
 #pragma unroll
@@ -115,12 +118,21 @@ static inline bool shade_points(ShadowScene scene, local const GroupWalk* walk,
         for (uint k = 0; k < SHADOW_POINTS; ++k) {
             if (k >= points->row_count) continue;  // the same for all items
             MASK lit = lit_of(points, k);
+            ADD_COUNT(points, points, lane_count(lit));
             FV3 e = load_edge_points(points, k);
             FV u0 = form4_at(f0, e);
             FV u1 = form4_at(f1, e);
             FV u2 = form4_at(f2, e);
             FV behind = form4_at(f3, load_points(points, k));
-            MASK shaded = lane_mask(min(min(u0, u1), min(u2, behind)) >= -1.0f);
+            FV inside = min(min(u0, u1), u2);
+            MASK shaded = lane_mask(min(inside, behind) >= -1.0f) & lit;
+            // A ray that surely passes the triangle passes its box.
+            if (shaded && inside < 1.0f) {
+                FV3 v[3];
+                uint child = as_uint(f[4].w);
+                load_casters(scene, &child, v);
+                shaded = passes_box(light, load_points(points, k), boxes_of(v));
+            }
 #if HAS_MASKED_CASTERS
             if (shaded && (as_uint(f[4].w) & SHADOW_MASKED) != 0u) {
                 shaded &= is_opaque_at(scene.masked, as_uint(f[4].w) & SHADOW_NUMBER, u0 * f[4].x,
@@ -138,6 +150,7 @@ static inline bool shade_points(ShadowScene scene, local const GroupWalk* walk,
 // Tests what was found, GROUP triangles at a time.
 static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint count,
                               local GroupWalk* walk, ShadowPoints* points) {
+    ADD_COUNT(points, triangles, count);
     for (uint first = 0; first < count; first += GROUP) {
         if (this_item() == 0u) {
             walk->tested = 0u;
@@ -147,7 +160,7 @@ static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft,
         uint i = first + this_item();
         if (i < count) set_up_found(scene, light, shaft, walk->found[i], walk);
         barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
-        if (shade_points(scene, walk, points)) walk->lit = 1u;
+        if (shade_points(scene, light, walk, points)) walk->lit = 1u;
         barrier(CLK_LOCAL_MEM_FENCE);  // all have tested
     }
 }
@@ -172,20 +185,42 @@ static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, local Gr
     }
 }
 
+// The group's counts, of which all items have the same nodes, triangles and shafts.
+static inline void store_counts(const ShadowPoints* points, local GroupWalk* walk,
+                                global ShadowCounts* to) {
+#if COUNT_SHADOWS
+    walk->counts[this_item()] = points->counts;
+    barrier(CLK_LOCAL_MEM_FENCE);  // all are there
+    if (this_item() != 0u) return;
+    ShadowCounts sum = points->counts;
+    for (uint i = 1; i < GROUP; ++i) {
+        sum.rays += walk->counts[i].rays;
+        sum.met_rays += walk->counts[i].met_rays;
+        sum.seen += walk->counts[i].seen;
+        sum.points += walk->counts[i].points;
+    }
+    *to = sum;
+#endif
+}
+
 // Puts out the item's lit flags where something stands between its points and the light.
 static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, Shaft shaft,
                                          local GroupWalk* walk, ShadowPoints* points) {
     bool goes_on = true;
+    bool begins = true;
     while (goes_on) {
         barrier(CLK_LOCAL_MEM_FENCE);  // stack and found are complete
         uint top = walk->top;
         uint count = walk->count;
         goes_on = walk->lit != 0u && (top > 0u || count > 0u);
+        ADD_COUNT(points, shafts, begins && goes_on ? 1 : 0);
+        begins = false;
         barrier(CLK_LOCAL_MEM_FENCE);  // read by all before it changes
         if (goes_on && (top == 0u || count > GROUP)) {
             test_found(scene, light, shaft, count, walk, points);
             if (this_item() == 0u) walk->count = 0u;
         } else if (goes_on) {
+            ADD_COUNT(points, nodes, min(top, (uint)NODES_AT_ONCE));
             walk_nodes(scene, shaft, top, walk);
         }
     }
@@ -213,6 +248,8 @@ static inline void store_words(uint first, uint end, local GroupWalk* walk, glob
 static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, uint end,
                               local GroupWalk* walk, ShadowPoints* points, global uint* words) {
     bool any = false;
+    ulong tests_before = counted_tests(points);
+    uint rays = 0, seen = 0;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         if (k >= points->row_count) continue;
@@ -221,7 +258,9 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
 #if DRAWN_ONLY
         mine &= lane_mask(place < end && (words[place / 32u - first / 32u] >> place % 32u & 1u));
 #endif
-        any |= lane_any(face_light(points, k, light, mine));
+        MASK lit = face_light(points, k, light, mine);
+        any |= lane_any(lit);
+        rays += lane_count(lit);
     }
     barrier(CLK_LOCAL_MEM_FENCE);  // the last light is done
     if (this_item() == 0u) {
@@ -238,7 +277,9 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         uint place = place_of_point(first, k);
         if (place < end) walk->flags[place] = lane_any(lit_of(points, k));
+        if (place < end) seen += lane_count(lit_of(points, k));
     }
+    count_rays(points, tests_before, rays, seen);
     barrier(CLK_LOCAL_MEM_FENCE);  // all flags are set
     store_words(first, end, walk, words);
 }
@@ -258,6 +299,9 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     global const MaskedCaster* restrict masked_casters,
     global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
     global const ulong* restrict texels,
+#if COUNT_SHADOWS
+    global ShadowCounts* restrict counts,  // out [tiles * SPLIT]: where the tile has lights
+#endif
     global uint* restrict words) {  // out
     local GroupWalk walk;
     uint tile = get_group_id(0) / SPLIT;
@@ -265,6 +309,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
     if (word_offsets[tile] == word_offsets[tile + 1]) return;
     ShadowScene scene = {nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
     ShadowPoints points;
+    reset_counts(&points);
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
         uint first = clusters[i].first_pixel;
         uint last = first + clusters[i].pixel_count;
@@ -279,4 +324,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
                        out + j * shadow_words(first, last));
         }
     }
+#if COUNT_SHADOWS
+    store_counts(&points, &walk, counts + get_group_id(0));
+#endif
 }

@@ -33,6 +33,13 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
                               ShadowPoints* points, global uint* words) {
     uint first_row = first / VW;
     uint end_row = (end + VW - 1) / VW;
+#if DRAWN_ONLY
+    uint drawn = 0u;
+    for (uint word = 0; word < shadow_words(first, end); ++word) drawn |= words[word];
+    if (drawn == 0u) return;
+#endif
+    ulong tests_before = counted_tests(points);
+    uint rays = 0, seen = 0;
     LaneBox box = {splat3((float3)(SHADOW_NOWHERE)), splat3((float3)(-SHADOW_NOWHERE))};
     MASK any = (MASK)(0);
     for (uint row = first_row; row < end_row; ++row) {
@@ -44,6 +51,7 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
         MASK lit = face_light(points, row, light, mine);
         box = grown_box(box, lit, load_points(points, row));
         any |= lit;
+        rays += lane_count(lit);
     }
     if (lane_any(any)) {
         float3 low = (float3)(lane_min(box.low.x), lane_min(box.low.y), lane_min(box.low.z));
@@ -56,12 +64,14 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
     if (!lane_any(any)) return;
     for (uint row = first_row; row < end_row; ++row) {
         uint bits = lane_ballot(lit_of(points, row)) << (row * VW % 32u);
+        seen += popcount(bits);
 #if DRAWN_ONLY
         words[row * VW / 32u - first / 32u] &= ~bits;
 #else
         words[row * VW / 32u - first / 32u] |= bits;
 #endif
     }
+    count_rays(points, tests_before, rays, seen);
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
@@ -79,6 +89,9 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
     global const MaskedCaster* restrict masked_casters,
     global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
     global const ulong* restrict texels,
+#if COUNT_SHADOWS
+    global ShadowCounts* restrict counts,  // out [tiles]: where the tile has lights
+#endif
     global uint* restrict words) {  // out
     uint tile = get_global_id(0);
     uint begin = cluster_offsets[tile];
@@ -86,6 +99,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
     if (word_offsets[tile] == word_offsets[tile + 1]) return;
     ShadowScene scene = {nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
     ShadowPoints points;
+    reset_counts(&points);
     load_tile(origins, view, tile, order, &points);
     global uint* out = words + word_offsets[tile];
     uint first = 0;
@@ -99,4 +113,7 @@ kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
         }
         first = last;
     }
+#if COUNT_SHADOWS
+    counts[tile] = points.counts;
+#endif
 }

@@ -27,7 +27,12 @@ kernel void draw_shadows(
     global const float* restrict srgb,      // [256]
     global const float* restrict radiance,  // [3][height][stride], if all lights are seen
     global const DirectionalLight* restrict directional, uint directional_count,
-    global const StoredLight* restrict lights, ClusterGrid grid,
+    global const StoredLight* restrict lights,
+#if HAS_LIGHT_PROFILES
+    global const AimedProfile* restrict aimed_profiles,  // [light_count], view space
+    global const float* restrict profile_tables,
+#endif
+    ClusterGrid grid,
     global const uint* restrict cluster_offsets,    // [tiles + 1]
     global const ActiveCluster* restrict clusters,  // [cluster_capacity]
     uint cluster_capacity,
@@ -51,6 +56,9 @@ kernel void draw_shadows(
     Surface s = load_surface(g, pixels, z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
     ShadowDraw draw = make_draw(s, radiance, view, pixels, x, y, rays, seed);
+#if HAS_LIGHT_PROFILES
+    LightProfiles profiles = {aimed_profiles, profile_tables};
+#endif
     UV slice = fine_slice_of_depth(grid, z);
     uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     for (uint i = cluster_offsets[tile]; i < end; ++i) {
@@ -66,7 +74,8 @@ kernel void draw_shadows(
 #endif
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint light = lists[clusters[i].list_begin + j];
-            LightSum one = evaluate(zero_sum(), p, LIGHT_AT(lights, light));
+            LightSum one =
+                evaluate(zero_sum(), p, LIGHT_AT(lights, light) WITH_PROFILE(profiles, light));
             FV alone = light_alone(draw, one);
             put_bits(bits, directional_count + j, mine & draws_light(draw, alone, light), words);
         }

@@ -83,7 +83,8 @@ static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint
 
 kernel void prepare_lights(
     global const Light* restrict lights,  // [count], camera-relative, world axes
-    uint count, View view, ClusterGrid grid,
+    uint count, uint seed,                // of drawn ranges; 0: none is drawn
+    View view, ClusterGrid grid,
     global ShadeLight* restrict shade_lights,  // out [count], view space
     global float4* restrict bounds,            // out [count]: p_view, 1/range^2
     global LightExtent* restrict extents) {    // out [count]
@@ -92,8 +93,11 @@ kernel void prepare_lights(
     float x[VW], y[VW], z[VW], r[VW];
     for (uint i = 0; i < VW; ++i) {
         uint light = min(first + i, count - 1u);
-        ShadeLight out = shade_light(view, lights[light]);
+        ShadeLight out = shade_light(view, lights[light], light, seed);
         float4 p = out.position_inv_range2;
+        float range = fabs(lights[light].position_range.w);
+        if (p.w < 0.0f) range = sqrt(-1.0f / p.w);
+        p.w = fabs(p.w);
         shade_lights[light] = out;
         bounds[light] = p;
         x[i] = p.x;
@@ -102,7 +106,7 @@ kernel void prepare_lights(
         // More than the list test grants (CULL_LIMIT, 1e-6 of the range) and float32 loses on the
         // way to tiles (16 u of the position); 1e-18 m where both are denormal, which a device may
         // flush.
-        r[i] = fma(lights[light].position_range.w, 1.00001f,
+        r[i] = fma(range, 1.00001f,
                    1e-6f * (fabs(p.x) + fabs(p.y) + fabs(p.z)) + grid.position_pad + 1e-18f);
     }
     Sphere sphere;
@@ -122,3 +126,17 @@ kernel void prepare_directional_lights(
     out[light].to_light = rotated(view, lights[light].to_light, 0.0f);
     out[light].color = lights[light].color;
 }
+
+#if HAS_LIGHT_PROFILES
+#include "kernels/shared/light_profile.h"
+
+// Profiles' directions in view space.
+kernel void aim_profiles(global const AimedProfile* restrict profiles,  // [count], world axes
+                         uint count, View view,
+                         global AimedProfile* restrict out) {  // out [count], view space
+    uint light = get_global_id(0);
+    if (light >= count) return;
+    out[light].down = rotated(view, profiles[light].down, profiles[light].down.w);
+    out[light].side = rotated(view, profiles[light].side, profiles[light].side.w);
+}
+#endif

@@ -65,6 +65,10 @@ kernel void shade(
     global const DirectionalLight* restrict directional_lights,  // [directional_count], view space
     uint directional_count,
     global const StoredLight* restrict lights,  // [light_count], view space
+#if HAS_LIGHT_PROFILES
+    global const AimedProfile* restrict aimed_profiles,  // [light_count], view space
+    global const float* restrict profile_tables,
+#endif
     ClusterGrid grid,
     global const uint* restrict cluster_offsets,    // [tiles + 1]
     global const ActiveCluster* restrict clusters,  // [cluster_capacity]
@@ -86,6 +90,9 @@ kernel void shade(
     bool inside = y < view.height;
     LightSet set;
     set.lights = lights;
+#if HAS_LIGHT_PROFILES
+    set.profiles = (LightProfiles){aimed_profiles, profile_tables};
+#endif
 #if STAGE > 0
     local ShadeLight staged_lights[STAGE];
     local uint staged_indices[STAGE];
@@ -128,7 +135,11 @@ kernel void shade(
     set.draw = make_draw(s, whole, view, pixels, x, row, rays, seed);
 #endif
     LightSum sum = sum_clusters(from, tile, fine_slice_of_depth(grid, z), drawn, any_drawn, p, set);
+#if SAMPLED_SHADOWS
+    FV3 color = without_hidden(set.draw, load_radiance(whole, view, pixels), sum);
+#else
     FV3 color = finish_shading(s, sum, ambient);
+#endif
     if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
 #if SAMPLED_SHADOWS
     if (inside) store_plane(variance, pixels, lane_select(drawn, spread, fv(0.0f)));

@@ -13,6 +13,10 @@ kernel void shade_all(
     global const DirectionalLight* restrict directional_lights,  // [directional_count], view space
     uint directional_count,
     global const StoredLight* restrict lights,  // [light_count], view space
+#if HAS_LIGHT_PROFILES
+    global const AimedProfile* restrict aimed_profiles,  // [light_count], view space
+    global const float* restrict profile_tables,
+#endif
     uint light_count, float ambient,
 #if SHADOWS
     ShadowView shadow, global const float* restrict origins, global const float4* restrict bounds,
@@ -32,6 +36,9 @@ kernel void shade_all(
     bool inside = y < view.height;
     LightSet set;
     set.lights = lights;
+#if HAS_LIGHT_PROFILES
+    set.profiles = (LightProfiles){aimed_profiles, profile_tables};
+#endif
 #if STAGE > 0
     local ShadeLight staged_lights[STAGE];
     local uint staged_indices[STAGE];
@@ -73,7 +80,11 @@ kernel void shade_all(
 #endif
     LightSum sum = sum_directional(p, set, directional_lights, directional_count);
     sum = sum_lights(sum, any_drawn, p, set, 0, light_count);
+#if SAMPLED_SHADOWS
+    FV3 color = without_hidden(set.draw, load_radiance(whole, view, pixels), sum);
+#else
     FV3 color = finish_shading(s, sum, ambient);
+#endif
     if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
 #if SAMPLED_SHADOWS
     if (inside) store_plane(variance, pixels, lane_select(drawn, spread, fv(0.0f)));

@@ -31,7 +31,8 @@ std::string read_text(const std::filesystem::path& file) {
     return text.str();
 }
 
-std::string text_of(const std::filesystem::path& file, const std::string& name, const Json& value) {
+std::string value_text(const std::filesystem::path& file, const std::string& name,
+                       const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number() || value.is_boolean()) return value.dump();
     if (!value.is_array()) {
@@ -40,7 +41,7 @@ std::string text_of(const std::filesystem::path& file, const std::string& name, 
                         file.string(), name, value.dump()));
     }
     std::vector<std::string> parts;
-    for (const Json& part : value) parts.push_back(text_of(file, name, part));
+    for (const Json& part : value) parts.push_back(value_text(file, name, part));
     return joined(parts, ",");
 }
 
@@ -49,7 +50,7 @@ Entries json_entries(const std::filesystem::path& file, const std::string& text)
     if (root.is_discarded()) throw UsageError(file.string() + ": is not valid JSON");
     Entries entries;
     for (const auto& [name, value] : root.items()) {
-        entries.emplace_back(name, text_of(file, name, value));
+        entries.emplace_back(name, value_text(file, name, value));
     }
     return entries;
 }

@@ -171,6 +171,11 @@ void refuse_extras(const CLI::App& command, const std::vector<std::string>& extr
     if (extras.empty()) return;
     const std::string name = extras[0].substr(0, extras[0].find('='));
     if (name.size() > 1 && name[0] == '-') {
+        if (command.get_name() == "bench" && (name == "--turntable" || name == "--camera-keys")) {
+            throw UsageError(name +
+                             ": bench times one view, so that its rows compare; render --stats "
+                             "FILE has the times of every frame");
+        }
         throw UsageError("unknown option " + name + did_you_mean(name, option_names(command)));
     }
     throw UsageError("unexpected argument '" + extras[0] + "'");

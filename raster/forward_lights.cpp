@@ -64,12 +64,16 @@ ForwardLightBuffers::ForwardLightBuffers(LightAccess access)
       directional_(make_buffer()),
       lights_(GL_RGBA32F, sizeof(float4), "lights"),
       cluster_offsets_(GL_R32UI, sizeof(uint), "clusters"),
-      light_lists_(GL_R32UI, sizeof(uint), "light lists") {}
+      light_lists_(GL_R32UI, sizeof(uint), "light lists"),
+      profiles_(GL_RGBA32F, sizeof(float4), "light profiles"),
+      profile_tables_(GL_R32F, sizeof(float), "light profiles' tables") {}
 
 void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) {
     std::vector<ShadeLight> local;
     local.reserve(lights.lights.size());
-    for (const Light& light : lights.lights) local.push_back(shade_light(view, light));
+    for (std::size_t i = 0; i < lights.lights.size(); ++i) {
+        local.push_back(shade_light(view, lights.lights[i], static_cast<uint>(i), lights.seed));
+    }
     std::vector<DirectionalLight> directional;
     for (const DirectionalLight& light : lights.directional) {
         directional.push_back({rotated(view, light.to_light, 0.0f), light.color});
@@ -85,6 +89,13 @@ void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) 
     lights_.refill(std::as_bytes(std::span(local)), access_);
     cluster_offsets_.refill(std::as_bytes(lights.cluster_offsets), access_);
     light_lists_.refill(std::as_bytes(lights.light_lists), access_);
+    if (lights.profiles.empty()) return;
+    std::vector<AimedProfile> profiles;
+    for (const AimedProfile& p : lights.profiles) {
+        profiles.push_back({rotated(view, p.down, p.down.w), rotated(view, p.side, p.side.w)});
+    }
+    profiles_.refill(std::as_bytes(std::span(profiles)), access_);
+    profile_tables_.refill(std::as_bytes(lights.profile_tables), access_);
 }
 
 void ForwardLightBuffers::bind() const {
@@ -93,6 +104,8 @@ void ForwardLightBuffers::bind() const {
     lights_.bind(1, LIGHTS_UNIT);
     cluster_offsets_.bind(2, CLUSTER_OFFSETS_UNIT);
     light_lists_.bind(3, LIGHT_LISTS_UNIT);
+    profiles_.bind(4, LIGHT_PROFILES_UNIT);
+    profile_tables_.bind(5, PROFILE_TABLES_UNIT);
 }
 
 }  // namespace kilolux

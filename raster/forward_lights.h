@@ -6,6 +6,7 @@
 
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/light_profile.h"
 #include "kernels/shared/light_transform.h"
 #include "kernels/shared/view.h"
 #include "raster/gl_object.h"
@@ -16,12 +17,16 @@ namespace kilolux {
 struct ForwardLights {
     std::span<const Light> lights;                  // camera-relative
     std::span<const DirectionalLight> directional;  // camera-relative
+    uint seed = 0;                                  // of drawn ranges; 0: none is drawn
     float ambient = 0.0f;                           // radiance that falls in from everywhere
     // forward-plus only: lights of coarse cluster c are lists[offsets[c] .. offsets[c + 1]),
     // ascending.
     ClusterGrid grid{};
     std::span<const uint> cluster_offsets;
     std::span<const uint> light_lists;
+    // With SceneFeatures::light_profiles: one per light, camera-relative, and their tables.
+    std::span<const AimedProfile> profiles;
+    std::span<const float> profile_tables;
 };
 
 /// How shaders read lights and lists, to the same bits. llvmpipe reads a storage buffer lane by
@@ -58,13 +63,13 @@ class ForwardLightBuffers {
     /// Throws Error when there are more lights, clusters or list entries than can be read.
     void upload(const ForwardLights& lights, const View& view);
 
-    /// Binds uniform block 1, storage blocks 0 to 3 and the texture units that draw_rows.h names.
+    /// Binds uniform block 1, storage blocks 0 to 5 and the texture units that draw_rows.h names.
     void bind() const;
 
  private:
     LightAccess access_;
     GlBuffer frame_, directional_;
-    LightArray lights_, cluster_offsets_, light_lists_;
+    LightArray lights_, cluster_offsets_, light_lists_, profiles_, profile_tables_;
 };
 
 }  // namespace kilolux

@@ -123,15 +123,15 @@ EGLDisplay open_display(const Candidate& candidate) {
 
 EGLContext create_context(EGLDisplay display) {
     if (!eglBindAPI(EGL_OPENGL_API)) throw Error("eglBindAPI(OpenGL): " + egl_error());
-    constexpr std::array<EGLint, 7> kAttributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                                   4,
-                                                   EGL_CONTEXT_MINOR_VERSION,
-                                                   5,
-                                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                   EGL_NONE};
-    EGLContext context =
-        eglCreateContext(display, choose_config(display), EGL_NO_CONTEXT, kAttributes.data());
+    constexpr std::array<EGLint, 7> kContextAttributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                                          4,
+                                                          EGL_CONTEXT_MINOR_VERSION,
+                                                          5,
+                                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                          EGL_NONE};
+    EGLContext context = eglCreateContext(display, choose_config(display), EGL_NO_CONTEXT,
+                                          kContextAttributes.data());
     if (context == EGL_NO_CONTEXT) throw Error("no OpenGL 4.5 core context: " + egl_error());
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         const std::string error = egl_error();

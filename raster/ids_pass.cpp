@@ -14,13 +14,13 @@ IdsPass::IdsPass(const GpuScene& scene)
     check_gl_errors("ids pass");
 }
 
-void IdsPass::draw(const Camera& camera, int width, int height) {
+void IdsPass::draw(const Camera& camera, int width, int height, const OpenTiles* open) {
     if (!targets_ || targets_->width() != width || targets_->height() != height) {
         check_target_size(width, height);
         targets_.reset();
         targets_ = std::make_unique<GBufferTargets>(plan_id_targets(), width, height);
     }
-    draws_ = draw_list_.visible(camera, width, height, false, DrawOrder::front_to_back);
+    draws_ = draw_list_.visible(camera, width, height, false, DrawOrder::front_to_back, open);
     timer_.begin();
     {
         const RasterState state(targets_->framebuffer(), width, height);

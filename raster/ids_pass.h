@@ -21,9 +21,10 @@ class IdsPass {
     explicit IdsPass(const GpuScene& scene);
 
     /// Draws what the camera sees, sorted front to back. A pixel becomes 1 + first_triangle of its
-    /// draw + its triangle's number in the mesh, or 0. Enqueues only; targets() holds the picture
+    /// draw + its triangle's number in the mesh, or 0. Outside the tiles of `open` pixels may lack
+    /// surfaces. Enqueues only; targets() holds the picture
     /// until the next call. Throws Error when the size is not positive or too large for the driver.
-    void draw(const Camera& camera, int width, int height);
+    void draw(const Camera& camera, int width, int height, const OpenTiles* open = nullptr);
 
     /// Where the latest draw() went. Another size makes new targets.
     const GBufferTargets& targets() const { return *targets_; }

@@ -78,11 +78,16 @@ ChildProcess::~ChildProcess() {
 }
 
 bool ChildProcess::succeeded() {
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
+}
+
+std::string ChildProcess::ending() const {
+    if (WIFEXITED(status_)) return "exit code " + std::to_string(WEXITSTATUS(status_));
+    const int signal = WTERMSIG(status_);
+    return "signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
 }
 
 std::vector<std::string> ChildProcess::messages() const {

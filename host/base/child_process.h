@@ -30,12 +30,16 @@ class ChildProcess {
     /// Waits for its end; whether it ended with exit code 0.
     bool succeeded();
 
+    /// How it ended: "exit code 3", "signal 11 (Segmentation fault)".
+    std::string ending() const;
+
     /// The lines that it wrote to standard error, without empty ones. After its end.
     std::vector<std::string> messages() const;
 
  private:
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages_;
     pid_t process_ = -1;  // -1: it has ended
+    int status_ = 0;      // as waitpid() gives it
 };
 
 }  // namespace kilolux

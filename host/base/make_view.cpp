@@ -21,6 +21,21 @@ struct Reader {
 
 [[noreturn]] void refuse(const std::string& why) { throw Error("make_view: " + why); }
 
+// One line for what no check of a sum would find: NaN in elements that are only copied.
+void check_numbers(const ViewMatrices& matrices) {
+    const std::string size = std::to_string(matrices.width) + "x" + std::to_string(matrices.height);
+    if (matrices.width == 0 || matrices.height == 0) refuse("a picture of " + size + " pixels");
+    for (std::size_t i = 0; i < 16; ++i) {
+        const auto require_finite = [i](const char* name, double value) {
+            if (std::isfinite(value)) return;
+            refuse(std::string(name) + " element (" + std::to_string(i % 4) + ", " +
+                   std::to_string(i / 4) + ") is " + std::to_string(value) + ", must be finite");
+        };
+        require_finite("view", matrices.view[i]);
+        require_finite("projection", matrices.projection[i]);
+    }
+}
+
 void check_view(const Reader& view) {
     for (int a = 0; a < 3; ++a) {
         for (int b = a; b < 3; ++b) {
@@ -49,9 +64,10 @@ void check_projection(const Reader& p, bool perspective) {
         for (int row : {0, 1}) require_zero(row, 2);
     }
     const double depth = perspective ? p(2, 3) : p(2, 2);
-    const double values[] = {p(0, 0), p(1, 1), depth};
-    for (const double value : values) {
-        if (value == 0.0 || !std::isfinite(value)) refuse("the projection is singular");
+    if (p(0, 0) == 0.0 || p(1, 1) == 0.0 || depth == 0.0) refuse("the projection is singular");
+    if (p(1, 1) < 0.0) {
+        refuse("projection element (1, 1) is " + std::to_string(p(1, 1)) +
+               ", must be > 0: +Y is up, as before Vulkan's flip of Y");
     }
 }
 
@@ -82,6 +98,7 @@ void set_rotation(MatrixView& out, const Reader& view, double forward) {
 MatrixView make_view(const ViewMatrices& matrices) {
     const Reader view{matrices.view}, p{matrices.projection};
     const bool perspective = std::abs(p(3, 2)) > std::abs(p(3, 3));
+    check_numbers(matrices);
     check_view(view);
     check_projection(p, perspective);
     const bool left = perspective ? p(3, 2) > 0.0 : matrices.orthographic_hand == ViewHand::left;

@@ -19,7 +19,8 @@ enum class NdcDepth { zero_to_one, minus_one_to_one };
 /// Where a camera looks in its view space: a perspective projection says so itself.
 enum class ViewHand { right, left };  // down -Z, down +Z
 
-/// What a renderer draws with. Normalised +Y is up: Vulkan's projection before its flip of Y.
+/// What a renderer draws with. Normalised +Y is up and row 0 of the picture on top: Vulkan's
+/// projection before its flip of Y.
 struct ViewMatrices {
     Matrix4 view;        // view space from world: rotation and translation, no scale
     Matrix4 projection;  // clip space from view; perspective or orthographic, reversed or not,
@@ -40,7 +41,8 @@ struct MatrixView {
 };
 
 /// Elements below 1e-4 count as 0 where they must be: products of float matrices will do. Throws
-/// Error for a view that scales or shears and for a projection that is none of the above.
+/// Error for a view that scales or shears, for a projection that is none of the above or flips Y,
+/// and for a picture without pixels.
 MatrixView make_view(const ViewMatrices& matrices);
 
 }  // namespace kilolux

@@ -11,6 +11,7 @@ using F = SceneFeatures;
 constexpr SceneFeature kTable[] = {
     {"point-lights", &F::point_lights},
     {"spot-lights", &F::spot_lights, "HAS_SPOT_LIGHTS", true},
+    {"light-profiles", &F::light_profiles},
     {"directional-lights", &F::directional_lights, "HAS_DIRECTIONAL_LIGHTS", true},
     {"metallic", &F::metallic, "HAS_METALLIC", true},
     {"emissive", &F::emissive, nullptr, true},
@@ -27,6 +28,14 @@ constexpr SceneFeature kTable[] = {
     {"shadows", &F::shadows},
 };
 
+// The shortest text that is read back as the same float.
+std::string literal(float value) {
+    char digits[32];
+    const char* end =
+        std::to_chars(digits, digits + sizeof(digits), value, std::chars_format::scientific).ptr;
+    return std::string(static_cast<const char*>(digits), end) + "f";
+}
+
 }  // namespace
 
 std::span<const SceneFeature> scene_feature_table() { return kTable; }
@@ -37,12 +46,11 @@ std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatu
         if (feature.macro) macros.emplace_back(feature.macro, features.*feature.member ? "1" : "0");
     }
     if (features.light_d_min != LIGHT_D_MIN) {
-        char digits[32];  // the shortest text that is read back as the same float
-        const char* end = std::to_chars(digits, digits + sizeof(digits), features.light_d_min,
-                                        std::chars_format::scientific)
-                              .ptr;
-        macros.emplace_back("LIGHT_D_MIN",
-                            std::string(static_cast<const char*>(digits), end) + "f");
+        macros.emplace_back("LIGHT_D_MIN", literal(features.light_d_min));
+    }
+    if (features.light_profiles) macros.emplace_back("HAS_LIGHT_PROFILES", "1");
+    if (features.drawn_ranges > 0.0f) {
+        macros.emplace_back("DRAWN_RANGES", literal(features.drawn_ranges));
     }
     return macros;
 }

@@ -29,6 +29,8 @@ struct SceneFeatures {
     bool alpha_blend = false;
     bool wide_light_index = false;    // more than 65536 lights
     bool shadows = false;             // asked for, and something casts them
+    bool light_profiles = false;      // photometric webs: IES files
+    float drawn_ranges = 0.0f;        // DRAWN_RANGES of evaluate.h; 0: no range is drawn
     float light_d_min = LIGHT_D_MIN;  // [m], smaller in small scenes: see light_d_min()
     bool operator==(const SceneFeatures&) const = default;
 };
@@ -43,8 +45,7 @@ struct SceneFeature {
 
 std::span<const SceneFeature> scene_feature_table();
 
-/// The table's macros with their values, and LIGHT_D_MIN where it is not the usual one, for both
-/// languages.
+/// The table's macros with their values, and what is not the usual number, for both languages.
 std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatures& features);
 
 }  // namespace kilolux

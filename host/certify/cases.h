@@ -35,6 +35,11 @@ TryCase try_octahedral_wrap;
 TryCase try_triangle_edges;
 // cases_shadows.cpp
 TryCase try_shadow_edges;
+
+// cases_tails.cpp
+TryCase try_tails;
+// cases_profiles.cpp
+TryCase try_light_profiles;
 // cases_metamorphic.cpp
 TryCase try_other_grids, try_idle_lights, try_scaled_intensities, try_scaled_world, try_mirror,
     try_split_light, try_permuted_lights, try_lane_widths;

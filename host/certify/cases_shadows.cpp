@@ -22,15 +22,15 @@ void try_scenario(const Gpu& gpu, Findings& findings, const ShadowScenario& scen
                      static_cast<double>(found.differ) / found.pixels, 0.005);
 }
 
-void try_all_lights(const Gpu& gpu, Findings& findings) {
-    const ShadowScenario scenario = columns_scenario();
-    RenderSettings settings = scene_settings(gpu, 96, 54);
+void try_all_lights(const Gpu& gpu, Findings& findings, const ShadowScenario& scenario, int width,
+                    std::uint64_t lights) {
+    RenderSettings settings = scene_settings(gpu, width, width * 9 / 16);
     settings.shadows = Shadows::exact;
-    settings.lights.count = 40;
+    settings.lights.count = lights;
     const Frame listed = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
     settings.renderer = RendererKind::deferred_all;
     const Frame all = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
-    findings.require("the bits of all lights", listed.radiance == all.radiance);
+    findings.require(scenario.name + ": the bits of all lights", listed.radiance == all.radiance);
 }
 
 }  // namespace
@@ -42,7 +42,8 @@ void try_shadow_edges(const Gpu& gpu, Findings& findings) {
         try_scenario(gpu, findings, scenario);
         try_scenario(gpu, findings, moved(scenario, kFar));
     }
-    try_all_lights(gpu, findings);
+    try_all_lights(gpu, findings, columns_scenario(), 96, 40);
+    try_all_lights(gpu, findings, needles_scenario(), 480, 0);
 }
 
 }  // namespace kilolux

@@ -15,7 +15,7 @@ namespace kilolux {
 
 /// A numerically hard case, or a metamorphic test.
 struct HardCase {
-    std::string_view label;                                     // "1" .. "31", "M1" .. "M8"
+    std::string_view label;                                     // "1" .. "34", "M1" .. "M8"
     std::string_view name;                                      // "slice-boundaries"
     std::string_view tried;                                     // what is made hard
     std::string_view threshold;                                 // what must hold

@@ -76,6 +76,13 @@ constexpr HardCase kHardCases[] = {
     {"32", "shadow-edges",
      "columns, a 1 mm wall, a light 1 mm over a floor, spheres; also far away",
      "rays in double, but within 2^-15 of an edge; the bits of all lights", try_shadow_edges},
+    {"33", "tails",
+     "lights without a range: around the camera, over e^40, one that outshines; budgets "
+     "1e-30..1e30",
+     "exact to 1e-5 E; bounded lacks no more than its bound; suns keep their bits", try_tails},
+    {"34", "light-profiles",
+     "IES webs: a beam of 1 deg, a ridge on the seam, poles with unlike rings, mirrored",
+     "3e-6 E; the bits of all lights", try_light_profiles},
     {"M1", "other-grids", "five grids", "the same bits", try_other_grids},
     {"M2", "idle-lights", "500 more lights, of no intensity or out of range", "the same bits",
      try_idle_lights},

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "host/measure/reference/decoded_samples.h"
 #include "host/measure/reference/shadow_caster.h"
@@ -38,14 +39,23 @@ Mesh sphere_mesh(double radius, int rings) {
     return mesh;
 }
 
-// Whether a shadow's edge passes within `distance` [m] of the point.
-bool is_near_edge(const ShadowCaster& caster, const ShadowPoint& point, const glm::dvec3& light,
-                  double distance) {
+// Whether a shadow's edge passes `distance` [m] from the point.
+bool is_edge_at(const ShadowCaster& caster, const ShadowPoint& point, const glm::dvec3& light,
+                double distance) {
     const bool seen = caster.sees(point, light);
     for (int i = 0; i < 26; ++i) {
         const int code = i < 13 ? i : i + 1;
         const glm::dvec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
         if (caster.sees_moved(point, distance * way, light) != seen) return true;
+    }
+    return false;
+}
+
+// Whether a shadow's edge passes within `distance` [m] of the point, of a thin shadow, too.
+bool is_near_edge(const ShadowCaster& caster, const ShadowPoint& point, const glm::dvec3& light,
+                  double distance) {
+    for (const double share : {1.0, 0x1p-3, 0x1p-6, 0x1p-9}) {
+        if (is_edge_at(caster, point, light, share * distance)) return true;
     }
     return false;
 }
@@ -163,6 +173,44 @@ ShadowScenario sheet_scenario() {
     scene.instances.push_back({0, glm::dmat4(1.0)});
     scene.lights.push_back(lamp({9.0, -0.5, 0.0}));
     return {"sheet", scene, look_at({0.0, 8.0, 6.0}, {0.0, 0.0, 0.0}, {0, 1, 0}, 0.9)};
+}
+
+ShadowScenario needles_scenario() {
+    constexpr int kPointing = 1500;  // an edge of each points at the light
+    constexpr int kLying = 30000;    // of 0.1 mm by 0.6 m, whose ends are sharp
+    const glm::dvec3 light(0.3, 4.1, -0.2);
+    Scene scene = shadow_stage();
+    add_box(scene, {6.0, 0.5, 6.0}, {0.0, -0.25, 0.0});
+    std::mt19937 random(3);  // its numbers are the same everywhere
+    const auto unit = [&] { return static_cast<double>(random()) * 0x1p-32; };
+    const auto around = [&](double radius) {
+        const double angle = 2.0 * std::numbers::pi * unit();
+        return radius * glm::dvec3(std::cos(angle), 0.0, std::sin(angle));
+    };
+    Mesh needles;
+    const auto add = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        for (const glm::dvec3& p : {a, b, c}) {
+            needles.indices.push_back(static_cast<std::uint32_t>(needles.positions.size()));
+            needles.positions.emplace_back(p);
+        }
+    };
+    for (int i = 0; i < kPointing; ++i) {
+        const glm::dvec3 down = glm::dvec3(0.0, -1.0, 0.0) + around(0.25 * std::sqrt(unit()));
+        const glm::dvec3 end = light + 3.0 * down + around(3e-4);
+        const glm::dvec3 side = end + around(0.02);
+        add(light + down, end, side);
+    }
+    for (int i = 0; i < kLying; ++i) {
+        const glm::dvec3 base = around(2.5 * std::sqrt(unit())) + glm::dvec3(0.0, 1.0, 0.0);
+        const glm::dvec3 along = around(0.6);
+        add(base, base + 1e-4 * glm::dvec3(along.z, 0.0, -along.x), base + along);
+    }
+    needles.normals.assign(needles.positions.size(), {0, 0, 1});
+    needles.material = 0;
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()), glm::dmat4(1.0)});
+    scene.meshes.push_back(needles);
+    scene.lights.push_back(lamp(light));
+    return {"needles", scene, look_at({0.3, 2.2, 2.6}, {0.3, 0.2, 0.5}, {0, 1, 0}, 0.8)};
 }
 
 ShadowScenario moved(ShadowScenario from, const glm::dvec3& by) {

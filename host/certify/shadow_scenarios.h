@@ -37,6 +37,9 @@ ShadowScenario spheres_scenario();
 /// A sheet without thickness whose normals turn to a light behind it: it sees none of it.
 ShadowScenario sheet_scenario();
 
+/// Needles whose longest edges point at the light, within 1e-4.
+ShadowScenario needles_scenario();
+
 /// The same, moved as a whole.
 ShadowScenario moved(ShadowScenario from, const glm::dvec3& by);
 

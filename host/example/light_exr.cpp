@@ -15,7 +15,6 @@
 #include <fstream>
 
 using namespace kilolux;
-
 using Channels = std::array<int, 3>;
 
 // The channel "<name><part>" of any layer; "/." begins every name.
@@ -36,6 +35,7 @@ Channels channels_of(const OIIO::ImageBuf& image, const std::vector<std::string>
 }
 
 MatrixView camera_of(const OIIO::ImageSpec& spec, double degrees) {
+    if (!(degrees > 0 && degrees < 180)) throw Error("DEGREES must be between 0 and 180");
     const double y = 1.0 / std::tan(degrees * 3.14159265358979 / 360.0);
     ViewMatrices matrices{
         {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
@@ -53,15 +53,16 @@ std::vector<Light> read_lights(const char* file, const std::array<double, 3>& ca
     if (!in) throw Error(std::string(file) + ": cannot be read");
     std::vector<Light> lights;
     int number = 0;
-    for (std::string line; std::getline(in, line);) {
-        ++number;
+    for (std::string line; std::getline(in, line) && ++number > 0;) {
         if (line.empty() || line[0] == '#') continue;
         double p[3];
         float range = 0, r = 0, g = 0, b = 0;
-        if (std::sscanf(line.c_str(), "%lf,%lf,%lf,%f,%f,%f,%f", &p[0], &p[1], &p[2], &range, &r,
-                        &g, &b) != 7) {
+        char more = 0;
+        const int read = std::sscanf(line.c_str(), "%lf,%lf,%lf,%f,%f,%f,%f %c", &p[0], &p[1],
+                                     &p[2], &range, &r, &g, &b, &more);
+        if (read != 7 || !(range > 0)) {
             throw Error(std::string(file) + ": line " + std::to_string(number) + ": '" + line +
-                        "' is not x,y,z,range,red,green,blue");
+                        "' is not x,y,z,range > 0,red,green,blue");
         }
         const auto relative = [&](std::size_t i) { return static_cast<float>(p[i] - camera[i]); };
         lights.push_back(
@@ -94,13 +95,13 @@ std::vector<std::byte> planes_of(const OIIO::ImageBuf& image, const View& v,
         };
         const FV3 n = at3(normal);
         const auto along = [&n](const float4& r) { return r.x * n.x + r.y * n.y + r.z * n.z; };
-        put(PLANE_DEPTH, ((v.orthographic != 0 ? z : 1.0f / z) - v.depth.w) / v.depth.x);
-        put3(PLANE_POSITION_X,
+        put(KILOLUX_PLANE_DEPTH, ((v.orthographic != 0 ? z : 1.0f / z) - v.depth.w) / v.depth.x);
+        put3(KILOLUX_PLANE_POSITION_X,
              view_position(v, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, z));
-        put3(PLANE_NORMAL_X, fv3(along(v.view_from_world_x), along(v.view_from_world_y),
-                                 along(v.view_from_world_z)));
-        put3(PLANE_ALBEDO_R, at3(albedo));
-        put(PLANE_ROUGHNESS, 1.0f);
+        put3(KILOLUX_PLANE_NORMAL_X, fv3(along(v.view_from_world_x), along(v.view_from_world_y),
+                                         along(v.view_from_world_z)));
+        put3(KILOLUX_PLANE_ALBEDO_R, at3(albedo));
+        put(KILOLUX_PLANE_ROUGHNESS, 1.0f);
     }
     return bytes;
 }
@@ -121,7 +122,7 @@ int main(int argc, char** argv) try {
     const auto count = static_cast<uint>(lights.size());
     const Gpu gpu(choose_device(""));
     KernelFeatures features;  // Lambert surfaces
-    features.gbuffer = GBUFFER_FULL;
+    features.gbuffer = KILOLUX_GBUFFER_FULL;
     features.light_index_bits = 32;
     GBufferNeeds needs;
     needs.layout = features.gbuffer;
@@ -129,13 +130,12 @@ int main(int argc, char** argv) try {
     std::vector<std::byte> planes = planes_of(image, view, layout);
     const GBuffer gbuffer{copy(gpu, planes), layout, view};
     const LightInput input{copy(gpu, lights), count};
-    DeferredLighting lighting(gpu, default_tuning(gpu.info), features);
+    DeferredLighting lighting(gpu, known_tuning(gpu.info).tuning, features);
     StageTimer timer;
     const ClusterGrid grid = make_cluster_grid({.position_pad = 1e-3f}, view.width, view.height);
     const std::vector<float> lit =
         download(gpu, lighting.light({gbuffer, input, grid}, timer).planes);
-    OIIO::ImageBuf out(
-        OIIO::ImageSpec(image.spec().width, image.spec().height, 3, OIIO::TypeDesc::FLOAT));
+    OIIO::ImageBuf out({image.spec().width, image.spec().height, 3, OIIO::TypeDesc::FLOAT});
     for (uint i = 0; i < view.width * view.height; ++i) {
         const uint x = i % view.width, y = i / view.width;
         const std::size_t at = std::size_t{y} * view.stride + x, plane = lit.size() / 3;

@@ -38,9 +38,9 @@ std::vector<std::byte> draw_floor(const GBufferLayout& layout, const View& view)
     for (uint y = kHeight / 2; y < kHeight; ++y) {
         const float z = kEyeHeight / -(view.ray.z * (static_cast<float>(y) + 0.5f) + view.ray.w);
         for (uint i = y * kStride; i < y * kStride + kWidth; ++i) {
-            plane(PLANE_DEPTH)[i] = float_bits(kNear / z);
-            plane(PLANE_NORMAL)[i] = unorm16(up.x) | unorm16(up.y) << 16;
-            plane(PLANE_ALBEDO)[i] = 0x80c8c8c8;  // roughness 128, sRGB 200
+            plane(KILOLUX_PLANE_DEPTH)[i] = float_bits(kNear / z);
+            plane(KILOLUX_PLANE_NORMAL)[i] = unorm16(up.x) | unorm16(up.y) << 16;
+            plane(KILOLUX_PLANE_ALBEDO)[i] = 0x80c8c8c8;  // roughness 128, sRGB 200
         }
     }
     return bytes;
@@ -72,13 +72,13 @@ int main(int argc, char** argv) try {
     const LightInput input{
         cl::Buffer(context, CL_MEM_COPY_HOST_PTR, kLights * sizeof(Light), rows.data()), kLights};
     KernelFeatures features;
-    features.shading = SHADING_PBR;
-    const Tuning tuning = default_tuning(gpu.info);
+    features.shading = KILOLUX_SHADING_PBR;
+    const Tuning tuning = known_tuning(gpu.info).tuning;
     const ClusterGrid grid = make_cluster_grid({.z_first = 1.0f, .z_last = 50.0f}, kWidth, kHeight);
     StageTimer timer;
     DeferredLighting lighting(gpu, tuning, features);
     const Radiance radiance = lighting.light({gbuffer, input, grid}, timer);
-    Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
+    Tonemap tonemap(gpu, tuning, KILOLUX_TONE_CURVE_NEUTRAL);
     const std::vector<uint> pixels = download(gpu, tonemap.enqueue(radiance, 0.0f, timer));
     std::ofstream file(argv[1], std::ios::binary);
     file << "P6 " << kWidth << " " << kHeight << " 255\n";

@@ -26,9 +26,9 @@ Tuning default_tuning(const DeviceInfo& device) {
         // A tile's rows meet in the caches: a sixth less than row by row. With all 16 a thread's
         // share is too large to be even on many cores.
         tuning.shade_rows = 8;
-        // With few lights pixels are waited for longer than they are shaded. Oclgrind, which
-        // interprets kernels, knows no such instruction.
-        tuning.shade_prefetch = device.platform == "Oclgrind" ? 0 : 1;
+        // With few lights pixels are waited for longer than they are shaded. Oclgrind and rusticl's
+        // SPIR-V translator know no such instruction; the latter ends the process.
+        tuning.shade_prefetch = device.platform == "Portable Computing Language" ? 1 : 0;
         tuning.cull_chunks = 16 * device.compute_units;
         tuning.light_group = 16;
         // Triangles are narrow: wider vectors are mostly empty.

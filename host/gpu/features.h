@@ -18,6 +18,8 @@ struct KernelFeatures : SceneFeatures {
     bool native_math = false;        // native_sqrt, native_rsqrt, native_recip
     bool half_light_colors = false;
     bool sampled_shadows = false;  // with `shadows`: of drawn lights only
+    bool light_tree = false;       // Tails::tree, and lights that are for it
+    float tree_share = 0.0f;       // with light_tree: error of a node, see tree_cut.h
     bool operator==(const KernelFeatures&) const = default;
 };
 
@@ -46,7 +48,7 @@ struct Tuning {
     int raster_tile_width = 64;  // of triangles' tiles, powers of two of at least 16 [pixel]
     int raster_tile_height = 64;
     int geometry = 0;      // what --geometry auto is: 0 OpenGL's ids, 1 OpenCL's
-    int shadow_group = 1;  // work-items that share a cluster's shadows: 1, or 32..256
+    int shadow_group = 1;  // work-items that share a cluster's shadows: 1, or 32..256; 0: none do
     int raster_lanes = 1;  // of triangles and their pixels; the device's lane width bounds them
     bool operator==(const Tuning&) const = default;
 };

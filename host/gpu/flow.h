@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "host/gpu/buffer.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/light_profile.h"
+#include "kernels/shared/light_tree.h"
 #include "kernels/shared/view.h"
 
 /// Everything that passes between stages. Arrays belong to the stage that made them and stay valid
@@ -23,23 +26,39 @@ struct GBuffer {
     std::uint64_t version = 0;  // the same only where the planes and the view are; 0: not known
 };
 
+/// The photometric webs of point and spot lights, with KernelFeatures::light_profiles.
+struct ProfileInput {
+    std::optional<DeviceArray<AimedProfile>> lights;  // one per light and node
+    std::optional<DeviceArray<float>> tables;         // see light_profile.h
+};
+
 /// Lights as the host hands them over.
 struct LightInput {
-    DeviceArray<Light> lights;  // [count], camera-relative
+    DeviceArray<Light> lights;  // [count + node_count], camera-relative
     uint count = 0;
     DeviceArray<DirectionalLight>
         directional{};  // [directional_count], world axes; none: no buffer
     uint directional_count = 0;
+    ProfileInput profiles{};    // world axes
+    uint seed = 0;              // of drawn ranges, see light_transform.h; 0: none is drawn
+    std::uint64_t version = 0;  // the same only where the lights are; 0: not known
+    // With KernelFeatures::light_tree, lights that are in no coarse list: the nodes of a tree.
+    uint node_count = 0;
+    DeviceArray<TreeNode> nodes{};  // [node_count]
 };
 
 /// Lights ready for culling and shading.
 struct PreparedLights {
-    DeviceArray<ShadeLight> lights;  // [count], view space
-    DeviceArray<float4> bounds;      // [count]: p_view, 1/range^2
+    DeviceArray<ShadeLight> lights;  // [count + node_count], view space
+    DeviceArray<float4> bounds;      // the same places: p_view, 1/range^2
     DeviceArray<LightExtent> extents;
     uint count = 0;
     DeviceArray<DirectionalLight> directional;  // [directional_count], view space
     uint directional_count = 0;
+    ProfileInput profiles;  // view space
+    uint node_count = 0;    // see LightInput
+    DeviceArray<TreeNode> nodes{};
+    uint rows() const { return count + node_count; }
 };
 
 /// The two ends of a box along one axis [m].
@@ -81,6 +100,12 @@ struct ActiveClusters {
 struct RefinedLists {
     LightIndexBytes lists;  // [capacity] indices
     uint capacity = 0;
+};
+
+/// Of two halves of the samples, those that a fine tile's mean ends with; 0 while it takes more. A
+/// tile where both have ended is done.
+struct TileCounts {
+    DeviceArray<uint> fixed;  // [2][tile_count]
 };
 
 /// Linear HDR radiance as three planes.

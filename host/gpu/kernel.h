@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -40,18 +41,27 @@ class Kernel {
     /// `stage` names the launches in times and error messages. Throws Error with it.
     Kernel(const Gpu& gpu, const cl::Program& program, std::string_view stage, const char* name);
 
-    /// Enqueues only. Arguments are buffers, uint, float and structs of kernels/shared. Throws
-    /// Error with stage and error name.
+    /// Enqueues only. Arguments are buffers, uint, float and structs of kernels/shared; an optional
+    /// one is none where it is empty. Throws Error with stage and error name.
     template <typename... Arguments>
     void enqueue(const WorkSize& size, StageTimer& timer, const Arguments&... arguments) {
         in_stage(stage_, [&] {
             cl_uint index = 0;
-            (set(index++, arguments), ...);
+            (set_next(index, arguments), ...);
             timer.record(stage_, launch(size));
         });
     }
 
  private:
+    template <typename T>
+    void set_next(cl_uint& index, const T& value) {
+        set(index++, value);
+    }
+    template <typename T>
+    void set_next(cl_uint& index, const std::optional<T>& value) {
+        if (value) set(index++, *value);
+    }
+
     template <typename T>
     void set(cl_uint index, const T& value) {
         static_assert(std::is_same_v<T, uint> || std::is_same_v<T, float> || std::is_class_v<T>,

@@ -23,12 +23,17 @@ class StageTimer {
     /// done.
     std::vector<Time> take();
 
+    /// Of the events of the last take(): for how long the device idled although the next one was
+    /// enqueued [ms].
+    double launch_ms() const { return launch_ms_; }
+
  private:
     struct Entry {
         std::string stage;
         std::vector<cl::Event> events;
     };
     std::vector<Entry> entries_;
+    double launch_ms_ = 0.0;
 };
 
 }  // namespace kilolux

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "host/gpu/device_cache.h"
+#include "host/gpu/shipped_tunings.h"
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
@@ -93,6 +94,26 @@ std::optional<StoredTuning> stored_tuning(const DeviceInfo& device) {
         stored.tuning.*field.value = int_of(*values, field.name);
     if (!is_valid(stored, device)) return std::nullopt;
     return stored;
+}
+
+KnownTuning known_tuning(const DeviceInfo& device) {
+    if (const auto stored = stored_tuning(device)) return {*stored, TuningSource::measured};
+    const StoredTuning built_in = built_in_tuning(device);
+    if (const auto shipped = shipped_tuning(device, shipped_tunings())) {
+        StoredTuning tuning = shipped->tuning;
+        tuning.tuning.geometry = built_in.tuning.geometry;
+        if (is_valid(tuning, device)) {
+            return {tuning, shipped->same_device ? TuningSource::shipped_for_device
+                                                 : TuningSource::shipped_for_class};
+        }
+    }
+    return {built_in, TuningSource::built_in};
+}
+
+std::string text_of(TuningSource source) {
+    constexpr const char* kTexts[] = {"measured here", "shipped for this device",
+                                      "shipped for its class", "built in"};
+    return kTexts[static_cast<int>(source)];
 }
 
 void store_tuning(const DeviceInfo& device, const StoredTuning& stored) {

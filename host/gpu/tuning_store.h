@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "host/gpu/device.h"
 #include "host/gpu/features.h"
@@ -33,6 +34,21 @@ StoredTuning built_in_tuning(const DeviceInfo& device);
 /// What `kilolux bench --tune` found for this device and driver; none if it never ran, or if the
 /// entry is damaged or no longer valid.
 std::optional<StoredTuning> stored_tuning(const DeviceInfo& device);
+
+/// Where a tuning comes from; of these, the first that there is.
+enum class TuningSource { measured, shipped_for_device, shipped_for_class, built_in };
+
+/// A tuning and where it comes from.
+struct KnownTuning : StoredTuning {
+    TuningSource source = TuningSource::built_in;
+};
+
+/// The best known tuning of a device: what was measured here, else what this program ships for the
+/// device or its class, else the built-in table's.
+KnownTuning known_tuning(const DeviceInfo& device);
+
+/// "measured here", "shipped for this device", "shipped for its class", "built in".
+std::string text_of(TuningSource source);
 
 /// Keeps the winner in the user's cache folder. Throws Error when that cannot be written.
 void store_tuning(const DeviceInfo& device, const StoredTuning& tuning);

@@ -12,15 +12,13 @@ target_compile_features(kilolux_cl PUBLIC cxx_std_20)
 target_link_libraries(kilolux_cl PUBLIC PkgConfig::OPENCL Threads::Threads)
 get_target_property(definitions kilolux_gpu INTERFACE_COMPILE_DEFINITIONS)
 target_compile_definitions(kilolux_cl INTERFACE ${definitions})
-# Headers keep their paths below include/kilolux, as they name each other; kilolux.h stands beside.
-target_include_directories(kilolux_cl PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/kilolux>)
+# Headers as others see them: public_headers.cmake.
+target_include_directories(kilolux_cl PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 install(TARGETS kilolux_cl EXPORT KiloluxTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-foreach(room host/base host/gpu host/stages host/lighting kernels/shared)
-  install(DIRECTORY ${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kilolux/${room}
-    FILES_MATCHING PATTERN "*.h")
-endforeach()
-install(FILES host/install/kilolux.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kilolux)
+install(CODE "execute_process(COMMAND \"${CMAKE_COMMAND}\" \"-DROOT=${CMAKE_SOURCE_DIR}\"
+  \"-DDESTINATION=\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/kilolux\"
+  \"-DROOMS=host/base|host/gpu|host/stages|host/lighting|kernels/shared\"
+  -P \"${CMAKE_SOURCE_DIR}/host/install/public_headers.cmake\" COMMAND_ERROR_IS_FATAL ANY)")
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Kilolux)
 configure_package_config_file(host/install/KiloluxConfig.cmake.in ${CMAKE_BINARY_DIR}/KiloluxConfig.cmake
@@ -34,8 +32,10 @@ install(EXPORT KiloluxTargets NAMESPACE Kilolux:: DESTINATION ${config_folder})
 file(RELATIVE_PATH PC_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 list(TRANSFORM definitions PREPEND -D)
 list(JOIN definitions " " PC_DEFINITIONS)
-configure_file(host/install/kilolux.pc.in ${CMAKE_BINARY_DIR}/kilolux.pc @ONLY)
-install(FILES ${CMAKE_BINARY_DIR}/kilolux.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+foreach(name kilolux kilolux-c)
+  configure_file(host/install/${name}.pc.in ${CMAKE_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${CMAKE_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
 
 if(KILOLUX_PROGRAM)
   install(TARGETS kilolux RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -1,20 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OpenCL half of Kilolux: everything that lights a G-buffer with many lights.
+// The OpenCL half of Kilolux: everything that lights a G-buffer with many lights. Include it as
+// <kilolux/kilolux.h>; <kilolux/kilolux_c.h> is the same for C.
 //
 // A program brings a cl::Context with a queue (or lets Gpu make them), a G-buffer in one cl::Buffer
 // and lights in another; host/example/light_gbuffer.cpp is the whole of it:
 //
-//     DeferredLighting lighting(gpu, tuning, features);
+//     DeferredLighting lighting(gpu, known_tuning(gpu.info).tuning, features);
 //     const Radiance radiance = lighting.light({gbuffer, lights, grid}, timer);
 //
-// Behind it stand LightLists (BinPixels, PrepareLights, BuildClusters, CullLights, RefineLights)
-// and Shade; a program may run these stages itself. A stage compiles in its constructor, its
-// enqueue() does not block, and its results stay valid until its next enqueue(). What must match
-// between stages is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid
-// a frame.
+// Around it: make_view() takes a renderer's own matrices, RepackGBuffer its depth, normals and
+// albedo from buffers or images, MoveLights its lights in the world, and PackRadiance gives RGBA
+// back. Behind it stand LightLists (BinPixels, PrepareLights, BuildClusters, CullLights,
+// RefineLights) and Shade; a program may run these stages itself. A stage compiles in its
+// constructor, and its results stay valid until its next enqueue(). What must match between stages
+// is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid a frame.
+//
+// BUFFERS. Planes have rows of View::stride elements (the width rounded up to 16) and View::height
+// rows, from the top. Those that the library owns are valid until the next call of the stage that
+// made them. Alignments are in bytes, from the buffer's start or a sub-buffer's; host/gpu/flow.h
+// has the shapes of the lists.
+//
+//   what                     elements                      unit, space           align  owner
+//   GBuffer::bytes           gbuffer_bytes() of planes at  kernels/shared/       256    either [1]
+//                            GBufferLayout::offset_bytes   gbuffer.h
+//   SourceGBuffer::depth,    [height][pitch], or an image  SourceFormat          pixel  caller
+//     normal, albedo
+//   LightInput::lights       Light[count]                  m, cd; world axes,    16     either [2]
+//                                                          camera at 0
+//   LightInput::directional  DirectionalLight[count]       lx; world axes        16     caller
+//   MoveLights::stage()      WorldLight[count], host       m, cd; world          16     library
+//   Radiance::planes         float[3][height][stride]      linear Rec. 709       4      library
+//   PackRadiance's           [height][pitch], or an image  linear RGBA           pixel  caller
+//   Tonemap's                uint[height][stride]          sRGB codes, R lowest  4      library
+//
+//   [1] the caller's own planes, or what RepackGBuffer made
+//   [2] the caller's own rows, or what MoveLights made
+//
+// QUEUES AND EVENTS. The queue is in order, with profiling; Gpu refuses another. enqueue() never
+// blocks. light() blocks once, at its end, for the counts of the lists: all that was enqueued
+// before, and what its `then` enqueued, is done when it returns. It runs its stages, and `then`,
+// again where lists had to grow. upload(), download(), MoveLights::stage() and StageTimer::take()
+// block, too; MoveLights::upload() does not.
+// There are no event arguments: with one queue in order, waiting for another queue's events is
+// queue.enqueueBarrierWithWaitList(&events) before the call, and an event for another queue is
+// queue.enqueueMarkerWithWaitList(nullptr, &event) after it.
+//
+// NOT HERE. Depth-stencil images: an extension that few drivers have; copy them to a buffer.
+// Out-of-order queues: the stages depend on each other, one after the other. Lights without a
+// range, and reading files: that is the program's work.
+//
+// THREADS. Objects of one Gpu and its copies: one thread at a time. Several Gpu: several threads.
 //
 // The stable part is what this header brings in: names, and the layouts of kernels/shared (rows of
-// 16 bytes, checked on the device). Include it as <kilolux/kilolux.h>.
+// 16 bytes, checked on the device). Installed macros begin with KILOLUX_.
 #pragma once
 
 // IWYU pragma: begin_exports
@@ -32,7 +70,7 @@
 #include "host/gpu/flow.h"             // what passes between stages
 #include "host/gpu/program.h"          // in_stage: OpenCL's errors with the stage's name
 #include "host/gpu/stage_timer.h"      // times by stage
-#include "host/gpu/tuning_store.h"     // the best work sizes measured on a device
+#include "host/gpu/tuning_store.h"     // known_tuning: the best work sizes known of a device
 #include "host/stages/bin_pixels.h"
 #include "host/stages/bloom.h"
 #include "host/stages/build_clusters.h"
@@ -40,8 +78,11 @@
 #include "host/stages/count_pairs.h"
 #include "host/stages/cull_lights.h"
 #include "host/stages/decode_gbuffer.h"
+#include "host/stages/move_lights.h"
+#include "host/stages/pack_radiance.h"
 #include "host/stages/prepare_lights.h"
 #include "host/stages/refine_lights.h"
+#include "host/stages/repack_gbuffer.h"
 #include "host/stages/shade.h"
 #include "host/stages/tonemap.h"
 #include "kernels/shared/evaluate_modes.h"  // SHADING_*

@@ -15,7 +15,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "gbuffer_bridge";
+constexpr std::string_view kGbufferBridgeStage = "gbuffer_bridge";
 
 void wait_for(GLsync fence) {
     constexpr GLuint64 kSecond = 1'000'000'000;
@@ -24,7 +24,7 @@ void wait_for(GLsync fence) {
         status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond);
     }
     if (status == GL_WAIT_FAILED) {
-        check_gl_errors(kStage);
+        check_gl_errors(kGbufferBridgeStage);
         throw Error("gbuffer_bridge: OpenGL's wait for a copy failed");
     }
 }
@@ -57,7 +57,7 @@ void GBufferBridge::make_staging(std::size_t bytes) {
                          kAccess | GL_CLIENT_STORAGE_BIT);
     staging->mapping =
         glMapNamedBufferRange(staging->pixels.name(), 0, static_cast<GLsizeiptr>(bytes), kAccess);
-    check_gl_errors(kStage);
+    check_gl_errors(kGbufferBridgeStage);
     if (!staging->mapping)
         throw Error("gbuffer_bridge: OpenGL cannot map a pixel buffer of " +
                     std::to_string(bytes >> 20) + " MiB");
@@ -99,7 +99,7 @@ void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> 
         wait_for(plane.done.get());
         if (!gpu_.info.is_cpu) upload(plane);
     }
-    check_gl_errors(kStage);
+    check_gl_errors(kGbufferBridgeStage);
     if (gpu_.info.is_cpu) {
         // Tells the device that the memory behind its buffer has changed.
         void* mapped = gpu_.queue.enqueueMapBuffer(staging_->device, CL_FALSE,
@@ -112,7 +112,7 @@ void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> 
 
 GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeeds& needs,
                                 const View& view, int first_row) {
-    return in_stage(kStage, [&] {
+    return in_stage(kGbufferBridgeStage, [&] {
         GBuffer out;
         out.layout = make_gbuffer_layout(needs, view.stride, view.height);
         out.view = view;
@@ -131,7 +131,7 @@ GBuffer GBufferBridge::transfer(const GBufferTargets& targets, const GBufferNeed
 
 DeviceArray<uint> GBufferBridge::transfer_ids(const GBufferTargets& targets, const View& view,
                                               int first_row) {
-    return in_stage(kStage, [&] {
+    return in_stage(kGbufferBridgeStage, [&] {
         const std::size_t count = std::size_t{view.stride} * view.height;
         std::vector<PlaneCopy> planes;
         planes.push_back({targets.reads().front(), 0, count * sizeof(uint), Fence()});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/deferred_lighting.h"
 
+#include <cstring>
+
 namespace kilolux {
 namespace {
 
@@ -20,38 +22,84 @@ DeferredLighting::DeferredLighting(const Gpu& gpu, const Tuning& tuning,
     unshadowed_.emplace(gpu, tuning, without_shadows(features));
 }
 
+void DeferredLighting::set_ambient(float ambient) {
+    ambient_ = ambient;
+    shade_.set_ambient(ambient);
+    if (unshadowed_) unshadowed_->set_ambient(ambient);
+}
+
 Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer,
                                  const AfterShading& then) {
     Radiance radiance;
     lists_ = {};  // arrays that grow must not be held twice
+    const Visibility visibility = visibility_of(input);
+    if (!keeps(visibility)) {
+        kept_.reset();
+        shadows_ = {};
+        samples_ = {};
+    }
     lists_ = light_lists_.run(input.lights, input.gbuffer, input.grid, timer,
                               [&](const ListedLights& lists) {
+                                  if (cast_ && !kept_) cast(input, lists, timer);
                                   radiance = shade(input, lists, timer);
                                   if (then) then(radiance);
                               });
+    kept_ = visibility;  // the lists that it was cast by are complete
     return radiance;
+}
+
+DeferredLighting::Visibility DeferredLighting::visibility_of(const LightingInput& input) const {
+    const ShadowInput& shadows = input.shadows;
+    return {input.gbuffer.version, input.lights.version,
+            input.lights.seed,     input.grid,
+            shadows.rays,          ambient_,
+            shadows.seed};
+}
+
+bool DeferredLighting::keeps(const Visibility& wanted) const {
+    if (!kept_ || wanted.gbuffer == 0 || wanted.lights == 0) return false;
+    if (wanted.gbuffer != kept_->gbuffer || wanted.lights != kept_->lights) return false;
+    if (wanted.ranges != kept_->ranges) return false;
+    if (std::memcmp(&wanted.grid, &kept_->grid, sizeof wanted.grid) != 0) return false;
+    return !draw_ || (wanted.rays == kept_->rays && wanted.seed == kept_->seed &&
+                      wanted.ambient == kept_->ambient);
+}
+
+void DeferredLighting::cast(const LightingInput& input, const ListedLights& lists,
+                            StageTimer& timer) {
+    shadows_ = cast_->reserve(lists.lights, lists.clusters, timer);
+    if (draw_) {
+        samples_.whole = unshadowed_
+                             ->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters,
+                                       lists.refined, timer)
+                             .planes;
+        samples_.rays = input.shadows.rays;
+        samples_.seed = input.shadows.seed;
+        draw_->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters, lists.refined,
+                       shadows_, samples_, timer);
+    }
+    cast_->enqueue(input.shadows, lists.lights, lists.clusters, lists.refined, input.gbuffer.view,
+                   shadows_, timer);
+}
+
+ShadowCounts DeferredLighting::count_shadows(const LightingInput& input, CastShadows& counting) {
+    StageTimer untimed;
+    const ListedLights& lists = lists_;
+    if (draw_) {
+        draw_->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters, lists.refined,
+                       shadows_, samples_, untimed);
+    }
+    counting.enqueue(input.shadows, lists.lights, lists.clusters, lists.refined, input.gbuffer.view,
+                     shadows_, untimed);
+    ShadowCounts out = counting.counts();
+    out.words = cast_->words();
+    return out;
 }
 
 Radiance DeferredLighting::shade(const LightingInput& input, const ListedLights& lists,
                                  StageTimer& timer) {
-    ShadowSamples samples;
-    if (cast_) shadows_ = cast_->reserve(lists.lights, lists.clusters, timer);
-    if (draw_) {
-        samples.whole = unshadowed_
-                            ->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters,
-                                      lists.refined, timer)
-                            .planes;
-        samples.rays = input.shadows.rays;
-        samples.seed = input.shadows.seed;
-        draw_->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters, lists.refined,
-                       shadows_, samples, timer);
-    }
-    if (cast_) {
-        cast_->enqueue(input.shadows, lists.lights, lists.clusters, lists.refined,
-                       input.gbuffer.view, shadows_, timer);
-    }
     return shade_.enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters, lists.refined,
-                          timer, shadows_, samples);
+                          timer, shadows_, samples_);
 }
 
 AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,

@@ -34,14 +34,12 @@ class DeferredLighting {
                      const SurfaceFeatures& surfaces = {});
 
     /// Radiance of every pixel; 0 for background. `then` runs before the frame is waited for.
-    /// Blocks. Valid until the next call. Throws Error as the stages do.
+    /// Which lights pixels see is kept while the versions of G-buffer and lights stay, and the
+    /// grid. Blocks. Valid until the next call. Throws Error as the stages do.
     Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
 
     /// Radiance that falls in from everywhere.
-    void set_ambient(float ambient) {
-        shade_.set_ambient(ambient);
-        if (unshadowed_) unshadowed_->set_ambient(ambient);
-    }
+    void set_ambient(float ambient);
 
     LightLists& light_lists() { return light_lists_; }
     const LightLists& light_lists() const { return light_lists_; }
@@ -52,19 +50,40 @@ class DeferredLighting {
     /// Which pixels saw which lights in the last light(), with KernelFeatures::shadows.
     const ShadowWords& shadows() const { return shadows_; }
 
+    /// With sampled shadows, what the last light() drew by.
+    const ShadowSamples& samples() const { return samples_; }
+
+    /// What it took to cast them, by `counting` kernels, which cast them again. `input`: that of
+    /// the last light(). Blocks.
+    ShadowCounts count_shadows(const LightingInput& input, CastShadows& counting);
+
     /// With sampled shadows, of the last light(): see Shade::variance().
     DeviceArray<float> variance() const { return shade_.variance(); }
 
  private:
-    LightLists light_lists_;
+    // What the visibility of a frame is of.
+    struct Visibility {
+        std::uint64_t gbuffer = 0, lights = 0;  // versions
+        uint ranges = 0;                        // seed of drawn ones
+        ClusterGrid grid{};
+        float rays = 0.0f, ambient = 0.0f;  // of sampled shadows
+        uint seed = 0;
+    };
+    Visibility visibility_of(const LightingInput& input) const;
+    bool keeps(const Visibility& wanted) const;
+    void cast(const LightingInput& input, const ListedLights& lists, StageTimer& timer);
     Radiance shade(const LightingInput& input, const ListedLights& lists, StageTimer& timer);
 
+    LightLists light_lists_;
     std::optional<CastShadows> cast_;  // with shadows
     std::optional<DrawShadows> draw_;  // with sampled ones
     std::optional<Shade> unshadowed_;  // likewise
     Shade shade_;
+    float ambient_ = 0.0f;
     ListedLights lists_;
+    std::optional<Visibility> kept_;  // of shadows_ and samples_
     ShadowWords shadows_;
+    ShadowSamples samples_;
 };
 
 /// Lights a G-buffer with every light at every pixel: DeferredLighting's reference, bit for bit.

@@ -4,15 +4,6 @@
 #include <cstring>
 
 namespace kilolux {
-namespace {
-
-bool is_complete(const ListedLights& lists, const PairCounts& counts) {
-    return counts.coarse_pairs <= lists.coarse.capacity &&
-           counts.active_clusters <= lists.clusters.capacity &&
-           counts.refine_tests <= lists.refined.capacity;
-}
-
-}  // namespace
 
 LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
@@ -20,7 +11,9 @@ LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeature
       coarse_(gpu, tuning, features),
       bin_(gpu, tuning, features),
       refine_(gpu, tuning, features),
-      count_(gpu, tuning) {}
+      count_(gpu, tuning) {
+    if (features.light_tree) cut_.emplace(gpu, tuning, features);
+}
 
 ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
                              const ClusterGrid& grid, StageTimer& timer,
@@ -33,7 +26,7 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
             count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, lists.clusters, true,
                            timer);
             counts_ = count_.read();  // the frame's one wait
-            if (is_complete(lists, counts_)) {
+            if (is_complete(lists)) {
                 binned_version_ = gbuffer.version;
                 binned_grid_ = grid;
                 return lists;
@@ -41,16 +34,25 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
         }  // the arrays that had no room go before those that have
         active_ = {};
         binned_version_ = 0;
-        grow();
+        grow(input.node_count > 0);
         timer = before;  // without the lists that had no room
     }
 }
 
-void LightLists::grow() {
+bool LightLists::is_complete(const ListedLights& lists) const {
+    return counts_.coarse_pairs <= lists.coarse.capacity &&
+           counts_.active_clusters <= lists.clusters.capacity &&
+           counts_.refine_tests <= refine_room_ &&
+           (lists.lights.node_count == 0 || cut_->entries() <= lists.refined.capacity);
+}
+
+void LightLists::grow(bool has_cuts) {
     const bool coarse = coarse_.fits(counts_.coarse_pairs);
     const bool active = bin_.fits(counts_.active_clusters);
-    // Its need is known only once the others are complete.
-    if (coarse && active) refine_.fits(counts_.refine_tests);
+    // The need of each is known only once those before are complete.
+    if (coarse && active && refine_.fits(counts_.refine_tests) && has_cuts) {
+        cut_->fits(cut_->entries());
+    }
 }
 
 // Those of the last run where pixels and grid are the same.
@@ -69,12 +71,13 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
     const CoarseLighting coarse =
         coarse_.enqueue(input, gbuffer.view, grid, timer,
                         everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
-    return {grid,
-            coarse.lights,
-            coarse.boxes,
-            coarse.lists,
-            active,
-            refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, grid, timer)};
+    RefinedLists lists =
+        refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, grid, timer);
+    refine_room_ = lists.capacity;
+    if (coarse.lights.node_count > 0) {
+        lists = cut_->enqueue({gbuffer, coarse.lights, active, bin_.total(), lists}, timer);
+    }
+    return {grid, coarse.lights, coarse.boxes, coarse.lists, active, lists};
 }
 
 PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uint x, uint y,

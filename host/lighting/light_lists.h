@@ -8,6 +8,7 @@
 #include "host/lighting/coarse_light_lists.h"
 #include "host/stages/bin_pixels.h"
 #include "host/stages/count_pairs.h"
+#include "host/stages/cut_light_tree.h"
 #include "host/stages/refine_lights.h"
 
 namespace kilolux {
@@ -30,8 +31,9 @@ struct PixelLists {
 };
 
 /// Finds out which lights each pixel needs. The stages in their order are BinPixels, PrepareLights,
-/// BuildClusters, CullLights, RefineLights. Lists have as many entries as there are pairs: where
-/// the room of earlier frames is too little, it grows and the stages run again.
+/// BuildClusters, CullLights, RefineLights, and CutLightTree for lights in a tree. Lists have as
+/// many entries as there are pairs: where the room of earlier frames is too little, it grows and
+/// the stages run again.
 class LightLists {
  public:
     LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
@@ -64,7 +66,8 @@ class LightLists {
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer);
     ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
-    void grow();
+    bool is_complete(const ListedLights& lists) const;
+    void grow(bool has_cuts);
 
     Gpu gpu_;
     int index_bits_;
@@ -72,8 +75,10 @@ class LightLists {
     CoarseLightLists coarse_;
     BinPixels bin_;
     RefineLights refine_;
+    std::optional<CutLightTree> cut_;  // with a light tree
     CountPairs count_;
     PairCounts counts_{};
+    uint refine_room_ = 0;  // entries, of the last enqueue()
     // Of the last run that was complete.
     std::uint64_t binned_version_ = 0;
     ClusterGrid binned_grid_{};

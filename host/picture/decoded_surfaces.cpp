@@ -85,12 +85,30 @@ Layer visibility_layer(const DecodedSurfaces& s) {
 }
 
 Layer error_layer(const DecodedSurfaces& s) {
-    if (s.variance.empty()) throw UsageError("aov error-standard: no shadows were sampled");
+    if (s.variance.empty()) throw UsageError("aov error-standard: nothing was sampled");
     Layer layer{"error-standard", {"error.standard"}};
     fill(layer.values, 1, s.view, [&](std::size_t pixel, float* out) {
         const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
         *out = drawn ? std::sqrt(s.variance[pixel]) : 0.0f;
     });
+    return layer;
+}
+
+Layer bound_layer(const DecodedSurfaces& s) {
+    if (s.bound.empty()) throw UsageError("aov error-bound: only --renderer deferred has one");
+    Layer layer{"error-bound", {"error.bound.R", "error.bound.G", "error.bound.B"}};
+    const std::size_t plane = std::size_t{s.view.stride} * s.view.height;
+    fill(layer.values, 3, s.view, [&](std::size_t pixel, float* out) {
+        for (std::size_t c = 0; c < 3; ++c) out[c] = s.bound[c * plane + pixel];
+    });
+    return layer;
+}
+
+Layer samples_layer(const DecodedSurfaces& s) {
+    if (s.taken.empty()) throw UsageError("aov sample-count: needs --samples auto");
+    Layer layer{"sample-count", {"sample-count"}};
+    fill(layer.ids, 1, s.view,
+         [&](std::size_t pixel, std::uint32_t* out) { *out = s.taken[pixel]; });
     return layer;
 }
 
@@ -122,8 +140,9 @@ double mean_of_drawn(const std::vector<uint>& counts) {
 
 const std::vector<std::string>& aov_names() {
     static const std::vector<std::string> names = {
-        "depth",    "position",    "normal",  "albedo",     "roughness",     "metallic",
-        "emissive", "light-count", "cluster", "visibility", "error-standard"};
+        "depth",          "position",    "normal",      "albedo",  "roughness",
+        "metallic",       "emissive",    "light-count", "cluster", "visibility",
+        "error-standard", "error-bound", "sample-count"};
     return names;
 }
 
@@ -135,12 +154,14 @@ Layer make_aov(std::string_view name, const DecodedSurfaces& s, const Camera& ca
         return plane_layer(name, {"albedo.R", "albedo.G", "albedo.B"}, s, SURFACE_ALBEDO);
     if (name == "roughness") return plane_layer(name, {"roughness"}, s, SURFACE_ROUGHNESS);
     if (name == "error-standard") return error_layer(s);
+    if (name == "error-bound") return bound_layer(s);
     if (name == "visibility") return visibility_layer(s);
     if (name == "metallic") return plane_layer(name, {"metallic"}, s, SURFACE_METALLIC);
     if (name == "emissive")
         return plane_layer(name, {"emissive.R", "emissive.G", "emissive.B"}, s, SURFACE_EMISSIVE);
     if (name == "light-count") return count_layer(s);
     if (name == "cluster") return cluster_layer(s);
+    if (name == "sample-count") return samples_layer(s);
     throw UsageError("--aov: '" + std::string(name) + "' is not a layer");
 }
 

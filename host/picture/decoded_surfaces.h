@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/picture/frame.h"
+#include "host/picture/web_in_view.h"
 #include "host/scene/camera.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
@@ -30,8 +31,12 @@ struct DecodedSurfaces {
     // [height][stride] with shadows: lights that the pixel faces within their range, and those of
     // them that it sees; empty if not counted.
     std::vector<uint> facing, seen;
-    // [height][stride] with sampled shadows: the estimated variance of the luminance; else empty.
+    // [height][stride]: the estimated variance of the luminance; empty if not known.
     std::vector<float> variance;
+    // [3][height][stride]: a bound of the radiance that ranges take from lights without one of
+    // their own; empty if not asked for.
+    std::vector<float> bound;
+    std::vector<uint> taken;  // [height][stride] samples; empty where their number was given
     ClusterGrid grid{};
     bool specular = false;  // whether there are planes of the dielectrics' reflectance
     bool unlit = false;     // whether a roughness of 0 means an unlit surface
@@ -42,6 +47,7 @@ struct LitSurfaces {
     DecodedSurfaces surfaces;
     std::vector<ShadeLight> lights;             // view space
     std::vector<DirectionalLight> directional;  // view space
+    std::vector<WebInView> webs;                // one per light, or none at all
 };
 
 /// The coarse cluster of the pixel at an index of the planes; none for background.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/shared/clusters.h"
+#include "kernels/shared/shadow.h"
 
 namespace kilolux {
 
@@ -27,8 +28,21 @@ struct StageTime {
     double limit_ms = 0.0;  // by the device's measured limits; 0: no model
 };
 
+/// Rows of no kernel: bringing pixels to the host, with what the host does there; and the device's
+/// idling before commands that were enqueued.
+inline constexpr const char* kReadBackStage = "read_back";
+inline constexpr const char* kLaunchStage = "launch";
+
 /// Adds to the stage's time, or appends the stage.
 void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms);
+
+/// Samples of a picture whose tiles take as many as they need.
+struct SampleCounts {
+    std::uint64_t total = 0;  // of all pixels; 0: their number was given
+    std::uint64_t pixels = 0;
+    std::uint32_t least = 0, most = 0;
+    std::uint64_t tiles = 0, open_tiles = 0;  // that have not reached the error asked for
+};
 
 /// Counts of one frame, with those of its lists, all bands together.
 struct FrameStats : PairCounts {
@@ -37,7 +51,6 @@ struct FrameStats : PairCounts {
     std::uint64_t lights_given = 0;
     std::uint64_t lights_used = 0;
     std::uint64_t lights_rejected = 0;  // unusable: not finite, no range, no intensity
-    std::uint64_t lights_dropped = 0;
     std::uint64_t directional_lights = 0;  // of those used
     std::uint64_t zero_normals =
         0;  // vertices of the scene whose normal has no direction: drawn as +Z of the view
@@ -49,7 +62,9 @@ struct FrameStats : PairCounts {
     // that later ones hide, too.
     double evaluations_per_pixel = 0.0;
     double useful_evaluations_per_pixel =
-        0.0;  // k*: lights whose range covers the pixel; < 0: not counted
+        0.0;                 // k*: lights whose range covers the pixel; < 0: not counted
+    ShadowCounts shadows{};  // 0: not counted
+    SampleCounts samples;
     std::vector<StageTime> stages;
     double frame_ms = 0.0;
 };

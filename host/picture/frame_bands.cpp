@@ -28,6 +28,15 @@ double mean_of(double whole, double whole_pixels, double band, double band_pixel
     return (whole * whole_pixels + band * band_pixels) / (whole_pixels + band_pixels);
 }
 
+void add_samples(SampleCounts& whole, const SampleCounts& band) {
+    whole.least = whole.total == 0 ? band.least : std::min(whole.least, band.least);
+    whole.most = std::max(whole.most, band.most);
+    whole.total += band.total;
+    whole.pixels += band.pixels;
+    whole.tiles += band.tiles;
+    whole.open_tiles += band.open_tiles;
+}
+
 }  // namespace
 
 void append_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::size_t pixels) {
@@ -55,6 +64,8 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
     place_planes(whole.facing, band.facing, band.view, rows);
     place_planes(whole.seen, band.seen, band.view, rows);
     place_planes(whole.variance, band.variance, band.view, rows);
+    place_planes(whole.bound, band.bound, band.view, rows);
+    place_planes(whole.taken, band.taken, band.view, rows);
     whole.view = band.view;
     whole.view.first_row = 0;
     whole.view.height = static_cast<uint>(height);
@@ -79,6 +90,8 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.refined_pairs += band.refined_pairs;
     whole.drawn_pixels += band.drawn_pixels;
     whole.evaluations += band.evaluations;
+    whole.shadows = whole.shadows + band.shadows;
+    add_samples(whole.samples, band.samples);
     for (const StageTime& stage : band.stages) add_stage_time(whole.stages, stage.name, stage.ms);
 }
 

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <chrono>
 #include <cstring>
 
 namespace kilolux {
@@ -35,32 +36,36 @@ Entry& entry_of(std::list<Entry>& entries, Key* Entry::*member, Key* key, const 
 }  // namespace
 
 void FrameReader::stage(Staged& staged, const cl::Buffer& buffer, const View& view,
-                        std::size_t bytes) {
+                        std::size_t bytes, StageTimer& timer) {
     std::byte* to = staged.pinned.reserve(bytes);
     staged.view = view;
     staged.source = to;
-    gpu_.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, to);
+    cl::Event event;
+    gpu_.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, to, nullptr, &event);
+    timer.record(kReadBackStage, event);
 }
 
 void FrameReader::read_display(const cl::Buffer& display, const View& view, std::span<uint> pixels,
-                               std::size_t to_stride) {
+                               std::size_t to_stride, StageTimer& timer) {
     uint* first = &pixels[to_stride * view.first_row];
     if (gpu_.info.is_cpu) {  // nothing to stage: the device's memory is the host's
         const std::size_t row = sizeof(uint) * view.width;
+        cl::Event event;
         gpu_.queue.enqueueReadBufferRect(display, CL_FALSE, {0, 0, 0}, {0, 0, 0},
                                          {row, view.height, 1}, sizeof(uint) * view.stride, 0,
-                                         sizeof(uint) * to_stride, 0, first);
+                                         sizeof(uint) * to_stride, 0, first, nullptr, &event);
+        timer.record(kReadBackStage, event);
         return;
     }
     Display& out = entry_of(displays_, &Display::pixels, first, gpu_);
     out.stride = to_stride;
-    stage(out, display, view, sizeof(uint) * view.stride * view.height);
+    stage(out, display, view, sizeof(uint) * view.stride * view.height, timer);
 }
 
-void FrameReader::read_light(const Radiance& radiance, std::vector<float>& rgb) {
+void FrameReader::read_light(const Radiance& radiance, std::vector<float>& rgb, StageTimer& timer) {
     const View& view = radiance.view;
     Light& out = entry_of(lights_, &Light::rgb, &rgb, gpu_);
-    stage(out, radiance.planes, view, 3 * sizeof(float) * view.stride * view.height);
+    stage(out, radiance.planes, view, 3 * sizeof(float) * view.stride * view.height, timer);
 }
 
 void FrameReader::place(const Display& display) {
@@ -90,8 +95,9 @@ void FrameReader::reset() {
     for (Display& display : displays_) display.pixels = nullptr;
 }
 
-void FrameReader::finish() {
+double FrameReader::finish() {
     gpu_.queue.finish();
+    const auto start = std::chrono::steady_clock::now();
     for (const Light& light : lights_) {
         if (light.rgb) place(light);
     }
@@ -99,6 +105,8 @@ void FrameReader::finish() {
         if (display.pixels) place(display);
     }
     reset();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
 }
 
 }  // namespace kilolux

@@ -9,6 +9,7 @@
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/pinned_memory.h"
+#include "host/gpu/stage_timer.h"
 #include "host/picture/frame.h"
 
 namespace kilolux {
@@ -22,17 +23,18 @@ class FrameReader {
     /// Enqueues the read of a band's sRGB pixels, uint[height][stride]. finish() puts them into
     /// `pixels`, rows `to_stride` apart, which must outlive it.
     void read_display(const cl::Buffer& display, const View& view, std::span<uint> pixels,
-                      std::size_t to_stride);
+                      std::size_t to_stride, StageTimer& timer);
 
     /// Enqueues the read of a band's light. finish() puts it into `rgb`, the interleaved light of
     /// the whole frame.
-    void read_light(const Radiance& radiance, std::vector<float>& rgb);
+    void read_light(const Radiance& radiance, std::vector<float>& rgb, StageTimer& timer);
 
     /// Forgets what was read and not finished: that of a frame that failed.
     void reset();
 
-    /// Waits for the device; then all that was read is in its place.
-    void finish();
+    /// Waits for the device; then all that was read is in its place, after so much of the host's
+    /// time [ms].
+    double finish();
 
  private:
     // Where a band's planes are staged, and where they go.
@@ -52,7 +54,8 @@ class FrameReader {
         std::vector<float>* rgb = nullptr;  // null: nothing was read
     };
 
-    void stage(Staged& staged, const cl::Buffer& buffer, const View& view, std::size_t bytes);
+    void stage(Staged& staged, const cl::Buffer& buffer, const View& view, std::size_t bytes,
+               StageTimer& timer);
     static void place(const Display& display);
     static void place(const Light& light);
 

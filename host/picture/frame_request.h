@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,12 +39,16 @@ struct FrameRequest {
     bool radiance = true;           // Frame::radiance
     bool bloomed = false;           // Frame::bloomed, where there is bloom
     bool counts = false;            // also k*, by one more pass
+    bool shadow_counts = false;     // also FrameStats::shadows, by casting them once more
     ViewKind view = ViewKind::lit;  // what Frame::display shows
     std::vector<std::string> aovs;  // Frame::aovs, see aov_names()
     bool probes = false;            // pixels will be probed: surfaces with all they have
     bool operator==(const FrameRequest&) const = default;
 
     /// Whether surfaces or counts of single pixels are read.
+    bool has_aov(std::string_view name) const {
+        return std::ranges::find(aovs, name) != aovs.end();
+    }
     bool pixels() const { return !aovs.empty() || view != ViewKind::lit; }
 
     /// Whether what the lights do not need of a surface is wanted, too.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/picture/web_in_view.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/light.h"
@@ -17,6 +18,7 @@ struct ProbedLight {
     uint index = 0;            // among the point and spot lights in use
     Light light{};             // camera-relative, world axes
     ShadeLight shade{};        // as shading has it, view space
+    WebInView web{};           // its photometric web, if it has one
     std::optional<bool> seen;  // with shadows: whether nothing hides it from the pixel
 };
 

@@ -12,10 +12,13 @@ ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opa
     return features;
 }
 
-ForwardLights forward_lights(const LightRows& rows, float ambient, const HostCoarseLists* lists) {
+ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoarseLists* lists) {
     ForwardLights out;
-    out.lights = rows.local;
-    out.directional = rows.directional;
+    out.lights = sample.rows.local;
+    out.directional = sample.rows.directional;
+    out.profiles = sample.rows.profiles;
+    out.profile_tables = sample.rows.profile_tables;
+    out.seed = sample.lights.seed;
     out.ambient = ambient;
     if (lists) {
         out.grid = lists->grid;
@@ -37,7 +40,7 @@ void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
     const auto planes =
         download<float>(context_.gpu, radiance.planes, std::size_t{3} * view.stride * view.height);
     pass_.draw_blended(crop(sample.camera, settings.height, sample.band), view, targets, planes,
-                       forward_lights(sample.rows, settings.ambient, lists));
+                       forward_lights(sample, settings.ambient, lists));
     upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
     add_stage_time(stages, "blended", pass_.last_ms());
 }

@@ -11,7 +11,7 @@ namespace kilolux {
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque);
 
 /// The lights as forward passes take them; with `lists`, by coarse cluster. Neither is owned.
-ForwardLights forward_lights(const LightRows& rows, float ambient, const HostCoarseLists* lists);
+ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoarseLists* lists);
 
 /// Surfaces that blend, drawn by OpenGL over a lit picture.
 class BlendedPass {

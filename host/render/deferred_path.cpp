@@ -6,9 +6,31 @@
 namespace kilolux {
 namespace {
 
-LitSurfaces lit(const Gpu& gpu, DecodedSurfaces surfaces, const PreparedLights& lights) {
-    return {std::move(surfaces), download(gpu, lights.lights, lights.count),
-            download(gpu, lights.directional, lights.directional_count)};
+// The first `count` rows, and those of single lights among the nodes after them.
+template <typename Row>
+std::vector<Row> single_lights(std::vector<Row> rows, uint count,
+                               const std::vector<TreeNode>& nodes) {
+    std::size_t end = count;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].next == i + 1) rows[end++] = rows[count + i];
+    }
+    rows.resize(end);
+    return rows;
+}
+
+LitSurfaces lit(const PathContext& context, DecodedSurfaces surfaces,
+                const PreparedLights& lights) {
+    const Gpu& gpu = context.gpu;
+    const auto nodes = download(gpu, lights.nodes, lights.node_count);
+    LitSurfaces out{std::move(surfaces),
+                    single_lights(download(gpu, lights.lights, lights.rows()), lights.count, nodes),
+                    download(gpu, lights.directional, lights.directional_count),
+                    {}};
+    if (lights.profiles.lights) {
+        const auto rows = download(gpu, *lights.profiles.lights, lights.rows());
+        out.webs = webs_in_view(single_lights(rows, lights.count, nodes), context.scene.scene());
+    }
+    return out;
 }
 
 }  // namespace
@@ -25,12 +47,16 @@ DeferredPath::DeferredPath(const PathContext& context)
 Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShading& then) {
     lighting_.set_ambient(context_.settings.ambient);
     gbuffer_ = surfaces_.draw(sample, out);
+    lights_ = sample.lights;
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
     const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows(sample)};
     const AfterShading after =
         context_.with_environment(gbuffer_, out.timer, blended_ ? AfterShading() : then);
     const Radiance radiance = lighting_.light(input, out.timer, after);
     set_counts(out.stats);
+    if (context_.settings.want.shadow_counts && context_.plan.kernels.shadows) {
+        out.stats.shadows = lighting_.count_shadows(input, counting());
+    }
     if (blended_) {
         const HostCoarseLists lists = lighting_.light_lists().download_coarse(lighting_.lists());
         blended_->draw(sample, radiance, surfaces_.targets(), &lists, out.stats.stages);
@@ -49,6 +75,14 @@ void DeferredPath::set_counts(FrameStats& stats) {
         mean_of_drawn(download<uint>(context_.gpu, count_lights().covering, size));
 }
 
+CastShadows& DeferredPath::counting() {
+    if (!counting_) {
+        counting_.emplace(context_.gpu, context_.tuning, context_.plan.kernels,
+                          path_surfaces(context_), true);
+    }
+    return *counting_;
+}
+
 LightCounts DeferredPath::count_lights() {
     if (!count_lights_) {
         count_lights_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
@@ -60,7 +94,7 @@ LightCounts DeferredPath::count_lights() {
 }
 
 LitSurfaces DeferredPath::lit_surfaces() {
-    return lit(context_.gpu, pixels({}), lighting_.lists().lights);
+    return lit(context_, pixels({}), lighting_.lists().lights);
 }
 
 PixelProbe DeferredPath::probe(const Camera&, int x, int y) {
@@ -73,7 +107,7 @@ PixelProbe DeferredPath::probe(const Camera&, int x, int y) {
     out.coarse_count = found.coarse_count;
     out.active = found.active;
     out.has_list = found.active.has_value();
-    for (const uint light : found.lights) out.lights.push_back({light, {}, {}, {}});
+    for (const uint light : found.lights) out.lights.push_back({light, {}, {}, {}, {}});
     const KernelFeatures& kernels = context_.plan.kernels;
     if (kernels.shadows && !kernels.sampled_shadows && found.active) {
         const std::vector<bool> seen =
@@ -119,8 +153,41 @@ DecodedSurfaces DeferredPath::pixels(const Camera&) {
     out.covering = download<uint>(context_.gpu, counts.covering, size);
     const KernelFeatures& kernels = context_.plan.kernels;
     if (kernels.shadows && !kernels.sampled_shadows) count_seen(out);
-    if (kernels.sampled_shadows) out.variance = download(context_.gpu, lighting_.variance());
+    out.variance = find_variance();
+    if (context_.settings.want.has_aov("error-bound")) out.bound = find_bound();
     return out;
+}
+
+TailErrors& DeferredPath::tail_errors() {
+    if (!tail_errors_) {
+        tail_errors_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
+    }
+    return *tail_errors_;
+}
+
+std::vector<float> DeferredPath::find_variance() {
+    const KernelFeatures& kernels = context_.plan.kernels;
+    if (!context_.settings.want.has_aov("error-standard")) return {};
+    if (kernels.drawn_ranges == 0.0f) {
+        if (kernels.sampled_shadows) return download(context_.gpu, lighting_.variance());
+        return std::vector<float>(std::size_t{gbuffer_.view.stride} * gbuffer_.view.height);
+    }
+    StageTimer untimed;
+    const ListedLights& lists = lighting_.lists();
+    return download(context_.gpu,
+                    tail_errors().variance({gbuffer_, lists.lights, lists.grid, lists.clusters},
+                                           lists.refined, lighting_.shadows(), lighting_.samples(),
+                                           lighting_.variance(), untimed));
+}
+
+std::vector<float> DeferredPath::find_bound() {
+    StageTimer untimed;
+    const ListedLights& lists = lighting_.lists();
+    const LitPixels lit{gbuffer_, lists.lights, lists.grid, lists.clusters};
+    if (context_.plan.kernels.light_tree) {
+        return download(context_.gpu, tail_errors().tree_bound(lit, lists.refined, untimed));
+    }
+    return download(context_.gpu, tail_errors().bound(lit, lights_.lights, lists.boxes, untimed));
 }
 
 void DeferredPath::count_seen(DecodedSurfaces& out) {
@@ -160,7 +227,7 @@ Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterS
 }
 
 LitSurfaces DeferredAllPath::lit_surfaces() {
-    return lit(context_.gpu, pixels({}), lighting_.lights());
+    return lit(context_, pixels({}), lighting_.lights());
 }
 
 PixelProbe DeferredAllPath::probe(const Camera&, int x, int y) {

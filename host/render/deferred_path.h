@@ -8,6 +8,7 @@
 #include "host/render/surface_pass.h"
 #include "host/stages/count_lights.h"
 #include "host/stages/count_seen.h"
+#include "host/stages/tail_errors.h"
 
 namespace kilolux {
 
@@ -35,7 +36,11 @@ class DeferredPath {
  private:
     void set_counts(FrameStats& stats);
     LightCounts count_lights();
+    CastShadows& counting();
     void count_seen(DecodedSurfaces& out);
+    TailErrors& tail_errors();
+    std::vector<float> find_variance();
+    std::vector<float> find_bound();
     std::vector<bool> seen_lights(const ActiveCluster& cluster, uint x, uint y) const;
 
     PathContext context_;
@@ -43,6 +48,9 @@ class DeferredPath {
     DeferredLighting lighting_;
     std::optional<CountLights> count_lights_;  // made when first asked for
     std::optional<CountSeen> count_seen_;      // likewise
+    std::optional<TailErrors> tail_errors_;    // likewise
+    LightInput lights_;                        // of the last light()
+    std::optional<CastShadows> counting_;      // likewise
     std::optional<BlendedPass> blended_;       // none without materials that blend
     GBuffer gbuffer_;                          // of the last light()
 };

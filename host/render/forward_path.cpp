@@ -33,7 +33,7 @@ Radiance ForwardPath::light(const Sample& sample, Measured out, const AfterShadi
         background = download<float>(context_.gpu, radiance.planes, size);
     }
     forward_.draw(sample.camera, settings.width, settings.height,
-                  forward_lights(sample.rows, settings.ambient, clustered_ ? &lists_ : nullptr),
+                  forward_lights(sample, settings.ambient, clustered_ ? &lists_ : nullptr),
                   background);
     const std::vector<float> planes = forward_.read_radiance(view.stride);
     upload<float>(context_.gpu, radiance.planes, planes);
@@ -87,7 +87,7 @@ PixelProbe ForwardPath::probe(const Camera& camera, int x, int y) {
     const uint cluster = cluster_index(grid_, out.tile_x, out.tile_y, out.slice);
     out.has_list = true;
     for (uint i = lists_.offsets[cluster]; i < lists_.offsets[cluster + 1]; ++i) {
-        out.lights.push_back({lists_.lists[i], {}, {}, {}});
+        out.lights.push_back({lists_.lists[i], {}, {}, {}, {}});
     }
     out.coarse_count = static_cast<uint>(out.lights.size());
     return out;

@@ -4,7 +4,7 @@
 namespace kilolux {
 
 StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& settings) {
-    StoredTuning choice = stored_tuning(device).value_or(built_in_tuning(device));
+    StoredTuning choice = known_tuning(device);
     if (settings.lanes > 0) choice.lanes = settings.lanes;
     if (settings.group_height > 0) choice.tuning.shade_rows = settings.group_height;
     if (settings.chunks > 0) choice.tuning.cull_chunks = settings.chunks;

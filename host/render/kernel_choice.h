@@ -6,8 +6,8 @@
 
 namespace kilolux {
 
-/// How kernels are built and launched on a device: what `settings` asks for, else what was measured
-/// to be best there (stored_tuning), else the built-in table.
+/// How kernels are built and launched on a device: what `settings` asks for, else the best that is
+/// known of the device (known_tuning).
 StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& settings);
 
 /// The device of the settings with the lane width of choose_tuning().

@@ -35,7 +35,8 @@ bool is_usable_at(const SceneLight& light, const glm::dvec3& relative) {
     if (light.type == LightType::directional) return has_direction(light.direction);
     const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;
     const bool ranged = std::isfinite(light.range) && light.range > 0.0f;
-    if (light.type == LightType::point) return placed && ranged;
+    const bool aimed = light.profile < 0 || has_direction(light.direction);
+    if (light.type == LightType::point) return placed && ranged && aimed;
     const bool cone = std::isfinite(light.inner_cone) && std::isfinite(light.outer_cone) &&
                       light.outer_cone > 0.0f;
     return placed && ranged && cone && has_direction(light.direction);
@@ -44,7 +45,7 @@ bool is_usable_at(const SceneLight& light, const glm::dvec3& relative) {
 Light row_of(const SceneLight& light, const glm::dvec3& relative) {
     const glm::vec3 p(relative);
     // A point light's cone is everything: axis 0 and cosine -1 make the cone term exactly 1.
-    Light row{{p.x, p.y, p.z, light.range},
+    Light row{{p.x, p.y, p.z, light.has_own_range ? light.range : -light.range},
               {light.intensity.x, light.intensity.y, light.intensity.z, 1.0f},
               {0.0f, 0.0f, 0.0f, -1.0f}};
     if (light.type == LightType::point) return row;
@@ -67,6 +68,16 @@ WorldLight world_light(const SceneLight& light) {
     const glm::dvec3& p = light.position;
     const PointPair pair = point_pair(p.x, p.y, p.z);
     return {row_of(light, p), pair.low};
+}
+
+AimedProfile aimed_profile(const SceneLight& light, const Scene& scene,
+                           std::span<const float> starts) {
+    if (light.profile < 0) return {{0.0f, 0.0f, 0.0f, -1.0f}, {0.0f, 0.0f, 0.0f, 1.0f}};
+    const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
+    const glm::vec3 down(glm::normalize(light.direction));
+    const glm::vec3 side(profile.side);
+    return {{down.x, down.y, down.z, starts[profile.web]},
+            {side.x, side.y, side.z, profile.mirrored ? -1.0f : 1.0f}};
 }
 
 DirectionalLight directional_row(const SceneLight& light) {

@@ -8,6 +8,7 @@
 
 #include "host/scene/scene.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/light_profile.h"
 
 namespace kilolux {
 
@@ -15,6 +16,8 @@ namespace kilolux {
 struct LightRows {
     std::vector<Light> local;  // point and spot lights
     std::vector<DirectionalLight> directional;
+    std::vector<AimedProfile> profiles;     // one per local light, or none at all; world axes
+    std::span<const float> profile_tables;  // that they are of; the light source's
     std::uint64_t rejected = 0;  // not finite, no range, or no light: counted, never silently lost
     bool has_spot = false;
 };
@@ -24,6 +27,10 @@ bool is_usable(const SceneLight& light, const glm::dvec3& camera_position);
 
 /// A point or spot light that is_usable(), in the world: MoveLights makes its row.
 WorldLight world_light(const SceneLight& light);
+
+/// The photometric web of a light of the scene, world axes. `starts`: of the tables of its webs.
+AimedProfile aimed_profile(const SceneLight& light, const Scene& scene,
+                           std::span<const float> starts);
 
 /// A directional light's row, world axes.
 DirectionalLight directional_row(const SceneLight& light);

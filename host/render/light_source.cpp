@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/log.h"
 #include "host/render/light_order.h"
 #include "host/scene/lights/light_ranges.h"
 #include "host/scene/lights/rig.h"
+#include "kernels/shared/hash.h"
 
 namespace kilolux {
 namespace {
@@ -24,16 +24,6 @@ double order_time(double time) { return std::floor(time / kOrderInterval) * kOrd
 
 // Grows with every change of the scene that may be one of its lights.
 std::uint32_t lights_revision(const Scene& scene) { return scene.revision + scene.lights_revision; }
-
-std::vector<SceneLight> lights_with_ranges(const Scene& scene, double budget) {
-    std::vector<SceneLight> lights = scene.lights;
-    if (const std::size_t filled = fill_missing_ranges(lights, budget); filled > 0) {
-        note(scene.name + ": " + std::to_string(filled) +
-             " lights without a range got one from their intensity, error at most " +
-             std::to_string(budget) + " each");
-    }
-    return lights;
-}
 
 std::vector<std::size_t> headlights_of(const std::vector<SceneLight>& lights) {
     std::vector<std::size_t> out;
@@ -61,11 +51,18 @@ std::vector<SceneLight> all_lights(const std::vector<SceneLight>& own, const Lig
 
 }  // namespace
 
+uint tail_seed(const RenderSettings& settings, uint sample) {
+    if (settings.tails != Tails::stochastic) return 0;
+    return std::max(1u, hash_of(hash_of(settings.tail_seed) + sample));
+}
+
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
                                   const Camera& camera, double time) {
     std::vector<SceneLight> own = scene.lights;
     for (SceneLight& light : own) light = placed_light(light, camera);
-    fill_missing_ranges(own, settings.range_budget);
+    const Tails tails = tails_for(scene.lights, settings.tails, settings.range_budget);
+    fill_missing_ranges(own, tails == Tails::stochastic ? Tails::exact : tails,
+                        settings.range_budget);
     const std::vector<SceneLight> now = all_lights(own, settings.lights, scene, time);
     const auto ordered = all_lights(own, settings.lights, scene, order_time(time));
     std::vector<SceneLight> out;
@@ -78,12 +75,21 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
     : gpu_(gpu),
       scene_(scene),
       revision_(lights_revision(scene)),
+      tails_(tails_for(scene.lights, settings.tails, settings.range_budget)),
       range_budget_(settings.range_budget),
       generated_(settings.lights),
-      own_(lights_with_ranges(scene, settings.range_budget)),
+      own_(scene.lights),
       headlights_(headlights_of(own_)),
       move_(gpu, tuning),
-      directional_(gpu, "lights") {}
+      directional_(gpu, "lights"),
+      profile_starts_(profile_starts(scene.webs)),
+      profiles_(gpu, "lights"),
+      uploaded_tables_(gpu, "lights"),
+      nodes_(gpu, "lights") {
+    if (!scene.aimed_profiles.empty()) upload_tables();
+    fill_missing_ranges(own_, tails_, range_budget_);
+    input_.seed = tail_seed(settings, 0);
+}
 
 void LightSource::set_generated(const LightOptions& generated) {
     if (generated == generated_) return;
@@ -92,12 +98,21 @@ void LightSource::set_generated(const LightOptions& generated) {
     order_time_.reset();
 }
 
+void LightSource::set_tails(const RenderSettings& settings) {
+    const Tails tails = tails_for(scene_.lights, settings.tails, settings.range_budget);
+    input_.seed = tail_seed(settings, 0);
+    if (tails == tails_ && settings.range_budget == range_budget_) return;
+    tails_ = tails;
+    range_budget_ = settings.range_budget;
+    revision_.reset();
+}
+
 // The scene's own lights anew where they moved.
 void LightSource::take_up_changes() {
     if (revision_ == lights_revision(scene_)) return;
     revision_ = lights_revision(scene_);
     own_ = scene_.lights;
-    fill_missing_ranges(own_, range_budget_);
+    fill_missing_ranges(own_, tails_, range_budget_);
     headlights_ = headlights_of(own_);
     headlight_camera_.reset();
     time_.reset();
@@ -108,13 +123,14 @@ void LightSource::place_headlights(const Camera& camera) {
     if (headlights_.empty() || headlight_camera_ == camera) return;
     headlight_camera_ = camera;
     for (const std::size_t i : headlights_) own_[i] = placed_light(scene_.lights[i], camera);
-    fill_missing_ranges(own_, range_budget_);
+    fill_missing_ranges(own_, tails_, range_budget_);
     time_.reset();
     order_time_.reset();
 }
 
-// The point or spot light at a place of order_.
+// The point or spot light of a row.
 SceneLight LightSource::light(std::size_t place) const {
+    if (place >= order_.size()) return tree_.lights[place - order_.size()];
     const std::uint32_t number = order_[place];
     return number < own_.size() ? own_[number] : at_time_->at(tracks_[place]);
 }
@@ -123,6 +139,7 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
     order_.clear();
     directional_order_.clear();
     order_camera_.reset();
+    std::vector<std::uint32_t> members;
     const auto lights = all_lights(own_, generated_, scene_, *order_time_);
     bool all_near = is_near(camera_position);
     for (const std::uint32_t number : order_by_place(lights)) {
@@ -130,8 +147,11 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
         const bool is_directional = light.type == LightType::directional;
         all_near = all_near && (is_directional || is_near(light.position));
         if (!is_usable(light, camera_position)) continue;
-        (is_directional ? directional_order_ : order_).push_back(number);
+        const bool in_tree =
+            tails_ == Tails::tree && number < own_.size() && is_for_tree(scene_.lights[number]);
+        (in_tree ? members : is_directional ? directional_order_ : order_).push_back(number);
     }
+    plant_tree(members);
     if (!all_near) order_camera_ = camera_position;
     tracks_.resize(order_.size());
     tbb::parallel_for(std::size_t{0}, order_.size(), [&](std::size_t i) {
@@ -139,9 +159,40 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
     });
 }
 
+// Anew where the lights are others or have moved.
+void LightSource::plant_tree(const std::vector<std::uint32_t>& members) {
+    if (members == tree_members_ && !members.empty() && tree_revision_ == revision_) return;
+    tree_members_ = members;
+    tree_revision_ = revision_;
+    std::vector<SceneLight> lights;
+    for (const std::uint32_t number : members) lights.push_back(own_[number]);
+    tree_ = make_light_tree(lights);
+    kilolux::upload<TreeNode>(gpu_, nodes_.reserve(tree_.nodes.size()), tree_.nodes);
+    input_.nodes = nodes_.get();
+    input_.node_count = static_cast<uint>(tree_.nodes.size());
+}
+
+void LightSource::upload_tables() {
+    for (const PhotometricWeb& web : scene_.webs) {
+        profile_tables_.insert(profile_tables_.end(), web.table.begin(), web.table.end());
+    }
+    kilolux::upload<float>(gpu_, uploaded_tables_.reserve(profile_tables_.size()), profile_tables_);
+    input_.profiles.tables = uploaded_tables_.get();
+}
+
+void LightSource::upload_profiles() {
+    std::vector<AimedProfile> profiles(row_count());
+    tbb::parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) {
+        profiles[i] = aimed_profile(light(i), scene_, profile_starts_);
+    });
+    kilolux::upload<AimedProfile>(gpu_, profiles_.reserve(profiles.size()), profiles);
+    input_.profiles.lights = profiles_.get();
+}
+
 void LightSource::upload() {
-    const std::span<WorldLight> rows = move_.stage(order_.size());
-    tbb::parallel_for(std::size_t{0}, order_.size(),
+    if (!scene_.aimed_profiles.empty()) upload_profiles();
+    const std::span<WorldLight> rows = move_.stage(row_count());
+    tbb::parallel_for(std::size_t{0}, row_count(),
                       [&](std::size_t i) { rows[i] = world_light(light(i)); });
     move_.upload();
     std::vector<DirectionalLight> directional;
@@ -167,10 +218,9 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
         upload();
     }
     stats.lights_given = own_.size() + generated_.count;
-    stats.lights_used = order_.size() + directional_order_.size();
+    stats.lights_used = order_.size() + tree_members_.size() + directional_order_.size();
     stats.lights_rejected = stats.lights_given - stats.lights_used;
     stats.directional_lights = directional_order_.size();
-    stats.lights_dropped = 0;
 }
 
 LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, StageTimer& timer) {
@@ -181,14 +231,22 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
     input_.directional = directional_.get();
     input_.directional_count = static_cast<uint>(directional_order_.size());
     input_camera_ = camera_position;
+    ++input_.version;
     return input_;
 }
 
 LightRows LightSource::rows(const glm::dvec3& camera_position) const {
-    std::vector<SceneLight> lights(order_.size());
-    tbb::parallel_for(std::size_t{0}, order_.size(), [&](std::size_t i) { lights[i] = light(i); });
+    std::vector<SceneLight> lights(row_count());
+    tbb::parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) { lights[i] = light(i); });
     for (const std::uint32_t number : directional_order_) lights.push_back(own_[number]);
-    return make_light_rows(lights, camera_position);
+    LightRows out = make_light_rows(lights, camera_position);
+    if (scene_.aimed_profiles.empty()) return out;
+    out.profile_tables = profile_tables_;
+    lights.resize(row_count());  // those that are usable: none is left out
+    for (const SceneLight& light : lights) {
+        out.profiles.push_back(aimed_profile(light, scene_, profile_starts_));
+    }
+    return out;
 }
 
 }  // namespace kilolux

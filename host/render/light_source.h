@@ -10,28 +10,37 @@
 #include "host/render/light_rows.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
+#include "host/scene/lights/light_ranges.h"
+#include "host/scene/lights/light_tree.h"
 #include "host/scene/scene.h"
 #include "host/stages/move_lights.h"
 
 namespace kilolux {
 
 /// All lights of a scene at `time` [s], its own and the generated ones, each with a range, in the
-/// order in which kernels go through them (light_order.h); `camera` has the headlights.
+/// order in which kernels go through them (light_order.h); `camera` has the headlights. Ranges that
+/// the renderer draws reach everywhere here, as in the mean.
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
                                   const Camera& camera, double time);
+
+/// Seed of the drawn ranges (Tails::stochastic) of one of a pixel's samples; 0: none is drawn.
+uint tail_seed(const RenderSettings& settings, uint sample);
 
 /// All lights of a scene, its own and the generated ones, at any time. They are on the device in
 /// the world's coordinates: a camera that moves costs one kernel, lights that stay are not uploaded
 /// again.
 class LightSource {
  public:
-    /// Lights of the scene without a range get one within settings.range_budget; says so. The scene
-    /// must outlive this.
+    /// Lights of the scene without a range get one as settings.tails says. The scene must outlive
+    /// this.
     LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                 const RenderSettings& settings);
 
     /// Other generated lights from now on.
     void set_generated(const LightOptions& generated);
+
+    /// Other ranges of lights that lack one from now on.
+    void set_tails(const RenderSettings& settings);
 
     /// The lights at `time` [s] of the scene as it is now; sets their counts. The camera has the
     /// headlights, and its place decides which lights are too far away to be used.
@@ -48,12 +57,17 @@ class LightSource {
     void take_up_changes();
     void place_headlights(const Camera& camera);
     SceneLight light(std::size_t place) const;
+    std::size_t row_count() const { return order_.size() + tree_.lights.size(); }
     void find_order(const glm::dvec3& camera_position);
+    void plant_tree(const std::vector<std::uint32_t>& members);
     void upload();
+    void upload_tables();
+    void upload_profiles();
 
     Gpu gpu_;
     const Scene& scene_;
-    std::uint32_t revision_;  // of the scene that own_ are of
+    std::optional<std::uint32_t> revision_;  // of the scene that own_ are of; none: out of date
+    Tails tails_;
     double range_budget_;
     LightOptions generated_;
     std::vector<SceneLight> own_;             // with ranges, in the world
@@ -71,6 +85,15 @@ class LightSource {
     LightInput input_;
     MoveLights move_;
     GrowingArray<DirectionalLight> directional_;
+    // Of the scene's webs, one after the other, and where each starts.
+    std::vector<float> profile_tables_, profile_starts_;
+    GrowingArray<AimedProfile> profiles_;
+    GrowingArray<float> uploaded_tables_;
+    // With Tails::tree, what is in no list: its rows follow those of order_.
+    LightTree tree_;
+    std::vector<std::uint32_t> tree_members_;     // numbers of its lights
+    std::optional<std::uint32_t> tree_revision_;  // of the scene that they are of
+    GrowingArray<TreeNode> nodes_;
 };
 
 }  // namespace kilolux

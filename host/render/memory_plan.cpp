@@ -108,7 +108,8 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const bool decodes = settings.want.pixels();
     Need need;
     const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
-    need.device_fixed = (settings.lights.count + scene.lights.size()) * kLight +
+    const std::size_t nodes = plan.kernels.light_tree ? 2 * scene.lights.size() : 0;
+    need.device_fixed = (settings.lights.count + scene.lights.size() + nodes) * kLight +
                         width * height * bloom_pixel_bytes(settings);
     if (ids) {
         need.device_fixed +=
@@ -133,7 +134,12 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
     need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
     if (plan.kernels.shadows) need.band_pixel += kShadowPixel;
-    if (settings.samples > 1) need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
+    if (settings.auto_samples.on) {
+        constexpr Bytes kPlanes = 2 * 5 + 3 + 1;  // of AdaptiveSamples
+        need.band_pixel += kPlanes * sizeof(float) + sizeof(uint);
+    } else if (settings.samples > 1) {
+        need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
+    }
     if (decodes || settings.want.counts) need.band_pixel += 4 * sizeof(std::uint32_t);
     if (decodes) {
         need.band_pixel += 2 * SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + layer_bytes(settings);

@@ -13,6 +13,7 @@
 #include "host/render/render_scene.h"
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
+#include "host/scene/open_tiles.h"
 #include "host/stages/fill_background.h"
 #include "host/stages/reflect_environment.h"
 #include "host/surfaces/shadow_scene.h"
@@ -63,6 +64,12 @@ struct PathContext {
     }
 };
 
+/// The fine tiles of a band that need a sample; the others' pixels may be background.
+struct NeededTiles {
+    TileCounts done;
+    OpenTiles open;
+};
+
 /// One sample of a band of a frame to light: the lights on the host and, uploaded, on the device.
 struct Sample {
     const Camera& camera;  // of the whole picture
@@ -71,6 +78,7 @@ struct Sample {
     Band band;
     bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
     uint number = 0;     // of the pixel's samples
+    const NeededTiles* needed = nullptr;  // none: all of the band
 };
 
 /// What a path adds to while it lights a sample.

@@ -100,7 +100,7 @@ void Pipeline::make_reflections() {
 bool Pipeline::is_built_for(const RenderSettings& other) const {
     return other.device == settings.device && other.geometry == settings.geometry &&
            other.anisotropy == settings.anisotropy && other.kernels == settings.kernels &&
-           other.range_budget == settings.range_budget && plan_of(scene->scene(), other) == plan;
+           plan_of(scene->scene(), other) == plan;
 }
 
 void Pipeline::take(const RenderSettings& next) {
@@ -122,6 +122,7 @@ void Pipeline::take(const RenderSettings& next) {
         throw;
     }
     lights_.set_generated(next.lights);
+    lights_.set_tails(next);
 }
 
 void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,

@@ -14,6 +14,7 @@
 #include "host/render/light_source.h"
 #include "host/render/memory_plan.h"
 #include "host/render/render_scene.h"
+#include "host/stages/adaptive_samples.h"
 #include "host/stages/bloom.h"
 #include "host/stages/sum_samples.h"
 #include "host/stages/tonemap.h"
@@ -27,6 +28,9 @@ using Path = std::variant<DeferredPath, DeferredAllPath, ForwardPath>;
 /// Where a frame's display picture goes beside Frame::display: the caller's memory, see
 /// Renderer::render_to(); none where it is empty.
 using DisplayMemory = std::span<uint>;
+
+/// Adds what the timer measured to the frame's stages.
+void add_times(StageTimer& timer, FrameStats& stats);
 
 /// A renderer's stages, built for one device and scene plan.
 class Pipeline {
@@ -80,9 +84,12 @@ class Pipeline {
     };
 
     void refine(const Camera& camera, double time, int samples);
+    void keep_refined(const Camera& camera, double time);
     LightInput begin(const Camera& camera, double time, Frame& frame);
     void render_band(const Sample& band, Frame& frame);
     void light_samples(const Sample& band, Measured out, const AfterShading& then);
+    void light_until_error(const Sample& band, Measured out, const AfterShading& then);
+    Radiance light_sample(const Sample& band, uint number, const NeededTiles* needed, Measured out);
     void develop(const Radiance& radiance, Frame& frame);
     void bloom_whole(Frame& frame);
     void add_pixels(const Sample& band, Frame& frame);
@@ -100,12 +107,14 @@ class Pipeline {
     std::unique_ptr<Pipeline> reference_;  // for the view of differences from it
     std::optional<OverdrawPass> overdraw_;
     SumSamples sum_;
-    std::optional<Bloom> bloom_;  // none at a share of 0
+    std::optional<AdaptiveSamples> until_error_;  // made when first asked for
+    std::optional<Bloom> bloom_;                  // none at a share of 0
     Tonemap tonemap_;
     GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
     FrameReader reader_;
     StageTimer timer_;
     // Of the render() that runs.
+    std::function<void()> between_;  // called before every band and sample
     DisplayMemory display_memory_;
     int refining_ = 0;  // samples of a picture that is refined; 0: it is made whole
     int summed_ = 0;    // of them in sum_ before

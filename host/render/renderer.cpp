@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "host/picture/frame_bands.h"
-#include "host/picture/sample_pattern.h"
 #include "host/picture/views.h"
 #include "host/render/pipeline.h"
 
@@ -18,48 +17,27 @@ double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Grows with every change of the scene.
-std::uint32_t revision_of(const Scene& scene) { return scene.revision + scene.lights_revision; }
-
-void take_times(StageTimer& timer, FrameStats& stats) {
-    for (const StageTimer::Time& time : timer.take()) {
-        add_stage_time(stats.stages, time.stage, time.ms);
-    }
-}
-
 }  // namespace
 
 // A frame: its lights, then band by band surfaces -> lighting -> bloom -> tonemap -> picture.
 Frame Pipeline::render(const Camera& camera, double time, const std::function<void()>& between,
                        DisplayMemory display_memory, int samples) {
     display_memory_ = display_memory;
+    between_ = between ? between : [] {};
     refine(camera, time, samples);
     Frame frame;
     const QueueDrain drain(gpu.queue);
     const LightInput lights = begin(camera, time, frame);
     for (const Band& band : make_bands(settings.height, memory.band_rows)) {
-        if (between) between();
+        between_();
         const int tile = raster_tile(settings.height, band.first_row).first_row;
         render_band({camera, rows_, lights, band, tile == band.first_row}, frame);
     }
     if (blooms_at_end()) bloom_whole(frame);
     if (settings.want.view != ViewKind::lit) show_view(time, frame);
     if (!settings.want.radiance) frame.radiance.clear();
-    if (refining_ > 0)
-        refined_ = Refined{settings, camera, time, revision_of(scene->scene()), refining_};
+    keep_refined(camera, time);
     return frame;
-}
-
-// How many of the samples are wanted, and which of them the last frame has summed.
-void Pipeline::refine(const Camera& camera, double time, int samples) {
-    const bool partly = settings.samples > 1 && is_whole() && settings.want.view == ViewKind::lit;
-    refining_ = partly ? std::min(samples, settings.samples) : 0;
-    summed_ = 0;
-    if (refining_ > 0 && refined_) {
-        const Refined same{settings, camera, time, revision_of(scene->scene()), refined_->samples};
-        if (*refined_ == same && refined_->samples < refining_) summed_ = refined_->samples;
-    }
-    refined_.reset();  // a frame that fails leaves no sum
 }
 
 // The frame's size, and its lights on the device.
@@ -100,43 +78,17 @@ void Pipeline::render_band(const Sample& band, Frame& frame) {
     FrameStats stats;
     light_samples(band, {timer_, stats},
                   [&](const Radiance& radiance) { develop(radiance, frame); });
-    reader_.finish();
-    take_times(timer_, stats);
+    const double placed_ms = reader_.finish();
+    add_times(timer_, stats);
+    add_stage_time(stats.stages, kReadBackStage, placed_ms);
     add_band(frame.stats, stats);
     frame.stats.frame_ms += ms_since(start);
     if (settings.want.pixels()) add_pixels(band, frame);
 }
 
-// The mean of the jittered samples. Sample 0, through the pixels' centres, comes last: counts, AOVs
-// and views are its, since depths, ids and unit vectors have no mean.
-void Pipeline::light_samples(const Sample& band, Measured out, const AfterShading& then) {
-    const auto light = [&](const Sample& sample, const AfterShading& after) {
-        return std::visit([&](auto& path) { return path.light(sample, out, after); }, path());
-    };
-    if (settings.samples <= 1) {
-        light(band, then);
-        return;
-    }
-    const auto add = [&](int i) {
-        Camera jittered = band.camera;
-        jittered.jitter += sample_offset(static_cast<std::uint32_t>(i));
-        sum_.add(light({jittered, band.rows, band.lights, band.band, true, static_cast<uint>(i)},
-                       [](const Radiance&) {}),
-                 timer_);
-        take_times(timer_, out.stats);  // lists of the next sample may be made twice
-    };
-    if (summed_ == 0) sum_.clear();
-    if (refining_ > 0) {
-        for (int i = summed_; i < refining_; ++i) add(i);
-    } else {
-        for (int i = settings.samples - 1; i >= 0; --i) add(i);
-    }
-    then(sum_.mean(timer_));
-}
-
 // From a band's light to what the caller wants of it.
 void Pipeline::develop(const Radiance& radiance, Frame& frame) {
-    if (!frame.radiance.empty()) reader_.read_light(radiance, frame.radiance);
+    if (!frame.radiance.empty()) reader_.read_light(radiance, frame.radiance, timer_);
     if (!blooms_at_end()) return read_display(radiance, frame);
     const View& view = radiance.view;
     const std::size_t row = sizeof(float) * view.stride;
@@ -150,8 +102,9 @@ void Pipeline::develop(const Radiance& radiance, Frame& frame) {
 void Pipeline::bloom_whole(Frame& frame) {
     const Clock::time_point start = Clock::now();
     read_display({whole_light_.get(), view_of(camera_, settings.width, settings.height)}, frame);
-    reader_.finish();
-    take_times(timer_, frame.stats);
+    const double placed_ms = reader_.finish();
+    add_times(timer_, frame.stats);
+    add_stage_time(frame.stats.stages, kReadBackStage, placed_ms);
     frame.stats.frame_ms += ms_since(start);
 }
 
@@ -159,19 +112,19 @@ void Pipeline::bloom_whole(Frame& frame) {
 void Pipeline::read_display(const Radiance& radiance, Frame& frame) {
     const Radiance glowing =
         settings.bloom > 0.0f ? bloom_->enqueue(radiance, settings.bloom, timer_) : radiance;
-    if (!frame.bloomed.empty()) reader_.read_light(glowing, frame.bloomed);
+    if (!frame.bloomed.empty()) reader_.read_light(glowing, frame.bloomed, timer_);
     if (display_memory_.empty()) {
         if (frame.display.empty()) return;
         const std::span<uint> pixels(reinterpret_cast<uint*>(frame.display.data()),
                                      frame.display.size() / sizeof(uint));
         reader_.read_display(tonemap_.enqueue(glowing, settings.exposure, timer_), glowing.view,
-                             pixels, static_cast<std::size_t>(frame.width));
+                             pixels, static_cast<std::size_t>(frame.width), timer_);
         return;
     }
     const std::size_t bytes = display_memory_.size_bytes();
     if (!gpu.info.is_cpu) {
         reader_.read_display(tonemap_.enqueue(glowing, settings.exposure, timer_), glowing.view,
-                             display_memory_, glowing.view.stride);
+                             display_memory_, glowing.view.stride, timer_);
         return;
     }
     const cl::Buffer display(gpu.context, CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR, bytes,
@@ -185,6 +138,10 @@ void Pipeline::read_display(const Radiance& radiance, Frame& frame) {
 void Pipeline::add_pixels(const Sample& band, Frame& frame) {
     DecodedSurfaces pixels =
         std::visit([&](auto& path) { return path.pixels(band.camera); }, path());
+    if (settings.auto_samples.on) {
+        pixels.variance = download(gpu, until_error_->variance());
+        pixels.taken = until_error_->taken();
+    }
     std::vector<Layer> layers;
     for (const std::string& name : settings.want.aovs) {
         layers.push_back(make_aov(name, pixels, band.camera));
@@ -223,7 +180,11 @@ PixelProbe Pipeline::probe(int x, int y) {
     const LightRows rows = lights_.rows(camera_.position);
     for (ProbedLight& light : out.lights) {
         light.light = rows.local.at(light.index);
-        light.shade = shade_light(view, light.light);
+        light.shade = shade_light(view, light.light, light.index, tail_seed(settings, 0));
+        if (rows.profiles.empty()) continue;
+        AimedProfile row = rows.profiles.at(light.index);
+        row = {rotated(view, row.down, row.down.w), rotated(view, row.side, row.side.w)};
+        light.web = webs_in_view(std::span(&row, 1), scene->scene()).front();
     }
     return out;
 }

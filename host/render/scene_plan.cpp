@@ -2,9 +2,11 @@
 #include "host/render/scene_plan.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "host/base/error.h"
 #include "host/scene/lights/light_region.h"
+#include "host/scene/lights/light_tree.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
@@ -73,15 +75,10 @@ void check_forced(const std::vector<std::string>& names) {
 // Rays end where OpenCL resolved a triangle; deferred keeps what they found.
 void check_shadows(const RenderSettings& settings) {
     const FrameRequest& want = settings.want;
-    const bool wants_bits = want.view == ViewKind::shadows ||
-                            std::ranges::find(want.aovs, "visibility") != want.aovs.end();
+    const bool wants_bits = want.view == ViewKind::shadows || want.has_aov("visibility");
     if (wants_bits &&
         (settings.shadows != Shadows::exact || settings.renderer != RendererKind::deferred)) {
         throw UsageError("shadows: to show them takes --shadows exact and --renderer deferred");
-    }
-    const bool wants_error = std::ranges::find(want.aovs, "error-standard") != want.aovs.end();
-    if (wants_error && settings.shadows != Shadows::sampled) {
-        throw UsageError("aov error-standard: only --shadows sampled has one");
     }
     if (settings.shadows == Shadows::off) return;
     if (is_forward(settings.renderer)) {
@@ -89,6 +86,38 @@ void check_shadows(const RenderSettings& settings) {
     }
     if (!resolves_ids(settings.geometry)) {
         throw UsageError("shadows: none with --geometry planes; take ids or compute");
+    }
+}
+
+void check_tails(const RenderSettings& settings) {
+    const bool drawn = settings.tails == Tails::stochastic;
+    const bool deferred = settings.renderer == RendererKind::deferred;
+    if (settings.want.has_aov("sample-count") && !settings.auto_samples.on) {
+        throw UsageError("aov sample-count: needs --samples auto");
+    }
+    if (settings.want.has_aov("error-standard") && !settings.auto_samples.on) {
+        if (!drawn && settings.shadows != Shadows::sampled) {
+            throw UsageError(
+                "aov error-standard: only --samples auto, --shadows sampled and --tails stochastic "
+                "have one");
+        }
+        if (drawn && !deferred) {
+            throw UsageError(
+                "aov error-standard: of --tails stochastic only --renderer deferred "
+                "has one");
+        }
+    }
+    if (settings.tails == Tails::tree && !deferred) {
+        throw UsageError("tails tree: only --renderer deferred has it; take --tails exact");
+    }
+    if (settings.tails == Tails::tree && settings.shadows != Shadows::off) {
+        throw UsageError(
+            "tails tree: its nodes cast no shadows; take --shadows off, or --tails stochastic");
+    }
+    if (settings.want.has_aov("error-bound") && (drawn || !deferred)) {
+        throw UsageError(
+            "aov error-bound: it takes --renderer deferred, and not --tails stochastic, which has "
+            "error-standard");
     }
 }
 
@@ -100,6 +129,7 @@ bool is_forced(const RenderSettings& settings, std::string_view name) {
 SceneFeatures features_of(const Scene& scene, const std::vector<Material>& materials) {
     SceneFeatures out;
     out.light_d_min = light_d_min(scene);
+    out.light_profiles = !scene.aimed_profiles.empty();
     for (const SceneLight& light : scene.lights) {
         out.spot_lights |= light.type == LightType::spot;
         out.directional_lights |= light.type == LightType::directional;
@@ -156,12 +186,27 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
                           std::uint64_t light_count) {
     check_forced(settings.force_features);
     check_shadows(settings);
+    check_tails(settings);
     const std::vector<Material> materials = materials_in_use(scene);
     const int shading = shading_of(settings, materials);
     SceneFeatures features = features_of(scene, materials);
     features.point_lights = light_count > 0;
     features.wide_light_index = light_count > 65536;
     features.shadows = settings.shadows != Shadows::off && triangle_count(scene) > 0;
+    if (settings.tails == Tails::stochastic && std::ranges::any_of(scene.lights, lacks_range)) {
+        features.drawn_ranges = static_cast<float>(std::numbers::pi * settings.range_budget);
+    }
+    const auto in_tree =
+        settings.tails == Tails::tree
+            ? static_cast<std::uint64_t>(std::ranges::count_if(scene.lights, is_for_tree))
+            : 0;
+    if (in_tree > 0) {
+        if (features.alpha_blend) {
+            throw UsageError(
+                "tails tree: not for scenes with blended surfaces; take --tails exact");
+        }
+        features.wide_light_index = light_count + 2 * in_tree > 65536;
+    }
     features = needed(features, shading != SHADING_LAMBERT, settings);
     ScenePlan plan;
     static_cast<SceneFeatures&>(plan.kernels) = features;
@@ -171,6 +216,8 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     plan.kernels.fast_relaxed_math = settings.kernels.math == MathMode::fast_relaxed;
     plan.kernels.native_math = settings.kernels.math == MathMode::native;
     plan.kernels.sampled_shadows = features.shadows && settings.shadows == Shadows::sampled;
+    plan.kernels.light_tree = in_tree > 0;
+    plan.kernels.tree_share = in_tree > 0 ? settings.tree_share : 0.0f;
     plan.kernels.half_light_colors = settings.kernels.light_colors == LightColors::half;
     float emission = 0.0f;
     for (const Material& m : materials) emission = std::max(emission, largest_emission(m));

@@ -65,6 +65,18 @@ struct KernelSettings {
     bool operator==(const KernelSettings&) const = default;
 };
 
+/// As many samples a pixel as each fine tile needs, in place of a fixed count.
+struct AutoSamples {
+    bool on = false;
+    /// Standard error of the mean's luminance where a tile takes no more: over
+    /// sqrt(luminance^2 + kSampleErrorFloor^2 at the exposure), root mean square over its pixels.
+    float error = 0.05f;
+    int most = 256;  // samples, at least kLeastAutoSamples
+    bool operator==(const AutoSamples&) const = default;
+};
+inline constexpr float kSampleErrorFloor = 0.1f;  // of the light that shows as white
+inline constexpr int kLeastAutoSamples = 8;
+
 /// Everything that decides a picture, beside scene, camera and time: the command line's shared
 /// options.
 struct RenderSettings {
@@ -72,8 +84,10 @@ struct RenderSettings {
     int width = 1920;   // [pixel]
     int height = 1080;  // [pixel]
     LightOptions lights;
-    double range_budget =
-        kDefaultRangeBudget;  // for the scene's lights without a range, see range_of_light()
+    Tails tails = Tails::automatic;             // of the scene's lights without a range
+    double range_budget = kDefaultRangeBudget;  // of bounded and stochastic ones: range_of_light()
+    uint tail_seed = 1;                         // of stochastic ones
+    float tree_share = kDefaultTreeShare;       // of a tree's nodes: error over light
     uint gbuffer = GBUFFER_PACKED;
     Geometry geometry = Geometry::automatic;
     int anisotropy = 0;  // texture samples along a footprint's longer side at most, 1..16; 0: 1 on
@@ -92,7 +106,8 @@ struct RenderSettings {
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]
     ToneCurve tone_curve = ToneCurve::neutral;
-    int samples = 1;    // jittered samples a pixel
+    int samples = 1;  // jittered samples a pixel
+    AutoSamples auto_samples;
     FrameRequest want;  // what render() brings to the host
     GridSettings grid;
     KernelSettings kernels;

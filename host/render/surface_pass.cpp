@@ -7,6 +7,17 @@
 #include "host/render/grid_request.h"
 
 namespace kilolux {
+namespace {
+
+// The tiles that a sample needs of what is drawn from row `first_row` of the picture on; none: all.
+std::optional<OpenTiles> open_tiles(const Sample& sample, int first_row) {
+    if (sample.needed == nullptr) return {};
+    OpenTiles out = sample.needed->open;
+    out.first_row = sample.band.first_row - first_row;
+    return out;
+}
+
+}  // namespace
 
 int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device) {
     constexpr int kGpuAnisotropy = 8;
@@ -53,10 +64,15 @@ SurfacePass::SurfacePass(const PathContext& context)
 
 GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
     const RenderSettings& settings = context_.settings;
-    const Source source{sample.camera, sample.band, settings.width, settings.height,
-                        context_.scene.scene().revision};
-    if (!settings.no_reuse && source_ == source) return gbuffer_;
+    const Source source{sample.camera,
+                        sample.band,
+                        settings.width,
+                        settings.height,
+                        context_.scene.scene().revision,
+                        sample.needed != nullptr};
+    if (!settings.no_reuse && !source.masked && source_ == source) return gbuffer_;
     source_.reset();  // until it is made
+    if (resolve_ && source.masked && !mask_) mask_.emplace(context_.gpu, context_.tuning);
     const std::uint64_t version = gbuffer_.version + 1;
     if (planes_) {
         gbuffer_ = draw_planes(sample, out.stats.stages);
@@ -89,7 +105,9 @@ GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
     const Band band = sample.band;
     const Band tile = raster_tile(settings.height, band.first_row);
     if (sample.redraw) {
-        ids_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows);
+        const auto open = open_tiles(sample, tile.first_row);
+        ids_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows,
+                   open ? &*open : nullptr);
         add_stage_time(out.stats.stages, "geometry", ids_->last_ms());
     }
     const View view = view_of(sample.camera, settings.width, settings.height, band);
@@ -102,17 +120,22 @@ GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
 GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
     const RenderSettings& settings = context_.settings;
     const View view = view_of(sample.camera, settings.width, settings.height, sample.band);
-    const std::vector<Draw> draws = triangles_->visible(
-        crop(sample.camera, settings.height, sample.band), settings.width, sample.band.rows);
+    const auto open = open_tiles(sample, sample.band.first_row);
+    const std::vector<Draw> draws =
+        triangles_->visible(crop(sample.camera, settings.height, sample.band), settings.width,
+                            sample.band.rows, open ? &*open : nullptr);
     const SurfaceBuffers scene = context_.surfaces->at(draws);
-    const DeviceArray<uint> ids = triangles_->enqueue(scene, draws, view, out.timer);
+    const DeviceArray<uint> ids =
+        triangles_->enqueue(scene, draws, view, out.timer, open ? &*open : nullptr);
     out.stats.triangles = triangles_->triangles();
     out.stats.triangle_pairs = triangles_->pairs();
     return resolve(ids, scene, view, sample, out);
 }
 
-GBuffer SurfacePass::resolve(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
+GBuffer SurfacePass::resolve(const DeviceArray<uint>& drawn, const SurfaceBuffers& scene,
                              const View& view, const Sample& sample, Measured out) {
+    const DeviceArray<uint> ids =
+        sample.needed ? mask_->enqueue(sample.needed->done, view, drawn, out.timer) : drawn;
     const GBuffer gbuffer = resolve_->enqueue(
         ids, scene, make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height), view,
         out.timer);

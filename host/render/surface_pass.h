@@ -8,6 +8,7 @@
 #include "host/picture/pixel_probe.h"
 #include "host/render/path.h"
 #include "host/stages/decode_gbuffer.h"
+#include "host/stages/mask_tiles.h"
 #include "host/stages/shadow_origins.h"
 #include "host/surfaces/triangle_ids.h"
 #include "raster/geometry_pass.h"
@@ -50,12 +51,13 @@ class SurfacePass {
         Band band;
         int width, height;
         std::uint32_t revision;  // of the scene
+        bool masked;             // some tiles are background though surfaces cover them
         bool operator==(const Source&) const = default;
     };
     GBuffer draw_planes(const Sample& sample, std::vector<StageTime>& stages);
     GBuffer draw_ids(const Sample& sample, Measured out);
     GBuffer draw_in_opencl(const Sample& sample, Measured out);
-    GBuffer resolve(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
+    GBuffer resolve(const DeviceArray<uint>& drawn, const SurfaceBuffers& scene, const View& view,
                     const Sample& sample, Measured out);
     void place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                        const GBuffer& gbuffer, const Sample& sample, Measured out);
@@ -66,6 +68,7 @@ class SurfacePass {
     std::optional<TriangleIds> triangles_;    // else
     std::optional<ResolveSurfaces> resolve_;  // of ids_ or triangles_
     std::optional<ShadowOrigins> origins_;    // with shadows
+    std::optional<MaskTiles> mask_;           // made when first asked for
     GBufferBridge bridge_;
     DecodeGBuffer decode_;
     ShadowInput shadows_;

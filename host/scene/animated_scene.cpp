@@ -85,6 +85,7 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     scene_.name = path.stem().string();
     scene_.clips = list_clips(file.document);
     scene_.variants = list_variants(file.document);
+    scene_.webs = read_profiles(file.document);
     place();
     scene_.images = decode_images(file.document, file.materials.images, progress);
     for (Image& image : make_converted_images(file.document, file.materials)) {
@@ -163,6 +164,7 @@ void AnimatedScene::place() {
     }
     scene_.instances = std::move(instances);
     scene_.lights = std::move(lights);
+    add_profile_lights(file.document, nodes, scene_);
     scene_.lights.insert(scene_.lights.end(), added_lights_.begin(), added_lights_.end());
     scene_.cameras = std::move(cameras);
 }

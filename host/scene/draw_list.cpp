@@ -113,6 +113,22 @@ bool outside(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip) {
     return std::find(count.begin(), count.end(), 8) != count.end();
 }
 
+// Whether what lies between the corners may be seen in one of the tiles.
+bool may_touch(const OpenTiles& open, const std::array<glm::dvec4, 8>& corners,
+               const glm::dmat4& clip, const glm::dvec2& size) {
+    constexpr double kMargin = 2.0;  // [pixel] as in outside(), and more
+    glm::dvec2 least(std::numeric_limits<double>::infinity());
+    glm::dvec2 most(-std::numeric_limits<double>::infinity());
+    for (const glm::dvec4& corner : corners) {
+        const glm::dvec4 c = clip * corner;
+        if (!(c.w > kUnit * (std::abs(c.x) + std::abs(c.y)))) return true;  // beside or behind us
+        const glm::dvec2 pixel = (glm::dvec2(c.x, -c.y) / c.w * 0.5 + 0.5) * size;
+        least = glm::min(least, pixel);
+        most = glm::max(most, pixel);
+    }
+    return open.touches(least - kMargin, most + kMargin);
+}
+
 Box box_of_vertices(const Mesh& mesh) {
     Box box;
     for (const glm::vec3& position : mesh.positions) box.add(position);
@@ -158,7 +174,7 @@ const DrawList::MeshBox& DrawList::box_of(int index) const {
 }
 
 std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height, bool blended,
-                                    DrawOrder order) const {
+                                    DrawOrder order, const OpenTiles* open) const {
     const glm::dmat4 clip = clip_from_view(camera, width, height);
     std::vector<Draw> draws;
     std::size_t casters = 0;  // triangles of the instances before
@@ -171,6 +187,7 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
         const glm::dmat4 transform = view_from_object(camera, instance.world_from_object);
         const std::array<glm::dvec4, 8> corners = corners_of(mesh.box, transform);
         if (outside(corners, clip)) continue;
+        if (open != nullptr && !may_touch(*open, corners, clip, {width, height})) continue;
         double nearest = std::numeric_limits<double>::infinity();
         double sum = 0.0;
         for (const glm::dvec4& corner : corners) {

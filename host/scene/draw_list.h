@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/scene/camera.h"
+#include "host/scene/open_tiles.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/surface_scene.h"
 
@@ -31,9 +32,10 @@ class DrawList {
     explicit DrawList(const Scene& scene);
 
     /// Instances whose box touches the camera's frustum (conservative), of materials that blend or
-    /// of those that do not. Back to front goes by the boxes' centres.
+    /// of those that do not. Back to front goes by the boxes' centres. `open`: only those whose
+    /// box may touch one of these tiles.
     std::vector<Draw> visible(const Camera& camera, int width, int height, bool blended,
-                              DrawOrder order) const;
+                              DrawOrder order, const OpenTiles* open = nullptr) const;
 
  private:
     struct MeshBox {

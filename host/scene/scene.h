@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/lights/photometric_web.h"
+
 namespace kilolux {
 
 /// An 8-bit RGBA image, row 0 on top. Whether it is sRGB is the using slot's business.
@@ -108,7 +110,17 @@ struct SceneLight {
     float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
     float inner_cone = 0.0f;           // half angle [rad]
     float outer_cone = 0.7853981634f;  // half angle [rad]
+    bool has_own_range = true;         // false: it got one, see light_ranges.h
     bool follows_camera = false;       // position and direction are in the camera's space
+    int profile = -1;                  // index into Scene::aimed_profiles; -1: none
+};
+
+/// A light's photometric web: its vertical angle 0 is along the light's direction, whatever its
+/// type, and its peak has the light's intensity.
+struct SceneProfile {
+    std::size_t web = 0;       // index into Scene::webs
+    glm::dvec3 side{1, 0, 0};  // unit, across the direction: vertical 90, horizontal 0 degrees
+    bool mirrored = false;     // horizontal angles turn the other way
 };
 
 /// A camera of the scene: at world_from_camera's origin, looking down its -Z.
@@ -162,6 +174,8 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<SceneLight> lights;
+    std::vector<PhotometricWeb> webs;          // of the lights with IES profiles
+    std::vector<SceneProfile> aimed_profiles;  // one for each of these lights
     std::vector<SceneCamera> cameras;
     std::vector<Clip> clips;            // of the file; only those that play move the scene
     std::vector<std::string> variants;  // of the file's materials (KHR_materials_variants)

@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "bin_pixels";
+constexpr std::string_view kBinPixelsStage = "bin_pixels";
 
 cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     return build_program(gpu, tuning.tile_group == 1 ? "bin_pixels_by_item" : "bin_pixels_by_group",
@@ -22,12 +22,12 @@ constexpr std::size_t kFewest = 1024;  // active clusters that there is room for
 BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),
       program_(program_of(gpu, tuning, features)),
-      clear_(gpu, program_, kStage, "bin_pixels_clear"),
-      count_(gpu, program_, kStage, "bin_pixels_count"),
-      fill_(gpu, program_, kStage, "bin_pixels_fill"),
-      clusters_(gpu, tuning, kStage, sizeof(ActiveCluster)),
-      order_(gpu, kStage),
-      occupied_(gpu, kStage) {}
+      clear_(gpu, program_, kBinPixelsStage, "bin_pixels_clear"),
+      count_(gpu, program_, kBinPixelsStage, "bin_pixels_count"),
+      fill_(gpu, program_, kBinPixelsStage, "bin_pixels_fill"),
+      clusters_(gpu, tuning, kBinPixelsStage, sizeof(ActiveCluster)),
+      order_(gpu, kBinPixelsStage),
+      occupied_(gpu, kBinPixelsStage) {}
 
 ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& grid,
                                   StageTimer& timer) {

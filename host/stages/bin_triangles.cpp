@@ -6,10 +6,10 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "bin_triangles";
+constexpr std::string_view kBinTrianglesStage = "bin_triangles";
 constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room for from the start
 
-BuildOptions options_of(const Tuning& tuning) {
+BuildOptions bin_options(const Tuning& tuning) {
     BuildOptions options;
     options.define("GROUP", tuning.raster_group);
     define_tiles(options, tuning);
@@ -21,17 +21,24 @@ BuildOptions options_of(const Tuning& tuning) {
 BinTriangles::BinTriangles(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
-      program_(build_program(gpu, kStage, options_of(tuning))),
-      bounds_(gpu, program_, kStage, "bin_triangles_bounds"),
-      clear_(gpu, program_, kStage, "bin_triangles_clear"),
-      count_(gpu, program_, kStage, "bin_triangles_count"),
-      offset_(gpu, program_, kStage, "bin_triangles_offset"),
-      fill_(gpu, program_, kStage, "bin_triangles_fill"),
-      columns_(gpu, kStage),
-      rows_(gpu, kStage),
-      cursors_(gpu, kStage),
-      lists_(gpu, tuning, kStage, sizeof(uint)) {
+      program_(build_program(gpu, kBinTrianglesStage, bin_options(tuning))),
+      bounds_(gpu, program_, kBinTrianglesStage, "bin_triangles_bounds"),
+      clear_(gpu, program_, kBinTrianglesStage, "bin_triangles_clear"),
+      count_(gpu, program_, kBinTrianglesStage, "bin_triangles_count"),
+      offset_(gpu, program_, kBinTrianglesStage, "bin_triangles_offset"),
+      fill_(gpu, program_, kBinTrianglesStage, "bin_triangles_fill"),
+      columns_(gpu, kBinTrianglesStage),
+      rows_(gpu, kBinTrianglesStage),
+      cursors_(gpu, kBinTrianglesStage),
+      closed_(gpu, kBinTrianglesStage),
+      lists_(gpu, tuning, kBinTrianglesStage, sizeof(uint)) {
     lists_.reserve(kFirstPairs);
+    closed_.reserve(1);
+}
+
+void BinTriangles::close_tiles(std::span<const std::uint8_t> closed) {
+    some_closed_ = closed.empty() ? 0u : 1u;
+    if (!closed.empty()) upload<std::uint8_t>(gpu_, closed_.reserve(closed.size()), closed);
 }
 
 TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_count,
@@ -60,7 +67,7 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
     const WorkSize walk = by_group ? items(some, tuning_.raster_group) : groups(chunks, 1);
     count_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
                    scene.vertices, scene.indices, scene.materials, triangle_count, columns, rows,
-                   cursors);
+                   some_closed_, closed_.get(), cursors);
     offset_.enqueue(items(stride / lanes, tuning_.light_group), timer, out.tile_count,
                     static_cast<uint>(chunks), cursors, counts);
     out.offsets = lists_.enqueue_offsets(out.tile_count, timer);
@@ -68,7 +75,7 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
     out.capacity = lists_.capacity();
     fill_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
                   scene.vertices, scene.indices, scene.materials, triangle_count, columns, rows,
-                  cursors, out.offsets, out.lists, out.capacity);
+                  some_closed_, closed_.get(), cursors, out.offsets, out.lists, out.capacity);
     return out;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "host/gpu/kernel.h"
 #include "host/gpu/surface_flow.h"
 #include "host/stages/prefix_sum.h"
@@ -12,6 +14,9 @@ namespace kilolux {
 class BinTriangles {
  public:
     BinTriangles(const Gpu& gpu, const Tuning& tuning);
+
+    /// The next enqueue() leaves tiles empty where `closed`, [tiles], is 1; empty: none.
+    void close_tiles(std::span<const std::uint8_t> closed);
 
     /// Enqueues only. `triangle_count`: of all instances, at least 1 with any.
     TriangleLists enqueue(const SurfaceBuffers& scene, uint triangle_count, const View& view,
@@ -30,6 +35,8 @@ class BinTriangles {
     cl::Program program_;
     Kernel bounds_, clear_, count_, offset_, fill_;
     GrowingArray<uint> columns_, rows_, cursors_;
+    GrowingArray<std::uint8_t> closed_;
+    uint some_closed_ = 0;
     CountedList lists_;
 };
 

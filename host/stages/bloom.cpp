@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "bloom";
+constexpr std::string_view kBloomStage = "bloom";
 // The coarsest level is at least half this high and wide [pixel], so that a blur stays local.
 constexpr uint kSmallestHalved = 16;
 // Share that each wider blur has in the next finer one: weights fall by 0.7 an octave, chosen for a
@@ -29,14 +29,14 @@ std::vector<uint4> pyramid(const View& view) {
 
 Bloom::Bloom(const Gpu& gpu)
     : gpu_(gpu),
-      program_(build_program(gpu, kStage)),
-      down_(gpu, program_, kStage, "bloom_down"),
-      up_(gpu, program_, kStage, "bloom_up") {}
+      program_(build_program(gpu, kBloomStage)),
+      down_(gpu, program_, kBloomStage, "bloom_down"),
+      up_(gpu, program_, kBloomStage, "bloom_up") {}
 
 Radiance Bloom::enqueue(const Radiance& radiance, float share, StageTimer& timer) {
     const std::vector<uint4> sizes = pyramid(radiance.view);
     if (share <= 0.0f || sizes.size() == 1) return radiance;
-    while (levels_.size() < sizes.size()) levels_.emplace_back(gpu_, kStage);
+    while (levels_.size() < sizes.size()) levels_.emplace_back(gpu_, kBloomStage);
     const auto work = [&](std::size_t i) {
         const auto lanes = static_cast<std::size_t>(gpu_.info.lane_width);
         return WorkSize{cl::NDRange(sizes[i].z / lanes, sizes[i].y, 3), cl::NullRange};

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "build_clusters";
+constexpr std::string_view kBuildClustersStage = "build_clusters";
 
 // Edge in pixels, a multiple of FINE_TILE, of about size / tiles.
 uint tile_edge(uint size, uint tiles) {
@@ -25,8 +25,8 @@ uint checked_cluster_count(const ClusterGrid& grid) {
     const uint most = std::max({grid.tiles_x, grid.tiles_y, grid.slices});
     if (most <= kMostTiles && count <= kMostClusters / grid.slices)
         return static_cast<uint>(count * grid.slices);
-    throw Error(std::string(kStage) + ": a grid of " + std::to_string(grid.tiles_x) + " x " +
-                std::to_string(grid.tiles_y) + " tiles and " + std::to_string(grid.slices) +
+    throw Error(std::string(kBuildClustersStage) + ": a grid of " + std::to_string(grid.tiles_x) +
+                " x " + std::to_string(grid.tiles_y) + " tiles and " + std::to_string(grid.slices) +
                 " slices; there can be " + std::to_string(kMostTiles) + " a side and " +
                 std::to_string(kMostClusters) + " clusters");
 }
@@ -54,10 +54,10 @@ ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint heigh
 }
 
 BuildClusters::BuildClusters(const Gpu& gpu)
-    : kernel_(gpu, build_program(gpu, kStage), kStage, "build_clusters"),
-      columns_(gpu, kStage),
-      rows_(gpu, kStage),
-      depths_(gpu, kStage) {}
+    : kernel_(gpu, build_program(gpu, kBuildClustersStage), kBuildClustersStage, "build_clusters"),
+      columns_(gpu, kBuildClustersStage),
+      rows_(gpu, kBuildClustersStage),
+      depths_(gpu, kBuildClustersStage) {}
 
 ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, StageTimer& timer) {
     const std::size_t slices = grid.slices;

@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "build_mips";
+constexpr std::string_view kBuildMipsStage = "build_mips";
 
 using CodeTable = std::array<std::uint16_t, 256>;
 
@@ -63,12 +63,12 @@ void place_mips(TextureRow& row, uint width, uint height, std::size_t first_texe
 BuildMips::BuildMips(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
-      program_(build_program(gpu, kStage)),
-      first_(gpu, program_, kStage, "mip_first"),
-      next_(gpu, program_, kStage, "mip_next"),
-      srgb_(gpu, kStage),
-      linear_(gpu, kStage),
-      image_(gpu, kStage) {
+      program_(build_program(gpu, kBuildMipsStage)),
+      first_(gpu, program_, kBuildMipsStage, "mip_first"),
+      next_(gpu, program_, kBuildMipsStage, "mip_next"),
+      srgb_(gpu, kBuildMipsStage),
+      linear_(gpu, kBuildMipsStage),
+      image_(gpu, kBuildMipsStage) {
     upload<std::uint16_t>(gpu_, srgb_.reserve(256), srgb_codes());
     upload<std::uint16_t>(gpu_, linear_.reserve(256), linear_codes());
 }

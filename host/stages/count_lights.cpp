@@ -4,16 +4,17 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "count_lights";
+constexpr std::string_view kCountLightsStage = "count_lights";
 
 }  // namespace
 
 CountLights::CountLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kStage, feature_options(features)), kStage, "count_lights"),
-      evaluated_(gpu, kStage),
-      covering_(gpu, kStage) {}
+      kernel_(gpu, build_program(gpu, kCountLightsStage, feature_options(features)),
+              kCountLightsStage, "count_lights"),
+      evaluated_(gpu, kCountLightsStage),
+      covering_(gpu, kCountLightsStage) {}
 
 LightCounts CountLights::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                                  const ClusterGrid& grid, const ActiveClusters& clusters,

@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "count_pairs";
+constexpr std::string_view kCountPairsStage = "count_pairs";
 // Work-items that sum clusters: enough to fill a GPU, few enough for one work-group to join.
 constexpr uint kShares = 1024;
 // Sums of 32 bytes in local memory; divides kShares.
@@ -18,11 +18,11 @@ constexpr std::size_t kSumsOfShare = 4;  // a ulong4
 CountPairs::CountPairs(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       group_(std::min(tuning.light_group, kLargestGroup)),
-      program_(build_program(gpu, kStage, BuildOptions().define("GROUP", group_))),
-      sum_shares_(gpu, program_, kStage, "count_pairs_sum_shares"),
-      gather_(gpu, program_, kStage, "count_pairs"),
-      shares_(gpu, kStage),
-      counts_(gpu, kStage) {
+      program_(build_program(gpu, kCountPairsStage, BuildOptions().define("GROUP", group_))),
+      sum_shares_(gpu, program_, kCountPairsStage, "count_pairs_sum_shares"),
+      gather_(gpu, program_, kCountPairsStage, "count_pairs"),
+      shares_(gpu, kCountPairsStage),
+      counts_(gpu, kCountPairsStage) {
     shares_.reserve(kShares * kSumsOfShare);
     counts_.reserve(1);
 }

@@ -4,16 +4,17 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "count_seen";
+constexpr std::string_view kCountSeenStage = "count_seen";
 
 }  // namespace
 
 CountSeen::CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kStage, feature_options(features)), kStage, "count_seen"),
-      facing_(gpu, kStage),
-      seen_(gpu, kStage) {}
+      kernel_(gpu, build_program(gpu, kCountSeenStage, feature_options(features)), kCountSeenStage,
+              "count_seen"),
+      facing_(gpu, kCountSeenStage),
+      seen_(gpu, kCountSeenStage) {}
 
 SeenCounts CountSeen::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                               const ClusterGrid& grid, const ActiveClusters& clusters,

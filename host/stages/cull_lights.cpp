@@ -6,12 +6,12 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "cull_lights";
+constexpr std::string_view kCullLightsStage = "cull_lights";
 constexpr std::string_view kBruteForce = "cull_lights_brute_force";
 // Room to begin with: enough for most scenes' first frame.
-constexpr std::size_t kFirstEntries = std::size_t{1} << 20;
+constexpr std::size_t kFirstCoarseEntries = std::size_t{1} << 20;
 
-BuildOptions options_of(const KernelFeatures& features) {
+BuildOptions cull_options(const KernelFeatures& features) {
     return BuildOptions()
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
         .define("LIGHT_INDEX", light_index_type(features));
@@ -22,14 +22,14 @@ BuildOptions options_of(const KernelFeatures& features) {
 CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       tuning_(tuning),
-      program_(build_program(gpu, kStage, options_of(features))),
-      count_(gpu, program_, kStage, "cull_lights_count"),
-      offset_(gpu, program_, kStage, "cull_lights_offset"),
-      fill_(gpu, program_, kStage, "cull_lights_fill"),
+      program_(build_program(gpu, kCullLightsStage, cull_options(features))),
+      count_(gpu, program_, kCullLightsStage, "cull_lights_count"),
+      offset_(gpu, program_, kCullLightsStage, "cull_lights_offset"),
+      fill_(gpu, program_, kCullLightsStage, "cull_lights_fill"),
       brute_force_(gpu, program_, kBruteForce, "cull_lights_brute_force"),
-      cursors_(gpu, kStage),
-      lists_(gpu, tuning, kStage, light_index_bytes(features)) {
-    lists_.reserve(kFirstEntries);
+      cursors_(gpu, kCullLightsStage),
+      lists_(gpu, tuning, kCullLightsStage, light_index_bytes(features)) {
+    lists_.reserve(kFirstCoarseEntries);
 }
 
 // Of kernels/cull_lights.cl: as many vectors of lanes as hold a chunk's clusters.

@@ -7,7 +7,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "decode_gbuffer";
+constexpr std::string_view kDecodeGbufferStage = "decode_gbuffer";
 
 }  // namespace
 
@@ -15,9 +15,10 @@ DecodeGBuffer::DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelF
     : gpu_(gpu),
       tuning_(tuning),
       plane_count_(features.specular ? SURFACE_PLANES_WITH_SPECULAR : SURFACE_PLANES),
-      kernel_(gpu, build_program(gpu, kStage, feature_options(features)), kStage, "decode_gbuffer"),
-      srgb_(gpu, kStage),
-      planes_(gpu, kStage) {
+      kernel_(gpu, build_program(gpu, kDecodeGbufferStage, feature_options(features)),
+              kDecodeGbufferStage, "decode_gbuffer"),
+      srgb_(gpu, kDecodeGbufferStage),
+      planes_(gpu, kDecodeGbufferStage) {
     const auto table = srgb_to_linear_table();
     upload<float>(gpu_, srgb_.reserve(table.size()), table);
 }

@@ -8,7 +8,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "fill_background";
+constexpr std::string_view kFillBackgroundStage = "fill_background";
 
 // Appends the level of half the size: means of 2x2 texels.
 uint4 halve(std::vector<float>& texels, const uint4& from) {
@@ -34,8 +34,9 @@ uint4 halve(std::vector<float>& texels, const uint4& from) {
 FillBackground::FillBackground(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kStage), kStage, "fill_background"),
-      texels_(gpu, kStage) {}
+      kernel_(gpu, build_program(gpu, kFillBackgroundStage), kFillBackgroundStage,
+              "fill_background"),
+      texels_(gpu, kFillBackgroundStage) {}
 
 void FillBackground::set_image(std::span<const float> rgb, uint width, uint height) {
     std::vector<float> texels(rgb.begin(), rgb.end());

@@ -4,7 +4,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "move_lights";
+constexpr std::string_view kMoveLightsStage = "move_lights";
 
 }  // namespace
 
@@ -14,10 +14,17 @@ PointPair point_pair(double x, double y, double z) {
     return {{high(x), high(y), high(z), 0.0f}, {low(x), low(y), low(z), 0.0f}};
 }
 
+WorldLight world_light(const PointPair& position, const Light& light) {
+    WorldLight out{light, position.low};
+    const float range = light.position_range.w;
+    out.light.position_range = {position.high.x, position.high.y, position.high.z, range};
+    return out;
+}
+
 MoveLights::MoveLights(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kStage), kStage, "move_lights"),
+      kernel_(gpu, build_program(gpu, kMoveLightsStage), kMoveLightsStage, "move_lights"),
       staging_(gpu),
       world_(gpu, "lights"),
       lights_(gpu, "lights") {}

@@ -16,6 +16,9 @@ struct PointPair {
 };
 PointPair point_pair(double x, double y, double z);
 
+/// A row for MoveLights::stage(): `light` at a point of the world [m].
+WorldLight world_light(const PointPair& position, const Light& light);
+
 /// Lights of the world, kept on the device -> camera-relative lights.
 class MoveLights {
  public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
@@ -17,14 +19,18 @@ class PrepareLights {
                            StageTimer& timer);
 
  private:
+    ProfileInput aim_profiles(const LightInput& input, const View& view, StageTimer& timer);
+
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;
     Kernel prepare_, prepare_directional_;
+    std::optional<Kernel> aim_profiles_;  // made for the first lights that have some
     GrowingArray<ShadeLight> lights_;
     GrowingArray<float4> bounds_;
     GrowingArray<LightExtent> extents_;
     GrowingArray<DirectionalLight> directional_;
+    GrowingArray<AimedProfile> profiles_;
 };
 
 }  // namespace kilolux

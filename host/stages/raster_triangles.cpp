@@ -4,7 +4,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "raster_triangles";
+constexpr std::string_view kRasterTrianglesStage = "raster_triangles";
 
 // NVIDIA's compiler takes so many registers for setting up that few work-groups fit into a unit,
 // which then waits for memory: half of the time on an H200.
@@ -28,8 +28,8 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures fea
 RasterTriangles::RasterTriangles(const Gpu& gpu, const Tuning& tuning,
                                  const SurfaceFeatures& features)
     : tuning_(tuning),
-      kernel_(gpu, program_of(gpu, tuning, features), kStage, "raster_triangles"),
-      ids_(gpu, kStage) {}
+      kernel_(gpu, program_of(gpu, tuning, features), kRasterTrianglesStage, "raster_triangles"),
+      ids_(gpu, kRasterTrianglesStage) {}
 
 DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                                            const View& view, StageTimer& timer) {

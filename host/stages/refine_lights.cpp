@@ -4,7 +4,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "refine_lights";
+constexpr std::string_view kRefineLightsStage = "refine_lights";
 constexpr std::size_t kFirstEntries = std::size_t{1} << 20;
 
 BuildOptions options_of(const Tuning& tuning, const KernelFeatures& features) {
@@ -18,10 +18,10 @@ BuildOptions options_of(const Tuning& tuning, const KernelFeatures& features) {
 
 RefineLights::RefineLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),
-      program_(build_program(gpu, kStage, options_of(tuning, features))),
-      reserve_(gpu, program_, kStage, "refine_lights_reserve"),
-      refine_(gpu, program_, kStage, "refine_lights"),
-      lists_(gpu, tuning, kStage, light_index_bytes(features)) {
+      program_(build_program(gpu, kRefineLightsStage, options_of(tuning, features))),
+      reserve_(gpu, program_, kRefineLightsStage, "refine_lights_reserve"),
+      refine_(gpu, program_, kRefineLightsStage, "refine_lights"),
+      lists_(gpu, tuning, kRefineLightsStage, light_index_bytes(features)) {
     lists_.reserve(kFirstEntries);
 }
 

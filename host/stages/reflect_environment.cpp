@@ -7,7 +7,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "reflect_environment";
+constexpr std::string_view kReflectEnvironmentStage = "reflect_environment";
 
 // Blinn and Phong's lobe is reflected as the pbr one of its roughness.
 KernelFeatures reflecting(KernelFeatures features) {
@@ -21,12 +21,13 @@ ReflectEnvironment::ReflectEnvironment(const Gpu& gpu, const Tuning& tuning,
                                        const KernelFeatures& features)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kStage, feature_options(reflecting(features))), kStage,
-              "reflect_environment"),
-      srgb_(gpu, kStage),
-      texels_(gpu, kStage),
-      table_(gpu, kStage),
-      levels_(gpu, kStage) {
+      kernel_(gpu,
+              build_program(gpu, kReflectEnvironmentStage, feature_options(reflecting(features))),
+              kReflectEnvironmentStage, "reflect_environment"),
+      srgb_(gpu, kReflectEnvironmentStage),
+      texels_(gpu, kReflectEnvironmentStage),
+      table_(gpu, kReflectEnvironmentStage),
+      levels_(gpu, kReflectEnvironmentStage) {
     const auto table = srgb_to_linear_table();
     upload<float>(gpu_, srgb_.reserve(table.size()), table);
 }

@@ -7,14 +7,14 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "resolve_surfaces";
+constexpr std::string_view kResolveSurfacesStage = "resolve_surfaces";
 
 cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                        const SurfaceFeatures& surfaces) {
     BuildOptions options = feature_options(features);
     options.define("HAS_UNLIT_MATERIALS", features.unlit_materials);
     define_surfaces(options, surfaces, tuning);
-    return build_program(gpu, kStage, options);
+    return build_program(gpu, kResolveSurfacesStage, options);
 }
 
 }  // namespace
@@ -23,10 +23,11 @@ ResolveSurfaces::ResolveSurfaces(const Gpu& gpu, const Tuning& tuning,
                                  const KernelFeatures& features, const SurfaceFeatures& surfaces)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, program_of(gpu, tuning, features, surfaces), kStage, "resolve_surfaces"),
-      boundary_(gpu, kStage),
-      code_(gpu, kStage),
-      planes_(gpu, kStage) {
+      kernel_(gpu, program_of(gpu, tuning, features, surfaces), kResolveSurfacesStage,
+              "resolve_surfaces"),
+      boundary_(gpu, kResolveSurfacesStage),
+      code_(gpu, kResolveSurfacesStage),
+      planes_(gpu, kResolveSurfacesStage) {
     const SrgbBuckets buckets = srgb_buckets();
     upload<float>(gpu_, boundary_.reserve(buckets.boundary.size()), buckets.boundary);
     upload<uint>(gpu_, code_.reserve(buckets.code.size()), buckets.code);

@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "shade";
+constexpr std::string_view kShadeStage = "shade";
 constexpr std::string_view kDrawStage = "draw_shadows";
 
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
@@ -42,13 +42,13 @@ ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
     : gpu_(gpu),
       tuning_(usable(tuning, gpu.info)),
       features_(features),
-      srgb_(gpu, kStage),
-      radiance_(gpu, kStage),
-      stored_(gpu, kStage) {
+      srgb_(gpu, kShadeStage),
+      radiance_(gpu, kShadeStage),
+      stored_(gpu, kShadeStage) {
     const auto table = srgb_to_linear_table();
     upload<float>(gpu_, srgb_.reserve(table.size()), table);
     if (features.half_light_colors) {
-        store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), kStage,
+        store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), kShadeStage,
                               "store_lights");
     }
 }
@@ -71,9 +71,10 @@ WorkSize ShadingResources::work_size(const View& view) const {
 }
 
 cl::Buffer ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {
-    if (!store_lights_ || lights.count == 0) return lights.lights;
-    const DeviceArray<float4> stored = stored_.reserve(lights.count * stored_light_rows(features_));
-    store_lights_->enqueue({cl::NDRange(lights.count), cl::NullRange}, timer, lights.lights,
+    if (!store_lights_ || lights.rows() == 0) return lights.lights;
+    const DeviceArray<float4> stored =
+        stored_.reserve(lights.rows() * stored_light_rows(features_));
+    store_lights_->enqueue({cl::NDRange(lights.rows()), cl::NullRange}, timer, lights.lights,
                            stored);
     return stored;
 }
@@ -96,22 +97,23 @@ void DrawShadows::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
     clear_.enqueue(items(kClearItems, 1), timer, words.offsets, clusters.tile_count, words.words);
     draw_.enqueue(resources_.work_size(gbuffer.view), timer, gbuffer.bytes, gbuffer.layout,
                   gbuffer.view, resources_.srgb(), samples.whole, lights.directional,
-                  lights.directional_count, resources_.stored_lights(lights, timer), grid,
-                  clusters.offsets, clusters.clusters, clusters.capacity, clusters.order,
-                  lists.lists, words.offsets, samples.rays, samples.seed, words.words);
+                  lights.directional_count, resources_.stored_lights(lights, timer),
+                  lights.profiles.lights, lights.profiles.tables, grid, clusters.offsets,
+                  clusters.clusters, clusters.capacity, clusters.order, lists.lists, words.offsets,
+                  samples.rays, samples.seed, words.words);
 }
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : resources_(gpu, tuning, features),
       kernel_(gpu,
-              build_program(gpu, kStage,
+              build_program(gpu, kShadeStage,
                             resources_.options()
                                 .define("SHADOWS", features.shadows ? kShadowBits : 0)
                                 .define("SAMPLED_SHADOWS", features.sampled_shadows)),
-              kStage, "shade"),
+              kShadeStage, "shade"),
       has_shadows_(features.shadows),
       samples_shadows_(features.sampled_shadows),
-      variance_(gpu, kStage) {}
+      variance_(gpu, kShadeStage) {}
 
 Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
                         const ClusterGrid& grid, const ActiveClusters& clusters,
@@ -122,9 +124,9 @@ Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
     const auto enqueue = [&](const auto&... rest) {
         kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
                         resources_.srgb(), lights.directional, lights.directional_count,
-                        resources_.stored_lights(lights, timer), grid, clusters.offsets,
-                        clusters.clusters, clusters.capacity, clusters.order, lists.lists, ambient_,
-                        rest...);
+                        resources_.stored_lights(lights, timer), lights.profiles.lights,
+                        lights.profiles.tables, grid, clusters.offsets, clusters.clusters,
+                        clusters.capacity, clusters.order, lists.lists, ambient_, rest...);
     };
     if (samples_shadows_) {
         enqueue(shadows.offsets, shadows.words, samples.whole, samples.rays, samples.seed,
@@ -142,10 +144,10 @@ ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& f
     : resources_(gpu, tuning, features),
       kernel_(gpu,
               build_program(gpu, "shade_all", all_options(resources_, features, surfaces, tuning)),
-              kStage, "shade_all"),
+              kShadeStage, "shade_all"),
       has_shadows_(features.shadows),
       samples_shadows_(features.sampled_shadows),
-      variance_(gpu, kStage) {}
+      variance_(gpu, kShadeStage) {}
 
 Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
                            const ShadowInput& shadows, const ShadowSamples& samples) {
@@ -154,7 +156,8 @@ Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
     const auto enqueue = [&](const auto&... rest) {
         kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
                         resources_.srgb(), lights.directional, lights.directional_count,
-                        resources_.stored_lights(lights, timer), lights.count, ambient_, rest...);
+                        resources_.stored_lights(lights, timer), lights.profiles.lights,
+                        lights.profiles.tables, lights.count, ambient_, rest...);
     };
     const ShadowCasters& c = shadows.casters;
     if (samples_shadows_) {

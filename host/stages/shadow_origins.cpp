@@ -4,7 +4,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "shadow_origins";
+constexpr std::string_view kShadowOriginsStage = "shadow_origins";
 constexpr std::size_t kPlanes = 4;
 
 }  // namespace
@@ -12,8 +12,9 @@ constexpr std::size_t kPlanes = 4;
 ShadowOrigins::ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kStage, feature_options(features)), kStage, "shadow_origins"),
-      origins_(gpu, kStage) {}
+      kernel_(gpu, build_program(gpu, kShadowOriginsStage, feature_options(features)),
+              kShadowOriginsStage, "shadow_origins"),
+      origins_(gpu, kShadowOriginsStage) {}
 
 DeviceArray<float> ShadowOrigins::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                                           const GBuffer& gbuffer, const ShadowCasters& casters,

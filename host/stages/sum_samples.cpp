@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "sum_samples";
+constexpr std::string_view kSumSamplesStage = "sum_samples";
 
 // Floats of a picture: three planes of whole vectors of lanes.
 uint size_of(const View& view) { return 3 * view.stride * view.height; }
@@ -16,11 +16,11 @@ uint size_of(const View& view) { return 3 * view.stride * view.height; }
 SumSamples::SumSamples(const Gpu& gpu, const Tuning& tuning)
     : lanes_(static_cast<uint>(gpu.info.lane_width)),
       group_(tuning.light_group),
-      program_(build_program(gpu, kStage)),
-      add_(gpu, program_, kStage, "sum_samples_add"),
-      mean_kernel_(gpu, program_, kStage, "sum_samples_mean"),
-      sums_(gpu, kStage),
-      mean_(gpu, kStage) {}
+      program_(build_program(gpu, kSumSamplesStage)),
+      add_(gpu, program_, kSumSamplesStage, "sum_samples_add"),
+      mean_kernel_(gpu, program_, kSumSamplesStage, "sum_samples_mean"),
+      sums_(gpu, kSumSamplesStage),
+      mean_(gpu, kSumSamplesStage) {}
 
 WorkSize SumSamples::work_size() const { return items(size_of(view_) / lanes_, group_); }
 

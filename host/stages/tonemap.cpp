@@ -8,18 +8,19 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kStage = "tonemap";
+constexpr std::string_view kTonemapStage = "tonemap";
 
 }  // namespace
 
 Tonemap::Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve)
     : gpu_(gpu),
       tuning_(tuning),
-      kernel_(gpu, build_program(gpu, kStage, BuildOptions().define("TONE_CURVE", tone_curve)),
-              kStage, "tonemap"),
-      boundary_(gpu, kStage),
-      code_(gpu, kStage),
-      display_(gpu, kStage) {
+      kernel_(gpu,
+              build_program(gpu, kTonemapStage, BuildOptions().define("TONE_CURVE", tone_curve)),
+              kTonemapStage, "tonemap"),
+      boundary_(gpu, kTonemapStage),
+      code_(gpu, kTonemapStage),
+      display_(gpu, kTonemapStage) {
     const SrgbBuckets buckets = srgb_buckets();
     upload<float>(gpu_, boundary_.reserve(buckets.boundary.size()), buckets.boundary);
     upload<uint>(gpu_, code_.reserve(buckets.code.size()), buckets.code);

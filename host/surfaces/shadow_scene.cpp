@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kOwner = "shadows";
+constexpr std::string_view kShadowOwner = "shadows";
 
 bool casts(const Scene& scene, const Mesh& mesh) {
     return material_of(scene, mesh).alpha_mode != AlphaMode::blend;
@@ -132,9 +132,9 @@ ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene, bool masks)
     : gpu_(gpu),
       scene_(scene),
       masks_(masks),
-      nodes_(gpu, kOwner),
-      triangles_(gpu, kOwner),
-      masked_(gpu, kOwner) {
+      nodes_(gpu, kShadowOwner),
+      triangles_(gpu, kShadowOwner),
+      masked_(gpu, kShadowOwner) {
     build();
 }
 

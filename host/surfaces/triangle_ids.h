@@ -19,20 +19,25 @@ class TriangleIds {
     TriangleIds(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                 const SurfaceFeatures& features);
 
-    /// What the camera sees, sorted front to back and numbered.
-    std::vector<Draw> visible(const Camera& camera, int width, int height) const;
+    /// What the camera sees, sorted front to back and numbered. `open`: see DrawList.
+    std::vector<Draw> visible(const Camera& camera, int width, int height,
+                              const OpenTiles* open = nullptr) const;
 
-    /// ids[view.height][view.stride], as ResolveSurfaces reads them. `scene`: of `draws`. Waits for
-    /// the number of pairs of triangle and tile; valid until the next call.
+    /// ids[view.height][view.stride], as ResolveSurfaces reads them. `scene`: of `draws`. Outside
+    /// the tiles of `open` pixels may lack surfaces. Waits for the number of pairs of triangle and
+    /// tile; valid until the next call.
     DeviceArray<uint> enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
-                              const View& view, StageTimer& timer);
+                              const View& view, StageTimer& timer, const OpenTiles* open = nullptr);
 
     /// Of the last enqueue(): triangles, and pairs of triangle and tile.
     std::uint64_t triangles() const { return triangles_; }
     std::uint64_t pairs() const { return pairs_; }
 
  private:
+    std::vector<std::uint8_t> closed_tiles(const View& view, const OpenTiles* open) const;
+
     const Scene& scene_;
+    Tuning tuning_;
     DrawList draw_list_;
     BinTriangles bin_;
     RasterTriangles raster_;

@@ -10,6 +10,16 @@
 // Triangles that wait for their test: whole vectors, and room for a node's children.
 #define SHADOW_BATCH 64
 
+// Whether walks count what they do, in ShadowPoints: for measurements.
+#ifndef COUNT_SHADOWS
+#define COUNT_SHADOWS 0
+#endif
+#if COUNT_SHADOWS
+#define ADD_COUNT(points, name, number) (points)->counts.name += (ulong)(number)
+#else
+#define ADD_COUNT(points, name, number)
+#endif
+
 // What casts shadows.
 typedef struct ShadowScene {
     global const ShadowNode* nodes;  // 0: the root
@@ -27,7 +37,18 @@ typedef struct ShadowPoints {
     float lit[SHADOW_POINTS];        // masks in the bits of floats
     uchar rows[SHADOW_POINTS / VW];  // those with lit points
     uint row_count;
+#if COUNT_SHADOWS
+    ShadowCounts counts;
+#endif
 } ShadowPoints;
+
+static inline void reset_counts(ShadowPoints* points) {
+#if COUNT_SHADOWS
+    points->counts = (ShadowCounts){0, 0, 0, 0, 0, 0, 0, 0};
+#endif
+}
+
+static inline uint lane_count(MASK mask) { return popcount(lane_ballot(mask)); }
 
 static inline void load_origins(ShadowPoints* to, uint row, global const float* origins, uint plane,
                                 Pixels pixels) {
@@ -93,8 +114,8 @@ static inline FV3 load_points(const ShadowPoints* points, uint row) {
 static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 
 // The forms of VW triangles: g.x, g.y, g.z, c of the three edges and of the plane, each in all
-// lanes; and the edges' units.
-#define FORM_ROWS 19
+// lanes; the edges' units; and the boxes' middles and half edges.
+#define FORM_ROWS 25
 typedef struct FormRows {
     float of[FORM_ROWS][VW];
 } FormRows;
@@ -112,6 +133,18 @@ static inline void store_forms(const ShadowTriangles* t, FormRows* to) {
         lane_store(t->unit[i], to->of[16 + i]);
     }
     store_form(t->plane, to, 12);
+    lane_store(t->box.middle.x, to->of[19]);
+    lane_store(t->box.middle.y, to->of[20]);
+    lane_store(t->box.middle.z, to->of[21]);
+    lane_store(t->box.half_edge.x, to->of[22]);
+    lane_store(t->box.half_edge.y, to->of[23]);
+    lane_store(t->box.half_edge.z, to->of[24]);
+}
+
+// Three rows of triangle `lane`.
+static inline FV3 row3_of(const FormRows* forms, uint row, uint lane) {
+    return fv3(fv(forms->of[row][lane]), fv(forms->of[row + 1][lane]),
+               fv(forms->of[row + 2][lane]));
 }
 
 // A form of triangle `lane` at points.
@@ -129,18 +162,21 @@ typedef struct FoundTriangles {
 } FoundTriangles;
 
 // Of a row's points, `lit` is left where none of the triangles stands between them and the light.
-static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, FV3 edge_point,
-                              FV3 point, MASK lit) {
+static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, ShadowLight light,
+                              FV3 edge_point, FV3 point, MASK lit) {
     for (uint bits = found->wanted; bits != 0u; bits &= bits - 1u) {
         uint lane = lowest_bit(bits);
         FV u0 = form_at(&found->forms, 0, lane, edge_point);
         FV u1 = form_at(&found->forms, 4, lane, edge_point);
         FV u2 = form_at(&found->forms, 8, lane, edge_point);
         FV behind = form_at(&found->forms, 12, lane, point);
-        MASK shaded = lane_mask(min(min(u0, u1), min(u2, behind)) >= fv(-1.0f));
+        MASK shaded = lane_mask(min(min(u0, u1), min(u2, behind)) >= fv(-1.0f)) & lit;
+        if (!lane_any(shaded)) continue;
+        LaneBoxes box = {row3_of(&found->forms, 19, lane), row3_of(&found->forms, 22, lane)};
+        shaded &= passes_box(light, point, box);
 #if HAS_MASKED_CASTERS
         uint child = found->children[lane];
-        if ((child & SHADOW_MASKED) != 0u && lane_any(shaded & lit)) {
+        if ((child & SHADOW_MASKED) != 0u) {
             shaded &=
                 is_opaque_at(scene.masked, child & SHADOW_NUMBER, u0 * found->forms.of[16][lane],
                              u1 * found->forms.of[17][lane], u2 * found->forms.of[18][lane]);
@@ -151,14 +187,15 @@ static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, FV
     return lit;
 }
 
-static inline void shade_rows(ShadowPoints* points, const FoundTriangles* found,
-                              ShadowScene scene) {
+static inline void shade_rows(ShadowPoints* points, const FoundTriangles* found, ShadowScene scene,
+                              ShadowLight light) {
     uint count = 0;
     for (uint i = 0; i < points->row_count; ++i) {
         uint row = points->rows[i];
         MASK lit = lit_of(points, row);
-        lit =
-            lit_by_row(found, scene, load_edge_points(points, row), load_points(points, row), lit);
+        ADD_COUNT(points, points, popcount(found->wanted) * lane_count(lit));
+        lit = lit_by_row(found, scene, light, load_edge_points(points, row),
+                         load_points(points, row), lit);
         lane_store(KX_CONCAT(as_, FV)(lit), points->lit + row * VW);
         points->rows[count] = (uchar)row;
         count += lane_any(lit) ? 1u : 0u;
@@ -201,6 +238,7 @@ static inline void load_casters(ShadowScene scene, const uint* children, FV3* v)
 // Tests the triangles that the walk found. `found` has room for whole vectors.
 static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint* found,
                                uint count, ShadowPoints* points) {
+    ADD_COUNT(points, triangles, count);
     for (uint i = count; i < (count + VW - 1) / VW * VW; ++i) found[i] = found[count - 1];
     for (uint first = 0; first < count; first += VW) {
         FV3 v[3];
@@ -213,7 +251,7 @@ static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft
         triangles.wanted = lane_ballot(may);
         triangles.children = found + first;
         store_forms(&t, &triangles.forms);
-        shade_rows(points, &triangles, scene);
+        shade_rows(points, &triangles, scene, light);
     }
 }
 
@@ -224,10 +262,28 @@ static inline void prefetch_node(global const ShadowNode* node) {
     }
 }
 
+// Counts rays of the walks since `before`, and those of them that are left lit.
+static inline void count_rays(ShadowPoints* points, ulong tests_before, uint rays, uint seen) {
+#if COUNT_SHADOWS
+    points->counts.rays += rays;
+    points->counts.seen += seen;
+    if (points->counts.points != tests_before) points->counts.met_rays += rays;
+#endif
+}
+
+static inline ulong counted_tests(const ShadowPoints* points) {
+#if COUNT_SHADOWS
+    return points->counts.points;
+#else
+    return 0;
+#endif
+}
+
 // Puts out the points' lit flags where something stands between them and the light, of the rows
 // first .. end - 1, which face_light() began. low, high: box of the lit points.
 static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 low, float3 high,
                                    uint first, uint end, ShadowPoints* points) {
+    ADD_COUNT(points, shafts, 1);
     Shaft shaft = make_shaft(light, low, high);
     uint stack[SHADOW_STACK];
     uint found[SHADOW_BATCH + SHADOW_WIDTH];
@@ -237,6 +293,7 @@ static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 
     find_lit_rows(points, first, end);
     while (top > 0u && points->row_count > 0u) {
         global const ShadowNode* node = scene.nodes + stack[--top];
+        ADD_COUNT(points, nodes, 1);
         for (uint child = 0; child < SHADOW_WIDTH; child += VW) {
             uint bits = lane_ballot(meets_children(shaft, node, child));
             for (; bits != 0u; bits &= bits - 1u) {

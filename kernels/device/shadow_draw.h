@@ -4,25 +4,21 @@
 // Let f be what a light adds to a pixel if it is seen, U the pixel's radiance if all are. A light
 // is drawn with probability q = min(1, n |f| / |U|), |.| the luminance, so that n rays are drawn at
 // most on average. A drawn light that is hidden takes f / q away from U. That is unbiased for any
-// q, and exactly U where nothing is hidden; its variance is the sum of f^2 (1 - q) / q over hidden
-// lights, of which the drawn ones give an unbiased estimate, f^2 (1 - q) / q^2 each. One random
-// number serves a light in a fine tile, so that its pixels draw the same lights and one walk casts
-// their rays: errors of neighbours go together, each pixel's mean is right all the same.
+// q, and exactly U where nothing is hidden; where all lights are drawn it is the exact value within
+// 2^-20 of U. Its variance is the sum of f^2 (1 - q) / q over hidden lights, of which the drawn
+// ones give an unbiased estimate, f^2 (1 - q) / q^2 each. One random number serves a light in a
+// fine tile, so that its pixels draw the same lights and one walk casts their rays: errors of
+// neighbours go together, each pixel's mean is right all the same.
 #ifndef KILOLUX_DEVICE_SHADOW_DRAW_H
 #define KILOLUX_DEVICE_SHADOW_DRAW_H
 #include "kernels/device/gbuffer.h"
+#include "kernels/device/luminance.h"
 #include "kernels/device/radiance.h"
 #include "kernels/shared/evaluate.h"
+#include "kernels/shared/hash.h"
 
 // Number of a directional light among all that are drawn.
 #define DRAWN_DIRECTIONAL 0x80000000u
-
-// A hash of 32 bits (Wellons, "hash-prospector", lowbias32).
-static inline uint hash_of(uint x) {
-    x = (x ^ x >> 16) * 0x7feb352du;
-    x = (x ^ x >> 15) * 0x846ca68bu;
-    return x ^ x >> 16;
-}
 
 // What a work-item's pixels draw by.
 typedef struct ShadowDraw {
@@ -31,10 +27,6 @@ typedef struct ShadowDraw {
     float rays;       // n
     uint tile;        // a hash of the fine tile of the picture, and the seed
 } ShadowDraw;
-
-static inline FV luminance(FV3 c) {
-    return fma(c.z, fv(0.0722f), fma(c.y, fv(0.7152f), c.x * 0.2126f));
-}
 
 // Of the pixels of the work-item at (x, y) of the planes. `radiance`: if all lights are seen.
 static inline ShadowDraw make_draw(Surface s, global const float* radiance, View view,
@@ -61,18 +53,24 @@ static inline FV draw_probability(ShadowDraw draw, FV light) {
 // The lanes whose probability, of a light that alone is `alone`, is above the light's random number
 // in the tile, which is in [0, 1).
 static inline MASK draws_light(ShadowDraw draw, FV alone, uint light) {
-    float random = (float)(hash_of(light ^ draw.tile) >> 8) * (1.0f / 16777216.0f);
+    float random = random_of(hash_of(light ^ draw.tile));
     return lane_mask(max(draw.whole, fv(1e-30f)) * random < alone * draw.rays);
 }
 
-// `sum` with a light of which `one` is the sum alone, where a hidden light was drawn.
-static inline LightSum add_hidden(LightSum sum, LightSum one, FV probability) {
-    FV weight = fv(1.0f) - fv(1.0f) / probability;
+// What the estimate takes away: `sum` with a light of which `one` is the sum alone, where it was
+// drawn and is hidden.
+static inline LightSum add_hidden(LightSum sum, LightSum one, FV probability, MASK hidden) {
+    FV weight = lane_select(hidden, fv(1.0f) / probability, fv(0.0f));
     sum.diffuse = add3(sum.diffuse, scale3(one.diffuse, weight));
 #if SHADING != SHADING_LAMBERT
     sum.specular = add3(sum.specular, scale3(one.specular, weight));
 #endif
     return sum;
+}
+
+// The estimate: the radiance if all lights are seen without that of the sum `hidden`.
+static inline FV3 without_hidden(ShadowDraw draw, FV3 whole, LightSum hidden) {
+    return sub3(whole, finish_shading(draw.surface, hidden, 0.0f));
 }
 
 // What a hidden light that was drawn adds to the estimate of the variance of the luminance.

@@ -17,12 +17,16 @@ typedef struct ShadowRays {
 static inline MASK sees(ShadowRays rays, ShadowLight light) {
     MASK lit = face_light(rays.points, 0u, light, rays.drawn);
     if (!lane_any(lit)) return lit;
+    ulong tests_before = counted_tests(rays.points);
+    uint count = lane_count(lit);
     LaneBox box = {splat3((float3)(SHADOW_NOWHERE)), splat3((float3)(-SHADOW_NOWHERE))};
     box = grown_box(box, lit, load_points(rays.points, 0u));
     float3 low = (float3)(lane_min(box.low.x), lane_min(box.low.y), lane_min(box.low.z));
     float3 high = (float3)(lane_max(box.high.x), lane_max(box.high.y), lane_max(box.high.z));
     cast_shadows_of(rays.scene, light, low, high, 0u, 1u, rays.points);
-    return lit_of(rays.points, 0u);
+    lit = lit_of(rays.points, 0u);
+    count_rays(rays.points, tests_before, count, lane_count(lit));
+    return lit;
 }
 
 static inline MASK sees_point_light(ShadowRays rays, uint light) {

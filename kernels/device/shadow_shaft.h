@@ -34,7 +34,7 @@ static inline Shaft make_shaft(ShadowLight light, float3 low, float3 high) {
     out.points_high = high;
     float size = fmax(largest3(low), largest3(high));
     if (light.is_direction) {
-        float pad = size * SHADOW_PAD;
+        float pad = fmax(size, 0.5f * light.reach) * (2.0f * SHADOW_PAD);
         out.at_low = low - pad;
         out.at_high = high + pad;
         out.low = not_zero(light.at - SHADOW_PAD);

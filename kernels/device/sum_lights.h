@@ -56,6 +56,9 @@ typedef struct LightSet {
     ShadowDraw draw;
     FV* variance;  // of the luminance, its estimate
 #endif
+#if HAS_LIGHT_PROFILES
+    LightProfiles profiles;
+#endif
 } LightSet;
 
 #if SHADOWS
@@ -83,46 +86,47 @@ static inline MASK sees_directional(LightSet set, uint i) {
 }
 
 #if SAMPLED_SHADOWS
-// The lanes that draw the light and from which it is hidden; `one`: its sum alone.
-static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum one) {
 #if SHADOWS == SHADOWS_BITS
-    uint i = (light & DRAWN_DIRECTIONAL) != 0u ? entry : set.directional_count + entry;
-    return sees_light(set.shadows, i);  // the bits are those of hidden lights
+// The lanes that draw the light and from which it is hidden: the bits are theirs.
+static inline MASK hides_drawn(LightSet set, uint entry, uint light) {
+    return sees_light(set.shadows,
+                      (light & DRAWN_DIRECTIONAL) != 0u ? entry : set.directional_count + entry);
+}
 #else
+// The same; `one`: the light's sum alone.
+static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum one) {
     MASK drawn = set.shadows.drawn & draws_light(set.draw, light_alone(set.draw, one), light);
     if (!lane_any(drawn)) return drawn;
     set.shadows.drawn = drawn;
     MASK seen = (light & DRAWN_DIRECTIONAL) != 0u ? sees_directional(set, entry)
                                                   : sees_entry(set, entry, light);
     return drawn & ~seen;
-#endif
 }
+#endif
 
-// `lit`, which is `sum` with the light, but for the lanes that drew it and do not see it.
-static inline LightSum sampled_sum(LightSet set, uint entry, uint light, LightSum sum, LightSum one,
-                                   LightSum lit) {
-    MASK hidden = hides_drawn(set, entry, light, one);
-    if (!lane_any(hidden)) return lit;
+// `sum` of what the estimate takes away, with that of a light whose sum alone is `one`.
+static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, LightSum sum) {
     FV alone = light_alone(set.draw, one);
     FV q = draw_probability(set.draw, alone);
     *set.variance += lane_select(hidden, variance_of(alone, q), fv(0.0f));
-    return select_sum(hidden, add_hidden(sum, one, q), lit);
+    return add_hidden(sum, one, q, hidden);
 }
 
-// Adds a light whatever hides it, and takes away what is hidden of those that are drawn. WITH(sum):
-// `sum` with the light.
+// Adds what a light takes away from the radiance if all are seen. ONE: its sum alone, which bits
+// need only where one is set.
 #if SHADOWS == SHADOWS_BITS
-#define ADD_SAMPLED(set, entry, light, sum, WITH)                                           \
-    {                                                                                       \
-        LightSum with_light = WITH(sum);                                                    \
-        if (lane_any(hides_drawn(set, entry, light, sum))) {                                \
-            with_light = sampled_sum(set, entry, light, sum, WITH(zero_sum()), with_light); \
-        }                                                                                   \
-        (sum) = with_light;                                                                 \
+#define ADD_SAMPLED(set, entry, light, sum, ONE)                            \
+    {                                                                       \
+        MASK hidden = hides_drawn(set, entry, light);                       \
+        if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, (ONE), sum); \
     }
 #else
-#define ADD_SAMPLED(set, entry, light, sum, WITH) \
-    (sum) = sampled_sum(set, entry, light, sum, WITH(zero_sum()), WITH(sum));
+#define ADD_SAMPLED(set, entry, light, sum, ONE)                          \
+    {                                                                     \
+        LightSum one = (ONE);                                             \
+        MASK hidden = hides_drawn(set, entry, light, one);                \
+        if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, one, sum); \
+    }
 #endif
 #endif
 
@@ -172,11 +176,11 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
             uint light = set.staged_indices[i];
             sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
-#define WITH_STAGED(s) evaluate(s, p, set.staged[i])
-            ADD_SAMPLED(set, first + i, light, sum.block, WITH_STAGED)
+            ADD_SAMPLED(set, first + i, light, sum.block,
+                        evaluate(zero_sum(), p, set.staged[i] WITH_PROFILE(set.profiles, light)))
 #else
             ADD_SEEN(sum.block, sees_entry(set, first + i, light),
-                     evaluate(sum.block, p, set.staged[i]))
+                     evaluate(sum.block, p, set.staged[i] WITH_PROFILE(set.profiles, light)))
 #endif
         }
     }
@@ -186,11 +190,13 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
-#define WITH_LISTED(s) evaluate(s, p, LIGHT_AT(set.lights, light))
-        ADD_SAMPLED(set, i, light, sum.block, WITH_LISTED)
+        ADD_SAMPLED(
+            set, i, light, sum.block,
+            evaluate(zero_sum(), p, LIGHT_AT(set.lights, light) WITH_PROFILE(set.profiles, light)))
 #else
-        ADD_SEEN(sum.block, sees_entry(set, i, light),
-                 evaluate(sum.block, p, LIGHT_AT(set.lights, light)))
+        ADD_SEEN(
+            sum.block, sees_entry(set, i, light),
+            evaluate(sum.block, p, LIGHT_AT(set.lights, light) WITH_PROFILE(set.profiles, light)))
 #endif
     }
 #endif
@@ -203,8 +209,8 @@ static inline LightSum sum_directional(ShadingPoint p, LightSet set,
 #if HAS_DIRECTIONAL_LIGHTS
     for (uint i = 0; i < count; ++i) {
 #if SAMPLED_SHADOWS
-#define WITH_DIRECTIONAL(s) evaluate_directional(s, p, lights[i])
-        ADD_SAMPLED(set, i, DRAWN_DIRECTIONAL + i, sum, WITH_DIRECTIONAL)
+        ADD_SAMPLED(set, i, DRAWN_DIRECTIONAL + i, sum,
+                    evaluate_directional(zero_sum(), p, lights[i]))
 #else
         ADD_SEEN(sum, sees_directional(set, i), evaluate_directional(sum, p, lights[i]))
 #endif

@@ -8,7 +8,11 @@
 //   (KHR_lights_punctual, "Range Property")
 //
 // The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
-// Switches: those of surface.h, FAST_RSQRT and NATIVE_MATH of types.h, EARLY_OUT.
+// Switches: those of surface.h, FAST_RSQRT and NATIVE_MATH of types.h, EARLY_OUT,
+// and DRAWN_RANGES, defined where lights may have drawn ranges (light_transform.h): pi times the
+// radiance that such a light causes on a white surface at the least of them; HAS_LIGHT_PROFILES,
+// where lights may have photometric webs: then evaluate() takes them and the light's index, which
+// WITH_PROFILE adds to its arguments.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
@@ -17,10 +21,22 @@
 #include "kernels/shared/surface.h"
 #include "kernels/shared/types.h"
 
+#ifndef HAS_LIGHT_PROFILES
+#define HAS_LIGHT_PROFILES 0
+#endif
+#if HAS_LIGHT_PROFILES
+#include "kernels/shared/light_profile.h"
+#define WITH_PROFILE(profiles, index) , profiles, index
+#define PROFILE_PARAMETERS , LightProfiles profiles, uint index
+#else
+#define WITH_PROFILE(profiles, index)
+#define PROFILE_PARAMETERS
+#endif
+
 // Leave a light whose window is 0 in all lanes before its costly part: pays for all but lambert,
-// where the branch costs more than it saves.
+// where the branch costs more than it saves, unless lights have profiles.
 #ifndef EARLY_OUT
-#define EARLY_OUT (SHADING != SHADING_LAMBERT)
+#define EARLY_OUT (SHADING != SHADING_LAMBERT || HAS_LIGHT_PROFILES)
 #endif
 
 #define INV_PI 0.318309886f
@@ -96,16 +112,37 @@ SHARED_FN FV cone_of(FV3 v, FV inv_distance, ShadeLight light) {
     return cone * cone;
 }
 
+#ifdef DRAWN_RANGES
+// One over the probability that a light's drawn range covers a distance.
+SHARED_FN FV drawn_weight(ShadeLight light, FV d2) {
+    float4 color = light.color_scale;
+    return max(d2 * fv(DRAWN_RANGES / max(max(color.x, color.y), color.z)), fv(1.0f));
+}
+#endif
+
+// What the falloff takes of a light's inverse square.
+SHARED_FN FV window_of(ShadeLight light, FV d2) {
+    FV x = d2 * fv(light.position_inv_range2.w);
+#ifdef DRAWN_RANGES
+    if (light.position_inv_range2.w < 0.0f) {
+        return lane_select(x > fv(-1.0f), drawn_weight(light, d2), fv(0.0f));
+    }
+#endif
+    return max(fma(-x, x, fv(1.0f)), fv(0.0f));
+}
+
 // Adds a point or spot light.
-SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
+SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light PROFILE_PARAMETERS) {
     FV3 v = fv3(fv(light.position_inv_range2.x) - p.position.x,
                 fv(light.position_inv_range2.y) - p.position.y,
                 fv(light.position_inv_range2.z) - p.position.z);
     FV d2 = dot3(v, v);
-    FV x = d2 * fv(light.position_inv_range2.w);
-    FV window = max(fma(-x, x, fv(1.0f)), fv(0.0f));
+    FV window = window_of(light, d2);
 #if EARLY_OUT
     if (!lane_any(window > fv(0.0f))) return sum;
+#endif
+#if HAS_LIGHT_PROFILES
+    window = window * profile_share(profiles, index, v);
 #endif
     FV e2 = max(d2, fv(LIGHT_D_MIN * LIGHT_D_MIN));
     FV n_dot_v = max(dot3(p.normal, v), fv(0.0f));  // n.l times the distance

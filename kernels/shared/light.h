@@ -16,7 +16,9 @@ namespace kilolux {
 
 // A point or spot light, camera-relative: world axes, camera at the origin.
 SHARED_STRUCT(Light) {
-    float4 position_range;  // xyz: position - camera [m]; w: range [m], > 0
+    // xyz: position - camera [m]; w: range [m]; < 0: minus the range that a light without one of
+    // its own got
+    float4 position_range;
     float4 color_scale;  // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
     float4
         axis_cos;  // xyz: unit spot axis (0 for a point light); w: cos_out (-1 for a point light)
@@ -32,9 +34,11 @@ SHARED_ASSERT(world_light_size, sizeof(WorldLight) == 64);
 
 // A light in view space, as shading reads it.
 SHARED_STRUCT(ShadeLight) {
-    float4 position_inv_range2;  // xyz: p_view [m]; w: 1/range^2 [1/m^2]
-    float4 color_scale;          // as Light
-    float4 axis_cos;             // as Light, axis in view space
+    // xyz: p_view [m]; w: 1/range^2 [1/m^2]; < 0: minus that of a drawn range, see
+    // light_transform.h
+    float4 position_inv_range2;
+    float4 color_scale;  // as Light
+    float4 axis_cos;     // as Light, axis in view space
 };
 SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
 

@@ -2,6 +2,7 @@
 // Camera-relative lights in world axes -> view space.
 #ifndef KILOLUX_SHARED_LIGHT_TRANSFORM_H
 #define KILOLUX_SHARED_LIGHT_TRANSFORM_H
+#include "kernels/shared/hash.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/view.h"
 
@@ -22,11 +23,22 @@ SHARED_FN float4 rotated(View view, float4 v, float w) {
                        rotate_row(view.view_from_world_z, v), w);
 }
 
-SHARED_FN ShadeLight shade_light(View view, Light light) {
+// 1/range^2 of light `index`. With a seed, lights without a range of their own get a random one,
+// r = r0 / sqrt(1 - random): so that a point at distance d > r0 is in range with probability
+// (r0 / d)^2 and can weigh the light by its reciprocal, unbiased (Tokuyoshi and Harada 2016,
+// "Stochastic Light Culling"). Beyond 4096 r0 none is drawn: 6e-8 of the probability.
+SHARED_FN float inv_range2_of(Light light, uint index, uint seed) {
     float range = light.position_range.w;
+    float inv = min(1.0f / (range * range), INV_RANGE2_MAX);
+    if (seed == 0u || range > 0.0f) return inv;
+    return -inv * (1.0f - random_of(hash_of(hash_of(seed) ^ index)));
+}
+
+// `seed`: of drawn ranges; 0: none is drawn.
+SHARED_FN ShadeLight shade_light(View view, Light light, uint index, uint seed) {
     ShadeLight local_light;
     local_light.position_inv_range2 =
-        rotated(view, light.position_range, min(1.0f / (range * range), INV_RANGE2_MAX));
+        rotated(view, light.position_range, inv_range2_of(light, index, seed));
     local_light.color_scale = light.color_scale;
     local_light.axis_cos = rotated(view, light.axis_cos, light.axis_cos.w);
     return local_light;

@@ -61,6 +61,29 @@ SHARED_STRUCT(ShadowView) {
 };
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
 
+#if !defined(GL_core_profile)  // GLSL has no 64-bit integers
+// What it takes to cast shadows, counted by kernels with COUNT_SHADOWS.
+SHARED_STRUCT(ShadowCounts) {
+    ulong shafts;     // walks
+    ulong rays;       // points that they are for: they face the light within its range
+    ulong met_rays;   // of these, those that a triangle may hide, after tests of the whole shaft
+    ulong seen;       // of these, which nothing hides
+    ulong nodes;      // visited
+    ulong triangles;  // set up
+    ulong points;     // lit ones, once for each triangle that they are tested against
+    ulong words;      // of 32 bits that hold what is found; set by the host
+};
+SHARED_ASSERT(shadow_counts_size, sizeof(ShadowCounts) == 64);
+#endif
+
+#if defined(__cplusplus)
+inline ShadowCounts operator+(const ShadowCounts& a, const ShadowCounts& b) {
+    return {a.shafts + b.shafts, a.rays + b.rays,   a.met_rays + b.met_rays,
+            a.seen + b.seen,     a.nodes + b.nodes, a.triangles + b.triangles,
+            a.points + b.points, a.words + b.words};
+}
+#endif
+
 #if defined(__cplusplus)
 }  // namespace kilolux
 #endif

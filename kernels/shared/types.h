@@ -61,6 +61,8 @@
 #define lane_rsqrt(x) rsqrt(x)
 #define lane_divide(a, b) ((a) / (b))
 #endif
+#define float_of(x) ((float)(x))
+#define uint_of(x) ((uint)(x))
 #define make_float4(x, y, z, w) ((float4)(x, y, z, w))
 #define lane_uint(s) ((UV)(s))
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
@@ -120,6 +122,8 @@ inline float bits_float(uint x) { return std::bit_cast<float>(x); }
 inline float lane_sqrt(float x) { return std::sqrt(x); }
 inline float lane_rsqrt(float x) { return 1.0f / std::sqrt(x); }
 inline float lane_divide(float a, float b) { return a / b; }
+inline float float_of(uint x) { return static_cast<float>(x); }
+inline uint uint_of(float x) { return static_cast<uint>(x); }
 inline float4 make_float4(float x, float y, float z, float w) { return {x, y, z, w}; }
 inline uint lane_bits(float x) { return std::bit_cast<uint>(x); }
 inline float lane_from_bits(uint x) { return std::bit_cast<float>(x); }
@@ -148,6 +152,8 @@ inline float lane_from_int(uint x) { return static_cast<float>(static_cast<int>(
 #define lane_sqrt sqrt
 #define lane_rsqrt inversesqrt
 #define lane_divide(a, b) ((a) / (b))
+#define float_of(x) float(x)
+#define uint_of(x) uint(x)
 #define make_float4 vec4
 #define float_bits floatBitsToUint
 #define bits_float uintBitsToFloat

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/measure/report/tail_budget.h"
 #include "present/cli/commit.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
@@ -33,11 +35,11 @@ std::string settings_text(SharedOptions shared) {
 BudgetKey key_of(const SharedOptions& shared, const BudgetOptions& options,
                  const ErrorBudget& budget, const ReportView& view) {
     const Camera& c = view.camera;
-    return fmt::format("{}\n{}\n{}\ncamera {} {} {} {} {} time {}\n{} {} {}", commit(),
+    return fmt::format("{}\n{}\n{}\ncamera {} {} {} {} {} time {}\n{} {} {} {}", commit(),
                        scene_fingerprint(shared.scene), settings_text(shared), text_of(c.position),
                        text_of(c.world_from_view[1]), text_of(c.world_from_view[2]), c.y_fov,
                        c.orthographic ? c.y_extent : 0.0, view.time, budget.metric,
-                       budget.max_error, options.error_width.value_or(0));
+                       budget.max_error, options.error_width.value_or(0), budget.chooses_shadows);
 }
 
 void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when) {
@@ -52,9 +54,15 @@ void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when
 // report_settings() in its short form: without grids and lanes, which `bench --tune` chooses.
 std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const ReportView& view,
                                          const ErrorBudget& budget, const DeviceInfo& device) {
-    auto settings = report_settings(view.scene, shared.settings, device, true);
-    std::erase_if(settings,
-                  [&](const ReportSetting& setting) { return !is_candidate(setting, budget); });
+    RenderSettings asked = shared.settings;
+    asked.want = {};  // what is shown has no error
+    auto settings = report_settings(view.scene, asked, device, budget_candidates(budget));
+    const std::vector<std::string>& aovs = shared.settings.want.aovs;
+    const bool tells = std::ranges::find(aovs, "error-standard") != aovs.end();
+    std::erase_if(settings, [&](const ReportSetting& setting) {
+        const bool lacks_error = tells && setting.settings.shadows != Shadows::sampled;
+        return !is_candidate(setting, budget) || lacks_error;
+    });
     return settings;
 }
 
@@ -71,18 +79,41 @@ BudgetChoice measure_choice(const SharedOptions& shared, const BudgetOptions& op
     return choose_within(run.measure(settings, kFrames), budget);
 }
 
+std::vector<std::string> metric_names() {
+    std::vector<std::string> names = error_metric_names();
+    names.emplace_back(kBoundMetric);
+    return names;
+}
+
+RenderSettings tails_within_budget(const SharedOptions& shared, const BudgetOptions& options,
+                                   const ReportView& view) {
+    const TailChoice choice =
+        tails_within(view, shared.settings, *options.max_error, check_interrupt);
+    const RenderSettings& s = choice.settings;
+    note(s.tails == Tails::exact
+             ? "chosen  --tails exact: no pixel lacks light"
+             : fmt::format("chosen  --tails bounded --range-budget {}: no pixel of this view lacks "
+                           "more than {:.4g}",
+                           s.range_budget, choice.bound));
+    return s;
+}
+
 }  // namespace
 
 void add_budget_options(CLI::App& command, BudgetOptions& options) {
     OptionBuilder(command, "Error budget")
         .rest()
         .number({"--max-error", "E", "",
-                 "Use the fastest setting whose error on this scene and device is at most E"},
+                 "Use the fastest setting whose error on this scene and device is at most E; of "
+                 "sampled shadows it also chooses the rays, or exact ones, unless --shadow-rays "
+                 "is given"},
                 options.max_error, {0.0})
-        .choice({"--error-metric", "", "flip",
-                 "What E is: against the float64 picture asked for; r1-: the kernels' error alone; "
-                 "r3-: lights without a range"},
-                options.metric, error_metric_names())
+        .choice(
+            {"--error-metric", "", "flip",
+             "What E is: against the float64 picture asked for; r1-: the kernels' error alone; "
+             "r3-: lights without a range; bound: the most that any pixel of this view may lack "
+             "because such lights got one, in radiance: guaranteed, by --tails alone"},
+            options.metric, metric_names())
         .count({"--error-width", "W", "auto",
                 "Width of the pictures that errors are measured on; auto: at most 320 pixels, and "
                 "so few that the float64 reference takes seconds"},
@@ -99,26 +130,49 @@ ErrorSizeLimits error_limits(const BudgetOptions& options) {
 RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetOptions& options,
                                       const ReportView& view) {
     if (!options.max_error) return shared.settings;
-    const ErrorBudget budget{*options.max_error, options.metric};
+    if (options.metric == kBoundMetric) return tails_within_budget(shared, options, view);
+    const auto wanted = [&](const BudgetChoice& choice) {
+        RenderSettings out = choice.settings;
+        out.want = shared.settings.want;
+        return out;
+    };
+    const ErrorBudget budget = budget_of(shared, options);
     const DeviceInfo device = describe(choose_device(shared.settings.device));
     const auto candidates = candidates_of(shared, view, budget, device);
     const BudgetKey key = key_of(shared, options, budget, view);
     if (!options.choose_again) {
         if (const auto kept = stored_choice(device, key, candidates)) {
             say(*kept, budget, "kept from before");
-            return kept->settings;
+            return wanted(*kept);
         }
     }
     const BudgetChoice choice = measure_choice(shared, options, budget, view, candidates);
     store_choice(device, key, choice);
     say(choice, budget, "measured now, and kept");
-    return choice.settings;
+    return wanted(choice);
+}
+
+ErrorBudget budget_of(const SharedOptions& shared, const BudgetOptions& options) {
+    const bool sampled = shared.settings.shadows == Shadows::sampled;
+    if (options.metric == kBoundMetric) {
+        throw UsageError(
+            "error metric bound: render and bench keep within it; report has rows of "
+            "measured errors");
+    }
+    return {options.max_error.value_or(0.0), options.metric,
+            options.max_error && sampled && !shared.shadow_rays_given};
+}
+
+SettingChoice budget_candidates(const ErrorBudget& budget) {
+    SettingChoice out{.quick = true};
+    if (budget.chooses_shadows) out.shadow_rays = {1, 2, 4, 8, 16, 32, 64};
+    return out;
 }
 
 void choose_from_rows(const SharedOptions& shared, const BudgetOptions& options,
                       const ReportView& view, std::span<const ReportRow> rows) {
     if (!options.max_error) return;
-    const ErrorBudget budget{*options.max_error, options.metric};
+    const ErrorBudget budget = budget_of(shared, options);
     const BudgetChoice choice = choose_within(rows, budget);
     store_choice(describe(choose_device(shared.settings.device)),
                  key_of(shared, options, budget, view), choice);

@@ -30,6 +30,12 @@ ErrorSizeLimits error_limits(const BudgetOptions& options);
 RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetOptions& options,
                                       const ReportView& view);
 
+/// The budget asked for: with sampled shadows whose rays were not, it chooses those, too.
+ErrorBudget budget_of(const SharedOptions& shared, const BudgetOptions& options);
+
+/// What report_settings() goes through for a budget.
+SettingChoice budget_candidates(const ErrorBudget& budget);
+
 /// Chooses among rows that were measured anyway, keeps the choice and says it.
 void choose_from_rows(const SharedOptions& shared, const BudgetOptions& options,
                       const ReportView& view, std::span<const ReportRow> rows);

@@ -49,6 +49,16 @@ std::string cluster_line(const FrameStats& s) {
                        s.coarse_pairs, s.active_clusters, s.refined_pairs);
 }
 
+std::string sample_line(const SampleCounts& s) {
+    if (s.total == 0) return "";
+    const double mean = static_cast<double>(s.total) / static_cast<double>(s.pixels);
+    const std::string tiles =
+        s.open_tiles == 0
+            ? fmt::format("all {} tiles are within --sample-error", s.tiles)
+            : fmt::format("{} of {} tiles are not within --sample-error", s.open_tiles, s.tiles);
+    return fmt::format("samples {:.1f} a pixel, from {} to {}; {}\n", mean, s.least, s.most, tiles);
+}
+
 }  // namespace
 
 std::string short_text(double value) { return fmt::format("{:.6g}", value); }
@@ -82,8 +92,8 @@ std::string frame_summary(const Scene& scene, const DeviceInfo& device, const Fr
     std::string out =
         fmt::format("device  {} ({}), {} lanes\nscene   {}, {} triangles\n", device.name,
                     device.version, device.lane_width, scene.name, triangle_count(scene));
-    out += light_line(last.stats) + cluster_line(last.stats) + stage_lines(last.stats) +
-           time_line("frame", last.stats.frame_ms) + "\n";
+    out += light_line(last.stats) + sample_line(last.stats.samples) + cluster_line(last.stats) +
+           stage_lines(last.stats) + time_line("frame", last.stats.frame_ms) + "\n";
     if (last.comparison) out += "error   " + comparison_text(*last.comparison) + "\n";
     out += "wrote   " + last.file;
     if (is_video(last.file) || last.file == output_name("-"))

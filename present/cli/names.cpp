@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/names.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/base/gbuffer_layout.h"
@@ -75,6 +77,17 @@ const Choices& choices_of(Shadows) {
     return choices;
 }
 
+const Choices& choices_of(Tails) {
+    static const Choices choices = {
+        {"auto", fmt::format("exact for at most {} such lights and no --range-budget, else bounded",
+                             kExactTails)},
+        {"exact", "they reach every pixel"},
+        {"bounded", "each ends where --range-budget says"},
+        {"stochastic", "random ranges, at least that of bounded: right in the mean of --samples"},
+        {"tree", "they reach every pixel, far ones in groups that err by --tree-share at most"}};
+    return choices;
+}
+
 const Choices& choices_of(ToneCurve) {
     static const Choices choices = {{"none", "clamp at 1"},
                                     {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
@@ -127,18 +140,23 @@ Choices gbuffer_choices() {
 }
 
 Choices aov_choices() {
-    return ordered(aov_names(),
-                   {{"depth", "Z: distance along the view direction, in metres"},
-                    {"position", "P.X, P.Y, P.Z: in the world, in metres"},
-                    {"normal", "N.X, N.Y, N.Z: in the world"},
-                    {"albedo", "albedo.R, .G, .B: linear"},
-                    {"roughness", "0 to 1"},
-                    {"metallic", "0 to 1"},
-                    {"emissive", "emissive.R, .G, .B: radiance"},
-                    {"light-count", "lights evaluated, integers"},
-                    {"cluster", "coarse cluster + 1, integers; 0: background"},
-                    {"visibility", "share of the lights in reach that are seen"},
-                    {"error-standard", "of one sample's luminance (--shadows sampled)"}});
+    return ordered(
+        aov_names(),
+        {{"depth", "Z: distance along the view direction, in metres"},
+         {"position", "P.X, P.Y, P.Z: in the world, in metres"},
+         {"normal", "N.X, N.Y, N.Z: in the world"},
+         {"albedo", "albedo.R, .G, .B: linear"},
+         {"roughness", "0 to 1"},
+         {"metallic", "0 to 1"},
+         {"emissive", "emissive.R, .G, .B: radiance"},
+         {"light-count", "lights evaluated, integers"},
+         {"cluster", "coarse cluster + 1, integers; 0: background"},
+         {"visibility", "share of the lights in reach that are seen"},
+         {"error-standard",
+          "of the luminance: of one sample (--shadows sampled, --tails stochastic), or of the mean "
+          "(--samples auto)"},
+         {"error-bound", "most radiance that --tails bounded or tree errs by (deferred only)"},
+         {"sample-count", "samples of --samples auto, integers"}});
 }
 
 Choices metric_choices() {

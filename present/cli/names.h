@@ -26,6 +26,7 @@ const Choices& choices_of(RendererKind);
 const Choices& choices_of(Geometry);
 const Choices& choices_of(Shading);
 const Choices& choices_of(Shadows);
+const Choices& choices_of(Tails);
 const Choices& choices_of(BenchMotion);
 const Choices& choices_of(ToneCurve);
 const Choices& choices_of(Rig);

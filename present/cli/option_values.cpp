@@ -114,6 +114,14 @@ std::uint64_t parse_count(const std::string& option, std::string_view text,
     return *value;
 }
 
+std::uint64_t parse_count_or_auto(const std::string& option, std::string_view text,
+                                  const CountRange& range) {
+    const auto value = count_of(text);
+    if (value && *value >= range.min && *value <= range.max) return *value;
+    if (text != "auto") refuse(option, text, "'auto' or " + describe(range));
+    return 0;
+}
+
 std::uint64_t parse_bytes(const std::string& option, std::string_view text) {
     constexpr std::string_view kUnits = "KMGT";
     if (text == "auto") return 0;

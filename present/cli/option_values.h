@@ -38,13 +38,15 @@ inline constexpr NumberRange kAboveZeroRange{0.0, kMaxFloat, true};
 inline constexpr NumberRange kZeroOrAboveRange{0.0, kMaxFloat};
 inline constexpr NumberRange kExposureRange{-126.0, 126.0};  // [EV]
 inline constexpr NumberRange kBloomRange{0.0, 1.0};
+inline constexpr NumberRange kShareRange{0.0, 1.0};
 inline constexpr NumberRange kAmbientRange = kZeroOrAboveRange;
 
 inline constexpr CountRange kEdgeRange{1, 65536};  // of a picture [pixel]
 inline constexpr CountRange kSamplesRange{1, 65536};
+inline constexpr CountRange kAutoSamplesRange{8, 65536};
 inline constexpr CountRange kAnisotropyRange{1, 16};
 inline constexpr CountRange kShadowRaysRange{1, 65536};
-inline constexpr CountRange kShadowSeedRange{0, 4294967295};
+inline constexpr CountRange kSeedRange{0, 4294967295};
 // 31 bits: indices of lights and offsets of lists have 32 on the device.
 inline constexpr CountRange kLightsRange{0, std::uint64_t{1} << 31};
 inline constexpr CountRange kLightSeedRange{0, std::numeric_limits<std::uint64_t>::max()};
@@ -65,6 +67,10 @@ double parse_number_or_auto(const std::string& option, std::string_view text,
 /// A whole number within `range`; also as "5k", "2M" (powers of 1000) or "1e6".
 std::uint64_t parse_count(const std::string& option, std::string_view text,
                           const CountRange& range);
+
+/// As parse_count(), and 0 for "auto".
+std::uint64_t parse_count_or_auto(const std::string& option, std::string_view text,
+                                  const CountRange& range);
 
 /// Bytes as "512M", "4G" (K, M, G, T are powers of 1024) or a plain number, at least 1; "auto": 0.
 std::uint64_t parse_bytes(const std::string& option, std::string_view text);

@@ -55,11 +55,29 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
         o.settings.ambient = static_cast<float>(parse_number(name, text, kAmbientRange));
         o.ambient_given = true;
     };
+    const auto take_rays = [&o](const std::string& name, const std::string& text) {
+        o.settings.shadow_rays = static_cast<int>(parse_count(name, text, kShadowRaysRange));
+        o.shadow_rays_given = true;
+    };
+    const auto take_samples = [&o, &s](const std::string& name, const std::string& text) {
+        s.auto_samples.on = text == "auto";
+        if (!s.auto_samples.on) {
+            const auto parse = o.takes_automatic_samples ? parse_count_or_auto : parse_count;
+            s.samples = static_cast<int>(parse(name, text, kSamplesRange));
+        } else if (!o.takes_automatic_samples) {
+            throw UsageError(name + ": only render makes it automatic");
+        }
+    };
     OptionBuilder(command, "Picture")
         .choice({"--renderer", "", "deferred", "How surfaces are lit"}, s.renderer)
         .value({"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good"}, resolution,
                [&s] { return fmt::format("{},{}", s.width, s.height); })
-        .count({"--samples", "N", "1", "Jittered samples a pixel"}, s.samples, kSamplesRange)
+        .value({"--samples", o.takes_automatic_samples ? "N|auto" : "N", "1",
+                o.takes_automatic_samples
+                    ? "Jittered samples a pixel; auto: as many as each tile of 16x16 pixels needs, "
+                      "see --sample-error"
+                    : "Jittered samples a pixel"},
+               take_samples, [&s] { return s.auto_samples.on ? "auto" : text_of(s.samples); })
         .number({"--time", "T", "0", "Seconds: moves the lights and the file's animations"}, o.time)
         .choice(
             {"--show", "", "lit", "What the picture shows"}, show_choices(),
@@ -76,13 +94,20 @@ void add_picture_options(CLI::App& command, SharedOptions& o) {
         .choice({"--geometry", "", "auto", "How surfaces get into the G-buffer"}, s.geometry)
         .count({"--anisotropy", "N", "1 on CPUs, 8 on GPUs", "Texture samples along a footprint"},
                s.anisotropy, kAnisotropyRange)
+        .number({"--sample-error", "E", "0.05",
+                 "Of --samples auto: the standard error of a tile's luminance, relative to it, "
+                 "that ends its samples; dark light counts as 0.1 of white at least"},
+                s.auto_samples.error, kAboveZeroRange)
+        .count({"--max-samples", "N", "256", "Of --samples auto: a pixel takes no more"},
+               s.auto_samples.most, kAutoSamplesRange)
         .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame")
         .choice({"--shading", "", "auto", "How surfaces reflect light"}, s.shading)
         .choice({"--shadows", "", "off", "Which lights a surface sees"}, s.shadows)
-        .count({"--shadow-rays", "N", "4", "Rays a pixel of sampled shadows, at most on average"},
-               s.shadow_rays, kShadowRaysRange)
+        .value({"--shadow-rays", "N", "4; with --max-error as many as it takes",
+                "Rays a pixel of sampled shadows, at most on average"},
+               take_rays, [&s] { return text_of(s.shadow_rays); })
         .count({"--shadow-seed", "N", "1", "Random numbers of sampled shadows"}, s.shadow_seed,
-               kShadowSeedRange)
+               kSeedRange)
         .value({"--ambient", "L", "0.02; with the rig studio 0.2",
                 "Radiance from everywhere, times the albedo"},
                take_ambient, [&s] { return text_of(s.ambient); });
@@ -103,7 +128,8 @@ void add_display_options(CLI::App& command, SharedOptions& o) {
         if (o.automatic_exposure && !o.takes_automatic_exposure) {
             throw UsageError(name + ": only render makes it automatic");
         }
-        const double ev = o.automatic_exposure ? 0.0 : parse_number(name, text, kExposureRange);
+        const auto parse = o.takes_automatic_exposure ? parse_number_or_auto : parse_number;
+        const double ev = parse(name, text, kExposureRange);
         o.settings.exposure = static_cast<float>(ev);
     };
     const auto take_curve = [&s](std::size_t place) {
@@ -125,10 +151,12 @@ void add_display_options(CLI::App& command, SharedOptions& o) {
                take_exposure, [&s] { return text_of(s.exposure); })
         .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range"},
                 tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
-        .value({"--background", "COLOUR|none|auto", "auto",
-                "What is behind the scene: R,G,B linear or #RRGGBB in sRGB, as light that exposure "
-                "and tone curve apply to; none: black; auto: the environment, else none"},
-               o.background, take_background)
+        .value(
+            {"--background", "COLOUR|none|auto", "auto",
+             "What is behind the scene: R,G,B linear or #RRGGBB in sRGB, as light that exposure "
+             "and tone curve apply to; none: black, and clear in PNG and EXR without bloom; auto: "
+             "the environment, else black"},
+            o.background, take_background)
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1"}, s.bloom,
                 kBloomRange);
 }
@@ -166,9 +194,15 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
                o.environment_lights, {1, 65536})
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres"},
                l.box, parse_box)
+        .choice({"--tails", "", "auto", "Where the file's lights without a range end"}, s.tails)
         .number({"--range-budget", "E", "0.00390625",
-                 "Decides the range of the file's lights without one: the radiance lost beyond it"},
-                s.range_budget, kAboveZeroRange);
+                 "Decides the range of a bounded one: where it adds this radiance"},
+                s.range_budget, kAboveZeroRange)
+        .count({"--tail-seed", "N", "1", "Random numbers of stochastic ones"}, s.tail_seed,
+               kSeedRange)
+        .number({"--tree-share", "S", "0.3",
+                 "What a group of a tree may err by, of the light that it sends"},
+                s.tree_share, kShareRange);
 }
 
 void add_camera_options(CLI::App& command, CameraChoice& c) {

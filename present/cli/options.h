@@ -34,8 +34,10 @@ struct SharedOptions {
     std::uint64_t environment_lights = 128;  // that stand for it
     bool lights_given = false;               // settings.lights.count was asked for
     bool ambient_given = false;              // settings.ambient was
+    bool shadow_rays_given = false;          // settings.shadow_rays was
     bool takes_automatic_exposure = false;   // the command can make it
     bool automatic_exposure = false;
+    bool takes_automatic_samples = false;  // the command can choose them
     CameraChoice camera;
     double time = 0.0;        // [s]
     bool show_error = false;  // --show error: the picture's error against --reference

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -13,6 +14,7 @@
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
 #include "host/scene/lights/built_in_environments.h"
+#include "host/scene/lights/light_tree.h"
 #include "present/cli/names.h"
 #include "present/cli/progress.h"
 
@@ -96,6 +98,44 @@ std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, st
     return line + fmt::format("{} of the scene's own lights, ambient {}", own, settings.ambient);
 }
 
+// What becomes of lights without a range; nothing where there are none.
+std::string tails_line(const Scene& scene, const RenderSettings& settings) {
+    const auto unranged = std::ranges::count_if(scene.lights, lacks_range);
+    if (unranged == 0) return "";
+    const Tails tails = tails_for(scene.lights, settings.tails, settings.range_budget);
+    std::string line = fmt::format("\ntails   {}{}: {} lights without a range ", name_of(tails),
+                                   tails == settings.tails ? "" : " (automatic)", unranged);
+    if (tails == Tails::exact) return line + "reach every pixel";
+    if (tails == Tails::tree) {
+        return line + fmt::format(
+                          "reach every pixel, {} of them in groups that err by {} at most: --aov "
+                          "error-bound",
+                          std::ranges::count_if(scene.lights, is_for_tree), settings.tree_share);
+    }
+    if (tails == Tails::bounded) {
+        return line + fmt::format(
+                          "end where each adds {:.3g} of radiance; what that loses: --aov "
+                          "error-bound, what loses nothing: --tails exact",
+                          settings.range_budget);
+    }
+    return line + fmt::format(
+                      "have random ones, at least to where each adds {:.3g} of radiance: "
+                      "right in the mean of --samples",
+                      settings.range_budget);
+}
+
+Environment opened_environment(const std::string& name) {
+    const std::vector<std::string> built_in = {"studio", "sky"};
+    const std::filesystem::path file(name);
+    const bool is_name = std::ranges::find(built_in, name) != built_in.end();
+    if (is_name || std::filesystem::exists(file)) return environment_of(name);
+    if (file.has_extension() || file.has_parent_path()) {
+        throw Error(name + ": no such environment file");
+    }
+    throw UsageError(fmt::format("--environment '{}' is no file, and none of {}{}", name,
+                                 joined(built_in), did_you_mean(name, built_in)));
+}
+
 // Settles what is behind the scene, too.
 std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     using Kind = BackgroundChoice::Kind;
@@ -105,7 +145,7 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
             std::make_shared<const Environment>(Environment{1, 1, {background.color}});
     }
     if (options.environment.empty()) return "";
-    Environment environment = environment_of(options.environment);
+    Environment environment = opened_environment(options.environment);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
         options.maps = std::make_shared<const PrefilteredEnvironment>(prefiltered(environment));
@@ -163,6 +203,9 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
         rig = Rig::none;
     }
     const std::size_t own = scene.scene().lights.size();
+    const bool has_swarm =
+        options.environment.empty() &&
+        automatic_rig(scene.scene(), is_generated_scene(options.scene)) == Rig::swarm;
     scene.add_lights(rig_lights(rig));
     const std::string from_around = add_environment(options, scene);
     std::uint64_t& generated = options.settings.lights.count;
@@ -171,10 +214,11 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     if (!options.ambient_given) {
         ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
     }
-    // A swarm stays automatic: what another command line has to say for it is --lights.
-    options.rig = rig == Rig::swarm ? Rig::automatic : rig;
+    // A swarm stays automatic where another command line has to say nothing for it.
+    options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
     return rig_line(rig, automatic, options.settings, own) + from_around +
-           (metal ? " (a studio's room, as most of the surface is metal)" : "");
+           (metal ? " (a studio's room, as most of the surface is metal)" : "") +
+           tails_line(scene.scene(), options.settings);
 }
 
 void measure_swarm(SharedOptions& options) {

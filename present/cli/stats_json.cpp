@@ -27,7 +27,7 @@ void add_frame(Json& out, const FrameRecord& record) {
     out["lights"] = {{"given", s.lights_given},
                      {"used", s.lights_used},
                      {"rejected", s.lights_rejected},
-                     {"dropped", s.lights_dropped}};
+                     {"dropped", 0}};  // not measured: lists have no capacity limit
     out["normals"] = {{"zero", s.zero_normals}};
     out["clusters"] = {{"grid", {s.grid[0], s.grid[1], s.grid[2]}},
                        {"coarse_pairs", s.coarse_pairs},
@@ -39,6 +39,13 @@ void add_frame(Json& out, const FrameRecord& record) {
     const auto counted = [](double mean) { return mean < 0.0 ? Json(nullptr) : Json(mean); };
     out["evaluations"] = {{"per_pixel", counted(s.evaluations_per_pixel)},
                           {"useful_per_pixel", counted(s.useful_evaluations_per_pixel)}};
+    if (s.samples.total > 0) {
+        out["samples"] = {{"of_all_pixels", s.samples.total},
+                          {"least", s.samples.least},
+                          {"most", s.samples.most},
+                          {"tiles", s.samples.tiles},
+                          {"tiles_above_error", s.samples.open_tiles}};
+    }
     out["stages"] = Json::array();
     for (const StageTime& stage : s.stages) {
         const Json limit = stage.limit_ms > 0.0 ? Json(stage.limit_ms) : Json(nullptr);

@@ -26,8 +26,8 @@ struct FrameRecord {
 
 /// The document of --stats, with the keys that tools may rely on: device, plan, lights, clusters,
 /// evaluations, stages, frame_ms, and error when a reference was given; of the last frame. What was
-/// not counted is null. lights.dropped is 0 by construction: lists have no capacity limit.
-/// `left_out`: features that the plan leaves out, and what each would add to a pixel.
+/// not counted is null. lights.dropped is not measured: it is 0 because lists have no capacity
+/// limit. `left_out`: features that the plan leaves out, and what each would add to a pixel.
 nlohmann::ordered_json stats_json(const DeviceInfo& device, const ScenePlan& plan,
                                   const FrameRecord& last);
 

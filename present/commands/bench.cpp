@@ -17,20 +17,33 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void check(const BenchOptions& o) {
-    if (!o.tables.empty() && (o.culling || o.shading || o.tune || o.quick || !o.output.empty())) {
+    const int modes = o.culling + o.shading + o.tune + o.quick + o.visibility;
+    if (!o.tables.empty() && (modes > 0 || !o.output.empty())) {
         throw UsageError("--table: prints what was measured; it goes with no other mode and no -o");
     }
-    if (o.culling + o.shading + o.tune + o.quick > 1) {
-        throw UsageError("--quick, --culling, --shade and --tune exclude each other");
+    if (modes > 1) {
+        throw UsageError("--quick, --culling, --shade, --visibility and --tune exclude each other");
     }
-    if (o.budget.max_error && (o.culling || o.shading || o.tune)) {
-        throw UsageError("--max-error: goes with sweeps, not with --culling, --shade or --tune");
+    if (o.budget.max_error && modes > 0 && !o.quick) {
+        throw UsageError(
+            "--max-error: goes with sweeps, not with --culling, --shade, --visibility or --tune");
     }
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
 }
 
-void run_bench(BenchOptions& options) {
+// Without shadows there are no rays.
+void apply_visibility(const CLI::App& command, BenchOptions& options) {
+    RenderSettings& s = options.shared.settings;
+    if (!options.visibility || s.shadows != Shadows::off) return;
+    if (is_given(command, "--shadows")) {
+        throw UsageError("--visibility: needs shadows, and --shadows is off");
+    }
+    s.shadows = Shadows::exact;
+}
+
+void run_bench(BenchOptions& options, const CLI::App& command) {
     check(options);
+    apply_visibility(command, options);
     begin_command(options.shared);
     measure_swarm(options.shared);
     if (!options.tables.empty()) {
@@ -40,11 +53,12 @@ void run_bench(BenchOptions& options) {
     make_output_folder(options.output);
     if (options.culling) return run_culling(options);
     if (options.shading) return run_shading(options);
+    if (options.visibility) return run_visibility(options);
     if (options.tune) return run_tuning(options);
     run_sweep(options);
 }
 
-constexpr const char* kExamples =
+constexpr const char* kBenchExamples =
     "  kilolux bench\n"
     "  kilolux bench --quick -o results\n"
     "  kilolux bench --lights 500:5000:500 --renderer deferred,deferred-all -o results\n"
@@ -52,6 +66,7 @@ constexpr const char* kExamples =
     "  kilolux bench --grid '4,4,1;16,9,4;64,36,64' --lanes 1,8 -o results --resume\n"
     "  kilolux bench --culling\n"
     "  kilolux bench --shade\n"
+    "  kilolux bench --visibility\n"
     "  kilolux bench --tune\n"
     "  kilolux bench --table results/bench.csv";
 
@@ -106,7 +121,7 @@ void put_table(const BenchOptions& options, const std::string& name, const Table
 void add_bench_command(Program& program) {
     program.add_command(
         "bench", "Measure times against the device's limits, over lights, sizes and settings",
-        kExamples, add_bench_options, run_bench);
+        kBenchExamples, add_bench_options, run_bench);
 }
 
 }  // namespace kilolux

@@ -42,6 +42,7 @@ struct BenchOptions {
     bool culling = false;
     bool shading = false;  // --shade
     bool tune = false;
+    bool visibility = false;
     BudgetOptions budget;
 };
 
@@ -102,5 +103,6 @@ void run_sweep(BenchOptions& options);
 void run_culling(BenchOptions& options);
 void run_shading(BenchOptions& options);
 void run_tuning(BenchOptions& options);
+void run_visibility(BenchOptions& options);
 
 }  // namespace kilolux

@@ -8,6 +8,7 @@
 #include "host/measure/bench/culling.h"
 #include "host/measure/bench/shading.h"
 #include "host/measure/bench/tune.h"
+#include "host/measure/bench/visibility.h"
 #include "host/measure/roofline/limit_kernels.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
@@ -109,6 +110,26 @@ void run_shading(BenchOptions& options) {
         });
     }
     put_table(options, "shading", shading_table(measured), bench.context);
+}
+
+void run_visibility(BenchOptions& options) {
+    Bench bench(options);
+    LightingBench lighting(bench.scene, bench.settings, bench.camera, options.shared.time);
+    const int runs = options.frames.value_or(5);
+    bench.context["frames"]["measured"] = runs;
+    bench.context["frames"]["warm_up"] = 1;
+    const DeviceLimits limits = LimitWatch(choose_device(bench.settings.device)).limits();
+    std::vector<VisibilityMeasurement> measured;
+    {
+        Progress progress("visibility", static_cast<std::size_t>(visibility_runs(runs)),
+                          !options.shared.quiet);
+        measured = measure_visibility(lighting, limits, runs, [&] {
+            check_interrupt();
+            progress.advance();
+        });
+    }
+    put_table(options, "visibility", visibility_table(measured), bench.context);
+    note("both see the same, bit for bit");
 }
 
 void run_tuning(BenchOptions& options) {

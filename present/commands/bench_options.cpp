@@ -78,6 +78,10 @@ void add_mode_options(CLI::App& command, BenchOptions& o) {
               "Light lists for 1000 to a million lights, against brute force")
         .flag("--shade", o.shading,
               "The shading kernel alone, by model and lanes, against the device's limits")
+        .flag(
+            "--visibility", o.visibility,
+            "Shadow rays alone: a walk for all pixels of a cluster against one for each bundle of "
+            "rays; --shadows is exact unless given")
         .flag("--tune", o.tune,
               "Search the fastest work sizes of this device and keep them for all commands")
         .value({"--table", "FILE,...", "",

@@ -215,8 +215,9 @@ void run_sweep(BenchOptions& asked) {
     if (options.json) {
         write_json("-", document);
     } else {
-        std::fputs(to_markdown(bench_summary(shown_rows(options, sweep))).c_str(), stdout);
-        std::fputs(("\n" + bench_legend()).c_str(), stdout);
+        const std::vector<BenchRow> shown = shown_rows(options, sweep);
+        std::fputs(to_markdown(bench_summary(shown)).c_str(), stdout);
+        std::fputs(("\n" + bench_legend(shown)).c_str(), stdout);
     }
     if (!options.output.empty()) write_results(options, sweep, document);
     require_limits_hold(sweep.rows);

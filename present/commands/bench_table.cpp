@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const fs::path& file) {
+std::string contents_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw Error(fmt::format("{}: cannot read", file.string()));
     return {std::istreambuf_iterator<char>(in), {}};
@@ -55,14 +55,14 @@ std::string context_text(const Json& document, const std::string& fields) {
 
 std::string result_text(const fs::path& csv) {
     try {
-        const TextTable texts = parse_csv(text_of(csv));
-        const Json document = Json::parse(text_of(context_file(csv)));
+        const TextTable texts = parse_csv(contents_of(csv));
+        const Json document = Json::parse(contents_of(context_file(csv)));
         if (!is_bench_table(texts))
             return context_text(document, "") + to_markdown(table_of(texts));
         const std::vector<BenchRow> rows = bench_rows(texts);
         if (rows.empty()) throw Error("no rows");
         return context_text(document, shared_fields(rows)) + to_markdown(bench_summary(rows)) +
-               "\n" + bench_legend();
+               "\n" + bench_legend(rows);
     } catch (const Json::exception& error) {
         throw Error(fmt::format("{}: {}", context_file(csv).string(), error.what()));
     } catch (const Error& error) {

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/commands/certify.h"
 
-#include <cmath>
 #include <cstdio>
+#include <optional>
 #include <set>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
+#include "host/base/log.h"
 #include "host/base/suggest.h"
+#include "host/base/text.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
+#include "present/commands/certificate.h"
+#include "present/commands/certify_isolated.h"
 #include "present/program.h"
 
 namespace kilolux {
@@ -23,52 +27,80 @@ using Json = nlohmann::ordered_json;
 struct CertifyOptions {
     std::string device;
     std::vector<int> lanes = {1, 2, 4, 8, 16};
-    std::set<std::size_t> cases;  // places in hard_cases(); empty: all
-    std::string output;           // file, "-" for standard output, empty: none
+    std::optional<std::set<std::size_t>> cases;  // places in hard_cases(); none: all
+    std::set<std::size_t> parts;                 // places in certificate_parts()
+    bool isolate = false;
+    std::vector<std::string> tables;  // --table: certificates to print instead of making one
+    std::string output;               // file, "-" for standard output, empty: none
     bool quiet = false;
 };
 
-Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json row_json(const HardCaseRow& row) {
-    Json out{{"case", row.hard_case.label},  {"name", row.hard_case.name},
-             {"tried", row.hard_case.tried}, {"threshold", row.hard_case.threshold},
-             {"lanes", row.lanes},           {"passed", row.passed()}};
-    if (!row.error.empty()) out["error"] = row.error;
-    out["findings"] = Json::array();
-    for (const Finding& f : row.findings.all()) {
-        out["findings"].push_back({{"what", f.what},
-                                   {"worst", finite_or_null(f.value)},
-                                   {"limit", finite_or_null(f.limit)},
-                                   {"checked", f.checked},
-                                   {"where", f.where}});
+void check(const CertifyOptions& o) {
+    if (!o.tables.empty() && (o.cases || !o.parts.empty() || o.isolate || !o.output.empty())) {
+        throw UsageError(
+            "--table: prints what was certified; it goes with no --case, --with, --isolate or -o");
     }
-    return out;
 }
 
 std::vector<HardCase> chosen_cases(const CertifyOptions& options) {
     const auto all = hard_cases();
-    if (options.cases.empty()) return {all.begin(), all.end()};
+    if (!options.cases) return {all.begin(), all.end()};
     std::vector<HardCase> cases;
-    for (const std::size_t place : options.cases) cases.push_back(all[place]);
+    for (const std::size_t place : *options.cases) cases.push_back(all[place]);
     return cases;
 }
 
-void run_certify(const CertifyOptions& options) {
-    if (!options.output.empty() && options.output != "-") check_can_write(options.output);
+// Everything that the command line asks for, in this process or in others.
+Certificate make_certificate(const CertifyOptions& options, const cl::Device& device) {
     const std::vector<HardCase> cases = chosen_cases(options);
-    const Gpu gpu(choose_device(options.device));
-    std::vector<HardCaseRow> rows;
-    {
-        Progress progress("hard cases", cases.size() * options.lanes.size(), !options.quiet);
-        rows = run_hard_cases(gpu, cases, options.lanes, [&] {
-            check_interrupt();
-            progress.advance();
-        });
+    std::vector<CertificatePart> parts;
+    for (const std::size_t place : options.parts) parts.push_back(certificate_parts()[place]);
+    Certificate out;
+    Progress progress("certifying", cases.size() * options.lanes.size() + parts.size(),
+                      !options.quiet);
+    const auto step = [&] {
+        check_interrupt();
+        progress.advance();
+    };
+    if (options.isolate) {
+        return certify_isolated({options.device, cases, options.lanes, parts}, step);
     }
-    if (!options.output.empty()) write_json(options.output, certificate_json(gpu.info, rows));
-    if (options.output != "-") std::fputs(to_markdown(hard_case_table(rows)).c_str(), stdout);
-    require_all_passed(rows);
+    out.rows = run_hard_cases(Gpu(device), cases, options.lanes, step);
+    for (const CertificatePart& part : parts) {
+        out.parts[part.name] = made_part(part, device, check_interrupt);
+        step();
+    }
+    return out;
+}
+
+std::string parts_text(const nlohmann::ordered_json& parts) {
+    std::string out;
+    for (const auto& [name, part] : parts.items()) {
+        out += (out.empty() ? "\n" : "") + name + ": " +
+               (part.at("passed").get<bool>() ? "passed" : "FAILED") +
+               (part.contains("error") ? ": " + part["error"].get<std::string>() : "") + "\n";
+    }
+    return out;
+}
+
+void run_certify(const CertifyOptions& options) {
+    check(options);
+    if (!options.tables.empty()) {
+        std::fputs(certificates_text(options.tables).c_str(), stdout);
+        return;
+    }
+    set_verbosity(Verbosity::quiet);  // of the parts' scenes
+    if (!options.output.empty() && options.output != "-") check_can_write(options.output);
+    const cl::Device device = choose_device(options.device);
+    const Certificate made = make_certificate(options, device);
+    if (!options.output.empty()) {
+        write_json(options.output, certificate_json(capabilities_json(device), made));
+    }
+    if (options.output != "-") {
+        if (!made.rows.empty()) std::fputs(to_markdown(hard_case_table(made.rows)).c_str(), stdout);
+        std::fputs(parts_text(made.parts).c_str(), stdout);
+    }
+    require_all_passed(made);
 }
 
 // Labels, then names; the place of either modulo the number of cases is that of the case.
@@ -79,14 +111,24 @@ std::vector<std::string> labels_and_names() {
     return words;
 }
 
+std::vector<std::string> part_names() {
+    std::vector<std::string> words;
+    for (const CertificatePart& part : certificate_parts()) words.emplace_back(part.name);
+    words.emplace_back("all");
+    return words;
+}
+
 void add_certify_options(CLI::App& command, CertifyOptions& options) {
     using Text = const std::string&;
     OptionBuilder(command, "What is run")
-        .value({"--case", "NAME,...", "all", "Cases by name or label, e.g. tiny-lights,M3"},
+        .value({"--case", "NAME,...", "all",
+                "Cases by name or label, e.g. tiny-lights,M3; none for none"},
                [&options](Text name, Text text) {
+                   options.cases.emplace();
+                   if (text == "none") return;
                    const auto words = labels_and_names();
                    for (const std::string& word : parse_name_list(name, text, words)) {
-                       options.cases.insert(parse_name(name, word, words) % hard_cases().size());
+                       options.cases->insert(parse_name(name, word, words) % hard_cases().size());
                    }
                })
         .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, options.device)
@@ -98,49 +140,62 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
                        options.lanes.push_back(std::stoi(width));
                    }
                })
+        .value({"--with", "NAME,...|all", "",
+                "Also: equality (pictures by lists against those by all lights), oclgrind (a "
+                "frame's kernels), stages (times of a frame), tuning"},
+               [&options](Text name, Text text) {
+                   const auto words = part_names();
+                   for (const std::string& word : parse_name_list(name, text, words)) {
+                       const std::size_t place = parse_name(name, word, words);
+                       for (std::size_t i = 0; i + 1 < words.size(); ++i)
+                           if (word == "all" || i == place) options.parts.insert(i);
+                   }
+               })
+        .flag("--isolate", options.isolate,
+              "Each in a process of its own: a driver that ends the process fails one of them")
         .question("--list-devices", "Print the OpenCL devices and leave");
     OptionBuilder(command, "Output")
         .text({"--output,-o", "FILE", "",
                "Write the result as JSON; - prints it instead of the table"},
               options.output)
+        .value({"--table", "FILE,...", "", "Print the table of certificates (-o FILE)"},
+               [&options](Text, Text text) {
+                   for (const std::string_view file : split(text, ',')) {
+                       options.tables.emplace_back(file);
+                   }
+               })
         .flag("--quiet", options.quiet, "No progress bar");
 }
 
-constexpr const char* kExamples =
+constexpr const char* kCertifyExamples =
     "  kilolux certify\n"
-    "  kilolux certify --device 1 -o device1.json\n"
+    "  kilolux certify --device 1 --with all -o device1.json\n"
     "  kilolux certify --case long-sums,M3 --lanes 8\n"
     "  kilolux certify --quiet -o - > result.json";
 
 }  // namespace
 
-Json certificate_json(const DeviceInfo& device, const std::vector<HardCaseRow>& rows) {
-    Json out{{"program", program_json()}, {"device", device_json(device)}, {"passed", true}};
-    out["failed"] = Json::array();
-    out["cases"] = Json::array();
-    for (const HardCaseRow& row : rows) {
-        if (!row.passed()) out["failed"].push_back(row.hard_case.label);
-        out["cases"].push_back(row_json(row));
-    }
-    out["passed"] = out["failed"].empty();
-    return out;
-}
-
-void require_all_passed(const std::vector<HardCaseRow>& rows) {
+void require_all_passed(const Certificate& made) {
     std::vector<std::string> failed;
-    for (const HardCaseRow& row : rows) {
+    for (const HardCaseRow& row : made.rows) {
         const HardCase& c = row.hard_case;
         if (!row.passed()) failed.push_back(std::string(c.label) + " " + std::string(c.name));
     }
-    if (failed.empty()) return;
-    throw ComparisonFailed("certify: " + std::to_string(failed.size()) + " of " +
-                           std::to_string(rows.size()) + " hard cases failed: " + joined(failed));
+    std::string text;
+    if (!failed.empty()) {
+        text = std::to_string(failed.size()) + " of " + std::to_string(made.rows.size()) +
+               " hard cases failed: " + joined(failed);
+    }
+    for (const auto& [name, part] : made.parts.items()) {
+        if (!part.at("passed").get<bool>()) text += (text.empty() ? "" : "; ") + name + " failed";
+    }
+    if (!text.empty()) throw ComparisonFailed("certify: " + text);
 }
 
 void add_certify_command(Program& program) {
     program.add_command("certify",
                         "Run the numerically hard cases on a device; exit 3 where one fails",
-                        kExamples, add_certify_options, run_certify);
+                        kCertifyExamples, add_certify_options, run_certify);
 }
 
 }  // namespace kilolux

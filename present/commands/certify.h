@@ -10,14 +10,25 @@
 
 namespace kilolux {
 
-/// {"program": {"version", "commit"}, "device": {...}, "passed": bool, "failed": [labels],
-/// "cases": [{"case", "name", "tried", "threshold", "lanes", "passed", "error", "findings":
-/// [{"what", "worst", "limit", "checked", "where"}]}]}. A limit of null: reported, not judged. A
-/// worst that is infinite or NaN is null. No times: the same result is the same text.
-nlohmann::ordered_json certificate_json(const DeviceInfo& device,
-                                        const std::vector<HardCaseRow>& rows);
+/// What was found on a device.
+struct Certificate {
+    std::vector<HardCaseRow> rows;
+    nlohmann::ordered_json parts = nlohmann::ordered_json::object();  // see certificate_parts()
+};
 
-/// Throws ComparisonFailed with the names of the cases that failed.
-void require_all_passed(const std::vector<HardCaseRow>& rows);
+/// {"program": {"version", "commit"}, "device": `device`, "passed": bool, "failed": [labels and
+/// names of parts], "cases": [{"case", "name", "tried", "threshold", "lanes", "passed", "error",
+/// "findings": [{"what", "worst", "limit", "checked", "where"}]}]} and the parts. A limit of null:
+/// reported, not judged. A worst that is infinite or NaN is null. Without "stages" and "tuning" no
+/// times: the same result is the same text.
+nlohmann::ordered_json certificate_json(const nlohmann::ordered_json& device,
+                                        const Certificate& made);
+
+/// The rows of a certificate; throws nlohmann's exceptions for another document, Error for a case
+/// that this program does not know.
+std::vector<HardCaseRow> rows_of_json(const nlohmann::ordered_json& certificate);
+
+/// Throws ComparisonFailed with the names of what failed.
+void require_all_passed(const Certificate& made);
 
 }  // namespace kilolux

@@ -112,7 +112,7 @@ void add_export_options(CLI::App& command, ExportOptions& options) {
                   "--ambient", "--exposure", "--tonemap", "--bloom", "--device", "--list-devices"});
 }
 
-constexpr const char* kExamples =
+constexpr const char* kExportExamples =
     "  kilolux export -o atrium.glb --lights 1000\n"
     "  kilolux export hall.glb -o hall.gltf --lights 0 --camera-position 0,2,8\n"
     "  kilolux export walk.glb -o pose.glb --time 1.5 --lights 200";
@@ -122,7 +122,7 @@ constexpr const char* kExamples =
 void add_export_command(Program& program) {
     program.add_command("export",
                         "Write the scene with all its lights as glTF 2.0, for any other renderer",
-                        kExamples, add_export_options, run_export);
+                        kExportExamples, add_export_options, run_export);
 }
 
 }  // namespace kilolux

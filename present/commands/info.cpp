@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <cstdio>
 
@@ -52,6 +53,19 @@ Json light_counts(const Scene& scene, const LightOptions& generated) {
             {"min_distance_m", light_d_min(scene)}};
 }
 
+Json profiles_json(const Scene& scene) {
+    Json out = Json::array();
+    for (std::size_t i = 0; i < scene.webs.size(); ++i) {
+        const PhotometricWeb& web = scene.webs[i];
+        out.push_back({{"name", web.name},
+                       {"lights", std::ranges::count(scene.aimed_profiles, i, &SceneProfile::web)},
+                       {"peak_cd", web.peak},
+                       {"lumens", lumens(web)},
+                       {"table_error", web.table_error}});
+    }
+    return out;
+}
+
 const char* kind_name(SceneKind kind) {
     constexpr const char* kNames[] = {"open", "closed", "interior"};
     return kNames[static_cast<int>(kind)];
@@ -82,6 +96,7 @@ Json scene_json(const Scene& scene, const LightOptions& generated) {
             {"animations", clips_json(scene)},
             {"variants", scene.variants},
             {"lights", light_counts(scene, generated)},
+            {"light_profiles", profiles_json(scene)},
             {"kind", kind_name(scene.kind)},
             {"bounds", box_json(bounds(scene))},
             {"light_box", box_json(region.outer)},
@@ -113,6 +128,7 @@ Json info_json(InfoOptions& options) {
     out["plan"] = plan.features;
     out["left_out"] = left_out_json(options, scene, plan);
     out["gbuffer_bytes_per_pixel"] = plan.gbuffer_bytes_per_pixel;
+    out["tuning_source"] = text_of(known_tuning(renderer.device()).source);
     out["tuning"] = tuning_json(choose_tuning(renderer.device(), options.shared.settings.kernels));
     const Gpu gpu(choose_device(options.shared.settings.device));
     out["limits"] = limits_json(cached_device_limits(gpu, options.measure_limits));
@@ -138,8 +154,16 @@ std::string clip_line(const Json& clip) {
                        clip["channels"].get<int>(), clip["plays"].get<bool>() ? ", plays" : "");
 }
 
-// A feature's cost, a device or a clip in one line.
+std::string profile_line(const Json& profile) {
+    return fmt::format("'{}': peak {:.6g} cd, {:.6g} lm, {} lights",
+                       shown_uri(profile["name"].get<std::string>()),
+                       profile["peak_cd"].get<double>(), profile["lumens"].get<double>(),
+                       profile["lights"].get<int>());
+}
+
+// A feature's cost, a device, a clip or an IES file in one line.
 std::string object_line(const Json& entry) {
+    if (entry.contains("lumens")) return profile_line(entry);
     if (entry.contains("length_s")) return clip_line(entry);
     std::string line = text_of(entry["name"]);
     if (!entry.contains("ms")) return line;
@@ -224,7 +248,7 @@ void add_info_options(CLI::App& command, InfoOptions& options) {
               options.stats);
 }
 
-constexpr const char* kExamples =
+constexpr const char* kInfoExamples =
     "  kilolux info\n"
     "  kilolux info town.glb --json\n"
     "  kilolux info atrium --costs\n"
@@ -237,7 +261,7 @@ constexpr const char* kExamples =
 void add_info_command(Program& program) {
     program.add_command("info",
                         "Tell the devices, what the scene holds, and what of the renderer it needs",
-                        kExamples, add_info_options, run_info);
+                        kInfoExamples, add_info_options, run_info);
 }
 
 }  // namespace kilolux

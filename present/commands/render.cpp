@@ -17,6 +17,7 @@
 #include "present/cli/progress.h"
 #include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
+#include "present/image/display_picture.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
 #include "present/video/video_file.h"
@@ -30,6 +31,7 @@ struct RenderOptions {
     SharedOptions shared;
     OutputOptions output;
     BudgetOptions budget;
+    bool has_alpha = false;  // the picture: see wants_alpha()
 };
 
 // One picture to make: a frame of the sequence, or the only one.
@@ -124,6 +126,26 @@ void write_picture(Frame& frame, const fs::path& file, const ImageNotes& notes,
     video->write(frame);
 }
 
+// The display's colours of what covers each pixel, in place of their mixture with black. Pixels
+// that are covered whole keep their codes.
+std::vector<float> covered_colours(const RenderOptions& options, const Frame& frame,
+                                   const std::vector<float>& alpha, std::vector<float> whole) {
+    Frame covered;
+    covered.width = frame.width;
+    covered.height = frame.height;
+    covered.radiance = frame.radiance;
+    for (std::size_t i = 0; i < covered.radiance.size(); ++i) {
+        if (alpha[i / 3] > 0.0f) covered.radiance[i] /= alpha[i / 3];
+    }
+    const std::vector<float> colours =
+        display_colours(covered, options.shared.settings, options.output.ocio);
+    if (whole.empty()) whole = display_codes(frame);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        if (alpha[i / 3] < 1.0f) whole[i] = colours[i];
+    }
+    return whole;
+}
+
 FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures, const Task& task,
                         VideoFile* video) {
     const OutputOptions& out = options.output;
@@ -141,8 +163,14 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures, c
     }
     if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    write_picture(frame, task.file, notes_of(options, pictures, record),
-                  image_options(options, frame, task), video);
+    ImageOptions image = image_options(options, frame, task);
+    if (options.has_alpha) {
+        image.alpha = pictures.coverage(frame, task.time, task.frame);
+        if (is_for_the_eye(task.file)) {
+            image.display = covered_colours(options, frame, image.alpha, std::move(image.display));
+        }
+    }
+    write_picture(frame, task.file, notes_of(options, pictures, record), image, video);
     return record;
 }
 
@@ -224,7 +252,7 @@ void check_files(const RenderOptions& options, const Tasks& tasks, const Task& f
 // What the files and the comparison read. Counting useful evaluations costs a pass of its own.
 FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked) {
     const OutputOptions& out = options.output;
-    const bool own_display = wants_own_display(options);
+    const bool own_display = wants_own_display(options) || options.has_alpha;
     const bool for_the_eye = is_for_the_eye(out.output);
     FrameRequest want = asked;
     want.display = for_the_eye || !out.reference.empty();
@@ -235,9 +263,20 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     return want;
 }
 
+// Whether the picture is cut out of its background: --background none, where the format has alpha.
+// Bloom glows where nothing is, and debug views are of no light.
+bool wants_alpha(const RenderOptions& options) {
+    const SharedOptions& shared = options.shared;
+    return shared.background.kind == BackgroundChoice::Kind::none &&
+           !is_video(options.output.output) && holds_alpha(options.output.output) &&
+           shared.settings.bloom == 0.0f && shared.settings.want.view == ViewKind::lit &&
+           !shared.show_error;
+}
+
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
+    options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
     const Tasks tasks(options);
@@ -266,13 +305,14 @@ void run_render(RenderOptions& options) {
 
 void add_render_options(CLI::App& command, RenderOptions& options) {
     options.shared.takes_automatic_exposure = true;
+    options.shared.takes_automatic_samples = true;
     options.shared.shows_environment = true;
     add_shared_options(command, options.shared);
     add_output_options(command, options.output);
     add_budget_options(command, options.budget);
 }
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     "  kilolux render -o atrium.png\n"
     "  kilolux render -o atrium.exr --lights 100000 --aov depth,normal,light-count\n"
     "  kilolux render town.glb -o town.png --lights 0 --camera-index 1 --resolution 3840x2160\n"
@@ -287,7 +327,7 @@ constexpr const char* kExamples =
 
 void add_render_command(Program& program) {
     program.add_command("render", "Render a scene to an image file, a sequence of them or a video",
-                        kExamples, add_render_options, run_render);
+                        kRenderExamples, add_render_options, run_render);
 }
 
 }  // namespace kilolux

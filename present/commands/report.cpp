@@ -43,6 +43,7 @@ struct Report {
     nlohmann::ordered_json context;
     std::string caption;  // scene, lights, sizes, device, for pictures
     std::vector<ReportRow> rows;
+    std::vector<SampledShadowError> shadows;  // empty: no row is about them
 };
 
 BenchFrames report_frames(const ReportOptions& options) {
@@ -52,8 +53,9 @@ BenchFrames report_frames(const ReportOptions& options) {
 
 std::vector<ReportSetting> chosen_settings(const ReportOptions& options, const Scene& scene) {
     const RenderSettings& asked = options.shared.settings;
-    auto settings =
-        report_settings(scene, asked, describe(choose_device(asked.device)), options.quick);
+    SettingChoice choice = budget_candidates(budget_of(options.shared, options.budget));
+    choice.quick = options.quick;
+    auto settings = report_settings(scene, asked, describe(choose_device(asked.device)), choice);
     if (options.axes.empty()) return settings;
     std::erase_if(settings, [&](const ReportSetting& setting) {
         return setting.axis != SettingAxis::none &&
@@ -71,6 +73,19 @@ std::vector<ReportRow> measure(const ReportOptions& options, ReportRun& run,
     run.on_step([] {});
     run.on_progress([] {});
     return rows;
+}
+
+// Of the rows' sampled shadows, if any.
+std::vector<SampledShadowError> shadow_errors(const ReportOptions& options, const ReportView& view,
+                                              const ReportRun& run,
+                                              const std::vector<ReportRow>& rows) {
+    ShadowErrorPlan plan;
+    plan.rays = shadow_rays_of(rows);
+    if (plan.rays.empty()) return {};
+    if (options.quick) plan.draws = 256;
+    note("sampled shadows: many pictures that differ in their seed");
+    return measure_shadow_error(view, run.at_error_size(options.shared.settings), plan,
+                                check_interrupt);
 }
 
 std::string caption_of(const SharedOptions& shared, const DeviceInfo& device,
@@ -107,12 +122,29 @@ void write_errors(const fs::path& folder, const Report& report, const ReportRow&
 
 // The summary with its notes: report.md.
 std::string report_text(const Report& report) {
-    return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows);
+    std::string out =
+        to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows);
+    if (report.shadows.empty()) return out;
+    return out + "\n" + to_markdown(shadow_error_table(report.shadows), 3) + "\n" +
+           shadow_error_notes();
 }
 
 // The document of --json and report.json.
 Json report_json(const Report& report) {
-    return {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
+    Json out = {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
+    if (!report.shadows.empty()) out["shadows"] = table_json(shadow_error_table(report.shadows));
+    return out;
+}
+
+// shadows.csv with its context, as `bench --table` takes it, and its plot.
+void write_shadow_errors(const fs::path& folder, const Report& report) {
+    if (report.shadows.empty()) return;
+    const fs::path csv = folder / "shadows.csv";
+    write_atomically(csv, to_csv(shadow_error_table(report.shadows)));
+    write_json(context_file(csv).string(),
+               {{"command", command_line()}, {"context", report.context}});
+    write_plot(shadow_error_plot(report.shadows, report.caption),
+               folder / "shadow_variance_over_rays");
 }
 
 // Writes report.csv, report.json, report.md, the plots, and the pictures of errors and worst pixels
@@ -125,6 +157,7 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
     write_plot(surfaces_plot(report.rows, report.caption), folder / "time_against_error");
     write_plot(unbounded_plot(report.rows, report.caption),
                folder / "time_against_unbounded_error");
+    write_shadow_errors(folder, report);
     make_output_folder(folder / "worst");
     make_output_folder(folder / "errors");
     for (const ReportRow& row : report.rows) {
@@ -145,8 +178,21 @@ void apply_quick(const CLI::App& command, ReportOptions& options) {
     if (!is_given(command, "--lights")) s.lights.count = 1000;
 }
 
+// The axis of shadows needs some: exact ones, unless the command line says which.
+void apply_axes(const CLI::App& command, ReportOptions& options) {
+    RenderSettings& s = options.shared.settings;
+    s.want = {};  // what is shown has no error
+    const bool shadows = std::ranges::count(options.axes, axis_name(SettingAxis::shadows)) > 0;
+    if (!shadows || s.shadows != Shadows::off) return;
+    if (is_given(command, "--shadows")) {
+        throw UsageError("--axes shadows: needs shadows, and --shadows is off");
+    }
+    s.shadows = Shadows::exact;
+}
+
 void run_report(ReportOptions& options, const CLI::App& command) {
     apply_quick(command, options);
+    apply_axes(command, options);
     begin_command(options.shared);
     make_output_folder(options.output);
     SharedOptions& shared = options.shared;
@@ -163,6 +209,8 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     report.context["error_resolution"] = run.error_size();
     report.caption = caption_of(shared, device, run);
     report.rows = measure(options, run, chosen_settings(options, scene));
+    report.shadows = shadow_errors(options, view, run, report.rows);
+    add_shadow_errors(report.rows, report.shadows);
     if (options.json) {
         write_json("-", report_json(report));
     } else {
@@ -177,8 +225,10 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
     OptionBuilder(command, "Measuring and output")
         .flag("--quick", options.quick,
               "480x270 pixels, 1000 lights, fewer settings and frames: about a minute")
-        .choice_list({"--axes", "", "all", "What settings may differ in"}, options.axes,
-                     setting_axis_names())
+        .choice_list({"--axes", "", "all; shadows where --shadows asks for some",
+                      "What settings may differ in; shadows compares off, exact and sampled ones "
+                      "by 1, 4 and 16 rays, and makes --shadows exact the default"},
+                     options.axes, setting_axis_names())
         .count({"--warm-up", "N", "2", "Frames before the measured ones, in each of two rounds"},
                options.warm_up, {0, 1'000'000})
         .count({"--frames", "N", "20", "Measured frames; fewer of slow settings"}, options.frames,
@@ -189,7 +239,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
     add_budget_options(command, options.budget);
 }
 
-constexpr const char* kExamples =
+constexpr const char* kReportExamples =
     "  kilolux report -o results\n"
     "  kilolux report --quick\n"
     "  kilolux report town.glb --lights 0 -o results\n"
@@ -200,7 +250,7 @@ constexpr const char* kExamples =
 void add_report_command(Program& program) {
     program.add_command(
         "report", "Measure speed against error of every setting that trades one for the other",
-        kExamples, add_report_options, run_report);
+        kReportExamples, add_report_options, run_report);
 }
 
 }  // namespace kilolux

@@ -2,6 +2,7 @@
 #include "present/commands/scene_renderer.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <utility>
 
@@ -72,6 +73,21 @@ Frame SceneRenderer::render(double time, int frame) {
     scene_.set_time(time);
     camera_ = camera_at_(scene_.scene(), frame, time);
     return renderer_->render(camera_, time, between_);
+}
+
+std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, int frame) {
+    const RenderSettings wanted = renderer_->settings();
+    RenderSettings settings = wanted;
+    settings.want = radiance_only();
+    settings.background = std::make_shared<const Environment>(Environment{1, 1, {glm::vec3(1.0f)}});
+    renderer_->change(settings);
+    const Frame white = render(time, frame);
+    renderer_->change(wanted);
+    std::vector<float> out;
+    for (std::size_t i = 1; i < picture.radiance.size(); i += 3) {
+        out.push_back(1.0f - std::clamp(white.radiance[i] - picture.radiance[i], 0.0f, 1.0f));
+    }
+    return out;
 }
 
 void SceneRenderer::relight(SharedOptions& options) {

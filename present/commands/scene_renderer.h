@@ -43,6 +43,10 @@ class SceneRenderer {
     /// The picture at `time` [s].
     Frame render(double time, int frame = 0);
 
+    /// How much of each pixel surfaces cover and let nothing through, 0 to 1: from the same picture
+    /// before a white background. `frame` is the picture before none.
+    std::vector<float> coverage(const Frame& picture, double time, int frame);
+
     /// Obeys `next` in place of the options so far; the scene that they name stays. `relights`: its
     /// lights are those of `next`, too. When it throws, everything is as before.
     void change(const SharedOptions& next, const BudgetOptions& budget, const FrameRequest& want,

@@ -24,9 +24,30 @@ struct ViewOptions {
     bool fresh = false;
 };
 
+ViewState kept_state(StateFile& file) {
+    return file.load({}, [](const std::string&) { return false; });
+}
+
+// The kept rig, unless the command line says something of lights. Returns whether there is one.
+bool take_kept_rig(SharedOptions& shared, const CLI::App& command, StateFile& file) {
+    for (const char* name : {"--rig", "--lights", "--light-seed", "--light-radius",
+                             "--light-intensity", "--light-box", "--environment"}) {
+        if (is_given(command, name)) return false;
+    }
+    shared.rig = kept_state(file).rig;
+    return shared.rig != Rig::automatic;
+}
+
+struct StartRig {
+    Rig asked = Rig::automatic;
+    bool is_kept = false;
+};
+
 // The kept state, with the values of the command line in place of the kept ones.
-ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file) {
+ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file,
+                      const StartRig& rig) {
     ViewState state;
+    state.rig = rig.asked;
     state.settings = options.shared.settings;
     state.settings.background = options.shared.shown_background;
     state.settings.reflections = options.shared.maps;
@@ -38,11 +59,14 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     if (is_given(command, "--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
-    // A rig without a swarm decides of lights and surround, whatever was kept.
-    const bool rig_decides = options.shared.rig != Rig::automatic;
+    // Lights and surround are kept with their rig; another one without a swarm decides of them.
+    const Rig kept = kept_state(file).rig;
+    const bool is_swarm = options.shared.rig == Rig::automatic || options.shared.rig == Rig::swarm;
+    const bool of_other_rig = kept != Rig::automatic && kept != Rig::swarm;
+    const bool rig_decides = !rig.is_kept && (!is_swarm || of_other_rig);
     return file.load(state, [&](const std::string& name) {
         const bool of_rig = name == "--lights" || name == "--ambient";
-        return is_given(command, name) || (rig_decides && of_rig) ||
+        return is_given(command, name) || name == "--rig" || (rig_decides && of_rig) ||
                (counts && name == "--samples");
     });
 }
@@ -67,9 +91,12 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     choose_device(options.shared.settings.device);  // throws before anything is on the screen
     const WindowSystem system;
     StateFile file(options.fresh ? std::filesystem::path() : view_state_file());
-    const Scene scene = open_scene(options.shared);
+    const bool keeps_rig = take_kept_rig(options.shared, command, file);
+    session.asked = options.shared;
+    AnimatedScene scene = open_animated_scene(options.shared, options.shared.time);
+    note(light_scene(options.shared, scene));
     session.shared = options.shared;
-    session.state = start_state(options, command, file);
+    session.state = start_state(options, command, file, {session.asked.rig, keeps_rig});
     const Window context({16, 16}, "Kilolux", false);
     Window window(session.state.window_size, "Kilolux - " + options.shared.scene, true);
     window.show();
@@ -98,7 +125,7 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
               options.script);
 }
 
-constexpr const char* kExamples =
+constexpr const char* kViewExamples =
     "  kilolux view\n"
     "  kilolux view town.glb --lights 20000\n"
     "  kilolux view --exit-after 3 --screenshot window.png";
@@ -106,7 +133,7 @@ constexpr const char* kExamples =
 }  // namespace
 
 void add_view_command(Program& program) {
-    program.add_command("view", "Show a scene in a window and fly through it", kExamples,
+    program.add_command("view", "Show a scene in a window and fly through it", kViewExamples,
                         add_view_options, run_view);
 }
 

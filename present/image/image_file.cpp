@@ -63,7 +63,7 @@ std::vector<unsigned char> encode(const std::filesystem::path& file, const OIIO:
     return bytes;
 }
 
-// Display codes as RGB: JPEG has no alpha, and ours is opaque.
+// Display codes as RGB, or RGBA where the options have alpha.
 OIIO::ImageSpec display_spec(const std::filesystem::path& file, const Frame& frame,
                              const ImageOptions& options) {
     OIIO::ImageSpec spec(frame.width, frame.height, 3,
@@ -75,6 +75,11 @@ OIIO::ImageSpec display_spec(const std::filesystem::path& file, const Frame& fra
         // "sRGB" OpenImageIO 2.4 writes an Exif directory that breaks the file.
         spec.attribute("DateTime", "    :  :     :  :  ");
         return spec;
+    }
+    if (!options.alpha.empty()) {
+        spec.nchannels = 4;
+        spec.default_channel_names();
+        spec.attribute("oiio:UnassociatedAlpha", 1);
     }
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("jpeg:subsampling", "4:4:4");
@@ -95,12 +100,25 @@ std::vector<unsigned char> codes_of(const std::vector<float>& colours) {
     return bytes;
 }
 
+// RGB, or RGBA.
+std::vector<float> with_alpha(const ImageOptions& options) {
+    if (options.alpha.empty()) return options.display;
+    std::vector<float> out;
+    for (std::size_t i = 0; i < options.alpha.size(); ++i) {
+        const float* rgb = &options.display[3 * i];
+        out.insert(out.end(), {rgb[0], rgb[1], rgb[2], options.alpha[i]});
+    }
+    return out;
+}
+
 std::vector<unsigned char> encode_display(const std::filesystem::path& file,
                                           const OIIO::ImageSpec& spec, const Frame& frame,
                                           const ImageOptions& options) {
     if (options.display.empty()) return encode(file, spec, frame.display, 4);
-    if (options.bits == 16) return encode(file, spec, codes_of<std::uint16_t>(options.display), 6);
-    return encode(file, spec, codes_of<std::uint8_t>(options.display), 3);
+    const std::vector<float> colours = with_alpha(options);
+    const std::size_t bytes = spec.pixel_bytes();
+    if (options.bits == 16) return encode(file, spec, codes_of<std::uint16_t>(colours), bytes);
+    return encode(file, spec, codes_of<std::uint8_t>(colours), bytes);
 }
 
 // CIE xy of red, green, blue and white of Rec. 709 (ITU-R BT.709-6, 1.3 and 1.4).
@@ -152,6 +170,10 @@ OIIO::ImageSpec exr_spec(const Frame& frame, const ImageNotes& notes, const Imag
         options.half_colour ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
     spec.channelnames.clear();
     for (const char* name : {"R", "G", "B"}) add_channel(spec, name, colour);
+    if (!options.alpha.empty()) {
+        spec.alpha_channel = spec.nchannels;
+        add_channel(spec, "A", colour);
+    }
     for (const Layer& layer : frame.aovs) {
         for (const std::string& channel : layer.channels) {
             add_channel(spec, channel,
@@ -170,7 +192,8 @@ OIIO::ImageSpec exr_spec(const Frame& frame, const ImageNotes& notes, const Imag
 }
 
 // Pixels as that spec lays them out: interleaved, each channel in its own format.
-std::vector<unsigned char> exr_pixels(const Frame& frame, const OIIO::ImageSpec& spec) {
+std::vector<unsigned char> exr_pixels(const Frame& frame, const OIIO::ImageSpec& spec,
+                                      const std::vector<float>& alpha) {
     const std::size_t pixel_bytes = spec.pixel_bytes(true);
     std::vector<unsigned char> pixels(pixel_bytes * spec.image_pixels());
     std::size_t channel = 0;
@@ -185,11 +208,16 @@ std::vector<unsigned char> exr_pixels(const Frame& frame, const OIIO::ImageSpec&
         offset += count * sizeof values[0];
         channel += count;
     };
-    if (spec.channelformats[0] == OIIO::TypeDesc::HALF) {
-        add(half_of(frame.radiance), 3);
-    } else {
-        add(frame.radiance, 3);
-    }
+    const bool half = spec.channelformats[0] == OIIO::TypeDesc::HALF;
+    const auto add_colour = [&](const std::vector<float>& values, std::size_t count) {
+        if (half) {
+            add(half_of(values), count);
+        } else {
+            add(values, count);
+        }
+    };
+    add_colour(frame.radiance, 3);
+    if (!alpha.empty()) add_colour(alpha, 1);
     for (const Layer& layer : frame.aovs) {
         if (layer.is_id()) {
             add(layer.ids, layer.channels.size());
@@ -215,6 +243,10 @@ bool holds_16_bits(const std::filesystem::path& file) {
     return plugin == "png" || plugin == "tiff";
 }
 
+bool holds_alpha(const std::filesystem::path& file) {
+    return std::string_view(format_of(file).plugin) == "png" || holds_layers(file);
+}
+
 bool holds_layers(const std::filesystem::path& file) {
     return std::string_view(format_of(file).plugin) == "openexr";
 }
@@ -230,7 +262,7 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
     for (const auto& [name, text] : notes.strings) spec.attribute("kilolux:" + name, text);
     if (display) return encode_display(file, spec, frame, options);
     if (holds_layers(file)) {
-        return encode(file, spec, exr_pixels(frame, spec), spec.pixel_bytes(true));
+        return encode(file, spec, exr_pixels(frame, spec, options.alpha), spec.pixel_bytes(true));
     }
     const auto* bytes = reinterpret_cast<const unsigned char*>(frame.radiance.data());
     return encode(file, spec, {bytes, frame.radiance.size() * sizeof(float)}, 3 * sizeof(float));

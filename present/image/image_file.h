@@ -26,6 +26,9 @@ ImageMeaning image_meaning(const std::filesystem::path& file);
 /// Whether the format can hold 16 bits a channel for the eye: PNG and TIFF.
 bool holds_16_bits(const std::filesystem::path& file);
 
+/// Whether the format can say how much of a pixel is covered: PNG and EXR.
+bool holds_alpha(const std::filesystem::path& file);
+
 /// Whether the format keeps named channels beside the colour: EXR.
 bool holds_layers(const std::filesystem::path& file);
 
@@ -37,9 +40,12 @@ struct ImageNotes {
 };
 
 struct ImageOptions {
-    bool half_colour = false;    // EXR: R, G, B in half
-    int jpeg_quality = 95;       // 1..100
-    int bits = 8;                // PNG, TIFF: a channel, 8 or 16
+    bool half_colour = false;  // EXR: R, G, B in half
+    int jpeg_quality = 95;     // 1..100
+    int bits = 8;              // PNG, TIFF: a channel, 8 or 16
+    // PNG, EXR: how much of each pixel is covered, 0 to 1; empty: all of each, without a channel.
+    // The display's colours are those of what covers, EXR's are multiplied by it.
+    std::vector<float> alpha{};
     std::vector<float> display;  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
 };
 

@@ -169,7 +169,10 @@ std::vector<T> without_padding(const std::vector<T>& planes, const View& view,
 }  // namespace
 
 GBufferLighting::GBufferLighting(const std::string& device, const std::string& shading)
-    : gpu_(choose_device(device)), shading_(shading_of(shading)) {}
+    : GBufferLighting(choose_device(device), shading_of(shading)) {}
+
+GBufferLighting::GBufferLighting(const cl::Device& device, int shading)
+    : known_(known_tuning(describe(device))), gpu_(device, known_.lanes), shading_(shading) {}
 
 GBufferLighting::Lit GBufferLighting::light(const HostSurfaces& surfaces, const Camera& seen_by,
                                             std::vector<SceneLight> lights, float ambient) {
@@ -179,7 +182,7 @@ GBufferLighting::Lit GBufferLighting::light(const HostSurfaces& surfaces, const 
     Camera camera = seen_by;
     camera.z_near = range.first;
     const View view = view_of(camera, surfaces.width, surfaces.height);
-    fill_missing_ranges(lights);
+    fill_missing_ranges(lights, tails_for(lights, Tails::automatic, kDefaultRangeBudget));
     const LightRows rows = make_light_rows(lights, camera.position);
     const KernelFeatures features = features_of(surfaces, rows, shading_);
     FullPlanes planes(surfaces, view, features);
@@ -191,7 +194,7 @@ GBufferLighting::Lit GBufferLighting::light(const HostSurfaces& surfaces, const 
     const ClusterGrid grid = make_cluster_grid(
         {.z_first = range.first, .z_last = range.last, .position_pad = 1e-5f * range.last},
         view.width, view.height);
-    const Tuning tuning = default_tuning(gpu_.info);
+    const Tuning& tuning = known_.tuning;
     StageTimer timer;
     DeferredLighting lighting(gpu_, tuning, features);
     lighting.set_ambient(ambient);

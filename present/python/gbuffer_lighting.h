@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/gpu/device.h"
+#include "host/gpu/tuning_store.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"
@@ -42,7 +43,10 @@ class GBufferLighting {
               float ambient);
 
  private:
+    GBufferLighting(const cl::Device& device, int shading);
+
     std::mutex mutex_;  // one call at a time: the queue is one
+    KnownTuning known_;
     Gpu gpu_;
     int shading_;
 };

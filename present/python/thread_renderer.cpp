@@ -51,11 +51,15 @@ RendererOptions parse_renderer_options(const std::string& scene,
     app.set_help_flag();
     app.allow_extras();
     options.shared.takes_automatic_exposure = true;
+    options.shared.takes_automatic_samples = true;
     options.shared.shows_environment = true;
     add_shared_options(app, options.shared);
     add_budget_options(app, options.budget);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     refuse_extras(app, app.remaining());
+    if (app.get_option("--list-devices")->count() > 0) {
+        throw UsageError("--list-devices is for the command line; devices() lists them here");
+    }
     begin_command(options.shared);
     check_budget(options.shared, options.budget);
     options.shared.scene = scene;

@@ -14,6 +14,8 @@ namespace kilolux {
 #define LIGHTS_UNIT 8
 #define CLUSTER_OFFSETS_UNIT 9
 #define LIGHT_LISTS_UNIT 10
+#define LIGHT_PROFILES_UNIT 11
+#define PROFILE_TABLES_UNIT 12
 
 // What forward shading needs beside materials and lights.
 SHARED_STRUCT(ForwardRow) {

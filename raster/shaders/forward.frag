@@ -1,7 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
-// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_UNLIT as in evaluate.h; HAS_DIRECTIONAL_LIGHTS.
+// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_UNLIT, HAS_LIGHT_PROFILES as in evaluate.h;
+// HAS_DIRECTIONAL_LIGHTS.
 #include "kernels/shared/evaluate.h"
 #include "raster/shaders/material.glsl"
 
@@ -35,6 +36,28 @@ layout(std430, binding = 3) readonly buffer LightLists { uint light_lists[]; };
 ShadeLight light_at(uint light) { return lights[light]; }
 uint cluster_offset(uint cluster) { return cluster_offsets[cluster]; }
 uint listed_light(uint entry) { return light_lists[entry]; }
+#endif
+
+#if HAS_LIGHT_PROFILES
+#if LIGHT_TEXTURES
+layout(binding = LIGHT_PROFILES_UNIT) uniform samplerBuffer light_profiles;  // rows of AimedProfile
+layout(binding = PROFILE_TABLES_UNIT) uniform samplerBuffer profile_tables;
+
+AimedProfile profile_of_light(LightProfiles from, uint light) {
+    AimedProfile read;
+    read.down = texelFetch(light_profiles, 2 * int(light));
+    read.side = texelFetch(light_profiles, 2 * int(light) + 1);
+    return read;
+}
+float profile_value(LightProfiles from, uint i) { return texelFetch(profile_tables, int(i)).x; }
+#else
+layout(std430, binding = 4) readonly buffer AimedProfiles { AimedProfile light_profiles[]; };
+layout(std430, binding = 5) readonly buffer ProfileTables { float profile_tables[]; };
+
+AimedProfile profile_of_light(LightProfiles from, uint light) { return light_profiles[light]; }
+float profile_value(LightProfiles from, uint i) { return profile_tables[i]; }
+#endif
+float profile_head(LightProfiles from, uint i) { return profile_value(from, i); }
 #endif
 
 layout(location = 0) out vec4 out_radiance;  // linear; alpha for materials that blend
@@ -81,6 +104,9 @@ uvec2 light_range(float z) {
 // As kernels/shade.cl: in blocks by light index.
 LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
     RunningSum sum = start_sum(total);
+#if HAS_LIGHT_PROFILES
+    LightProfiles profiles = LightProfiles(0u);
+#endif
     for (uint i = range.x; i < range.y; ++i) {
 #if CLUSTERED
         uint light = listed_light(i);
@@ -88,7 +114,7 @@ LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
         uint light = i;
 #endif
         sum = enter_block(sum, light);
-        sum.block = evaluate(sum.block, p, light_at(light));
+        sum.block = evaluate(sum.block, p, light_at(light) WITH_PROFILE(profiles, light));
     }
     return finish_sum(sum);
 }

@@ -41,17 +41,20 @@ class Drawing {
     explicit Drawing(const Scene& scene)
         : Drawing(scene, test_gpu(), default_tuning(test_gpu().info)) {}
 
-    std::vector<Shown> at(const Camera& camera, int width, int height) {
-        return of(ids_.visible(camera, width, height), camera, width, height);
+    std::vector<Shown> at(const Camera& camera, int width, int height,
+                          const OpenTiles* open = nullptr) {
+        return of(ids_.visible(camera, width, height, open), camera, width, height, open);
     }
+    std::uint64_t triangles() const { return ids_.triangles(); }
+    std::uint64_t pairs() const { return ids_.pairs(); }
 
  private:
     std::vector<Shown> of(const std::vector<Draw>& draws, const Camera& camera, int width,
-                          int height) {
+                          int height, const OpenTiles* open) {
         const View view = view_of(camera, width, height);
         StageTimer timer;
         const std::vector<uint> ids =
-            download(gpu_, ids_.enqueue(surfaces_.at(draws), draws, view, timer));
+            download(gpu_, ids_.enqueue(surfaces_.at(draws), draws, view, timer, open));
         std::vector<Shown> out;
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
@@ -201,6 +204,42 @@ TEST(TriangleIds, AreTheSameOnEveryWay) {
             Drawing drawing(scene, test_gpu(lanes), tuning);
             EXPECT_EQ(drawing.at(camera, kWidth, kHeight), expected)
                 << lanes << " lanes, " << width << "x" << height << ", groups of " << group;
+        }
+    }
+}
+
+// Tiles that are needed show what they always do, others as little as can be.
+TEST(TriangleIds, OfSomeTilesAreThoseOfAll) {
+    const Scene scene = make_generated_scene("atrium");
+    constexpr int kWidth = 149, kHeight = 90, kColumns = 10, kRows = 6;
+    const Camera camera = first_camera(scene);
+    for (const bool by_group : {false, true}) {
+        Tuning tuning = default_tuning(test_gpu().info);
+        tuning.raster_tile_width = tuning.raster_tile_height = by_group ? 32 : 16;
+        tuning.raster_group = by_group ? 64 : 1;
+        Drawing drawing(scene, test_gpu(by_group ? 1 : 0), tuning);
+        const std::vector<Shown> whole = drawing.at(camera, kWidth, kHeight);
+        const std::uint64_t triangles = drawing.triangles(), pairs = drawing.pairs();
+        for (const int first_row : {0, -5}) {
+            OpenTiles open{FINE_TILE, kColumns, first_row,
+                           std::vector<bool>(std::size_t{kColumns} * kRows)};
+            for (const std::size_t tile : {3u, 21u, 22u, 58u}) open.open[tile] = true;
+            const std::vector<Shown> some = drawing.at(camera, kWidth, kHeight, &open);
+            EXPECT_LT(drawing.triangles(), triangles);
+            EXPECT_LT(drawing.pairs(), pairs / 2);
+            int wrong = 0, needed = 0;
+            for (int y = 0; y < kHeight; ++y) {
+                for (int x = 0; x < kWidth; ++x) {
+                    const int row = (y - first_row) / FINE_TILE;
+                    const auto tile = static_cast<std::size_t>(row * kColumns + x / FINE_TILE);
+                    if (tile >= open.open.size() || !open.open[tile]) continue;
+                    const auto i = static_cast<std::size_t>(y * kWidth + x);
+                    ++needed;
+                    wrong += !(some[i] == whole[i]);
+                }
+            }
+            EXPECT_EQ(wrong, 0);
+            EXPECT_GT(needed, 600);
         }
     }
 }

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Installs the library alone into a prefix, and builds and runs host/example against it, by CMake and
-# by pkg-config.
-#   cmake -DROOT=<source> -DWORK=<folder> -DGENERATOR=Ninja -DCXX=g++ -P tests/install/install_test.cmake
+# Installs the library alone into a prefix, and builds and runs host/example and a C program against
+# it, by CMake and by pkg-config.
+#   cmake -DROOT=<source> -DWORK=<folder> -DGENERATOR=Ninja -DCXX=g++ -DCC=cc -P tests/install/install_test.cmake
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
   if(NOT code EQUAL 0)
@@ -12,7 +12,7 @@ function(run)
 endfunction()
 
 # An installed prefix knows nothing of the build that made it: it is moved before it is used.
-file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/moved ${WORK}/example)
+file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/moved ${WORK}/example ${WORK}/c)
 set(configure ${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX})
 # The packages of the other half: asking for one of them fails.
 foreach(package OpenImageIO TinyGLTF glfw3 meshoptimizer draco)
@@ -30,6 +30,16 @@ run(${configure} -S ${WORK}/example -B ${WORK}/example/build -DCMAKE_PREFIX_PATH
 run(${CMAKE_COMMAND} --build ${WORK}/example/build)
 run(${WORK}/example/build/light_gbuffer ${WORK}/by_cmake.ppm)
 
+# Macros begin with KILOLUX_, but for what only OpenCL C and GLSL define; one root leads to every header.
+file(GLOB_RECURSE headers ${WORK}/moved/include/*.h)
+foreach(header IN LISTS headers)
+  file(STRINGS ${header} wrong REGEX "^ *# *(define +[A-Z]|include \"[a-z])")
+  list(FILTER wrong EXCLUDE REGEX "define +(KILOLUX_|(FV|IV|UV|VW|MASK)( |$))")
+  if(wrong)
+    message(FATAL_ERROR "${header}: ${wrong}")
+  endif()
+endforeach()
+
 # Every installed header stands alone.
 file(GLOB_RECURSE headers RELATIVE ${WORK}/moved/include ${WORK}/moved/include/*.h)
 list(LENGTH headers count)
@@ -39,6 +49,9 @@ endif()
 set(all "")
 foreach(header IN LISTS headers)
   string(APPEND all "#include <${header}>\n")
+endforeach()
+foreach(name FV UV MASK PLANE_DEPTH SHADING_PBR SHARED_STRUCT FINE_TILE)
+  string(APPEND all "#ifdef ${name}\n#error ${name} is defined\n#endif\n")
 endforeach()
 file(WRITE ${WORK}/all_headers.cpp "${all}")
 
@@ -60,6 +73,26 @@ run(${WORK}/version ${modversion})
 run(${CXX} -fsyntax-only ${WORK}/all_headers.cpp ${flags})
 run(${CXX} -O2 ${WORK}/example/light_gbuffer.cpp ${flags} -o ${WORK}/by_pkg_config)
 run(${WORK}/by_pkg_config ${WORK}/by_pkg_config.ppm)
+
+# In C, by a project that knows no C++, and by pkg-config.
+file(WRITE ${WORK}/c/CMakeLists.txt "cmake_minimum_required(VERSION 3.22)
+project(LightPlane LANGUAGES C)
+find_package(Kilolux 0.1 REQUIRED)
+add_executable(light_plane light_plane.c)
+target_compile_definitions(light_plane PRIVATE CL_TARGET_OPENCL_VERSION=300)
+target_link_libraries(light_plane PRIVATE Kilolux::c)
+")
+file(COPY ${ROOT}/tests/install/light_plane.c DESTINATION ${WORK}/c)
+set(c_flags -std=c99 -Wall -Wextra -Wshadow -Wconversion -Wstrict-prototypes -Werror -Wno-deprecated-declarations)
+list(JOIN c_flags " " c_flags_text)
+run(${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_C_COMPILER=${CC} "-DCMAKE_C_FLAGS=${c_flags_text}"
+  -DCMAKE_PREFIX_PATH=${WORK}/moved -S ${WORK}/c -B ${WORK}/c/build)
+run(${CMAKE_COMMAND} --build ${WORK}/c/build)
+run(${WORK}/c/build/light_plane)
+run(pkg-config --cflags --libs kilolux-c)
+separate_arguments(flags UNIX_COMMAND "${out}")
+run(${CC} ${c_flags} ${WORK}/c/light_plane.c ${flags} -o ${WORK}/c/by_pkg_config)
+run(${WORK}/c/by_pkg_config)
 
 # The same picture both ways, and one that is neither black nor white.
 foreach(way by_cmake by_pkg_config)

@@ -60,6 +60,20 @@ TEST(ErrorBudget, OtherRangesAreAnotherPictureUnlessTheBudgetIsAboutThem) {
     EXPECT_EQ(choose_within(rows, {0.5, "r3-flip"}).name, "cut-off 1/256");
 }
 
+TEST(ErrorBudget, ShadowsAreChosenOnlyWhereTheBudgetSaysSoAndNeverNone) {
+    auto rows = some_rows();
+    for (const auto& [name, relative, shadows] :
+         {std::tuple{"shadows off", 0.1, Shadows::off},
+          std::tuple{"shadows sampled 8", 0.2, Shadows::sampled},
+          std::tuple{"shadows exact", 0.3, Shadows::exact}}) {
+        rows.push_back(row(name, relative, 0.3 - relative, SettingAxis::shadows));
+        rows.back().setting.settings.shadows = shadows;
+    }
+    EXPECT_EQ(choose_within(rows, {1.0, "flip"}).name, "shading lambert");
+    EXPECT_EQ(choose_within(rows, {1.0, "flip", true}).name, "shadows sampled 8");
+    EXPECT_EQ(choose_within(rows, {0.05, "flip", true}).name, "shadows exact");
+}
+
 TEST(ErrorBudget, NamesTheBestReachable) {
     const auto rows = some_rows();
     try {

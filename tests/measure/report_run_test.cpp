@@ -39,7 +39,7 @@ struct SmallReport {
         const ReportView view{scene, first_camera(scene), 0.0};
         const DeviceInfo device = describe(choose_device(settings.device));
         run.emplace(view, settings);
-        auto looked_at = report_settings(scene, settings, device, true);
+        auto looked_at = report_settings(scene, settings, device, {.quick = true});
         std::erase_if(looked_at, [](const ReportSetting& s) { return !is_looked_at(s); });
         rows = run->measure(looked_at, {0, 1});
     }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "host/render/light_source.h"
+#include "host/render/scene_plan.h"
 #include "host/scene/generated/scenes.h"
 
 namespace kilolux {
@@ -30,7 +31,7 @@ std::set<SettingAxis> axes(const std::vector<ReportSetting>& settings) {
 TEST(ReportSettings, CoverEveryAxisOnceEach) {
     const Scene scene = make_generated_scene("grid");
     for (const bool quick : {false, true}) {
-        const auto settings = report_settings(scene, {}, device(), quick);
+        const auto settings = report_settings(scene, {}, device(), {.quick = quick});
         EXPECT_EQ(settings.front().name, "default");
         EXPECT_EQ(settings.front().options, "");
         EXPECT_EQ(axes(settings).size(), 9u);
@@ -52,7 +53,7 @@ TEST(ReportSettings, CutOffsKeepTheLightsAndSetTheirRange) {
     RenderSettings base;
     base.lights.count = 300;
     const double intensity = automatic_light_scale(base.lights, scene).intensity;
-    for (const ReportSetting& s : report_settings(scene, base, device(), false)) {
+    for (const ReportSetting& s : report_settings(scene, base, device(), {})) {
         if (s.axis != SettingAxis::cut_off) continue;
         const LightScale scale = automatic_light_scale(s.settings.lights, scene);
         EXPECT_DOUBLE_EQ(scale.intensity, intensity) << s.name;
@@ -67,14 +68,14 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
     Scene scene = make_generated_scene("plain");
     RenderSettings base;
     base.lights.count = 0;
-    EXPECT_EQ(axes(report_settings(scene, base, device(), false)).count(SettingAxis::cut_off), 0u)
+    EXPECT_EQ(axes(report_settings(scene, base, device(), {})).count(SettingAxis::cut_off), 0u)
         << "no light has a range to choose";
     SceneLight ranged, open;
     ranged.intensity = open.intensity = {10.0f, 5.0f, 1.0f};
     ranged.range = 3.0f;
     scene.lights = {ranged, open};
     int cut_offs = 0;
-    for (const ReportSetting& s : report_settings(scene, base, device(), false)) {
+    for (const ReportSetting& s : report_settings(scene, base, device(), {})) {
         if (s.axis != SettingAxis::cut_off) continue;
         ++cut_offs;
         const auto lights = lights_at(scene, s.settings, {}, 0.0);
@@ -82,17 +83,79 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
         EXPECT_FLOAT_EQ(lights[1].range,
                         static_cast<float>(range_of_light(10.0, s.settings.range_budget)));
     }
-    EXPECT_EQ(cut_offs, 4) << "1/256 is the default";
+    EXPECT_EQ(cut_offs, 5) << "all bounded: the default is exact";
+}
+
+// Many lights without a range: what else there is than a cut-off, and where.
+TEST(ReportSettings, ManyLightsWithoutARangeAreTriedInEveryWay) {
+    Scene scene = make_generated_scene("plain");
+    scene.lights.resize(200);
+    RenderSettings base;
+    base.lights.count = 0;
+    const auto names = [&](const RenderSettings& asked, bool quick) {
+        std::set<std::string> out;
+        for (const ReportSetting& s : report_settings(scene, asked, device(), {.quick = quick})) {
+            if (s.axis != SettingAxis::cut_off || s.name.starts_with("cut-off")) continue;
+            out.insert(s.name);
+            EXPECT_NO_THROW(make_scene_plan(scene, s.settings, 200)) << s.name;
+        }
+        return out;
+    };
+    using Names = std::set<std::string>;
+    EXPECT_EQ(names(base, true), (Names{"tails exact", "tails stochastic 4", "tails tree 0.3"}));
+    EXPECT_EQ(names(base, false).size(), 8u);
+    base.shadows = Shadows::exact;
+    EXPECT_EQ(names(base, true), (Names{"tails exact", "tails stochastic 4"}));
+    base.shadows = Shadows::off;
+    base.tails = Tails::tree;
+    EXPECT_EQ(names(base, false).count("tails tree 0.3"), 0u);
+    for (const ReportSetting& s : report_settings(scene, base, device(), {})) {
+        EXPECT_NO_THROW(make_scene_plan(scene, s.settings, 200)) << s.name;
+    }
 }
 
 TEST(ReportSettings, ForwardRenderersHaveNoGBufferToVary) {
     RenderSettings base;
     base.renderer = RendererKind::forward_plus;
-    const auto found = axes(report_settings(make_generated_scene("plain"), base, device(), true));
+    const auto found =
+        axes(report_settings(make_generated_scene("plain"), base, device(), {.quick = true}));
     EXPECT_FALSE(found.count(SettingAxis::gbuffer));
     EXPECT_FALSE(found.count(SettingAxis::lanes));
     EXPECT_FALSE(found.count(SettingAxis::math));
     EXPECT_TRUE(found.count(SettingAxis::grid));
+}
+
+std::set<std::string> names_with(Shadows shadows, const SettingChoice& choice) {
+    RenderSettings base;
+    base.shadows = shadows;
+    std::set<std::string> names;
+    for (const auto& s : report_settings(make_generated_scene("plain"), base, device(), choice)) {
+        names.insert(s.name);
+        EXPECT_FALSE(is_forward(s.settings.renderer) && s.settings.shadows != Shadows::off)
+            << s.name;
+        EXPECT_TRUE(resolves_ids(s.settings.geometry) || s.settings.shadows == Shadows::off)
+            << s.name;
+        EXPECT_EQ(s.axis == SettingAxis::shadows, s.name.starts_with("shadows")) << s.name;
+    }
+    return names;
+}
+
+TEST(ReportSettings, ShadowsAreAnAxisWhereTheyAreAskedFor) {
+    const auto exact = names_with(Shadows::exact, {});
+    for (const char* name :
+         {"shadows off", "shadows sampled 1", "shadows sampled 4", "shadows sampled 16"}) {
+        EXPECT_TRUE(exact.count(name)) << name;
+    }
+    EXPECT_FALSE(exact.count("shadows exact")) << "that is the default";
+    EXPECT_FALSE(exact.count("renderer forward-plus")) << "it casts none";
+    EXPECT_FALSE(exact.count("geometry planes")) << "nor does this";
+    const auto sampled = names_with(Shadows::sampled, {.shadow_rays = {4, 32}});
+    EXPECT_TRUE(sampled.count("shadows exact"));
+    EXPECT_TRUE(sampled.count("shadows sampled 32"));
+    EXPECT_FALSE(sampled.count("shadows sampled 4")) << "that is the default";
+    for (const std::string& name : names_with(Shadows::off, {})) {
+        EXPECT_FALSE(name.starts_with("shadows")) << name;
+    }
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kDeviceStages[] = {"prepare_lights", "build_clusters", "cull_lights",
-                                         "bin_pixels",     "refine_lights",  "shade",
-                                         "bloom",          "tonemap"};
+constexpr const char* kDeviceStages[] = {
+    "prepare_lights", "build_clusters", "cull_lights",    "bin_pixels",   "refine_lights", "shade",
+    "bloom",          "tonemap",        "shadow_origins", "draw_shadows", "cast_shadows"};
 
 // Round numbers, so that times can be worked out by hand.
 DeviceLimits round_limits() {
@@ -53,6 +53,12 @@ StageCounts some_counts() {
     c.refined_pairs = 40000.0;
     c.evaluations = 8e6;
     c.full_evaluations = 4e6;
+    c.shadow_rays = 3e6;
+    c.shadow_seen = 2e6;
+    c.shadow_nodes = 4e5;
+    c.shadow_triangles = 6e5;
+    c.shadow_points = 5e6;
+    c.shadow_words = 3e5;
     return c;
 }
 
@@ -98,9 +104,16 @@ TEST(Roofline, IsMonotoneInEveryCount) {
                                            &StageCounts::refined_pairs,
                                            &StageCounts::evaluations,
                                            &StageCounts::full_evaluations,
+                                           &StageCounts::shadow_rays,
+                                           &StageCounts::shadow_seen,
+                                           &StageCounts::shadow_nodes,
+                                           &StageCounts::shadow_triangles,
+                                           &StageCounts::shadow_points,
+                                           &StageCounts::shadow_words,
                                            &StageCounts::gbuffer_bytes_per_pixel};
     for (const char* stage : {"gbuffer_bridge", "prepare_lights", "build_clusters", "cull_lights",
-                              "bin_pixels", "refine_lights", "shade", "bloom", "tonemap"}) {
+                              "bin_pixels", "refine_lights", "shade", "bloom", "tonemap",
+                              "shadow_origins", "draw_shadows", "cast_shadows"}) {
         bool grew = false;
         for (double StageCounts::*const field : fields) {
             // More tiles leave fewer further clusters: a tile's first cluster costs less than its
@@ -142,6 +155,47 @@ TEST(Roofline, CountsLightsThatLeaveEarlyAsRangeTests) {
     const double instructions_ms = 1e3 * 1e9 * range_test_instructions().total / 1e11;
     EXPECT_GE(few_ms, instructions_ms);
     EXPECT_LE(few_ms, 1.1 * instructions_ms);
+}
+
+double shade_ms(const StageCounts& counts) {
+    return stage_limit(*stage_work("shade", counts), round_limits()).ms;
+}
+
+// What exact shadows hide is not evaluated, whether it is in range or not.
+TEST(Roofline, ShadingOwesNothingForLightsThatShadowsHide) {
+    StageCounts c = some_counts();
+    c.kernels.shading = SHADING_PBR;
+    c.evaluations = 2e8;
+    c.full_evaluations = 1e8;
+    const double lit = shade_ms(c);
+    c.kernels.shadows = true;
+    c.shadow_seen = 1e6;
+    const double hidden = shade_ms(c);
+    EXPECT_LT(hidden, 0.2 * lit);
+    EXPECT_GE(hidden, 1e3 * 3.0 * c.evaluations / 1e11) << "a bit for each pair";
+    c.full_evaluations = 2e6;
+    EXPECT_EQ(shade_ms(c), hidden) << "what is seen decides";
+    c.shadow_seen = 1e8;
+    EXPECT_GT(shade_ms(c), hidden);
+    c.kernels.sampled_shadows = true;
+    c.full_evaluations = 1e8;
+    EXPECT_GE(shade_ms(c), 1.99 * lit) << "all of it twice";
+}
+
+TEST(Roofline, CastingOwesItsWalksAndTests) {
+    const auto instructions = [](const StageCounts& c) {
+        return stage_work("cast_shadows", c)->instructions;
+    };
+    StageCounts c;
+    EXPECT_EQ(instructions(c).total, 0.0);
+    c.shadow_nodes = 1.0;
+    EXPECT_EQ(instructions(c).total, 16.0 * 19.0);
+    c.shadow_nodes = 0.0;
+    c.shadow_triangles = 2.0;
+    EXPECT_EQ(instructions(c).divisions, 8.0);
+    c.shadow_triangles = 0.0;
+    c.shadow_points = 10.0;
+    EXPECT_EQ(instructions(c).total, 170.0);
 }
 
 FrameSetup some_setup() {
@@ -187,6 +241,25 @@ TEST(StageCountsTest, ComeFromTheFrame) {
     EXPECT_EQ(stage_counts(stats, all).full_evaluations, 0.0) << "not counted";
 }
 
+TEST(StageReports, TellTheRaysThatWereSaved) {
+    FrameStats stats = some_stats();
+    stats.shadows.shafts = 12;
+    stats.shadows.rays = 3500;
+    stats.shadows.seen = 3000;
+    stats.shadows.words = 99;
+    stats.stages = {{"cast_shadows", 1.0, 0.0}, {"shade", 1.0, 0.0}};
+    FrameSetup setup = some_setup();
+    setup.kernels.shadows = true;
+    const auto reports = stage_reports(stats, round_limits(), setup);
+    EXPECT_EQ(reports[0].evaluations, 3500.0);
+    EXPECT_EQ(reports[0].shafts, 12.0);
+    EXPECT_EQ(reports[0].saved_rays, 5000.0 + 3.0 * 1000.0 - 3500.0);
+    EXPECT_GT(reports[0].limit_ms, 0.0);
+    EXPECT_EQ(reports[1].evaluations, 3000.0) << "lights that are seen";
+    stats.shadows = {};
+    EXPECT_EQ(stage_reports(stats, round_limits(), setup)[0].saved_rays, 0.0) << "not counted";
+}
+
 TEST(StageReports, HoldTimesAgainstLimits) {
     FrameStats stats = some_stats();
     fill_limits(stats, round_limits(), some_setup());
@@ -198,6 +271,7 @@ TEST(StageReports, HoldTimesAgainstLimits) {
     EXPECT_DOUBLE_EQ(reports[1].evaluations, 8000.0);  // three directional lights beside
     EXPECT_DOUBLE_EQ(reports[2].evaluations, 700.0);
     EXPECT_TRUE(reports[0].bound.empty());
+    EXPECT_EQ(reports[1].shafts, 0.0);
     const Efficiency efficiency = efficiency_of(reports, stats);
     EXPECT_DOUBLE_EQ(efficiency.hardware, (reports[1].limit_ms + reports[2].limit_ms) / 3.0);
     EXPECT_DOUBLE_EQ(efficiency.algorithm, 0.8);

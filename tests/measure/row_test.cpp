@@ -31,6 +31,8 @@ BenchRow row_of(std::uint64_t lights, const std::string& stage, double ms) {
     row.k = 10.0 / 3.0;
     row.useful_k = 2.5;
     row.error = {1.0 / 7.0, 3, 2304};
+    row.shafts = 12345.0;
+    row.saved_rays = 1e7 / 3.0;
     return row;
 }
 
@@ -52,6 +54,8 @@ void expect_same(const BenchRow& a, const BenchRow& b) {
     EXPECT_EQ(a.k, b.k);
     EXPECT_EQ(a.useful_k, b.useful_k);
     EXPECT_EQ(a.error, b.error);
+    EXPECT_EQ(a.shafts, b.shafts);
+    EXPECT_EQ(a.saved_rays, b.saved_rays);
 }
 
 // A CSV of its own in a folder that goes away.
@@ -117,7 +121,7 @@ TEST(BenchRow, RefusesOtherCsvWithTheLine) {
         const char* message;
     } cases[] = {
         {"a,b\n1,2\n", "line 1: is not this version's header"},
-        {header + "1,2\n", "line 2: has 2 fields, must have 31"},
+        {header + "1,2\n", "line 2: has 2 fields, must have 33"},
         {csv + "x" + line.substr(0, line.size() / 2) + "\n", "line 3: has "},
         {header + "backward" + line.substr(line.find(",1920")), "'backward' is no renderer"},
         {header + "deferred,12a" + line.substr(line.find(",1080")),
@@ -168,6 +172,32 @@ TEST_F(BenchLogFile, ReplacesWithoutResumeAndRefusesForeignFiles) {
     EXPECT_EQ(text(), to_csv(bench_table({row_of(1, "frame", 1)})));
     EXPECT_THROW(BenchLog(folder_ / "no" / "bench.csv", false).append({row_of(1, "frame", 1)}),
                  Error);
+}
+
+// Tables that were published before shadows were counted stay readable.
+TEST(BenchRow, ReadsTablesWithoutTheColumnsOfShadows) {
+    BenchRow row = row_of(1, "frame", 1.0);
+    Table table = bench_table({row});
+    for (int i = 0; i < 2; ++i) {
+        table.columns.pop_back();
+        table.rows[0].pop_back();
+    }
+    row.shafts = row.saved_rays = 0.0;
+    const auto back = bench_rows(parse_csv(to_csv(table)));
+    ASSERT_EQ(back.size(), 1u);
+    expect_same(back[0], row);
+    table.columns.pop_back();
+    table.rows[0].pop_back();
+    EXPECT_THROW(bench_rows(parse_csv(to_csv(table))), Error);
+}
+
+TEST(BenchSummary, ShowsRaysWhereSomeWereCast) {
+    BenchRow row = row_of(1, "cast_shadows", 1.0);
+    EXPECT_EQ(bench_summary({row}).columns.back(), "shafts");
+    EXPECT_NE(bench_legend({row}).find("shafts"), std::string::npos);
+    row.shafts = 0.0;
+    EXPECT_EQ(bench_summary({row}).columns.back(), "bits differ");
+    EXPECT_EQ(bench_legend({row}).find("shafts"), std::string::npos);
 }
 
 TEST(BenchSummary, ShowsWhatVaries) {

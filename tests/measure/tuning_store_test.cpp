@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "host/base/error.h"
 #include "host/base/version.h"
 #include "host/gpu/device_cache.h"
+#include "host/gpu/shipped_tunings.h"
 #include "tests/support/cache_sandbox.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 namespace {
@@ -213,6 +217,93 @@ TEST_F(TuningStore, BuiltInTableIsValid) {
     device.lane_width = 1;
     device.max_work_group = 1024;
     EXPECT_TRUE(is_valid(built_in_tuning(device), device));
+}
+
+class ShippedTunings : public CacheSandbox {};
+
+const std::vector<ShippedTuning>& some_table() {
+    static const std::vector<ShippedTuning> table = {
+        {"Test", "b", "OpenCL 3.0", true, 2, {8, {.cull_chunks = 8}}},
+        {"Test", "a", "OpenCL 3.0", true, 4, {4, {.cull_chunks = 24}}},
+        {"Test GPU", "c", "OpenCL 1.2", false, 10, {2, {.cull_chunks = 40}}}};
+    return table;
+}
+
+TEST_F(ShippedTunings, MatchesTheDeviceThenItsClass) {
+    const auto match = [](const DeviceInfo& device) {
+        return shipped_tuning(device, some_table());
+    };
+    const auto same = match(device_named("a"));
+    ASSERT_TRUE(same);
+    EXPECT_TRUE(same->same_device);
+    EXPECT_EQ(same->tuning.lanes, 4);
+    EXPECT_EQ(same->tuning.tuning.cull_chunks, 12) << "24 for 4 compute units, so 12 for 2";
+    const auto of_class = match(device_named("x"));
+    ASSERT_TRUE(of_class);
+    EXPECT_FALSE(of_class->same_device);
+    EXPECT_EQ(of_class->tuning.lanes, 8) << "the first of its class";
+    DeviceInfo device = device_named("x");
+    device.version = "OpenCL 3.0 of other instructions";
+    EXPECT_FALSE(match(device));
+    device.is_cpu = false;
+    EXPECT_FALSE(match(device)) << "a GPU is no CPU";
+    device.platform = "Test GPU";
+    ASSERT_TRUE(match(device)) << "a GPU's version names no instructions";
+    EXPECT_EQ(match(device)->tuning.tuning.cull_chunks, 8);
+    device.compute_units = 100000;
+    EXPECT_EQ(match(device)->tuning.tuning.cull_chunks, 65536) << "the most that is valid";
+    device.platform = "Another";
+    EXPECT_FALSE(match(device));
+}
+
+TEST_F(ShippedTunings, MeasuringHereCountsMore) {
+    ASSERT_FALSE(shipped_tunings().empty());
+    for (const ShippedTuning& row : shipped_tunings()) {
+        DeviceInfo device;
+        device.name = row.device;
+        device.platform = row.platform;
+        device.version = row.version;
+        device.is_cpu = row.is_cpu;
+        device.compute_units = row.compute_units;
+        device.max_work_group = 1024;
+        const KnownTuning known = known_tuning(device);
+        EXPECT_EQ(text_of(known.source), "shipped for this device");
+        EXPECT_EQ(known.lanes, row.tuning.lanes);
+        EXPECT_EQ(known.tuning.cull_chunks, row.tuning.tuning.cull_chunks);
+        EXPECT_EQ(known.tuning.geometry, 0) << "only measuring here changes edges";
+        device.name += " of another kind";
+        EXPECT_EQ(text_of(known_tuning(device).source), "shipped for its class");
+        store_tuning(device, some_tuning());
+        EXPECT_EQ(text_of(known_tuning(device).source), "measured here");
+        EXPECT_EQ(known_tuning(device).tuning, some_tuning().tuning);
+    }
+    const KnownTuning unknown = known_tuning(device_named("a"));
+    EXPECT_EQ(text_of(unknown.source), "built in");
+    EXPECT_EQ(unknown.tuning, built_in_tuning(device_named("a")).tuning);
+}
+
+// The same rows, read in another way.
+TEST_F(ShippedTunings, AreThoseOfTheCertificates) {
+    std::size_t measured = 0;
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(source_root()) / "host/certify/devices")) {
+        if (entry.path().extension() != ".json") continue;
+        std::ifstream in(entry.path());
+        const auto json = nlohmann::json::parse(in);
+        const auto& tuning = json.at("tuning");
+        if (!tuning.contains("values") || tuning.at("source") != "measured here") continue;
+        ++measured;
+        const auto row = std::ranges::find(shipped_tunings(), json.at("device").at("name"),
+                                           &ShippedTuning::device);
+        ASSERT_NE(row, shipped_tunings().end()) << entry.path();
+        EXPECT_EQ(row->compute_units, json.at("device").at("compute_units"));
+        EXPECT_EQ(row->is_cpu, json.at("device").at("cpu"));
+        EXPECT_EQ(row->tuning.lanes, tuning.at("values").at("lanes"));
+        for (const TuningParameter& field : tuning_parameters())
+            EXPECT_EQ(row->tuning.tuning.*field.value, tuning.at("values").at(field.name))
+                << field.name;
+    }
+    EXPECT_EQ(measured, shipped_tunings().size());
 }
 
 }  // namespace

@@ -101,6 +101,7 @@ struct CastFrame {
     std::vector<uint> words;
     std::vector<float> listed, all;
     std::uint64_t seen = 0, facing = 0;
+    ShadowCounts counts{};
 };
 
 CastFrame cast_frame(int lanes, int group) {
@@ -130,12 +131,15 @@ CastFrame cast_frame(int lanes, int group) {
     const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
     const ShadowInput input{random_casters(gpu), unmoved_view(),
                             origins_of(gpu, features, gbuffer)};
-    CastShadows cast(gpu, tuning, features, {});
+    CastShadows cast(gpu, tuning, features, {}), counting(gpu, tuning, features, {}, true);
     const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
     cast.enqueue(input, lists.lights, lists.clusters, lists.refined, view, words, timer);
     const std::size_t size = std::size_t{3} * view.stride * view.height;
     CastFrame out;
     out.words = download(gpu, words.words, cast.words());
+    counting.enqueue(input, lists.lights, lists.clusters, lists.refined, view, words, timer);
+    out.counts = counting.counts();
+    EXPECT_EQ(download(gpu, words.words, cast.words()), out.words) << "counting changes a bit";
     Shade shade(gpu, tuning, features);
     out.listed = download<float>(
         gpu,
@@ -164,10 +168,23 @@ void expect_shadows(int lanes, int group) {
     EXPECT_EQ(frame.listed, frame.all);
     EXPECT_GT(frame.seen, 0u);
     EXPECT_LT(frame.seen, frame.facing);
+    const ShadowCounts& c = frame.counts;
+    EXPECT_LT(0u, c.seen);
+    EXPECT_LE(c.met_rays, c.rays);
+    EXPECT_LE(c.rays - c.seen, c.met_rays) << "what is hidden was tested";
+    EXPECT_LE(c.shafts, c.rays);
+    EXPECT_LE(c.shafts, c.nodes) << "each begins at the root";
+    EXPECT_LE(c.triangles, kTriangles * c.shafts);
+    EXPECT_LE(c.rays - c.seen, c.points) << "a ray is hidden by a test";
+    if (group == 0) return;  // leaves bits of background
+    std::uint64_t bits = 0;
+    for (const uint word : frame.words) bits += static_cast<uint>(std::popcount(word));
+    EXPECT_EQ(c.seen, bits);
 }
 
 TEST(EveryKernel, Shadows) { expect_shadows(4, 1); }
 TEST(EveryKernel, ShadowsByGroup) { expect_shadows(1, 32); }
+TEST(EveryKernel, ShadowsByBundle) { expect_shadows(4, 0); }
 
 TEST(CastShadows, LanesChangeNoBit) {
     const CastFrame one = cast_frame(1, 1);
@@ -175,7 +192,20 @@ TEST(CastShadows, LanesChangeNoBit) {
         const CastFrame frame = cast_frame(lanes, 1);
         EXPECT_EQ(frame.words, one.words) << lanes;
         EXPECT_EQ(frame.listed, one.listed) << lanes;
+        EXPECT_EQ(frame.counts.rays, one.counts.rays) << lanes;
+        EXPECT_EQ(frame.counts.seen, one.counts.seen) << lanes;
+        EXPECT_EQ(frame.counts.shafts, one.counts.shafts) << lanes;
     }
+}
+
+TEST(CastShadows, AWalkForEachBundleSeesTheSameByMoreWalks) {
+    const CastFrame shafts = cast_frame(4, 1);
+    const CastFrame bundles = cast_frame(4, 0);
+    EXPECT_EQ(bundles.listed, shafts.listed);
+    EXPECT_EQ(bundles.counts.rays, shafts.counts.rays);
+    EXPECT_EQ(bundles.counts.seen, shafts.counts.seen);
+    EXPECT_GT(bundles.counts.shafts, shafts.counts.shafts);
+    EXPECT_GT(bundles.counts.nodes, shafts.counts.nodes);
 }
 
 }  // namespace

@@ -36,7 +36,9 @@ std::vector<Measure> light_measures() {
             OFFSET_OF(ShadeLight, axis_cos),
             SIZE_OF(DirectionalLight),
             OFFSET_OF(DirectionalLight, to_light),
-            OFFSET_OF(DirectionalLight, color)};
+            OFFSET_OF(DirectionalLight, color),
+            SIZE_OF(AimedProfile),
+            OFFSET_OF(AimedProfile, side)};
 }
 
 std::vector<Measure> surface_measures() {
@@ -110,8 +112,10 @@ std::vector<Measure> cluster_measures() {
 }
 
 constexpr std::string_view kHeaders[] = {
-    "kernels/shared/cluster_grid.h", "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
-    "kernels/shared/light.h",        "kernels/shared/surface_scene.h", "kernels/shared/view.h"};
+    "kernels/shared/light_profile.h", "kernels/shared/cluster_grid.h",
+    "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
+    "kernels/shared/light.h",         "kernels/shared/surface_scene.h",
+    "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {
     Gpu gpu = test_gpu();

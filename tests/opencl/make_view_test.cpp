@@ -147,9 +147,24 @@ TEST(MakeView, RefusesWhatIsNoCamera) {
     EXPECT_EQ(refusal(view, oblique),
               "make_view: projection element (2, 0) is 0.100000, must be 0");
     EXPECT_TRUE(contains(refusal(view, Matrix4{}), "singular"));
-    Matrix4 nothing = lens;
-    nothing[0] = std::nan("");
-    EXPECT_TRUE(contains(refusal(view, nothing), "singular"));
+    Matrix4 flat = lens;
+    flat[5] = 0.0;
+    EXPECT_TRUE(contains(refusal(view, flat), "singular"));
+    Matrix4 flipped = lens;
+    flipped[5] = -1.5;
+    EXPECT_TRUE(contains(refusal(view, flipped), "element (1, 1) is -1.500000, must be > 0"));
+    for (std::size_t i = 0; i < 16; ++i) {  // also those that no check adds up
+        Matrix4 bad_view = view, bad_lens = lens;
+        bad_view[i] = bad_lens[i] = std::nan("");
+        const std::string where =
+            "element (" + std::to_string(i % 4) + ", " + std::to_string(i / 4) + ") is ";
+        EXPECT_TRUE(contains(refusal(bad_view, lens), "make_view: view " + where));
+        EXPECT_TRUE(contains(refusal(view, bad_lens), "make_view: projection " + where));
+    }
+    EXPECT_EQ(message_of<Error>([&] {
+                  make_view({view, lens, 64, 0, {}, {}});
+              }),
+              "make_view: a picture of 64x0 pixels");
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ TEST_F(Certify, RunsTheChosenCasesAndWritesTheirJson) {
     for (const char* key : {"version", "commit"}) {
         EXPECT_FALSE(json.at("program").at(key).get<std::string>().empty()) << key;
     }
-    for (const char* key : {"name", "version", "driver", "platform"}) {
+    for (const char* key :
+         {"name", "version", "driver", "platform", "vendor", "opencl_c", "host_processor"}) {
         EXPECT_FALSE(json.at("device").at(key).get<std::string>().empty()) << key;
     }
     ASSERT_EQ(json.at("cases").size(), 2u);
@@ -61,6 +62,83 @@ TEST_F(Certify, PrintsJsonInsteadOfTheTableAndTheSameOneEachTime) {
     EXPECT_EQ(run_kilolux(words).out, first.out);
 }
 
+TEST_F(Certify, WritesEquality) {
+    const ChildResult result =
+        run_kilolux({"certify", "--case", "none", "--with", "equality,tuning", "-o", "-"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json.at("cases"), Json::array());
+    std::set<std::string> tried;
+    for (const Json& picture : json.at("equality").at("pictures")) {
+        EXPECT_EQ(picture.at("different"), 0) << picture;
+        EXPECT_GT(picture.at("lit"), 50000) << picture;
+        tried.insert(picture.at("shading"));
+        tried.insert(picture.at("shadows"));
+    }
+    EXPECT_EQ(tried, (std::set<std::string>{"lambert", "blinn-phong", "pbr", "off", "exact"}));
+    EXPECT_GT(json.at("tuning").at("values").at("lanes"), 0);
+    EXPECT_FALSE(json.contains("stages"));
+}
+
+TEST_F(Certify, WritesStagesOfAFrame) {
+    const ChildResult result =
+        run_kilolux({"certify", "--case", "none", "--with", "stages", "--quiet", "-o", "-"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    std::set<std::string> stages;
+    const Json json = Json::parse(result.out).at("stages");
+    for (const Json& row : json.at("rows")) stages.insert(row.at("stage"));
+    for (const char* name : {"raster_triangles", "cull_lights", "shade", "frame"})
+        EXPECT_TRUE(stages.contains(name)) << name;
+    EXPECT_FALSE(stages.contains("ids")) << "no OpenGL: it is no part of the device";
+    EXPECT_GT(json.at("limits").at("fma_flops"), 0.0);
+}
+
+TEST_F(Certify, RunsAFrameUnderOclgrind) {
+    const ChildResult result =
+        run_kilolux({"certify", "--case", "none", "--with", "oclgrind", "-o", "-"});
+    ASSERT_EQ(result.code, 0) << result.out;
+    const Json json = Json::parse(result.out).at("oclgrind");
+    if (!json.at("ran").get<bool>()) GTEST_SKIP() << json;
+    EXPECT_EQ(json.at("report_lines"), 0);
+}
+
+TEST_F(Certify, ProcessesOfTheirOwnFindTheSame) {
+    std::vector<std::string> words = {"certify", "--case", "27,M2", "--lanes", "1,8",
+                                      "--with",  "tuning", "-o",    "-"};
+    const ChildResult one = run_kilolux(words);
+    words.push_back("--isolate");
+    const ChildResult several = run_kilolux(words);
+    ASSERT_EQ(several.code, 0) << several.err;
+    EXPECT_EQ(several.out, one.out);
+}
+
+// A limit of the processor's time stands for a driver that ends the process.
+TEST_F(Certify, ACrashFailsItsCaseAndTheRestGoesOn) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "result.json").string();
+    const ChildResult result =
+        run_child({"/usr/bin/prlimit", "--cpu=1", program_file(), "certify", "--case", "5,29",
+                   "--lanes", "1", "--isolate", "-o", file});
+    EXPECT_EQ(result.code, 3) << result.err;
+    EXPECT_TRUE(contains(result.err, "5 spheres-at-the-camera")) << result.err;
+    const Json cases = Json::parse(text_of_file(file)).at("cases");
+    ASSERT_EQ(cases.size(), 2u);
+    EXPECT_TRUE(contains(cases.at(0).at("error"), "1 lanes: the process ended with signal"))
+        << cases.at(0);
+}
+
+// The committed table is what the program prints of the committed certificates.
+TEST_F(Certify, TheTableIsThatOfTheCertificates) {
+    const TemporaryFolder folder;
+    const fs::path devices = fs::path(source_root()) / "host/certify/devices";
+    const ChildResult made =
+        run_child({(devices / "make_table").string(), program_file(), folder.path().string()});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(text_of_file(devices / "README.md"), text_of_file(folder / "README.md"))
+        << "run host/certify/devices/make_table";
+}
+
 // Kernels whose lights reach half as far must not pass.
 TEST_F(Certify, AFailedCaseExitsWithThreeAndIsNamed) {
     const TemporaryFolder folder;
@@ -73,17 +151,19 @@ TEST_F(Certify, AFailedCaseExitsWithThreeAndIsNamed) {
     write_text(reach, text.replace(at, 13, "<= 0.25f * CULL_LIMIT"));
     set("KILOLUX_SOURCE_DIR", folder.path().c_str());
     const std::string file = (folder / "result.json").string();
-    const ChildResult result =
-        run_kilolux({"certify", "--case", "3,30", "--lanes", "8", "--quiet", "-o", file});
+    const ChildResult result = run_kilolux(
+        {"certify", "--case", "3,30", "--lanes", "8", "--with", "equality", "--quiet", "-o", file});
     EXPECT_EQ(result.code, 3) << result.out << result.err;
     EXPECT_TRUE(
-        result.err.ends_with("kilolux: certify: 1 of 2 hard cases failed: 3 beyond-the-grid\n"))
+        result.err.ends_with("kilolux: certify: 1 of 2 hard cases failed: 3 beyond-the-grid; "
+                             "equality failed\n"))
         << result.err;
     EXPECT_TRUE(contains(result.out, "missed lights: ")) << result.out;
     EXPECT_TRUE(contains(result.out, "FAILED at light ")) << result.out;
     const Json json = Json::parse(text_of_file(file));
     EXPECT_FALSE(json.at("passed"));
-    EXPECT_EQ(json.at("failed"), Json({"3"}));
+    EXPECT_EQ(json.at("failed"), Json({"3", "equality"}));
+    EXPECT_GT(json.at("equality").at("pictures").at(0).at("different"), 0);
 }
 
 TEST_F(Certify, CommandLinesThatCannotBeObeyed) {
@@ -97,6 +177,10 @@ TEST_F(Certify, CommandLinesThatCannotBeObeyed) {
         {{"--lanes", "3"}, 2, "--lanes: '3' is none of 1, 2, 4, 8, 16"},
         {{"--device", "no such device"}, 1, "no such device"},
         {{"-o", "/no/such/folder/a.json"}, 1, "there is no folder"},
+        {{"--with", "stage"}, 2, "did you mean 'stages'?"},
+        {{"--table", "a.json", "--isolate"}, 2, "--table: prints what was certified"},
+        {{"--table", "/no/such/a.json"}, 1, "/no/such/a.json: cannot read"},
+        {{"--table", source_root() + "/README.md"}, 1, "README.md: no certificate: "},
     };
     for (const auto& c : cases) {
         std::vector<std::string> words = {"certify"};
@@ -160,20 +244,20 @@ TEST(CertifyText, FailuresSayWhereAndWhich) {
     const std::string text = to_markdown(hard_case_table(rows));
     EXPECT_TRUE(contains(text, "missed lights: 3 of 1000 FAILED at light 7, pixel 1, 2")) << text;
     EXPECT_TRUE(contains(text, "| NO ")) << text;
-    EXPECT_THROW(require_all_passed(rows), ComparisonFailed);
-    require_all_passed({rows.back()});
+    EXPECT_THROW(require_all_passed({rows}), ComparisonFailed);
+    require_all_passed({{rows.back()}});
 }
 
 TEST(CertifyText, ACaseThatThrowsFailsWithItsText) {
     HardCaseRow row = row_of("1", {0, 1, ""}, 0);
     row.error = "8 lanes: no OpenGL";
     EXPECT_FALSE(row.passed());
-    EXPECT_EQ(certificate_json({}, {row})["cases"][0]["error"], "8 lanes: no OpenGL");
+    EXPECT_EQ(certificate_json({}, {{row}})["cases"][0]["error"], "8 lanes: no OpenGL");
 }
 
 TEST(CertifyText, InfiniteNumbersAreNullInJson) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const auto json = certificate_json({}, {row_of("1", {2.5, 1, ""}, kInfinity)});
+    const auto json = certificate_json({}, {{row_of("1", {2.5, 1, ""}, kInfinity)}});
     EXPECT_EQ(json["cases"][0]["findings"][0]["limit"], nullptr);
     EXPECT_EQ(json["cases"][0]["findings"][0]["worst"], 2.5);
 }

@@ -73,14 +73,53 @@ TEST(Bench, QuickMeasuresLightsGridsAndGroups) {
     }
 }
 
+TEST(Bench, CountsTheRaysOfShadowsAndLimitsTheirStages) {
+    const ChildResult result =
+        run_kilolux(small_bench({"--lights", "20", "--shadows", "exact", "--json"}));
+    ASSERT_EQ(result.code, 0) << result.err;
+    std::set<std::string> limited;
+    const Json document = Json::parse(result.out);
+    for (const Json& row : document.at("rows")) {
+        const std::string stage = row.at("stage");
+        if (row.at("limit_ms") > 0.0) limited.insert(stage);
+        EXPECT_EQ(row.at("shafts") > 0.0, stage == "cast_shadows") << stage;
+        if (stage != "cast_shadows") continue;
+        EXPECT_GT(row.at("evaluations"), row.at("shafts")) << "a walk serves many rays";
+        EXPECT_GT(row.at("saved_rays"), 0.0);
+    }
+    for (const char* stage : {"shadow_origins", "cast_shadows", "shade"}) {
+        EXPECT_TRUE(limited.count(stage)) << stage;
+    }
+}
+
+TEST(Bench, VisibilityComparesWalks) {
+    const ChildResult result =
+        run_kilolux(small_bench({"--visibility", "--lights", "20", "--lanes", "8", "--json"}));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "both see the same, bit for bit")) << result.err;
+    const Json rows = Json::parse(result.out).at("rows");
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].at("walks"), "shafts");
+    EXPECT_EQ(rows[1].at("walks"), "bundles of 8 rays");
+    EXPECT_EQ(rows[0].at("rays"), rows[1].at("rays"));
+    EXPECT_GT(rows[1].at("number of walks"), rows[0].at("number of walks"));
+    EXPECT_GT(rows[1].at("times shafts"), 0.0);
+    const ChildResult none = run_kilolux(small_bench({"--visibility", "--shadows", "off"}));
+    EXPECT_EQ(none.code, 2);
+    EXPECT_TRUE(contains(none.err, "--visibility: needs shadows")) << none.err;
+    EXPECT_EQ(run_kilolux(small_bench({"--visibility", "--tune"})).code, 2);
+}
+
 TEST(Bench, StageTimesSumToTheFrame) {
     const ChildResult result =
         run_kilolux(small_bench({"--lights", "10", "--frames", "1", "--json"}));
     ASSERT_EQ(result.code, 0) << result.err;
     double sum = 0.0, frame = 0.0;
-    for (const Json& row : Json::parse(result.out).at("rows")) {
+    const Json document = Json::parse(result.out);
+    for (const Json& row : document.at("rows")) {
         (row.at("stage") == "frame" ? frame : sum) += row.at("median_ms").get<double>();
     }
+    EXPECT_GT(frame, 0.0);
     EXPECT_NEAR(sum, frame, 1e-6 * frame);
 }
 

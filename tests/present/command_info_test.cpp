@@ -37,6 +37,17 @@ TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
     EXPECT_EQ(entry_of(costs, "specular").at("bytes_per_pixel"), 4);
 }
 
+TEST(Info, SaysWhereTheTuningComesFrom) {
+    const TemporaryFolder folder;
+    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const ChildResult result = run_kilolux({"info", "plain", "--lights", "1"});
+    unsetenv("XDG_CACHE_HOME");
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "tuning_source: shipped for ") ||
+                contains(result.out, "tuning_source: built in"))
+        << result.out;
+}
+
 // Whether they agree depends on what else the machine does.
 TEST(Info, ComparesLimitsWithIndependentOnes) {
     const ChildResult result = run_kilolux({"info", "--check-limits", "--json"});

@@ -9,6 +9,7 @@
 #include "host/measure/bench/row.h"
 #include "host/measure/report/run.h"
 #include "host/scene/generated/scenes.h"
+#include "present/cli/error_budget_options.h"
 #include "present/cli/names.h"
 #include "present/cli/options.h"
 #include "tests/support/cache_sandbox.h"
@@ -76,6 +77,71 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
     EXPECT_EQ(header.size(), document.at("rows").front().size());
 }
 
+TEST_F(Report, ComparesShadows) {
+    const TemporaryFolder folder;
+    const fs::path out = folder / "out";
+    const ChildResult result =
+        report({"--axes", "shadows", "--error-width", "32", "-o", out.string()});
+    ASSERT_EQ(result.code, 0) << result.err;
+    const Json document = Json::parse(text_of_file(out / "report.json"));
+    std::set<std::string> names;
+    for (const Json& row : document.at("rows")) {
+        const std::string name = row.at("setting");
+        names.insert(name);
+        EXPECT_EQ(row.at("exact RMSE").is_number(), name.starts_with("shadows sampled")) << name;
+        EXPECT_EQ(row.at("cast_shadows [ms]").is_number(), name != "shadows off") << name;
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"default", "shadows off", "shadows sampled 1",
+                                            "shadows sampled 4", "shadows sampled 16"}));
+    const Json shadows = document.at("shadows");
+    ASSERT_EQ(shadows.size(), 6u);
+    EXPECT_EQ(shadows.front().at("rays N"), 1);
+    EXPECT_EQ(shadows.front().at("pictures"), 256);
+    EXPECT_GT(shadows.front().at("variance"), shadows.back().at("variance"));
+    for (const char* name : {"shadow_variance_over_rays.svg", "shadow_variance_over_rays.dat"}) {
+        EXPECT_TRUE(fs::exists(out / name)) << name;
+    }
+    const ChildResult printed =
+        run_kilolux({"bench", "--table", (out / "shadows.csv").string(), "--quiet"});
+    ASSERT_EQ(printed.code, 0) << printed.err;
+    EXPECT_TRUE(contains(printed.out, "    kilolux report ")) << printed.out;
+    EXPECT_TRUE(contains(printed.out, "told variance")) << printed.out;
+    const ChildResult none = report({"--axes", "shadows", "--shadows", "off"});
+    EXPECT_EQ(none.code, 2);
+    EXPECT_TRUE(contains(none.err, "--axes shadows: needs shadows")) << none.err;
+}
+
+TEST_F(Report, ABudgetOfSampledShadowsKeepsTheLayerOfTheirError) {
+    const TemporaryFolder folder;
+    const ChildResult result = small({"render", "-o", (folder / "picture.exr").string(),
+                                      "--shadows", "sampled", "--max-error", "10", "--error-metric",
+                                      "rmse", "--error-width", "32", "--aov", "error-standard"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "chose   ")) << result.err;
+    EXPECT_FALSE(contains(result.err, "chose   shadows exact")) << "it tells no error";
+}
+
+// What a command line of sampled shadows lets a budget choose.
+ErrorBudget budget_with(const std::vector<std::string>& words) {
+    SharedOptions shared;
+    BudgetOptions options;
+    CLI::App app;
+    add_shared_options(app, shared);
+    add_budget_options(app, options);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    return budget_of(shared, options);
+}
+
+TEST(ReportBudget, ChoosesTheRaysOfSampledShadowsUnlessTheyAreGiven) {
+    const ErrorBudget free = budget_with({"--shadows", "sampled", "--max-error", "0.1"});
+    EXPECT_TRUE(free.chooses_shadows);
+    EXPECT_EQ(budget_candidates(free).shadow_rays, (std::vector<int>{1, 2, 4, 8, 16, 32, 64}));
+    EXPECT_FALSE(budget_with({"--shadows", "sampled"}).chooses_shadows) << "there is no budget";
+    EXPECT_FALSE(budget_with({"--shadows", "exact", "--max-error", "1"}).chooses_shadows);
+    EXPECT_FALSE(budget_with({"--shadows", "sampled", "--shadow-rays", "4", "--max-error", "1"})
+                     .chooses_shadows);
+}
+
 TEST_F(Report, RefusesWhatCannotBeObeyed) {
     const TemporaryFolder folder;
     write_text(folder / "file", "");
@@ -137,7 +203,7 @@ TEST(ReportOptionsText, LeadsToTheSetting) {
     DeviceInfo device;
     device.lane_width = 8;
     SharedOptions base;
-    for (const ReportSetting& setting : report_settings(scene, base.settings, device, false)) {
+    for (const ReportSetting& setting : report_settings(scene, base.settings, device, {})) {
         SharedOptions shared;
         CLI::App app;
         add_shared_options(app, shared);

@@ -35,6 +35,36 @@ std::string refusal(const std::string& line) {
     return message_of<UsageError>([&] { parse(line); });
 }
 
+TEST(Options, ExposureNamesAutoWhereItIsTaken) {
+    CLI::App app;
+    SharedOptions options;
+    options.takes_automatic_exposure = true;
+    add_shared_options(app, options);
+    EXPECT_EQ(message_of<UsageError>([&] { app.parse("--exposure atuo"); }),
+              "--exposure: 'atuo' is not 'auto' or a number from -126 to 126");
+    app.parse("--exposure auto");
+    EXPECT_TRUE(options.automatic_exposure);
+}
+
+TEST(Options, SamplesAreACountOrAutoWhereThatIsTaken) {
+    CLI::App app;
+    SharedOptions options;
+    options.takes_automatic_samples = true;
+    add_shared_options(app, options);
+    app.parse("--samples auto --sample-error 0.25 --max-samples 99");
+    EXPECT_EQ(options.settings.auto_samples, (AutoSamples{true, 0.25f, 99}));
+    app.parse("--samples 7");
+    EXPECT_FALSE(options.settings.auto_samples.on);
+    EXPECT_EQ(options.settings.samples, 7);
+    EXPECT_EQ(message_of<UsageError>([&] { app.parse("--samples atuo"); }),
+              "--samples: 'atuo' is not 'auto' or a whole number from 1 to 65536");
+    EXPECT_EQ(refusal("--samples auto"), "--samples: only render makes it automatic");
+    EXPECT_EQ(refusal("--samples 0"), "--samples: '0' is not a whole number from 1 to 65536");
+    EXPECT_EQ(refusal("--max-samples 4"),
+              "--max-samples: '4' is not a whole number from 8 to 65536");
+    EXPECT_NE(refusal("--sample-error 0"), "");
+}
+
 TEST(Options, DefaultsAreThoseOfTheSettings) {
     const Parsed p = parse("");
     EXPECT_EQ(p.shared.scene, "atrium");

@@ -37,6 +37,8 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
          "did you "
          "mean 'render'?"},
         {{"--frobnicate"}, "unknown option --frobnicate"},
+        {{"bench", "--turntable", "90"}, "--turntable: bench times one view"},
+        {{"bench", "--camera-keys=keys.json"}, "--camera-keys: bench times one view"},
         {{"render"}, "--output: needs a file"},
         {{"render", "--ligths", "5", "-o", "a.png"},
          "unknown option --ligths; did you mean '--lights'?"},

@@ -4,8 +4,8 @@
 #include <time.h>
 
 #include <algorithm>
-
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <thread>
 
 #include "present/image/image_file.h"
@@ -50,13 +50,39 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     EXPECT_TRUE(stats.at("evaluations").at("useful_per_pixel").is_number());
     for (const Json& stage : stats.at("stages")) {
         // What runs on the host or in OpenGL, and sums of a few numbers, have no model.
-        const std::set<std::string> unmodelled = {"light_input", "geometry", "count_pairs",
-                                                  "other"};
+        const std::set<std::string> unmodelled = {"light_input", "geometry",  "count_pairs",
+                                                  "launch",      "read_back", "other"};
         const bool modelled = !unmodelled.contains(stage.at("name"));
         EXPECT_EQ(stage.at("limit_ms").is_number(), modelled) << stage;
     }
     EXPECT_FALSE(stats.at("stages").empty());
     EXPECT_EQ(folder.names(), (std::set<std::string>{"a.exr"}));
+}
+
+TEST(Render, AutomaticSamplesAreTold) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.exr";
+    const std::vector<std::string> options = {"--samples", "auto",  "--max-samples",
+                                              "16",        "--aov", "sample-count,error-standard",
+                                              "--stats",   "-"};
+    const ChildResult result = run_kilolux(small_render(file, options));
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "\nsamples ")) << result.err;
+    EXPECT_TRUE(contains(result.err, " a pixel, from ")) << result.err;
+    const Json samples = Json::parse(result.out).at("samples");
+    const FloatImage image = read_image(file);
+    ASSERT_EQ(image.ids.size(), 1u);
+    EXPECT_EQ(image.ids[0].name, "sample-count");
+    const auto& counts = image.ids[0].ids;
+    EXPECT_EQ(samples.at("of_all_pixels"), std::accumulate(counts.begin(), counts.end(), 0u));
+    EXPECT_EQ(samples.at("least"), std::ranges::min(counts));
+    EXPECT_EQ(samples.at("most"), std::ranges::max(counts));
+    EXPECT_EQ(samples.at("tiles"), 6);
+    EXPECT_LE(samples.at("tiles_above_error"), 6);
+    EXPECT_NE(std::ranges::find(image.channels, "error.standard"), image.channels.end());
+    const ChildResult fixed = run_kilolux(small_render(file, {"--aov", "sample-count"}));
+    EXPECT_EQ(fixed.code, 2);
+    EXPECT_TRUE(contains(fixed.err, "aov sample-count: needs --samples auto")) << fixed.err;
 }
 
 TEST(Render, TheSameCommandGivesTheSameBytesQuietly) {

@@ -74,6 +74,24 @@ TEST_F(RigTest, ARigAskedForIsTheRigAndTheFilesLightsCount) {
               "--rig swarm: needs lights, and --lights is 0");
 }
 
+// What the window's "copy the command" says must give the same lights again.
+TEST_F(RigTest, ASwarmIsNamedWhereTheSceneWouldNotChooseIt) {
+    const auto settled = [&](const std::string& scene, const std::string& more) {
+        CLI::App app;
+        SharedOptions options;
+        add_shared_options(app, options);
+        app.parse(scene + " -q " + more);
+        open_scene(options);
+        return options.rig;
+    };
+    const std::string object = (folder_ / "object.glb").string();
+    EXPECT_EQ(settled("grid", "--rig swarm"), Rig::automatic);
+    EXPECT_EQ(settled((folder_ / "room.glb").string(), ""), Rig::automatic);
+    EXPECT_EQ(settled(object, "--rig swarm"), Rig::swarm);
+    EXPECT_EQ(settled(object, "--lights 5000"), Rig::swarm);
+    EXPECT_EQ(settled("grid", "--environment sky --rig swarm"), Rig::swarm);
+}
+
 TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
     Scene metal = box_scene(glm::dvec3(2.0));
     metal.materials[0].metallic = 1.0f;
@@ -145,6 +163,10 @@ TEST_F(RigTest, AnEnvironmentIsLightsOfItsOwn) {
     const std::string file = (folder_ / "white.hdr").string();
     write_image(file, white);
     EXPECT_EQ(lights("object.glb", "--environment " + file), "0+32 0");
+    EXPECT_EQ(message_of<UsageError>([&] { lights("grid", "--environment skyy"); }),
+              "--environment 'skyy' is no file, and none of studio, sky; did you mean 'sky'?");
+    EXPECT_EQ(message_of<Error>([&] { lights("grid", "--environment none.hdr"); }),
+              "none.hdr: no such environment file");
     EXPECT_EQ(lights("object.glb", "--environment-lights 5 --environment " + file), "0+5 0");
     EXPECT_EQ(lights("own.glb", "--rig studio --environment " + file), "0+38 0.2");
     EXPECT_TRUE(

@@ -71,8 +71,14 @@ def test_lights_as_the_renderer_does(names, gbuffers, csv, lights, tmp_path):
 def test_errors_are_one_line(gbuffers, csv, tmp_path):
     bad = tmp_path / "bad.csv"
     bad.write_text("0,1,2,3,4,5,6\n0,1,2,3,4,five,6\n")
+    dark, more = tmp_path / "dark.csv", tmp_path / "more.csv"
+    dark.write_text("0,1,2,nan,4,5,6\n")
+    more.write_text("0,1,2,3,4,5,6,7\n")
     ours, lit = gbuffers / "ours.exr", tmp_path / "lit.exr"
     for words, said in (((ours, bad, lit, DEGREES), "bad.csv: line 2: '0,1,2,3,4,five,6' is not x,y,z"),
+                        ((ours, dark, lit, DEGREES), "dark.csv: line 1: '0,1,2,nan,4,5,6' is not x,y,z,range > 0"),
+                        ((ours, more, lit, DEGREES), "more.csv: line 1: '0,1,2,3,4,5,6,7' is not"),
+                        ((ours, csv, lit, "wide"), "DEGREES must be between 0 and 180"),
                         ((ours, tmp_path / "none.csv", lit, DEGREES), "none.csv: cannot be read"),
                         ((tmp_path / "none.exr", csv, lit, DEGREES), "none.exr"),
                         ((ours, csv), "usage: light_exr")):

@@ -93,3 +93,32 @@ def test_bad_choices_are_refused():
         kilolux.GBufferLighting(shading="toon")
     with pytest.raises(kilolux.Error, match="no such device"):
         kilolux.GBufferLighting(device="no such device")
+
+
+@pytest.mark.parametrize("other, words", [
+    ({"position": (0, 1)}, r"position: \(0, 1\) is not three finite numbers"),
+    ({"y_fov": 50}, "y_fov .* 50 is not a number from"),  # degrees
+    ({"albedo": np.where(np.arange(64 * 96 * 3).reshape(64, 96, 3) < 3 * 96 * 40, 1, np.nan)},
+     r"albedo of pixel \d+,\d+ is \[nan nan nan\], must be finite"),
+    ({"normal": np.zeros((64, 96, 3))}, "normal of pixel .* has no direction"),
+    ({"depth": [["far"]]}, "depth: could not convert string to float"),
+    ({"depth": np.empty((0, 4))}, "depth has no pixels"),
+])
+def test_values_that_would_give_a_wrong_picture_are_refused(frame, lights, other, words):
+    with pytest.raises(kilolux.Error, match=words) as caught:
+        kilolux.GBufferLighting().light(gbuffer_of(frame, **other), lights)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("given, kind", [(5, "int"), (None, "NoneType"), (np.zeros((2, 3)), "ndarray"), ("all", "str")])
+def test_lights_of_no_kind_are_refused(frame, given, kind):
+    with pytest.raises(kilolux.Error, match=f"lights: must be Lights or a list of them, not .*{kind}"):
+        kilolux.GBufferLighting().light(gbuffer_of(frame), given)
+
+
+def test_normals_have_any_length(frame, lights):
+    lighting = kilolux.GBufferLighting(device=0)
+    once = lighting.light(gbuffer_of(frame), lights).radiance
+    longer = lighting.light(gbuffer_of(frame, normal=4 * frame.aovs["normal"]), lights).radiance
+    assert once.max() > 0.1
+    np.testing.assert_array_equal(once, longer)

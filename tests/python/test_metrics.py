@@ -64,3 +64,7 @@ def test_bad_pictures_are_refused():
         kilolux.rmse(LIGHT, LIGHT[:, :8])
     with pytest.raises(kilolux.Error, match="must be uint8"):
         kilolux.ssim(LIGHT, LIGHT)
+    with pytest.raises(kilolux.Error, match="one picture has sRGB codes"):
+        kilolux.flip(LIGHT, CODES)
+    with pytest.raises(kilolux.Error, match="values are uint16, must be uint8"):
+        kilolux.rmse(CODES.astype(np.uint16), CODES.astype(np.uint16))

@@ -79,3 +79,31 @@ def test_errors_carry_the_words_of_the_program(scene, options, tmp_path):
     with pytest.raises(kilolux.Error) as caught:
         kilolux.render(scene, **options)
     assert result.stderr == f"kilolux: {caught.value}\n"
+
+
+def test_ies_profiles_have_the_bits_of_the_program(tmp_path):
+    """A wall washer's web, narrower to one side, over the plain."""
+    assert run("export", "plain", "--rig", "none", "-q", "-o", tmp_path / "lit.gltf").returncode == 0
+    candela = "\n".join(" ".join(str(max(0, 900 - v * (4 + h / 30))) for v in range(0, 100, 10)) for h in range(0, 361, 90))
+    (tmp_path / "lamp.ies").write_text(
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 10 5 1 2 0 0 0\n1 1 30\n0 10 20 30 40 50 60 70 80 90\n0 90 180 270 360\n" + candela)
+    gltf = json.loads((tmp_path / "lit.gltf").read_text())
+    gltf.setdefault("extensionsUsed", []).append("EXT_lights_ies")
+    gltf.setdefault("extensions", {})["EXT_lights_ies"] = {"lights": [{"uri": "lamp.ies"}]}
+    down = [-(0.5**0.5), 0, 0, 0.5**0.5]
+    for x in (-2, 2):
+        gltf["scenes"][0]["nodes"].append(len(gltf["nodes"]))
+        gltf["nodes"].append({"translation": [x, 3, 0], "rotation": down,
+                              "extensions": {"EXT_lights_ies": {"light": 0, "multiplier": 0.1}}})
+    (tmp_path / "lit.gltf").write_text(json.dumps(gltf))
+    settings = {"resolution": (64, 48), "rig": "none", "shadows": "exact"}
+    frame = kilolux.render(str(tmp_path / "lit.gltf"), **settings)
+    words = ["--resolution", "64,48", "--rig", "none", "--shadows", "exact", "-q"]
+    assert run("render", tmp_path / "lit.gltf", *words, "-o", tmp_path / "a.exr").returncode == 0
+    names, exr = read_image(tmp_path / "a.exr")
+    np.testing.assert_array_equal(frame.radiance, exr[..., [names.index(c) for c in "RGB"]])
+    every_light = kilolux.render(str(tmp_path / "lit.gltf"), renderer="deferred-all", **settings)
+    np.testing.assert_array_equal(frame.radiance, every_light.radiance)
+    assert np.count_nonzero(frame.radiance > 0.1) > 100
+    renderer = kilolux.Renderer(str(tmp_path / "lit.gltf"), **settings)
+    np.testing.assert_array_equal(renderer.render().radiance, frame.radiance)

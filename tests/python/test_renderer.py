@@ -48,6 +48,13 @@ def test_a_change_that_fails_changes_nothing():
         assert same(renderer.render(), before), bad
     with pytest.raises(kilolux.Error, match="keeps its scene"):
         renderer.change(strict=True)
+    with pytest.raises(kilolux.Error, match="--exposure: 'true' is not 'auto' or a number"):
+        renderer.change(exposure=True)
+    with pytest.raises(kilolux.Error, match="--list-devices is for the command line"):
+        renderer.change(list_devices=True)
+    with pytest.raises(kilolux.Error, match="lights: must be Lights or a list of them, not of ndarray"):
+        renderer.change(lights=np.zeros((3, 3)))
+    assert same(renderer.render(), before)
 
 
 def test_lights_in_arrays_replace_each_other():

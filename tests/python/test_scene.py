@@ -65,6 +65,15 @@ def test_meshes_are_placed_and_share_materials(floor):
     ({"texcoords": [[0, 0, 0]] * 4, "normals": [[0, 1, 0]] * 4}, "texcoords: shape"),
     ({"indices": np.empty((0, 3), int)}, "has no triangles"),
     ({"world_from_object": np.eye(3)}, "world_from_object must have the shape"),
+    ({"world_from_object": np.full((4, 4), np.nan)}, "world_from_object must .* be finite"),
+    ({"indices": [[0, 1, 2.5]]}, "indices: are float64, must be integers"),
+    ({"indices": [0, 1, 2]}, r"indices: shape \(3,\), must be \(n, 3\)"),
+    ({"positions": [[0, 0]] * 4}, r"positions: shape \(4, 2\), must be \(n, 3\)"),
+    ({"colors": [[1, 1, 1]] * 3}, "colors: 3 rows, but there are 4 positions"),
+    ({"material": "red"}, "material must be a Material, not str"),
+    ({"material": kilolux.Material(roughness=2)}, "roughness: 2 is not a number from 0 to 1"),
+    ({"material": kilolux.Material(base_color=(1, 1))}, "base_color: .* is not three finite numbers"),
+    ({"material": kilolux.Material(base_color_image=np.ones((2, 2, 3)))}, "base_color_image: values are float64"),
     ({"material": kilolux.Material(base_color_image=np.zeros((2, 2), np.uint8))}, "image of 'material': shape"),
 ])
 def test_bad_meshes_are_refused_in_one_line(floor, mesh, words):
@@ -76,6 +85,7 @@ def test_bad_meshes_are_refused_in_one_line(floor, mesh, words):
 
 @pytest.mark.parametrize("lights, words", [
     ({"position": [0, 1]}, r"position has the shape \(2,\), must be \(n, 3\)"),
+    ({"position": [["a", 0, 1]]}, "position: could not convert"),
     ({"range": [1, 2, 3]}, "2 positions, but"),
     ({"kind": "area"}, "kind 'area' is none of point, spot, directional"),
     ({"kind": "spot", "direction": (0, 0, 0)}, "direction of light 0 is zero or not finite"),

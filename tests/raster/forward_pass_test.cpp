@@ -146,10 +146,11 @@ FV3 shade_on_host(const Surface& s, const View& view, const Lights& lights) {
         Light turned{};
         turned.position_range = light.to_light;
         turned.position_range.w = 1;
-        light.to_light = shade_light(view, turned).position_inv_range2;
+        light.to_light = shade_light(view, turned, 0u, 0u).position_inv_range2;
         sum = evaluate_directional(sum, p, light);
     }
-    for (const Light& light : lights.local) sum = evaluate(sum, p, shade_light(view, light));
+    for (const Light& light : lights.local)
+        sum = evaluate(sum, p, shade_light(view, light, 0u, 0u));
     return finish_shading(s, sum, 0.02f);
 }
 
@@ -208,7 +209,7 @@ ClusterLists exact_lists(const Scene& scene, const Lights& lights) {
                 cluster_index(out.grid, static_cast<uint>(x) / 16, static_cast<uint>(y) / 16,
                               slice_of_depth(out.grid, -p.z));
             for (std::size_t i = 0; i < lights.local.size(); ++i) {
-                const float4 l = shade_light(view, lights.local[i]).position_inv_range2;
+                const float4 l = shade_light(view, lights.local[i], 0u, 0u).position_inv_range2;
                 const FV3 v = fv3(l.x - p.x, l.y - p.y, l.z - p.z);
                 if (dot3(v, v) * l.w < 1.001f) reached[cluster][i] = true;
             }

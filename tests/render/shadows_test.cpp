@@ -5,6 +5,7 @@
 #include "host/base/error.h"
 #include "host/certify/shadow_scenarios.h"
 #include "host/measure/bench/lighting_bench.h"
+#include "host/measure/reference/shadow_caster.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -87,6 +88,17 @@ TEST(Shadows, AreTheSameBitsWithEveryLight) {
     EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
 }
 
+// What rounding grants an edge that points at the light is wide; no walk may find more of it.
+TEST(Shadows, OfEdgesThatPointAtTheLightAreTheSameBitsWithEveryLight) {
+    const ShadowScenario scenario = needles_scenario();
+    RenderSettings settings = shadow_settings(480, 270);
+    const Frame listed = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
+    settings.renderer = RendererKind::deferred_all;
+    EXPECT_EQ(Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance,
+              listed.radiance);
+    EXPECT_EQ(compare(scenario, Geometry::ids).unfounded, 0);
+}
+
 TEST(Shadows, AreTheSameBitsInBandsAndInAnotherGrid) {
     const Scene scene = grid_with_every_light();
     RenderSettings settings = shadow_settings(96, 64, 300);
@@ -109,7 +121,7 @@ TEST(Shadows, AreTheSameBitsForEveryLaunch) {
     request.runs = 1;
     request.tuning.tuning.shadow_group = 1;
     const std::uint64_t picture = bench.run(request).picture;
-    for (const int group : {32, 64, 256}) {
+    for (const int group : {0, 32, 64, 256}) {
         request.tuning.tuning.shadow_group = group;
         EXPECT_EQ(bench.run(request).picture, picture) << group << " work-items";
     }
@@ -171,6 +183,96 @@ TEST(Shadows, FollowWhatMoves) {
               Renderer(scenario.scene, settings).render(scenario.camera, 0.0).radiance);
 }
 
+bool casts_rays(const Frame& frame) {
+    return std::ranges::any_of(frame.stats.stages, [](const StageTime& stage) {
+        return stage.name == "cast_shadows" || stage.name == "draw_shadows";
+    });
+}
+
+// Three lamps, so that sampled shadows draw some of them.
+ShadowScenario lamps_scenario() {
+    ShadowScenario out = masked_scenario();
+    out.scene.lights.push_back(lamp({2.0, 3.5, 1.0}));
+    out.scene.lights.push_back(lamp({-2.5, 4.5, 0.5}));
+    return out;
+}
+
+// Of one renderer: a frame after a change casts rays and is that of a new renderer; the next one
+// casts none and is the same.
+class KeptShadows {
+ public:
+    explicit KeptShadows(const RenderSettings& settings)
+        : settings_(settings), renderer_(scenario_.scene, settings) {
+        expect_cast_once("the first frame");
+    }
+
+    template <typename Change>
+    void expect_cast_after(const char* what, const Change& change) {
+        change(scenario_);
+        expect_cast_once(what);
+    }
+
+    void expect_cast_with(const char* what, void (*change)(RenderSettings&)) {
+        change(settings_);
+        renderer_.change(settings_);
+        expect_cast_once(what);
+    }
+
+ private:
+    void expect_cast_once(const char* what) {
+        const Frame moved = renderer_.render(scenario_.camera, 0.0);
+        EXPECT_TRUE(casts_rays(moved)) << what;
+        EXPECT_EQ(moved.radiance,
+                  Renderer(scenario_.scene, settings_).render(scenario_.camera, 0.0).radiance)
+            << what;
+        EXPECT_NE(moved.radiance, last_) << what << " changes nothing";
+        const Frame still = renderer_.render(scenario_.camera, 0.0);
+        EXPECT_FALSE(casts_rays(still)) << "after " << what;
+        EXPECT_EQ(still.radiance, moved.radiance) << what;
+        last_ = still.radiance;
+    }
+
+    ShadowScenario scenario_ = lamps_scenario();
+    RenderSettings settings_;
+    Renderer renderer_;
+    std::vector<float> last_;
+};
+
+void expect_kept_until_something_moves(const RenderSettings& settings) {
+    KeptShadows kept(settings);
+    kept.expect_cast_after("a light that moves", [](ShadowScenario& s) {
+        s.scene.lights[0].position.x += 0.7;
+        ++s.scene.lights_revision;
+    });
+    kept.expect_cast_after("a camera that moves",
+                           [](ShadowScenario& s) { s.camera.position.x += 0.1; });
+    kept.expect_cast_after("an instance that moves", [](ShadowScenario& s) {
+        s.scene.instances.back().world_from_object[3].x += 0.5;
+        ++s.scene.revision;
+    });
+    kept.expect_cast_after("a mesh that changes", [](ShadowScenario& s) {
+        for (glm::vec3& p : s.scene.meshes.back().positions) p.x += 0.4f;
+        ++s.scene.meshes.back().revision;
+        ++s.scene.revision;
+    });
+}
+
+TEST(Shadows, AreKeptWhileNothingMoves) { expect_kept_until_something_moves(shadow_settings()); }
+
+TEST(Shadows, ThatAreDrawnInBandsOrWithoutReuseAreCastEachTime) {
+    const ShadowScenario scenario = masked_scenario();
+    RenderSettings settings = shadow_settings(96, 64);
+    for (const bool bands : {true, false}) {
+        settings.band_rows = bands ? 16 : 0;
+        settings.no_reuse = !bands;
+        Renderer renderer(scenario.scene, settings);
+        const Frame first = renderer.render(scenario.camera, 0.0);
+        const Frame second = renderer.render(scenario.camera, 0.0);
+        EXPECT_TRUE(casts_rays(second)) << bands;
+        EXPECT_EQ(second.radiance, first.radiance) << bands;
+    }
+}
+
 TEST(Shadows, ThatAreOffLeaveNothingInTheFrame) {
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = small_settings();
@@ -183,28 +285,57 @@ TEST(Shadows, ThatAreOffLeaveNothingInTheFrame) {
     EXPECT_TRUE(make_scene_plan(scene, settings, 300).kernels.shadows);
 }
 
+// The bits of a still frame are counted, too, and counting changes none.
+TEST(Shadows, AreCountedOnlyWhereItIsAskedFor) {
+    const Scene scene = grid_with_every_light();
+    for (const Shadows shadows : {Shadows::exact, Shadows::sampled}) {
+        RenderSettings settings = shadow_settings(96, 54, 100);
+        settings.shadows = shadows;
+        Renderer renderer(scene, settings);
+        const Frame plain = renderer.render(first_camera(scene), 0.0);
+        EXPECT_EQ(plain.stats.shadows.words, 0u);
+        settings.want.shadow_counts = true;
+        renderer.change(settings);
+        const Frame counted = renderer.render(first_camera(scene), 0.0);
+        EXPECT_FALSE(casts_rays(counted));
+        EXPECT_EQ(counted.radiance, plain.radiance);
+        const ShadowCounts& c = counted.stats.shadows;
+        EXPECT_GT(c.shafts, 0u);
+        EXPECT_GT(c.rays, c.shafts);
+        EXPECT_GT(c.seen, 0u);
+        EXPECT_LT(c.seen, c.rays) << "something is hidden";
+        EXPECT_EQ(renderer.render(first_camera(scene), 0.0).radiance, plain.radiance);
+    }
+}
+
+// Against rays in double, light by light, where the light is well within its range.
 TEST(Shadows, AProbeSaysWhichLightsAPixelSees) {
     const Scene scene = make_generated_scene("plain");
-    RenderSettings settings = shadow_settings(96, 54, 40);
-    settings.want.aovs = {"visibility"};
-    Renderer renderer(scene, settings);
-    const Frame frame = renderer.render(first_camera(scene), 0.0);
-    int hidden = 0;
+    const Camera camera = first_camera(scene);
+    const ShadowCaster rays(scene, camera);
+    Renderer renderer(scene, shadow_settings(96, 54, 40));
+    renderer.render(camera, 0.0);
+    int seen = 0, hidden = 0, differ = 0;
     for (int y = 2; y < 54; y += 10) {
         for (int x = 3; x < 96; x += 15) {
             const PixelProbe probe = renderer.probe(x, y);
             if (!probe.drawn()) continue;
-            const float share = frame.aovs.front().values[static_cast<std::size_t>(y * 96 + x)];
-            bool any_seen = false;
+            const float* p = &probe.surface[SURFACE_POSITION];
+            const auto point = rays.point_at({p[0], p[1], p[2]});
+            if (!point) continue;
             for (const ProbedLight& light : probe.lights) {
                 ASSERT_TRUE(light.seen.has_value());
-                any_seen |= *light.seen;
-                hidden += *light.seen ? 0 : 1;
+                const float4& at = light.shade.position_inv_range2;
+                const glm::dvec3 way(at.x - p[0], at.y - p[1], at.z - p[2]);
+                if (glm::dot(way, way) * double{at.w} > 0.98) continue;
+                (*light.seen ? seen : hidden) += 1;
+                differ += *light.seen != rays.sees(*point, {at.x, at.y, at.z}) ? 1 : 0;
             }
-            EXPECT_TRUE(any_seen || share == 0.0f || share == 1.0f);
         }
     }
-    EXPECT_GT(hidden, 0);
+    EXPECT_GT(seen, 20);
+    EXPECT_GT(hidden, 5);
+    EXPECT_LE(differ, (seen + hidden) / 50);
 }
 
 RenderSettings sampled_settings(int width, int height, std::uint64_t lights, int rays) {
@@ -237,6 +368,16 @@ TEST(SampledShadows, AreTheSameBitsHoweverTheyAreMade) {
     expect_same("all lights");
     settings.shadow_seed = 2;
     EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
+}
+
+TEST(SampledShadows, AreKeptWhileNothingMoves) {
+    RenderSettings settings = sampled_settings(96, 54, 0, 1);
+    settings.want.aovs.clear();
+    expect_kept_until_something_moves(settings);
+    KeptShadows kept(settings);
+    kept.expect_cast_with("another seed", [](RenderSettings& s) { s.shadow_seed = 7; });
+    kept.expect_cast_with("more rays", [](RenderSettings& s) { s.shadow_rays = 2; });
+    kept.expect_cast_with("ambient light", [](RenderSettings& s) { s.ambient = 0.5f; });
 }
 
 TEST(SampledShadows, WhereNothingHidesAreThoseOfNone) {

@@ -200,9 +200,19 @@ bool same_light(const SceneLight& a, const SceneLight& b) {
     if (a.type != b.type || a.position != b.position || a.intensity != b.intensity) return false;
     if (a.type != LightType::directional && a.range != b.range) return false;
     // A unit vector made unit again may move by its rounding in double.
-    if (a.type != LightType::point && glm::distance(a.direction, b.direction) > 1e-15) return false;
+    const bool aimed = a.type != LightType::point || a.profile >= 0;
+    if (aimed && glm::distance(a.direction, b.direction) > 1e-15) return false;
+    if (a.profile != b.profile) return false;
     return a.type != LightType::spot ||
            (a.inner_cone == b.inner_cone && a.outer_cone == b.outer_cone);
+}
+
+bool same_web(const PhotometricWeb& a, const PhotometricWeb& b) {
+    return a.name == b.name && a.text == b.text && a.table == b.table;
+}
+
+bool same_profile(const SceneProfile& a, const SceneProfile& b) {
+    return a.web == b.web && a.mirrored == b.mirrored && glm::distance(a.side, b.side) < 1e-15;
 }
 
 bool same_camera(const SceneCamera& a, const SceneCamera& b) {
@@ -275,6 +285,8 @@ std::string scene_difference(const Scene& a, const Scene& b) {
           list_difference("meshes", a.meshes, b.meshes, mesh_difference),
           list_difference("instances", a.instances, b.instances, unless(same_instance)),
           list_difference("lights", a.lights, b.lights, unless(same_light)),
+          list_difference("webs", a.webs, b.webs, unless(same_web)),
+          list_difference("profiles", a.aimed_profiles, b.aimed_profiles, unless(same_profile)),
           list_difference("cameras", a.cameras, b.cameras, unless(same_camera))}) {
         if (!difference.empty()) return difference;
     }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/base/error.h"
@@ -41,7 +42,7 @@ TEST(LightRanges, FillsOnlyWhatIsMissing) {
     lights[1].range = 5.0f;
     lights[2].type = LightType::directional;
     lights[3].type = LightType::spot;
-    EXPECT_EQ(fill_missing_ranges(lights), 2u);
+    fill_missing_ranges(lights, Tails::bounded);
     EXPECT_FLOAT_EQ(lights[0].range, static_cast<float>(range_of_light(20.0)));
     EXPECT_EQ(lights[1].range, 5.0f);
     EXPECT_EQ(lights[2].range, 0.0f);
@@ -54,11 +55,33 @@ TEST(LightRanges, LeavesUnusableLightsToBeRejected) {
     lights[1].range = std::nanf("");
     lights[2].intensity.y = std::nanf("");
     lights[3].intensity.z = -1.0f;
-    EXPECT_EQ(fill_missing_ranges(lights), 0u);
+    EXPECT_TRUE(std::ranges::none_of(lights, lacks_range));
+    fill_missing_ranges(lights, Tails::bounded);
     EXPECT_EQ(lights[0].range, -1.0f);
     EXPECT_TRUE(std::isnan(lights[1].range));
     EXPECT_EQ(lights[2].range, 0.0f);
     EXPECT_EQ(lights[3].range, 0.0f);
+}
+
+TEST(LightRanges, ExactOnesReachEverywhere) {
+    std::vector<SceneLight> lights(2);
+    lights[1].range = 5.0f;
+    fill_missing_ranges(lights, Tails::exact);
+    EXPECT_EQ(lights[0].range, kUnlimitedRange);
+    EXPECT_EQ(lights[1].range, 5.0f);
+}
+
+TEST(LightRanges, AutomaticIsExactForFewAndHeedsABudget) {
+    std::vector<SceneLight> lights(kExactTails);
+    lights.push_back({.range = 5.0f});
+    lights.push_back({.type = LightType::directional});
+    const auto chosen = [&](double budget) { return tails_for(lights, Tails::automatic, budget); };
+    EXPECT_EQ(chosen(kDefaultRangeBudget), Tails::exact);
+    EXPECT_EQ(chosen(0.01), Tails::bounded);
+    EXPECT_EQ(tails_for(lights, Tails::bounded, kDefaultRangeBudget), Tails::bounded);
+    lights.emplace_back();
+    EXPECT_EQ(chosen(kDefaultRangeBudget), Tails::bounded);
+    EXPECT_EQ(tails_for(lights, Tails::exact, 0.01), Tails::exact);
 }
 
 TEST(LightRanges, RefusesNonsense) {

@@ -283,6 +283,14 @@ std::string scene_defect(const Scene& scene) {
             return "image of a wrong size";
         }
     }
+    for (const SceneLight& light : scene.lights) {
+        const auto profile = static_cast<std::size_t>(light.profile);
+        if (light.profile < 0) continue;
+        if (profile >= scene.aimed_profiles.size() ||
+            scene.aimed_profiles[profile].web >= scene.webs.size()) {
+            return "light's profile out of range";
+        }
+    }
     return "";
 }
 

@@ -2,6 +2,7 @@
 #include "tests/support/gltf_seeds.h"
 
 #include "tests/support/gltf_compressed.h"
+#include "tests/support/ies_text.h"
 
 namespace kilolux {
 namespace {
@@ -147,6 +148,20 @@ void add_points_and_lines(GltfBuilder& file) {
     }
 }
 
+// A light with an IES file, in a node that is turned, and one with its own colour.
+void add_profile_lights(GltfBuilder& file) {
+    const std::string text = ies_text({.horizontal = {0, 45, 90}});
+    const int view = file.add_view(Blob(text.begin(), text.end()));
+    file.root["extensions"]["EXT_lights_ies"]["lights"] = {
+        {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}, {"name", "lamp"}}};
+    file.add_node({{"translation", {0, 3, 0}},
+                   {"rotation", {-0.6, 0, 0, 0.8}},
+                   {"extensions", {{"EXT_lights_ies", {{"light", 0}}}}}});
+    file.add_node(
+        {{"extensions",
+          {{"EXT_lights_ies", {{"light", 0}, {"multiplier", 2}, {"color", {0.5, 1, 0.25}}}}}}});
+}
+
 GltfBuilder converted_features_file() {
     GltfBuilder file = quad_with_normal_map();
     add_points_and_lines(file);
@@ -169,7 +184,8 @@ GltfBuilder converted_features_file() {
     const int turns = file.add_accessor(Blob(24, 64), {kShort, "VEC4", 3, true, 0});
     file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"TRANSLATION", shifts}, {"ROTATION", turns}};
-    file.root["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness",
+    add_profile_lights(file);
+    file.root["extensionsRequired"] = {"EXT_lights_ies", "KHR_materials_pbrSpecularGlossiness",
                                        "KHR_materials_variants", "EXT_mesh_gpu_instancing",
                                        "KHR_materials_transmission"};
     file.root["extensionsUsed"] = file.root["extensionsRequired"];

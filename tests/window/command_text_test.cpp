@@ -33,6 +33,20 @@ TEST(CommandText, DefaultsNeedNoOptions) {
     EXPECT_EQ(render_command(rig, options, scene), "kilolux render plain -o kilolux.png");
 }
 
+// A rig has other standards than the command line without one.
+TEST(CommandText, SaysTheLightsOfARig) {
+    const Scene scene = make_generated_scene("plain");
+    SharedOptions options;
+    options.scene = "plain";
+    const CameraRig rig(choose_camera(options.camera, scene), bounds(scene));
+    options.rig = Rig::studio;
+    const std::string command = render_command(rig, options, scene);
+    const SharedOptions again = parsed(command);
+    EXPECT_EQ(again.rig, Rig::studio) << command;
+    EXPECT_TRUE(again.lights_given && again.ambient_given) << command;
+    EXPECT_EQ(again.settings, options.settings) << command;
+}
+
 TEST(CommandText, ReproducesEverySetting) {
     const Scene scene = make_generated_scene("plain");
     SharedOptions options;

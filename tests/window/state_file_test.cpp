@@ -27,6 +27,7 @@ ViewState unusual_state() {
     state.settings.lights.count = 123456;
     state.settings.lights.radius = 0.1;
     state.settings.grid = {20, 11, 8, 32};
+    state.rig = Rig::headlight;
     state.lights_move = true;
     state.light_speed = 2.5;
     state.camera_mode = CameraMode::orbit;

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "host/base/hash.h"
-#include "host/lighting/deferred_lighting.h"
 #include "host/render/grid_request.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/light_source.h"
@@ -121,15 +120,17 @@ void LightingBench::draw(FrameStats& stats) {
     gbuffer_.version = 0;  // so that every run bins its pixels
 }
 
-Radiance LightingBench::light(Stages& stages) {
+LightingInput LightingBench::input() const {
     const double pad = position_pad(gbuffer_.layout.layout, box_, camera_);
     const ClusterGrid grid =
         make_cluster_grid(grid_request(settings_.grid, camera_, box_, static_cast<float>(pad)),
                           gbuffer_.view.width, gbuffer_.view.height);
     const LightRows no_rows;
-    const LightingInput input{gbuffer_, lights_, grid,
-                              drawing_->pass.shadows({camera_, no_rows, lights_, {}, true})};
-    return stages.lighting.light(input, timer_, [&](const Radiance& radiance) {
+    return {gbuffer_, lights_, grid, drawing_->pass.shadows({camera_, no_rows, lights_, {}, true})};
+}
+
+Radiance LightingBench::light(Stages& stages) {
+    return stages.lighting.light(input(), timer_, [&](const Radiance& radiance) {
         stages.tonemap.enqueue(radiance, settings_.exposure, timer_);
     });
 }
@@ -149,6 +150,11 @@ LightingRun LightingBench::run(const LightingRequest& request) {
         const ClusterGrid& grid = stages.lighting.lists().grid;
         std::ranges::copy(std::array{grid.tiles_x, grid.tiles_y, grid.slices}, out.stats.grid);
         out.stats.useful_evaluations_per_pixel = -1.0;
+        if (request.counts && request.plan.kernels.shadows) {
+            CastShadows counting(gpu_.with_lanes(request.tuning.lanes), request.tuning.tuning,
+                                 request.plan.kernels, path_surfaces(drawing_->context), true);
+            out.stats.shadows = stages.lighting.count_shadows(input(), counting);
+        }
         for (int i = 0; i < std::max(request.runs, 1); ++i) {
             FrameStats run;
             if (request.geometry) draw(run);

@@ -7,6 +7,7 @@
 
 #include "host/gpu/stage_timer.h"
 #include "host/gpu/tuning_store.h"
+#include "host/lighting/deferred_lighting.h"
 #include "host/picture/frame.h"
 #include "host/render/light_source.h"
 #include "host/render/render_scene.h"
@@ -30,6 +31,7 @@ struct LightingRequest {
     StoredTuning tuning;
     int runs = 5;           // after one that warms up
     bool geometry = false;  // also what makes the G-buffer, anew in each run
+    bool counts = false;    // also stats.shadows, by one more pass
     Geometry drawn_by = Geometry::automatic;
 };
 
@@ -61,6 +63,7 @@ class LightingBench {
 
     void set_drawing(const LightingRequest& request);
     void draw(FrameStats& stats);
+    LightingInput input() const;
     Radiance light(Stages& stages);
 
     const Scene& scene_;

@@ -9,7 +9,7 @@ namespace kilolux {
 namespace {
 
 // A horizontal axis: a field of the points as a number.
-struct Axis {
+struct PlotAxis {
     const char* field;  // as fields_of() names it
     const char* stem;
     const char* title;
@@ -18,7 +18,7 @@ struct Axis {
     bool labelled;  // points carry the field's text
 };
 
-constexpr Axis kAxes[] = {
+constexpr PlotAxis kPlotAxes[] = {
     {"lights", "time_against_lights", "Time against lights", "lights",
      [](const SweepPoint& p) { return static_cast<double>(p.lights); }, false},
     {"grid", "time_against_grid", "Time against the coarse grid",
@@ -88,7 +88,7 @@ Curves curves_along(const std::string& field, const std::vector<BenchRow>& rows)
     return curves;
 }
 
-Plot time_plot(const Axis& axis, const Curves& curves) {
+Plot time_plot(const PlotAxis& axis, const Curves& curves) {
     Plot plot;
     plot.title = axis.title;
     plot.x_label = axis.label;
@@ -143,7 +143,7 @@ std::vector<NamedPlot> bench_plots(const std::vector<BenchRow>& rows, const std:
         plot.subtitle = full_subtitle(subtitle, curves.rows);
         plots.push_back({stem, std::move(plot)});
     };
-    for (const Axis& axis : kAxes) {
+    for (const PlotAxis& axis : kPlotAxes) {
         const Curves curves = curves_along(axis.field, rows);
         add(axis.stem, time_plot(axis, curves), curves);
     }

@@ -80,7 +80,11 @@ constexpr CsvColumn kColumns[] = {
     MEMBER(error.max_relative)("max_relative_error"),
     MEMBER(error.different_pixels)("different_pixels"),
     MEMBER(error.pixels)("compared_pixels"),
+    // Not in tables of versions that did not count shadows.
+    MEMBER(shafts)("shafts"),
+    MEMBER(saved_rays)("saved_rays"),
 };
+constexpr std::size_t kShadowColumns = 2;
 
 std::vector<std::string> columns() {
     std::vector<std::string> names;
@@ -102,6 +106,8 @@ BenchRow row_of(const std::vector<std::string>& fields) {
 
 // 0 is what has no model or was not counted.
 Cell unless_zero(double value) { return value > 0.0 ? Cell(value) : Cell(); }
+
+bool casts(const BenchRow& row) { return row.shafts > 0.0; }
 
 }  // namespace
 
@@ -144,17 +150,35 @@ Table bench_summary(const std::vector<BenchRow>& rows) {
          {"k*/k", &R::useful_share},
          {"max rel. error", [](const R& r) { return r.error.max_relative; }},
          {"bits differ", [](const R& r) { return r.error.different_pixels; }}});
+    if (std::ranges::any_of(rows, casts)) {
+        columns.insert(
+            columns.end(),
+            {{"rays", [](const R& r) { return casts(r) ? Cell(r.evaluations) : Cell(); }},
+             {"rays saved", [](const R& r) { return unless_zero(r.saved_rays); }},
+             {"shafts", [](const R& r) { return unless_zero(r.shafts); }}});
+    }
     return make_table(columns, rows);
 }
 
-std::string bench_legend() {
-    return "limit: least time by the device's measured rates; ratio: limit / median (1 is best).\n"
-           "k: lights evaluated a drawn pixel; k*: of those, lights whose range covers the pixel.\n"
-           "Geval/s: lights evaluated in full at a pixel (refine_lights: light against box).\n"
-           "other: frame time outside of the stages.\n";
+std::string bench_legend(const std::vector<BenchRow>& rows) {
+    std::string out =
+        "limit: least time by the device's measured rates; ratio: limit / median (1 is best).\n"
+        "k: lights evaluated a drawn pixel; k*: of those, lights whose range covers the pixel.\n"
+        "Geval/s: lights evaluated in full at a pixel (refine_lights: light against box).\n"
+        "other: frame time outside of the stages.\n";
+    if (std::ranges::none_of(rows, casts)) return out;
+    return out +
+           "rays: shadow rays; saved: of the pairs of a pixel and a listed light, those that need "
+           "none, as the light is\nbehind the surface, out of range or not drawn. shafts: walks "
+           "through the hierarchy. Geval/s of cast_shadows: rays.\n";
 }
 
-bool is_bench_table(const TextTable& csv) { return csv.columns == columns(); }
+bool is_bench_table(const TextTable& csv) {
+    std::vector<std::string> all = columns();
+    if (csv.columns == all) return true;
+    all.resize(all.size() - kShadowColumns);
+    return csv.columns == all;
+}
 
 std::vector<BenchRow> bench_rows(const TextTable& csv) {
     std::vector<BenchRow> rows;

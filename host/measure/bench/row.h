@@ -29,6 +29,8 @@ struct BenchRow {
     double limit_ms = 0.0;     // by the device's measured limits; 0: no model
     std::string bound;         // what limits it; empty: no model
     double evaluations = 0.0;  // see StageReport
+    double shafts = 0.0;       // likewise
+    double saved_rays = 0.0;
     double bytes = 0.0;
     double k = 0.0;         // lights evaluated a drawn pixel
     double useful_k = 0.0;  // k*: of those in range
@@ -59,9 +61,9 @@ Table bench_table(const std::vector<BenchRow>& rows);
 Table bench_summary(const std::vector<BenchRow>& rows);
 
 /// What the columns of bench_summary() mean, in a few lines.
-std::string bench_legend();
+std::string bench_legend(const std::vector<BenchRow>& rows);
 
-/// Whether a table has bench_table()'s columns.
+/// Whether a table has bench_table()'s columns; those of shadows, its last, may be missing.
 bool is_bench_table(const TextTable& csv);
 
 /// The rows of bench_table() as parse_csv() reads them. Throws Error with the line's number for

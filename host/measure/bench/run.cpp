@@ -27,6 +27,8 @@ BenchRow stage_row(BenchRow row, const StageReport& report, const std::vector<Fr
     row.bound = report.bound;
     row.bytes = report.bytes;
     row.evaluations = report.evaluations;
+    row.shafts = report.shafts;
+    row.saved_rays = report.saved_rays;
     return row;
 }
 
@@ -127,6 +129,7 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     if (stats.drawn_pixels == 0) stats.drawn_pixels = covered.drawn_pixels;
     if (point.renderer == RendererKind::deferred_all) stats.evaluations_per_pixel = local;
     stats.useful_evaluations_per_pixel = covered.useful_k;
+    stats.shadows = covered.shadows;
     BenchRow row;
     row.point = point;
     row.k = stats.evaluations_per_pixel;
@@ -189,9 +192,9 @@ const BenchRun::Coverage& BenchRun::coverage(const SweepPoint& point) {
     if (!is_new) return found->second;
     RenderSettings settings = settings_at(base_, point);
     settings.renderer = RendererKind::deferred;
-    settings.want.counts = true;
+    settings.want.counts = settings.want.shadow_counts = true;
     const FrameStats stats = render(settings).stats;
-    found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels};
+    found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels, stats.shadows};
     return found->second;
 }
 

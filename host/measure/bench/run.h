@@ -69,6 +69,7 @@ class BenchRun {
     struct Coverage {
         double useful_k = 0.0;
         std::uint64_t drawn_pixels = 0;
+        ShadowCounts shadows{};
     };
     using SceneKey = std::tuple<std::array<int, 2>, std::uint64_t, uint>;
 

@@ -19,7 +19,7 @@ namespace kilolux {
 namespace {
 
 // By SHADING_*.
-constexpr const char* kModels[] = {"lambert", "blinn-phong", "pbr"};
+constexpr const char* kShadingModels[] = {"lambert", "blinn-phong", "pbr"};
 static_assert(SHADING_LAMBERT == 0 && SHADING_BLINN_PHONG == 1 && SHADING_PBR == 2);
 constexpr float kNearest = 2.0f, kFarthest = 20.0f;  // of the pixels [m]
 constexpr float kRange = 100.0f;                     // of the lights [m]
@@ -92,14 +92,14 @@ std::vector<Variant> make_variants(const Gpu& gpu, const RenderSettings& setting
     const DeviceInfo device = describe(gpu.device);
     const Tuning tuning = choose_tuning(device, settings.kernels).tuning;
     std::vector<Variant> variants;
-    for (int model = 0; model < static_cast<int>(std::size(kModels)); ++model) {
+    for (int model = 0; model < static_cast<int>(std::size(kShadingModels)); ++model) {
         for (const int lanes : lane_widths(device)) {
             KernelFeatures features;
             features.shading = model;
             ShadeAll shade(gpu.with_lanes(lanes), tuning, features);
             shade.set_ambient(settings.ambient);
             ShadingMeasurement measurement;
-            measurement.model = kModels[model];
+            measurement.model = kShadingModels[model];
             measurement.lanes = lanes;
             variants.push_back({measurement, features, std::move(shade), {}});
         }
@@ -147,7 +147,7 @@ double ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
 
 int shading_variants(const RenderSettings& settings) {
     const DeviceInfo device = describe(choose_device(settings.device));
-    return static_cast<int>(std::size(kModels) * lane_widths(device).size());
+    return static_cast<int>(std::size(kShadingModels) * lane_widths(device).size());
 }
 
 std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, DeviceLimits limits,

@@ -65,8 +65,6 @@ std::array<Plane, 3> planes_of(const RgbImage& image) {
     return planes;
 }
 
-constexpr double kPi = std::numbers::pi;
-
 // a * sqrt(pi / b) * exp(-pi^2 x^2 / b), x in degrees: the filter of a CSF a * exp(-b f^2).
 struct CsfTerm {
     double a;
@@ -81,8 +79,10 @@ constexpr double kWidest = 0.04;  // largest b: one radius serves all
 constexpr double kFeatureWidth = 0.082;  // of an edge or point [degree]
 
 std::vector<double> csf_taps(double b, double pixels_per_degree) {
-    const double sigma = std::sqrt(b / (2.0 * kPi * kPi)) * pixels_per_degree;
-    const double widest = std::sqrt(kWidest / (2.0 * kPi * kPi)) * pixels_per_degree;
+    const double sigma =
+        std::sqrt(b / (2.0 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree;
+    const double widest =
+        std::sqrt(kWidest / (2.0 * std::numbers::pi * std::numbers::pi)) * pixels_per_degree;
     return gaussian_taps(sigma, static_cast<int>(std::ceil(3.0 * widest)));
 }
 
@@ -93,7 +93,7 @@ Plane filter_csf(const Plane& in, std::span<const CsfTerm> terms, double pixels_
     for (const CsfTerm& term : terms) {
         const auto taps = csf_taps(term.b, pixels_per_degree);
         const double sum = std::accumulate(taps.begin(), taps.end(), 0.0);
-        const double weight = term.a * std::sqrt(kPi / term.b);
+        const double weight = term.a * std::sqrt(std::numbers::pi / term.b);
         const Plane filtered = filter_separable(in, taps, taps);
         for (std::size_t i = 0; i < out.values.size(); ++i) {
             out.values[i] += weight * filtered.values[i];

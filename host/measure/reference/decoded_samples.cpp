@@ -43,7 +43,7 @@ SurfaceSamples surface_samples(const DecodedSurfaces& decoded) {
 
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options) {
     return shade_reference(surface_samples(lit.surfaces),
-                           reference_lights(lit.lights, lit.directional), options);
+                           reference_lights(lit.lights, lit.directional, lit.webs), options);
 }
 
 }  // namespace kilolux

@@ -47,6 +47,7 @@ FrameError measure_frame_error(Renderer& renderer, RenderSettings settings, cons
     make_small(settings, renderer.light_count(settings));
     settings.want = radiance_only();
     settings.samples = 1;
+    settings.auto_samples.on = false;
     settings.background.reset();  // the reference has surfaces and lights only
     settings.reflections.reset();
     renderer.change(settings);

@@ -46,17 +46,26 @@ double cone(const ReferenceLight& light, const glm::dvec3& to_light) {
     return edge * edge;
 }
 
+// As evaluate.h's.
+double drawn_weight(const ReferenceLight& light, double d2, double drawn_ranges) {
+    const glm::dvec3& i = light.intensity;
+    return std::max(1.0, d2 * drawn_ranges / std::max({i.x, i.y, i.z}));
+}
+
 Incidence incidence(const ReferenceLight& light, const glm::dvec3& position,
                     const ReferenceOptions& options) {
     const glm::dvec3 v = light.position - position;
     const double d2 = glm::dot(v, v);
-    const double x = options.windowed ? d2 * light.inv_range2 : 0.0;  // (d / range)^2
+    const double x = options.windowed ? d2 * std::abs(light.inv_range2) : 0.0;  // (d / range)^2
     if (x >= 1.0) return {};
     const double d = std::max(std::sqrt(d2), options.light_d_min);
     const glm::dvec3 to_light = v / d;
     const double edge = cone(light, to_light);
-    return {to_light, (1.0 - x) * (1.0 + x) / (d * d) * edge,
-            x < 1.0 - kReachMargin && edge > kReachMargin};
+    const double window = light.inv_range2 < 0.0 ? drawn_weight(light, d2, options.drawn_ranges)
+                                                 : (1.0 - x) * (1.0 + x);
+    const double share = light.web.web != nullptr ? share_towards(light.web, -to_light) : 1.0;
+    return {to_light, window / (d * d) * edge * share,
+            x < 1.0 - kReachMargin && edge > kReachMargin && share > kReachMargin};
 }
 
 glm::dvec3 direction_to_eye(const glm::dvec3& position, bool orthographic) {

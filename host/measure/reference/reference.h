@@ -27,6 +27,7 @@ struct ReferenceOptions {
     double ambient = 0.0;                // incident radiance, the same from every direction
     bool orthographic = false;           // rays to the eye are parallel to +Z
     double light_d_min = 0.01;           // nearer than this the inverse square stops growing [m]
+    double drawn_ranges = 0.0;           // DRAWN_RANGES of evaluate.h, for lights that have one
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     OnProgress progress{};
     const ShadowCaster* shadows = nullptr;  // none: every light is seen
@@ -46,7 +47,7 @@ struct ReferencePicture {
 ///   pixel = emissive + ambient * occlusion * albedo
 ///           + sum of brdf * intensity * attenuation * max(n.l, 0)
 ///   attenuation = clamp(1 - (d/range)^4, 0, 1) / max(d, light_d_min)^2
-///                 * clamp((cos - cos_out) scale, 0, 1)^2
+///                 * clamp((cos - cos_out) scale, 0, 1)^2 * photometric web's share of its peak
 /// The direction to a light at distance d is v / max(d, light_d_min); a light at the shading point
 /// adds 0. Relative error of the sums below 1e-14 for any number and order of lights.
 ///

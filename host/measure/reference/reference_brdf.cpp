@@ -9,7 +9,6 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRoughnessMin = 0.045;  // Filament: narrower lobes are beyond float32
 constexpr double kNDotVMin = 1e-4;       // Filament: seen edge on
 constexpr double kHalfMin = 1e-6;        // opposite directions of view and light: no half vector
@@ -20,7 +19,7 @@ double alpha2_of(const SurfaceSample& surface) {
 }
 
 glm::dvec3 diffuse_of(const SurfaceSample& surface) {
-    return surface.albedo * ((1.0 - surface.metallic) / kPi);
+    return surface.albedo * ((1.0 - surface.metallic) / std::numbers::pi);
 }
 
 glm::dvec3 f0_of(const SurfaceSample& surface) {
@@ -55,13 +54,13 @@ glm::dvec3 blinn_phong(const SurfaceSample& s, const glm::dvec3& v, const glm::d
     const double lobe = glm::dot(s.normal, h) > 0.0
                             ? std::exp(0.5 * exponent * std::log1p(-sin2(s.normal, h)))
                             : 0.0;  // also of exponent 0: the limit of small ones
-    return diffuse_of(s) + f0_of(s) * ((exponent + 2.0) / (8.0 * kPi) * lobe);
+    return diffuse_of(s) + f0_of(s) * ((exponent + 2.0) / (8.0 * std::numbers::pi) * lobe);
 }
 
 // D of GGX (Walter et al. 2007): alpha^2 / (pi (cos^2 (alpha^2 - 1) + 1)^2).
 double ggx(double sin2_nh, double alpha2) {
     const double denominator = sin2_nh * (1.0 - alpha2) + alpha2;
-    return alpha2 / (kPi * denominator * denominator);
+    return alpha2 / (std::numbers::pi * denominator * denominator);
 }
 
 // Smith's height-correlated masking-shadowing over 4 n.l n.v (Heitz 2014, equation 99).
@@ -97,7 +96,7 @@ glm::dvec3 reference_brdf(const SurfaceSample& surface, const glm::dvec3& to_eye
         case Shading::pbr:
             return pbr(surface, to_eye, to_light);
         default:
-            return surface.albedo / kPi;
+            return surface.albedo / std::numbers::pi;
     }
 }
 

@@ -18,13 +18,20 @@ ReferenceLight of_row(const ShadeLight& row) {
             .cone_scale = row.color_scale.w};
 }
 
-ReferenceLight of_scene(const SceneLight& light, const Camera& camera) {
+WebInView web_of(const SceneLight& light, const glm::dmat3& view_from_world, const Scene& scene) {
+    const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
+    return {&scene.webs[profile.web], view_from_world * glm::normalize(light.direction),
+            view_from_world * profile.side, profile.mirrored};
+}
+
+ReferenceLight of_scene(const SceneLight& light, const Camera& camera, const Scene* scene) {
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     ReferenceLight out;
     out.position = view_from_world * (light.position - camera.position);
     const double range = light.range;
     out.inv_range2 = range > 0.0 ? 1.0 / (range * range) : 0.0;
     out.intensity = glm::dvec3(light.intensity);
+    if (light.profile >= 0 && scene != nullptr) out.web = web_of(light, view_from_world, *scene);
     if (light.type == LightType::spot) {
         out.axis = view_from_world * glm::normalize(light.direction);
         out.cos_out = std::cos(static_cast<double>(light.outer_cone));
@@ -37,16 +44,19 @@ ReferenceLight of_scene(const SceneLight& light, const Camera& camera) {
 }  // namespace
 
 ReferenceLights reference_lights(std::span<const ShadeLight> lights,
-                                 std::span<const DirectionalLight> directional) {
+                                 std::span<const DirectionalLight> directional,
+                                 std::span<const WebInView> webs) {
     ReferenceLights out;
     for (const ShadeLight& row : lights) out.lights.push_back(of_row(row));
+    for (std::size_t i = 0; i < webs.size(); ++i) out.lights[i].web = webs[i];
     for (const DirectionalLight& row : directional) {
         out.directional.push_back({.to_light = xyz(row.to_light), .illuminance = xyz(row.color)});
     }
     return out;
 }
 
-ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camera& camera) {
+ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camera& camera,
+                                 const Scene* scene) {
     ReferenceLights out;
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     for (const SceneLight& light : lights) {
@@ -55,7 +65,7 @@ ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camer
                 {.to_light = view_from_world * -glm::normalize(light.direction),
                  .illuminance = glm::dvec3(light.intensity)});
         } else {
-            out.lights.push_back(of_scene(light, camera));
+            out.lights.push_back(of_scene(light, camera, scene));
         }
     }
     return out;

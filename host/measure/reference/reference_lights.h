@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/picture/web_in_view.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/light.h"
@@ -14,11 +15,12 @@ namespace kilolux {
 /// A point or spot light in view space, in double.
 struct ReferenceLight {
     glm::dvec3 position{0.0};   // [m]
-    double inv_range2 = 0.0;    // 1/range^2 [1/m^2]; 0: no range
+    double inv_range2 = 0.0;    // 1/range^2 [1/m^2]; 0: no range; < 0: minus that of a drawn one
     glm::dvec3 intensity{0.0};  // linear Rec. 709 [cd]
     glm::dvec3 axis{0.0};       // unit, direction of the light's travel; 0 for a point light
     double cos_out = -1.0;      // of the outer cone's half angle
     double cone_scale = 1.0;    // 1/(cos_in - cos_out)
+    WebInView web{};
 };
 
 /// A directional light in view space, in double.
@@ -32,12 +34,15 @@ struct ReferenceLights {
     std::vector<ReferenceDirectionalLight> directional;
 };
 
-/// From the float32 rows that the kernels shade with: for R1.
+/// From the float32 rows that the kernels shade with: for R1. `webs`: one per light, or none.
 ReferenceLights reference_lights(std::span<const ShadeLight> lights,
-                                 std::span<const DirectionalLight> directional);
+                                 std::span<const DirectionalLight> directional,
+                                 std::span<const WebInView> webs = {});
 
 /// From a scene's lights, without rounding to float32: for R2 and R3. Lights without a range keep
 /// none. The cone's smallest width is that of KHR_lights_punctual: cos_in - cos_out >= 0.001.
-ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camera& camera);
+/// `scene`: has the photometric webs of the lights, and outlives them; not needed without.
+ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camera& camera,
+                                 const Scene* scene = nullptr);
 
 }  // namespace kilolux

@@ -71,6 +71,9 @@ double error_of(const ReportRow& row, const std::string& name) {
 }
 
 bool is_candidate(const ReportSetting& setting, const ErrorBudget& budget) {
+    if (setting.axis == SettingAxis::shadows) {
+        return budget.chooses_shadows && setting.settings.shadows != Shadows::off;
+    }
     return keeps_ranges(setting.axis) || budget.metric.starts_with("r3-");
 }
 

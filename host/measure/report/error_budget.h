@@ -28,6 +28,7 @@ double error_of(const ReportRow& row, const std::string& metric);
 struct ErrorBudget {
     double max_error = 0.0;  // >= 0
     std::string metric = "flip";
+    bool chooses_shadows = false;  // between sampled shadows, with so many rays, and exact ones
 };
 
 /// The setting chosen for a budget.
@@ -40,7 +41,7 @@ struct BudgetChoice {
 };
 
 /// Whether a budget may choose a setting: one that changes the lights' ranges only if the budget is
-/// against R3.
+/// against R3, other shadows only where it chooses them, and never none.
 bool is_candidate(const ReportSetting& setting, const ErrorBudget& budget);
 
 /// The fastest candidate whose error is within the budget. If there is none, throws Error that

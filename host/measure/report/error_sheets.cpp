@@ -13,7 +13,7 @@ constexpr int kHalf = 16;             // pixels on each side of the worst one
 constexpr int kCrop = 2 * kHalf + 1;  // [pixel of the picture]
 constexpr int kMapWidth = 320;        // smaller error maps are magnified [pixel]
 constexpr int kGap = 6;               // between panels
-constexpr int kLine = 14;             // of text
+constexpr int kSheetLine = 14;        // of text
 constexpr int kLegend = 48;
 constexpr int kColumn = kGlyphWidth + 1;
 constexpr HeatScale kScale = {.low = 1e-8, .high = 1.0, .logarithmic = true, .unit = {}};
@@ -69,11 +69,11 @@ Sheet make_sheet(int width, int height, const std::string& setting, const std::s
     const auto columns = static_cast<std::size_t>((width - 2 * kGap) / kColumn);
     std::vector<std::string> lines = wrapped(setting, columns);
     for (std::string& line : wrapped(caption, columns)) lines.push_back(std::move(line));
-    const int title = static_cast<int>(lines.size()) * kLine + kGap;
+    const int title = static_cast<int>(lines.size()) * kSheetLine + kGap;
     Sheet sheet{make_canvas(width, title + height + kLegend), kGap};
     for (const std::string& line : lines) {
         draw_text(sheet.canvas, kGap, sheet.top, 1, line);
-        sheet.top += kLine;
+        sheet.top += kSheetLine;
     }
     return sheet;
 }
@@ -128,7 +128,7 @@ void draw_worst(Sheet& sheet, const ReportRow& row, const Comparison& against) {
     draw_text(sheet.canvas, kGap, sheet.top, 1,
               fmt::format("{}: {:.1e} at {}. picture - reference - error", against.name, worst.max,
                           pixel_text(worst)));
-    sheet.top += kLine;
+    sheet.top += kSheetLine;
     const auto map = error_codes(row, against.reference.picture);
     int left = kGap;
     for (const auto* codes : {&row.display, &against.reference.display, &map}) {
@@ -146,8 +146,8 @@ void draw_worst(Sheet& sheet, const ReportRow& row, const Comparison& against) {
 Canvas worst_pixel_sheet(const ReportRow& row, const ReportReferences::All& references,
                          const std::string& caption) {
     constexpr int kPanel = kZoom * kCrop;
-    Sheet sheet =
-        make_sheet(3 * kPanel + 4 * kGap, 3 * (kLine + kPanel + kGap), row.setting.name, caption);
+    Sheet sheet = make_sheet(3 * kPanel + 4 * kGap, 3 * (kSheetLine + kPanel + kGap),
+                             row.setting.name, caption);
     for (const Comparison& against : comparisons(row, references)) draw_worst(sheet, row, against);
     draw_legend_bar(sheet.canvas);
     return std::move(sheet.canvas);
@@ -158,14 +158,14 @@ Canvas error_map_sheet(const ReportRow& row, const ReportReferences::All& refere
     const Region whole{0, 0, row.picture.width, row.picture.height};
     const int zoom = (kMapWidth + whole.width - 1) / whole.width;
     const int width = zoom * whole.width, height = zoom * whole.height;
-    Sheet sheet =
-        make_sheet(2 * width + 3 * kGap, 2 * (kLine + height + kGap), row.setting.name, caption);
+    Sheet sheet = make_sheet(2 * width + 3 * kGap, 2 * (kSheetLine + height + kGap),
+                             row.setting.name, caption);
     int panel = 0;
     const auto draw = [&](const std::string& title, const std::vector<std::uint8_t>& codes) {
         const int left = kGap + panel % 2 * (width + kGap);
-        const int top = sheet.top + panel / 2 * (kLine + height + kGap);
+        const int top = sheet.top + panel / 2 * (kSheetLine + height + kGap);
         draw_text(sheet.canvas, left, top, 1, title);
-        draw_region(sheet.canvas, left, top + kLine, zoom, {codes, whole.width, whole.height},
+        draw_region(sheet.canvas, left, top + kSheetLine, zoom, {codes, whole.width, whole.height},
                     whole);
         ++panel;
     };

@@ -15,7 +15,8 @@ namespace kilolux {
 namespace {
 
 std::string ranges_key(const RenderSettings& s) {
-    return fmt::format("{} {} {}", s.range_budget, s.lights.radius, s.lights.intensity);
+    return fmt::format("{} {} {} {} {}", static_cast<int>(s.tails), s.range_budget, s.tree_share,
+                       s.lights.radius, s.lights.intensity);
 }
 
 // The settings whose G-buffer R1 shades: forward shading quantises nothing, like the layout `full`,
@@ -30,15 +31,15 @@ RenderSettings decoded_settings(RenderSettings settings) {
 }
 
 std::string kernels_key(const RenderSettings& s) {
-    return fmt::format("{} {} {} {}", s.gbuffer, static_cast<int>(s.geometry),
-                       static_cast<int>(s.shading), ranges_key(s));
+    return fmt::format("{} {} {} {} {}", s.gbuffer, static_cast<int>(s.geometry),
+                       static_cast<int>(s.shading), s.shadows != Shadows::off, ranges_key(s));
 }
 
 ReferenceLights usable_lights(const ReportView& view, const RenderSettings& settings) {
     std::vector<SceneLight> lights = lights_at(view.scene, settings, view.camera, view.time);
     std::erase_if(lights,
                   [&](const SceneLight& light) { return !is_usable(light, view.camera.position); });
-    return reference_lights(lights, view.camera);
+    return reference_lights(lights, view.camera, &view.scene);
 }
 
 }  // namespace
@@ -50,13 +51,15 @@ ReportReferences::ReportReferences(const ReportView& view, const RenderSettings&
 
 ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bool windowed) const {
     const auto& plan = make_scene_plan(view_.scene, settings, 0).kernels;
+    const bool casts = shadows_ && settings.shadows != Shadows::off;
     return {.shading = shading_of(plan),
             .ambient = settings.ambient,
             .orthographic = view_.camera.orthographic,
             .light_d_min = double{plan.light_d_min},
+            .drawn_ranges = double{plan.drawn_ranges},
             .windowed = windowed,
             .progress = [this](double) { on_step_(); },
-            .shadows = shadows_ ? &*shadows_ : nullptr};
+            .shadows = casts ? &*shadows_ : nullptr};
 }
 
 const ComparedReference& ReportReferences::kernels(const RenderSettings& settings) {
@@ -66,6 +69,7 @@ const ComparedReference& ReportReferences::kernels(const RenderSettings& setting
     on_step_();
     RenderSettings exact = decoded;
     exact.kernels = {};
+    exact.shadows = Shadows::off;  // only surfaces and lights are read
     Renderer renderer(view_.scene, exact);
     renderer.render(view_.camera, view_.time);
     found->second = compared_reference(
@@ -99,6 +103,7 @@ const ComparedReference& ReportReferences::drawn(const RenderSettings& settings)
     RenderSettings full = settings;
     full.gbuffer = GBUFFER_FULL;
     full.shading = asked_.shading;
+    full.shadows = asked_.shadows;
     return kernels(full);
 }
 

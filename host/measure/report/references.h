@@ -24,9 +24,9 @@ struct ReportView {
 /// The float64 pictures that a report's settings are compared with; each is made once.
 ///
 /// R1 isolates the kernels' arithmetic and culling: the same decoded G-buffer, float32 lights and
-/// shading model, every light at every pixel. R2 isolates the G-buffer and the shading model: rays
-/// cast at the pixels' centres, nothing quantised, the model asked for. R3 adds the error of the
-/// lights' ranges: unbounded inverse square.
+/// shading model, every light at every pixel, shadows where the setting has some. R2 isolates the
+/// G-buffer and the shading model: rays cast at the pixels' centres, nothing quantised, the model
+/// asked for. R3 adds the error of the lights' ranges: unbounded inverse square.
 class ReportReferences {
  public:
     /// `asked`: the settings asked for, at the size of the comparison. `view.scene` must outlive

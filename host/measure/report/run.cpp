@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "host/measure/metrics/pareto.h"
 #include "host/render/renderer.h"
@@ -47,7 +48,8 @@ double shading_ms(const ReportSpeed& speed) {
 }
 
 std::string coverage_key(const RenderSettings& s) {
-    return fmt::format("{} {} {} {}", s.width, s.gbuffer, s.range_budget, s.lights.radius);
+    return fmt::format("{} {} {} {} {} {}", s.width, s.gbuffer, static_cast<int>(s.tails),
+                       s.range_budget, s.tree_share, s.lights.radius);
 }
 
 // The rows of a comparison that are in its Pareto set of time and RMSE.
@@ -74,6 +76,17 @@ RenderSettings whole_frames(const ReportSetting& setting) {
     return out;
 }
 
+// A ray in double takes as long as about ten evaluations.
+ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& settings) {
+    if (settings.shadows != Shadows::off) limits.evaluations /= 10.0;
+    return limits;
+}
+
+bool is_about_sampled_shadows(const ReportSetting& setting) {
+    return setting.settings.shadows == Shadows::sampled &&
+           (setting.axis == SettingAxis::none || setting.axis == SettingAxis::shadows);
+}
+
 }  // namespace
 
 // A setting's frames before they are summarised.
@@ -90,7 +103,8 @@ ReportRun::ReportRun(const ReportView& view, const RenderSettings& base,
                      const ErrorSizeLimits& limits)
     : view_(view),
       error_size_(kilolux::error_size({base.width, base.height},
-                                      base.lights.count + view.scene.lights.size(), limits)),
+                                      base.lights.count + view.scene.lights.size(),
+                                      affordable(limits, base))),
       references_(view, at_error_size(base)) {}
 
 void ReportRun::on_step(std::function<void()> call) {
@@ -244,6 +258,27 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
         scale * row.speed.k * static_cast<double>(found->second.drawn_pixels);
     const double ms = shading_ms(row.speed);
     row.speed.evaluations_per_s = ms > 0.0 ? 1e3 * evaluations / ms : 0.0;
+}
+
+std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows) {
+    std::set<int> out;
+    for (const ReportRow& row : rows) {
+        if (is_about_sampled_shadows(row.setting)) out.insert(row.setting.settings.shadow_rays);
+    }
+    if (out.empty()) return {};
+    const std::vector<int> standard = ShadowErrorPlan().rays;
+    out.insert(standard.begin(), standard.end());
+    return {out.begin(), out.end()};
+}
+
+void add_shadow_errors(std::vector<ReportRow>& rows,
+                       const std::vector<SampledShadowError>& errors) {
+    for (ReportRow& row : rows) {
+        if (!is_about_sampled_shadows(row.setting)) continue;
+        const auto found =
+            std::ranges::find(errors, row.setting.settings.shadow_rays, &SampledShadowError::rays);
+        if (found != errors.end()) row.sampled = *found;
+    }
 }
 
 void mark_fronts(std::vector<ReportRow>& rows) {

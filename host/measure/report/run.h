@@ -14,6 +14,7 @@
 #include "host/measure/metrics/statistics.h"
 #include "host/measure/report/references.h"
 #include "host/measure/report/setting.h"
+#include "host/measure/report/shadow_error.h"
 #include "host/render/renderer.h"
 
 namespace kilolux {
@@ -45,8 +46,9 @@ struct ReportRow {
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
-    RgbImage picture;                   // linear, at the size of the comparison
-    std::vector<std::uint8_t> display;  // its sRGB codes
+    std::optional<SampledShadowError> sampled;  // see add_shadow_errors()
+    RgbImage picture;                           // linear, at the size of the comparison
+    std::vector<std::uint8_t> display;          // its sRGB codes
     bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
     bool unbounded_front = false;  // in that of time and R3's RMSE, among the cut-offs
 };
@@ -99,6 +101,11 @@ class ReportRun {
     std::map<std::string, FrameStats> coverages_;
     std::optional<Renderer> standard_;  // of the default setting, while frames are timed
 };
+
+/// Numbers of rays of the rows that are about sampled shadows, and those of ShadowErrorPlan.
+std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows);
+/// Gives these rows their error.
+void add_shadow_errors(std::vector<ReportRow>& rows, const std::vector<SampledShadowError>& errors);
 
 /// Marks the rows of both Pareto sets.
 void mark_fronts(std::vector<ReportRow>& rows);

@@ -12,17 +12,18 @@
 #include "host/measure/reference/reference.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/scene_plan.h"
+#include "host/scene/lights/light_tree.h"
 
 namespace kilolux {
 namespace {
 
-constexpr const char* kAxisNames[] = {"default", "gbuffer",  "geometry", "lanes",  "math",
-                                      "grid",    "renderer", "shading",  "cut-off"};
+constexpr const char* kAxisNames[] = {"default", "gbuffer",  "geometry", "lanes",   "math",
+                                      "grid",    "renderer", "shading",  "shadows", "cut-off"};
 
 // Collects settings that differ from a base.
 struct Variants {
     const RenderSettings& base;
-    bool quick;
+    SettingChoice choice;
     std::vector<ReportSetting> settings;
 
     // Adds what `change` makes of the base.
@@ -41,6 +42,8 @@ struct Variants {
     }
 };
 
+bool has_shadows(const RenderSettings& settings) { return settings.shadows != Shadows::off; }
+
 void add_gbuffers(Variants& v) {
     for (const uint layout : {uint{GBUFFER_PACKED}, uint{GBUFFER_FULL}, uint{GBUFFER_HALF},
                               uint{GBUFFER_NORMAL_XY}, uint{GBUFFER_OCT_2X4}}) {
@@ -55,7 +58,8 @@ void add_geometry(Variants& v) {
         {Geometry::ids, "ids"}, {Geometry::compute, "compute"}, {Geometry::planes, "planes"}};
     const Geometry base = v.base.geometry == Geometry::automatic ? Geometry::ids : v.base.geometry;
     for (const auto& [geometry, name] : kWays) {
-        if (geometry == base) continue;
+        const bool lacks_shadows = has_shadows(v.base) && !resolves_ids(geometry);
+        if (geometry == base || lacks_shadows) continue;
         v.add_option(SettingAxis::geometry, name,
                      [way = geometry](RenderSettings& s) { s.geometry = way; });
     }
@@ -64,7 +68,7 @@ void add_geometry(Variants& v) {
 void add_lanes(Variants& v, const DeviceInfo& device) {
     const int chosen = choose_tuning(device, v.base.kernels).lanes;
     for (const int lanes : {1, 2, 4, 8, 16}) {
-        if (lanes == chosen || (v.quick && lanes != 1 && lanes != 16)) continue;
+        if (lanes == chosen || (v.choice.quick && lanes != 1 && lanes != 16)) continue;
         v.add_option(SettingAxis::lanes, fmt::to_string(lanes),
                      [&](RenderSettings& s) { s.kernels.lanes = lanes; });
     }
@@ -90,7 +94,8 @@ void add_grids(Variants& v) {
     constexpr int kGrids[][3] = {{4, 4, 1},  {30, 17, 16}, {8, 5, 2},
                                  {16, 9, 1}, {16, 9, 16},  {60, 34, 4}};
     const GridSettings& base = v.base.grid;
-    for (const auto& [x, y, slices] : std::span(kGrids).first(v.quick ? 2 : std::size(kGrids))) {
+    for (const auto& [x, y, slices] :
+         std::span(kGrids).first(v.choice.quick ? 2 : std::size(kGrids))) {
         GridSettings grid = base;
         grid.tiles_x = x;
         grid.tiles_y = y;
@@ -104,46 +109,100 @@ void add_grids(Variants& v) {
 void add_renderers(Variants& v) {
     for (const RendererKind renderer : {RendererKind::deferred, RendererKind::deferred_all,
                                         RendererKind::forward_plus, RendererKind::forward}) {
-        const bool too_slow = v.quick && renderer == RendererKind::forward;
-        if (renderer == v.base.renderer || too_slow) continue;
+        const bool too_slow = v.choice.quick && renderer == RendererKind::forward;
+        const bool lacks_shadows = has_shadows(v.base) && is_forward(renderer);
+        const bool lacks_trees = v.base.tails == Tails::tree;  // deferred alone has them
+        if (renderer == v.base.renderer || too_slow || lacks_shadows || lacks_trees) continue;
         v.add_option(SettingAxis::renderer, renderer_name(renderer),
                      [&](RenderSettings& s) { s.renderer = renderer; });
     }
 }
 
 void add_shadings(Variants& v, const Scene& scene) {
-    constexpr std::pair<Shading, const char*> kModels[] = {{Shading::lambert, "lambert"},
-                                                           {Shading::blinn_phong, "blinn-phong"},
-                                                           {Shading::pbr, "pbr"}};
+    constexpr std::pair<Shading, const char*> kShadings[] = {{Shading::lambert, "lambert"},
+                                                             {Shading::blinn_phong, "blinn-phong"},
+                                                             {Shading::pbr, "pbr"}};
     const Shading chosen = shading_of(make_scene_plan(scene, v.base, 0).kernels);
-    for (const auto& [model, name] : kModels) {
+    for (const auto& [model, name] : kShadings) {
         if (model == chosen) continue;
         v.add_option(SettingAxis::shading, name,
                      [shading = model](RenderSettings& s) { s.shading = shading; });
     }
 }
 
-bool lacks_ranges(const Scene& scene) {
-    return std::ranges::any_of(scene.lights, [](const SceneLight& light) {
-        return light.type != LightType::directional && !(light.range > 0.0f);
-    });
+void add_shadows(Variants& v) {
+    const RenderSettings& base = v.base;
+    constexpr std::pair<Shadows, const char*> kWays[] = {{Shadows::off, "off"},
+                                                         {Shadows::exact, "exact"}};
+    for (const auto& [shadows, name] : kWays) {
+        if (shadows == base.shadows) continue;
+        v.add_option(SettingAxis::shadows, name,
+                     [way = shadows](RenderSettings& s) { s.shadows = way; });
+    }
+    for (const int rays : v.choice.shadow_rays) {
+        if (base.shadows == Shadows::sampled && rays == base.shadow_rays) continue;
+        v.add(SettingAxis::shadows, fmt::format("shadows sampled {}", rays),
+              fmt::format("--shadows sampled --shadow-rays {}", rays), [&](RenderSettings& s) {
+                  s.shadows = Shadows::sampled;
+                  s.shadow_rays = rays;
+              });
+    }
+}
+
+bool can_group(const Scene& scene, const RenderSettings& settings) {
+    const auto points = std::ranges::count_if(scene.lights, is_for_tree);
+    return static_cast<std::size_t>(points) > kExactTails && !has_shadows(settings) &&
+           settings.renderer == RendererKind::deferred && !has_blended_surfaces(scene);
+}
+
+// Other ways than ranges with many lights that lack them.
+void add_tails(Variants& v, const Scene& scene) {
+    if (v.base.renderer == RendererKind::deferred) {
+        for (const int samples : {1, 4, 16}) {
+            if (v.choice.quick && samples != 4) continue;
+            v.add(SettingAxis::cut_off, fmt::format("tails stochastic {}", samples),
+                  fmt::format("--tails stochastic --range-budget 0.0625 --samples {}", samples),
+                  [&](RenderSettings& s) {
+                      s.tails = Tails::stochastic;
+                      s.range_budget = 0.0625;
+                      s.samples = samples;
+                  });
+        }
+    }
+    if (!can_group(scene, v.base)) return;
+    for (const float share : {0.03f, 0.1f, 0.3f, 1.0f}) {
+        if (v.base.tails == Tails::tree && share == v.base.tree_share) continue;
+        if (v.choice.quick && share != kDefaultTreeShare) continue;
+        v.add(SettingAxis::cut_off, fmt::format("tails tree {}", share),
+              fmt::format("--tails tree --tree-share {}", share), [&](RenderSettings& s) {
+                  s.tails = Tails::tree;
+                  s.tree_share = share;
+              });
+    }
 }
 
 void add_cut_offs(Variants& v, const Scene& scene) {
     const bool generated = v.base.lights.count > 0;
-    if (!generated && !lacks_ranges(scene)) return;
+    const bool lacks_ranges = std::ranges::any_of(scene.lights, lacks_range);
+    if (lacks_ranges &&
+        tails_for(scene.lights, v.base.tails, v.base.range_budget) != Tails::exact) {
+        v.add(SettingAxis::cut_off, "tails exact", "--tails exact",
+              [](RenderSettings& s) { s.tails = Tails::exact; });
+        add_tails(v, scene);
+    }
+    if (!generated && !lacks_ranges) return;
     const double intensity = automatic_light_scale(v.base.lights, scene).intensity;
     for (const int divisor : {4, 16, 64, 256, 1024}) {
-        if (v.quick && divisor != 16 && divisor != 256) continue;
+        if (v.choice.quick && divisor != 16 && divisor != 256) continue;
         const double budget = 1.0 / divisor;
-        if (!generated && budget == v.base.range_budget) continue;
         const double radius = range_of_light(intensity, budget);
-        std::string options = fmt::format("--range-budget {}", budget);
+        std::string options = fmt::format("--tails bounded --range-budget {}", budget);
         if (generated) {
             options += fmt::format(" --light-radius {} --light-intensity {}", radius, intensity);
         }
         v.add(SettingAxis::cut_off, fmt::format("cut-off 1/{}", divisor), options,
               [&](RenderSettings& s) {
+                  s.tails = Tails::bounded;
                   s.range_budget = budget;
                   if (!generated) return;
                   s.lights.radius = radius;
@@ -161,8 +220,8 @@ std::vector<std::string> setting_axis_names() {
 }
 
 std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSettings& base,
-                                           const DeviceInfo& device, bool quick) {
-    Variants variants{base, quick, {{SettingAxis::none, "default", "", base}}};
+                                           const DeviceInfo& device, const SettingChoice& choice) {
+    Variants variants{base, choice, {{SettingAxis::none, "default", "", base}}};
     if (!is_forward(base.renderer)) {
         add_gbuffers(variants);
         add_geometry(variants);
@@ -172,6 +231,7 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
     if (base.renderer != RendererKind::forward) add_grids(variants);
     add_renderers(variants);
     add_shadings(variants, scene);
+    if (has_shadows(base)) add_shadows(variants);
     add_cut_offs(variants, scene);
     return std::move(variants.settings);
 }

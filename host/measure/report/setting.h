@@ -11,7 +11,18 @@
 namespace kilolux {
 
 /// What a setting of a report changes against the one asked for.
-enum class SettingAxis { none, gbuffer, geometry, lanes, math, grid, renderer, shading, cut_off };
+enum class SettingAxis {
+    none,
+    gbuffer,
+    geometry,
+    lanes,
+    math,
+    grid,
+    renderer,
+    shading,
+    shadows,
+    cut_off
+};
 
 /// Whether its settings are compared with R2, as their lights have the ranges asked for, and with
 /// R3: the cut-offs beside the default.
@@ -33,13 +44,21 @@ struct ReportSetting {
     RenderSettings settings;
 };
 
+/// What report_settings() goes through beside the axes' own values.
+struct SettingChoice {
+    bool quick = false;  // fewer grids, lanes and cut-offs, and not `forward`
+    std::vector<int> shadow_rays = {1, 4, 16};  // of sampled shadows
+};
+
 /// The setting asked for, "default", and then every one that differs from it in one axis.
 ///
+/// Where it asks for shadows, the others have some as well, but for the axis that is about them:
+/// there are no forward renderers then, which cast none.
+///
 /// A cut-off is a radiance on a white surface from which range_of_light() derives the range of the
-/// generated lights and of those whose file gives none. `quick`: fewer grids, lanes and cut-offs,
-/// and not `forward`.
+/// generated lights and of those whose file gives none.
 std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSettings& base,
-                                           const DeviceInfo& device, bool quick);
+                                           const DeviceInfo& device, const SettingChoice& choice);
 
 /// The radiance on a white surface at which the generated lights are cut off (range_of_light());
 /// 0 without them.

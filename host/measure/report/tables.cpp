@@ -89,6 +89,24 @@ void add_errors(std::vector<Column<Row>>& columns, const std::string& of, Errors
     }
 }
 
+bool casts_shadows(const Row& row) { return row.setting.settings.shadows != Shadows::off; }
+
+bool has_sampled(const std::vector<Row>& rows) {
+    return std::ranges::any_of(rows, [](const Row& row) { return row.sampled.has_value(); });
+}
+
+// Of sampled shadows, where there are any.
+void add_sampled(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
+    if (!has_sampled(rows)) return;
+    columns.push_back({"exact RMSE", [](const Row& row) {
+                           return row.sampled ? Cell(row.sampled->rmse) : Cell();
+                       }});
+    columns.push_back({"in 95 % [%]", [](const Row& row) {
+                           const bool told = row.sampled && row.sampled->settled_share > 0.0;
+                           return told ? Cell(100.0 * row.sampled->within_mean) : Cell();
+                       }});
+}
+
 // Frame time against the RMSE against one reference, of the rows that `shown` takes.
 template <typename Shown>
 Plot error_plot(const std::vector<Row>& rows, const std::string& caption, Errors Row::*errors,
@@ -145,32 +163,39 @@ Table report_table(const std::vector<Row>& rows) {
         {{"drawn rmse", [](const Row& row) { return row.drawn.rmse; }},
          {"drawn 99.9 % rel", [](const Row& row) { return row.drawn.relative.percentile_99_9; }},
          {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }}});
+    add_sampled(columns, rows);
     return make_table(columns, rows);
 }
 
 Table report_summary(const std::vector<Row>& rows) {
-    return make_table<Row>(
-        {{"setting", [](const Row& row) { return row.setting.name; }},
-         {"Pareto", front_text},
-         {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
-         {"x default", [](const Row& row) { return row.speed.relative; }},
-         stage_column("draw", {"geometry", "gbuffer_bridge"}),
-         stage_column("lists", {"prepare_lights", "build_clusters", "cull_lights", "bin_pixels",
-                                "refine_lights"}),
-         stage_column("shade", {"shade", "forward", "forward_plus"}),
-         count_column("k", &ReportSpeed::k),
-         {"k*/k", useful_share},
-         {"G eval/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
-         {"R1 max rel", [](const Row& row) { return row.kernels.hdr.relative.max; }},
-         {"R1 RMSE", [](const Row& row) { return row.kernels.hdr.rmse; }},
-         {"drawn RMSE", [](const Row& row) { return row.drawn.rmse; }},
-         {"R2 RMSE", [](const Row& row) { return row.surfaces.hdr.rmse; }},
-         {"R2 PSNR [dB]", [](const Row& row) { return row.surfaces.hdr.psnr_db; }},
-         {"R2 SSIM", [](const Row& row) { return row.surfaces.ssim; }},
-         {"R2 FLIP", [](const Row& row) { return row.surfaces.flip.mean; }},
-         {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }},
-         {"R3 FLIP", [](const Row& row) { return row.unbounded.flip.mean; }}},
-        rows);
+    std::vector<Column<Row>> columns = {
+        {"setting", [](const Row& row) { return row.setting.name; }},
+        {"Pareto", front_text},
+        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
+        {"x default", [](const Row& row) { return row.speed.relative; }},
+        stage_column("draw", {"geometry", "gbuffer_bridge"}),
+        stage_column("lists", {"prepare_lights", "build_clusters", "cull_lights", "bin_pixels",
+                               "refine_lights"}),
+        stage_column("shade", {"shade", "forward", "forward_plus"}),
+        count_column("k", &ReportSpeed::k),
+        {"k*/k", useful_share},
+        {"G eval/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
+        {"R1 max rel", [](const Row& row) { return row.kernels.hdr.relative.max; }},
+        {"R1 RMSE", [](const Row& row) { return row.kernels.hdr.rmse; }},
+        {"drawn RMSE", [](const Row& row) { return row.drawn.rmse; }},
+        {"R2 RMSE", [](const Row& row) { return row.surfaces.hdr.rmse; }},
+        {"R2 PSNR [dB]", [](const Row& row) { return row.surfaces.hdr.psnr_db; }},
+        {"R2 SSIM", [](const Row& row) { return row.surfaces.ssim; }},
+        {"R2 FLIP", [](const Row& row) { return row.surfaces.flip.mean; }},
+        {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }},
+        {"R3 FLIP", [](const Row& row) { return row.unbounded.flip.mean; }}};
+    if (std::ranges::any_of(rows, casts_shadows)) {
+        const auto shade = std::ranges::find(columns, "shade", &Column<Row>::name);
+        columns.insert(shade, stage_column("cast", {"shadow_scene", "shadow_origins",
+                                                    "draw_shadows", "cast_shadows"}));
+    }
+    add_sampled(columns, rows);
+    return make_table(columns, rows);
 }
 
 std::string report_notes(const std::vector<Row>& rows) {
@@ -182,8 +207,9 @@ std::string report_notes(const std::vector<Row>& rows) {
         "R1: against float64 shading of the stored surfaces, the kernels' error. drawn: of the "
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
-        "of unlimited range.\n",
-        error_size_text(rows.front()), size_text(s.width, s.height));
+        "of unlimited range.\n{}",
+        error_size_text(rows.front()), size_text(s.width, s.height),
+        has_sampled(rows) ? "exact RMSE, in 95 %: of sampled shadows, see below.\n" : "");
 }
 
 Plot surfaces_plot(const std::vector<Row>& rows, const std::string& caption) {

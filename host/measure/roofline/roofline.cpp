@@ -6,6 +6,7 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/shadow.h"
 
 namespace kilolux {
 namespace {
@@ -16,7 +17,8 @@ constexpr double kDisplayBytes = 4.0;
 constexpr double kOrderBytes = 1.0;  // of a pixel within its tile
 constexpr double kBoundBytes = sizeof(float4);
 constexpr double kCounterBytes = sizeof(uint);
-constexpr int kPrefixSumLaunches = 1;  // more than one block takes three
+constexpr double kWordBytes = sizeof(uint);  // of bits
+constexpr int kPrefixSumLaunches = 1;        // more than one block takes three
 
 double index_bytes(const StageCounts& c) { return c.kernels.light_index_bits / 8; }
 
@@ -151,19 +153,39 @@ StageWork bin_work(const StageCounts& c) {
     return work;
 }
 
+// Entries of the lists that come from the coarse ones; with a light tree there are more.
+double refined_entries(const StageCounts& c) { return std::min(c.refined_pairs, c.refine_tests); }
+
 StageWork refine_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.tiles);
     work.bytes_read += 2.0 * sizeof(ActiveCluster) * c.active_clusters;
     work.bytes_written += kCounterBytes * c.tiles + 2.0 * kCounterBytes * c.active_clusters +
-                          index_bytes(c) * c.refined_pairs;
+                          index_bytes(c) * refined_entries(c);
     // Distances by axis 12, their squares' sum 3, range 1, test 1, end of the list 3, flag 1; a
     // light that stays is placed (2).
     work.instructions =
-        c.refine_tests * InstructionCounts{21.0} + c.refined_pairs * InstructionCounts{2.0};
+        c.refine_tests * InstructionCounts{21.0} + refined_entries(c) * InstructionCounts{2.0};
     if (c.kernels.spot_lights)
-        work.instructions = work.instructions + c.refined_pairs * cone_guard_instructions();
+        work.instructions = work.instructions + refined_entries(c) * cone_guard_instructions();
     work.launches += 2;
     return work;
+}
+
+// Each entry of a cut is found twice, once to count it. Distance 7, its root 1, the normals' cone
+// 12, both bounds and the choice 16; inner nodes above it are left out.
+StageWork cut_work(const StageCounts& c) {
+    const double entries = c.refined_pairs - refined_entries(c);
+    StageWork work = prefix_sum_work(c.active_clusters);
+    work.bytes_read += 2.0 * sizeof(ActiveCluster) * c.active_clusters;
+    work.bytes_written += index_bytes(c) * c.refined_pairs;
+    work.instructions = 2.0 * entries * InstructionCounts{36.0};
+    work.launches += 3;
+    return work;
+}
+
+// Pairs of a drawn pixel and a light of its list, directional ones too.
+double listed_pairs(const StageCounts& c) {
+    return c.evaluations + c.drawn_pixels * c.directional_lights;
 }
 
 // Drawn pixels, and the lights that are evaluated at them.
@@ -174,13 +196,99 @@ InstructionCounts shading_instructions(const StageCounts& c) {
            c.drawn_pixels * c.directional_lights * directional_instructions(c.kernels);
 }
 
+// The same with exact shadows: only lights that are seen are evaluated, directional ones first, as
+// they take least. A bit of a word is found out for each pair: shift, mask, comparison.
+InstructionCounts seen_instructions(const StageCounts& c) {
+    StageCounts seen = c;
+    seen.directional_lights = 0.0;
+    const double directional = std::min(c.shadow_seen, c.drawn_pixels * c.directional_lights);
+    seen.full_evaluations = std::min(c.shadow_seen - directional, c.evaluations);
+    if (leaves_early(c.kernels)) {
+        seen.full_evaluations = std::min(seen.full_evaluations, c.full_evaluations);
+    }
+    seen.evaluations = seen.full_evaluations;
+    const double bits = c.all_lights ? 0.0 : listed_pairs(c);
+    return shading_instructions(seen) + directional * directional_instructions(c.kernels) +
+           bits * InstructionCounts{3.0};
+}
+
+// Of the list of each pixel, and what is stored of its surface.
+double listed_surface_bytes(const StageCounts& c) {
+    return (c.gbuffer_bytes_per_pixel + kOrderBytes) * c.drawn_pixels +
+           sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
+}
+
+// Sampled shadows shade twice: with all lights, and without hidden ones that were drawn.
 StageWork shade_work(const StageCounts& c) {
-    const double lists =
-        sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
-    return {.bytes_read = (c.gbuffer_bytes_per_pixel + kOrderBytes) * c.drawn_pixels + lists,
-            .bytes_written = kRadianceBytes * c.pixels,
-            .instructions = shading_instructions(c),
-            .launches = 1};
+    StageWork work{.bytes_read = listed_surface_bytes(c),
+                   .bytes_written = kRadianceBytes * c.pixels,
+                   .instructions = shading_instructions(c),
+                   .launches = 1};
+    if (!c.kernels.shadows) return work;
+    const double words = c.all_lights ? 0.0 : kWordBytes * c.shadow_words;
+    if (!c.kernels.sampled_shadows) {
+        work.bytes_read += words;
+        work.instructions = seen_instructions(c);
+        return work;
+    }
+    work.bytes_read = 2.0 * work.bytes_read + words + kRadianceBytes * c.drawn_pixels;
+    work.bytes_written = 2.0 * work.bytes_written + sizeof(float) * c.pixels;
+    work.instructions = 2.0 * work.instructions + listed_pairs(c) * InstructionCounts{3.0};
+    work.launches = 2;
+    return work;
+}
+
+StageWork origins_work(const StageCounts& c) {
+    constexpr double kOriginBytes = 4 * sizeof(float);
+    StageWork work;
+    work.bytes_read = sizeof(uint) * c.pixels + sizeof(float) * c.drawn_pixels;
+    work.bytes_written = kOriginBytes * c.drawn_pixels;
+    // Pixel centre 2, depth 2 and a division, position 3, to shadow space 9, to the eye 3; its side
+    // of the plane 5, turned 3, height 6, size 6, move 1, moved 3, kept 6; octahedron 9 and a
+    // division, codes 6. Planes of triangles are those of many pixels.
+    work.instructions = c.drawn_pixels * InstructionCounts{66.0, 0.0, 0.0, 2.0};
+    work.launches = 1;
+    return work;
+}
+
+// Each light of a pixel's list alone, its luminance, and the comparison with a random number.
+StageWork draw_work(const StageCounts& c) {
+    StageCounts lights = c;
+    lights.drawn_pixels = 0.0;
+    StageWork work;
+    work.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.drawn_pixels;
+    work.bytes_written = kWordBytes * c.shadow_words;
+    // Decoding is left out. Times albedo 3, luminance 3, product 1, comparison 2.
+    work.instructions = shading_instructions(lights) + listed_pairs(c) * InstructionCounts{9.0} +
+                        c.drawn_pixels * c.directional_lights * directional_instructions(c.kernels);
+    work.launches = 2;
+    return work;
+}
+
+// A walk's nodes and triangles come from near caches.
+StageWork cast_work(const StageCounts& c) {
+    constexpr double kOriginBytes = 4 * sizeof(float);
+    StageWork work = prefix_sum_work(c.tiles);
+    work.bytes_read += (kOriginBytes + kOrderBytes) * c.drawn_pixels +
+                       sizeof(ActiveCluster) * c.active_clusters +
+                       index_bytes(c) * c.refined_pairs + kBoundBytes * c.lights;
+    work.bytes_written += kWordBytes * c.shadow_words;
+    // A ray: difference 3, side of the surface 4, range 5, both 2, size 5, at least 1, a division,
+    // direction 3. Pairs that need none, which are left out, pay most of it, too.
+    const InstructionCounts ray = {24.0, 0.0, 0.0, 1.0};
+    // A child's box: six ends of difference, product and extreme, a comparison.
+    const InstructionCounts node = {SHADOW_WIDTH * 19.0};
+    // Corners turned 48, normal 12, sums of its products 17, size 17, offset 3, unit 4, height 16;
+    // side 2, corners from the light 9; an edge: sum and difference 6, product 6, its sums 17, unit
+    // 2, scaled 5 with a division; the plane's form 5 with a division. Its most in the shaft: four
+    // forms of 12, comparisons and masks 7.
+    const InstructionCounts triangle = {296.0, 0.0, 0.0, 4.0};
+    // Four forms of 3, the least 3, comparison 1, left lit 1.
+    const InstructionCounts point = {17.0};
+    work.instructions = c.shadow_rays * ray + c.shadow_nodes * node +
+                        c.shadow_triangles * triangle + c.shadow_points * point;
+    work.launches += 2;
+    return work;
 }
 
 // Texels lie side by side for neighbouring pixels.
@@ -245,6 +353,10 @@ constexpr Model kModels[] = {
     {"cull_lights", cull_work},
     {"bin_pixels", bin_work},
     {"refine_lights", refine_work},
+    {"cut_light_tree", cut_work},
+    {"shadow_origins", origins_work},
+    {"draw_shadows", draw_work},
+    {"cast_shadows", cast_work},
     {"shade", shade_work},
     {"fill_background", background_work},
     {"bloom", bloom_work},
@@ -334,6 +446,13 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     const double in_range = std::max(stats.useful_evaluations_per_pixel, 0.0) * c.drawn_pixels;
     c.full_evaluations =
         leaves_early(setup.kernels) ? std::min(in_range, c.evaluations) : c.evaluations;
+    c.all_lights = all_lights;
+    c.shadow_rays = number(stats.shadows.rays);
+    c.shadow_seen = number(stats.shadows.seen);
+    c.shadow_nodes = number(stats.shadows.nodes);
+    c.shadow_triangles = number(stats.shadows.triangles);
+    c.shadow_points = number(stats.shadows.points);
+    c.shadow_words = number(stats.shadows.words);
     c.gbuffer_bytes_per_pixel = setup.gbuffer_bytes_per_pixel;
     c.bridge_bytes_per_pixel = setup.bridge_bytes_per_pixel;
     c.device_is_host = setup.device_is_host;

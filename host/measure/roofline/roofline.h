@@ -35,6 +35,14 @@ struct StageCounts {
     double triangle_pairs = 0.0;
     double evaluations = 0.0;       // of lights at pixels: k * drawn_pixels
     double full_evaluations = 0.0;  // of those that do not leave early; not counted: 0
+    // Of shadows, see ShadowCounts; not counted: 0.
+    double shadow_rays = 0.0;
+    double shadow_seen = 0.0;
+    double shadow_nodes = 0.0;
+    double shadow_triangles = 0.0;
+    double shadow_points = 0.0;
+    double shadow_words = 0.0;
+    bool all_lights = false;  // are evaluated at every pixel
     double gbuffer_bytes_per_pixel = 12.0;
     double bridge_bytes_per_pixel = 12.0;  // that OpenGL hands over: the G-buffer, or ids
     bool device_is_host = true;            // the device reads them where OpenGL left them

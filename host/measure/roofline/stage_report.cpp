@@ -5,10 +5,20 @@ namespace kilolux {
 namespace {
 
 double evaluations_of(const std::string& stage, const StageCounts& counts) {
+    const bool hides = counts.kernels.shadows && !counts.kernels.sampled_shadows;
+    if (stage == "shade" && hides) return counts.shadow_seen;
     if (stage == "shade" || stage == "forward" || stage == "forward_plus")
         return counts.full_evaluations + counts.drawn_pixels * counts.directional_lights;
     if (stage == "refine_lights") return counts.refine_tests;
+    if (stage == "cast_shadows") return counts.shadow_rays;
     return 0.0;
+}
+
+void add_shadows(StageReport& report, const FrameStats& stats, const StageCounts& counts) {
+    if (report.stage != "cast_shadows" || stats.shadows.words == 0) return;
+    const double pairs = counts.evaluations + counts.drawn_pixels * counts.directional_lights;
+    report.shafts = static_cast<double>(stats.shadows.shafts);
+    report.saved_rays = pairs - counts.shadow_rays;
 }
 
 }  // namespace
@@ -28,6 +38,7 @@ std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimi
             report.bytes = work->bytes() + work->bytes_uploaded;
         }
         report.evaluations = evaluations_of(stage.name, counts);
+        add_shadows(report, stats, counts);
         reports.push_back(std::move(report));
     }
     return reports;

@@ -15,7 +15,12 @@ struct StageReport {
     double limit_ms = 0.0;  // 0: no model
     double bytes = 0.0;     // that it must at least move
     // Of shading: lights evaluated in full at a pixel; of refine_lights: lights against boxes.
+    // Of cast_shadows: rays.
     double evaluations = 0.0;
+    // Of cast_shadows, where it was counted: walks, and pairs of a pixel and a listed light that
+    // need no ray, since the light is behind the surface, out of range or not drawn.
+    double shafts = 0.0;
+    double saved_rays = 0.0;
     std::string bound;  // as bound_name() says; empty: no model
 };
 

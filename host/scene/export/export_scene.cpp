@@ -140,7 +140,7 @@ class Writer {
 
     void add_nodes(const std::vector<int>& mesh_of) {
         ExportedNodes placed = export_nodes(scene_, mesh_of);
-        out_.lights = placed.lights.size();
+        out_.lights = placed.lights.size() + placed.profile_lights;
         out_.unusable_lights = placed.unusable_lights;
         Json scene = Json::object();
         if (!scene_.name.empty()) scene["name"] = scene_.name;
@@ -148,9 +148,30 @@ class Writer {
         root_["scenes"] = Json::array({std::move(scene)});
         add_array(root_, "nodes", std::move(placed.nodes));
         add_array(root_, "cameras", std::move(placed.cameras));
+        add_webs();
         if (placed.lights.empty()) return;
         extensions_.insert("KHR_lights_punctual");
         root_["extensions"]["KHR_lights_punctual"]["lights"] = std::move(placed.lights);
+    }
+
+    void add_webs() {
+        if (scene_.webs.empty()) return;
+        extensions_.insert("EXT_lights_ies");
+        for (std::size_t i = 0; i < scene_.webs.size(); ++i) {
+            const PhotometricWeb& web = scene_.webs[i];
+            Json light = Json::object();
+            if (!web.name.empty()) light["name"] = web.name;
+            const Bytes text(web.text.begin(), web.text.end());
+            if (binary_) {
+                light["bufferView"] = buffer_.add_bytes(text);
+                light["mimeType"] = "application/x-ies-lm-63";
+            } else {
+                const std::string name = fmt::format("{}_{}.ies", stem_, i);
+                light["uri"] = percent_encoded(name);
+                out_.files.push_back({name, text});
+            }
+            root_["extensions"]["EXT_lights_ies"]["lights"].push_back(std::move(light));
+        }
     }
 
     void add_buffer() {

@@ -80,7 +80,7 @@ const char* type_name(LightType type) {
 
 bool is_usable(const SceneLight& light) {
     const glm::dvec3 intensity(light.intensity);
-    const bool aimed = light.type == LightType::point ||
+    const bool aimed = (light.type == LightType::point && light.profile < 0) ||
                        (is_finite(light.direction) && glm::length(light.direction) > 0.0);
     const bool cone =
         light.type != LightType::spot || (std::isfinite(light.inner_cone) &&
@@ -134,6 +134,25 @@ void add_light(ExportedNodes& out, const SceneLight& light) {
     out.nodes.push_back(std::move(node));
 }
 
+// EXT_lights_ies: the web's vertical angle 0 is along the node's -Z, its horizontal one along +X.
+void add_profile_light(ExportedNodes& out, const SceneLight& light, const Scene& scene) {
+    const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
+    const glm::dvec3 color(light.intensity);
+    const double most = std::max({color.x, color.y, color.z});
+    Json use{{"light", profile.web}, {"multiplier", most / scene.webs[profile.web].peak}};
+    if (most > 0.0 && color != glm::dvec3(most)) {
+        use["color"] = {color.x / most, color.y / most, color.z / most};
+    }
+    const glm::dvec3 z = -glm::normalize(light.direction);
+    const glm::dvec3 y = glm::cross(z, profile.side);
+    const glm::dmat3 axes{profile.side, profile.mirrored ? -y : y, z};
+    Json node{{"matrix", matrix_json(with_axes(axes, glm::dvec4(light.position, 1.0)))}};
+    node["extensions"]["EXT_lights_ies"] = std::move(use);
+    out.roots.push_back(out.nodes.size());
+    out.nodes.push_back(std::move(node));
+    ++out.profile_lights;
+}
+
 Json orthographic_json(const SceneCamera& camera, double shift) {
     const double aspect = camera.aspect > 0.0 ? camera.aspect : 1.0;
     return {{"xmag", camera.y_extent * aspect},
@@ -175,7 +194,9 @@ ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of) 
         out.roots.push_back(add_placed(out.nodes, instance.world_from_object, {{"mesh", mesh}}));
     }
     for (const SceneLight& light : scene.lights) {
-        if (is_usable(light)) {
+        if (is_usable(light) && light.profile >= 0) {
+            add_profile_light(out, light, scene);
+        } else if (is_usable(light)) {
             add_light(out, light);
         } else {
             ++out.unusable_lights;

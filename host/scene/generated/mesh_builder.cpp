@@ -40,7 +40,7 @@ std::vector<SegmentNormals> segment_normals(const Profile& profile) {
     return normals;
 }
 
-glm::vec3 any_perpendicular(const glm::vec3& n) {
+glm::vec3 perpendicular_to(const glm::vec3& n) {
     const glm::vec3 axis = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
     return glm::normalize(glm::cross(n, axis));
 }
@@ -69,7 +69,7 @@ std::vector<glm::vec4> tangents_of(const Mesh& mesh) {
         const glm::vec3& n = mesh.normals[i];
         const glm::vec3 flat = along_u[i] - n * glm::dot(n, along_u[i]);
         const bool degenerate = !(glm::dot(flat, flat) > 1e-20f);
-        const glm::vec3 t = degenerate ? any_perpendicular(n) : glm::normalize(flat);
+        const glm::vec3 t = degenerate ? perpendicular_to(n) : glm::normalize(flat);
         const float w = glm::dot(glm::cross(n, t), along_v[i]) > 0.0f ? -1.0f : 1.0f;
         tangents.emplace_back(t, w);
     }
@@ -199,7 +199,7 @@ void MeshBuilder::lathe(const Profile& profile, int segments, const glm::dvec3& 
 void MeshBuilder::tube(std::span<const glm::dvec3> path, double radius, int sides) {
     const int rows = static_cast<int>(path.size()) - 1;
     double along = 0.0;
-    glm::dvec3 side = glm::dvec3(any_perpendicular(glm::vec3(glm::normalize(path[1] - path[0]))));
+    glm::dvec3 side = glm::dvec3(perpendicular_to(glm::vec3(glm::normalize(path[1] - path[0]))));
     std::vector<SweepFrame> frames;
     for (int i = 0; i <= rows; ++i) {
         const auto at = [&](int k) {

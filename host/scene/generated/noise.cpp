@@ -23,7 +23,7 @@ std::uint32_t mixed(std::uint32_t h) {
 }
 
 // std::floor is a call where the compiler may not assume SSE 4.1.
-int floor_int(double x) {
+int noise_floor(double x) {
     const int i = static_cast<int>(x);
     return i - (x < i ? 1 : 0);
 }
@@ -54,8 +54,8 @@ double lattice_value(int x, int y, int period, std::uint32_t seed) {
 }
 
 double gradient_noise(glm::dvec2 p, glm::ivec2 period, std::uint32_t seed) {
-    const int x = floor_int(p.x);
-    const int y = floor_int(p.y);
+    const int x = noise_floor(p.x);
+    const int y = noise_floor(p.y);
     const double dx = p.x - x;
     const double dy = p.y - y;
     const std::uint32_t left = seed + wrapped(x, period.x) * kAcross;

@@ -73,6 +73,11 @@ json for_tinygltf(const json& root) {
                 light["spot"] = json::object();
         }
     }
+    // It drops empty objects, and the array's indices with them.
+    const json::json_pointer profiles("/extensions/EXT_lights_ies/lights");
+    if (out.contains(profiles)) {
+        for (json& light : out.at(profiles)) light.emplace("name", "");
+    }
     if (!out.contains("meshes")) return out;
     for (json& mesh : out.at("meshes")) {
         if (!mesh.contains("primitives")) continue;

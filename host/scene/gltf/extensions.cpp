@@ -9,14 +9,14 @@
 namespace kilolux {
 namespace {
 
-constexpr std::array<std::string_view, 13> kSupported = {
+constexpr std::array<std::string_view, 14> kSupported = {
     "KHR_lights_punctual",     "KHR_texture_transform",
     "KHR_mesh_quantization",   "KHR_materials_emissive_strength",
     "KHR_materials_unlit",     "KHR_materials_ior",
     "KHR_materials_specular",  "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_variants",  "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-    "EXT_texture_webp",
+    "EXT_texture_webp",        "EXT_lights_ies",
 };
 
 // Say nothing of the picture.

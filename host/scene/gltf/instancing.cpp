@@ -8,7 +8,7 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
+constexpr const char* kInstancingExtension = "EXT_mesh_gpu_instancing";
 constexpr std::array kAttributes = {"TRANSLATION", "ROTATION", "SCALE"};
 
 void check_type(const GltfDocument& document, const ElementArray& array, const std::string& where,
@@ -27,9 +27,10 @@ void check_type(const GltfDocument& document, const ElementArray& array, const s
 
 std::optional<std::vector<glm::dmat4>> node_from_instances(const GltfDocument& document,
                                                            std::size_t node) {
-    const auto* extension = find_extension(document.model.nodes[node].extensions, kExtension);
+    const auto* extension =
+        find_extension(document.model.nodes[node].extensions, kInstancingExtension);
     if (extension == nullptr) return std::nullopt;
-    const std::string place = node_name(document, node) + ": " + kExtension;
+    const std::string place = node_name(document, node) + ": " + kInstancingExtension;
     const tinygltf::Value& attributes = extension->Get("attributes");  // null where empty
     std::array<std::optional<ElementArray>, kAttributes.size()> arrays;
     std::optional<std::size_t> count;

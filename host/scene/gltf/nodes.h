@@ -61,6 +61,13 @@ std::set<int> nodes_with_driven_weights(const GltfDocument& document);
 /// and counts those lights.
 std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes);
 
+/// The IES files of EXT_lights_ies, in the file's order. Throws Error for one that cannot be used.
+std::vector<PhotometricWeb> read_profiles(const GltfDocument& document);
+
+/// Adds the lights of EXT_lights_ies at their nodes, with the scene's webs. Unusable values are
+/// kept as above.
+void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, Scene& scene);
+
 /// The cameras at their nodes, parents first. Throws Error for invalid values.
 std::vector<SceneCamera> convert_cameras(const GltfDocument& document, const PlacedNodes& nodes);
 

@@ -77,6 +77,7 @@ Rules accessor_rules() {
 }
 
 Rules node_rules() {
+    const std::string ies = "nodes[].extensions.EXT_lights_ies.";
     const std::string instancing = "nodes[].extensions.EXT_mesh_gpu_instancing";
     return {
         index("scene", "/scenes"),
@@ -90,6 +91,9 @@ Rules node_rules() {
         numbers("nodes[].rotation", 4),
         numbers("nodes[].scale", 3),
         numbers("nodes[].weights", 0),
+        required(index(ies + "light", "/extensions/EXT_lights_ies/lights")),
+        number(ies + "multiplier"),
+        numbers(ies + "color", 3),
         index("nodes[].extensions.KHR_lights_punctual.light",
               "/extensions/KHR_lights_punctual/lights"),
         required(object(instancing + ".attributes")),
@@ -194,6 +198,7 @@ Rules texture_rules() {
 
 Rules camera_and_light_rules() {
     const std::string light = "extensions.KHR_lights_punctual.lights[].";
+    const std::string profile = "extensions.EXT_lights_ies.lights[].";
     return {
         required(choice("cameras[].type", {"perspective", "orthographic"})),
         required(number("cameras[].perspective.yfov")),
@@ -210,6 +215,10 @@ Rules camera_and_light_rules() {
         number(light + "range"),
         number(light + "spot.innerConeAngle"),
         number(light + "spot.outerConeAngle"),
+        text(profile + "uri"),
+        text(profile + "name"),
+        index(profile + "bufferView", "/bufferViews"),
+        choice(profile + "mimeType", {"application/x-ies-lm-63"}),
     };
 }
 

@@ -11,8 +11,6 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 using Radiance = std::function<glm::dvec3(const glm::dvec3& direction)>;
 
 Environment painted(int height, const Radiance& radiance) {
@@ -88,12 +86,13 @@ constexpr Perez kX = {-0.0193 * kTurbidity - 0.2592, -0.0665 * kTurbidity + 0.00
 constexpr Perez kY = {-0.0167 * kTurbidity - 0.2608, -0.0950 * kTurbidity + 0.0092,
                       -0.0079 * kTurbidity + 0.2102, -0.0441 * kTurbidity - 1.6537,
                       -0.0109 * kTurbidity + 0.0529};
-constexpr double kSunElevation = 40.0 * kPi / 180.0;
-constexpr double kSunZenith = 0.5 * kPi - kSunElevation;
-constexpr double kSunRadius = 0.2665 * kPi / 180.0;  // as seen from the earth, in the mean
-constexpr double kSkyIlluminance = 1.0;              // of the ground [lx]
-constexpr double kSunIlluminance = 3.0;              // of what faces it [lx]
-const glm::dvec3 kSunColor(1.08, 1.0, 0.82);         // of luminance 1
+constexpr double kSunElevation = 40.0 * std::numbers::pi / 180.0;
+constexpr double kSunZenith = 0.5 * std::numbers::pi - kSunElevation;
+constexpr double kSunRadius =
+    0.2665 * std::numbers::pi / 180.0;        // as seen from the earth, in the mean
+constexpr double kSkyIlluminance = 1.0;       // of the ground [lx]
+constexpr double kSunIlluminance = 3.0;       // of what faces it [lx]
+const glm::dvec3 kSunColor(1.08, 1.0, 0.82);  // of luminance 1
 constexpr double kGroundAlbedo = 0.25;
 
 glm::dvec3 towards_sun() {
@@ -142,12 +141,10 @@ glm::dvec3 ground_illuminance(const Environment& sky) {
     return sum;
 }
 
-double luminance(const glm::dvec3& c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); }
-
 // Adds the sun: each pixel has the share of its area that the disc covers.
 void add_sun(Environment& sky) {
     constexpr int kParts = 16;  // of a pixel's edge
-    const double step = kPi / sky.height;
+    const double step = std::numbers::pi / sky.height;
     const double cos_radius = std::cos(kSunRadius);
     const auto first = static_cast<int>((kSunZenith - kSunRadius) / step) - 1;
     const auto last = static_cast<int>((kSunZenith + kSunRadius) / step) + 1;
@@ -161,7 +158,8 @@ void add_sun(Environment& sky) {
             int inside = 0;
             for (int part = 0; part < kParts * kParts; ++part) {
                 const double from_top = step * (y + (part / kParts + 0.5) / kParts);
-                const double around = step * (x + (part % kParts + 0.5) / kParts) - kPi;
+                const double around =
+                    step * (x + (part % kParts + 0.5) / kParts) - std::numbers::pi;
                 const double r = std::sin(from_top);
                 const glm::dvec3 d(r * std::sin(around), std::cos(from_top), -r * std::cos(around));
                 inside += glm::dot(d, towards_sun()) > cos_radius ? 1 : 0;
@@ -188,7 +186,7 @@ Environment sky_environment() {
     const glm::dvec3 measured = ground_illuminance(painted(kMeasuredRows, above));
     const double scale = kSkyIlluminance / luminance(measured);
     const glm::dvec3 sun = kSunIlluminance * std::sin(kSunElevation) * kSunColor;
-    const glm::dvec3 ground = kGroundAlbedo / kPi * (scale * measured + sun);
+    const glm::dvec3 ground = kGroundAlbedo / std::numbers::pi * (scale * measured + sun);
     Environment out = painted(kRows, [&](const glm::dvec3& d) {
         if (d.y >= 0.0) return scale * clear_sky(d);
         // Haze: the horizon's sky turns into ground within three degrees.

@@ -15,10 +15,6 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-
 // Pixels [x0, x1) x [y0, y1).
 struct Region {
     int x0, y0, x1, y1;
@@ -58,10 +54,11 @@ class SummedLuminance {
 
 // Whether a region is wider than high on the sphere, where rows near the poles are short.
 bool is_wide(const Environment& e, const Region& r) {
-    const double latitude = kPi * (0.5 - 0.5 * (r.y0 + r.y1) / e.height);
-    const double wide = 2.0 * kPi * (r.x1 - r.x0) / e.width * std::cos(latitude);
+    const double latitude = std::numbers::pi * (0.5 - 0.5 * (r.y0 + r.y1) / e.height);
+    const double wide = 2.0 * std::numbers::pi * (r.x1 - r.x0) / e.width * std::cos(latitude);
     const bool can_be_cut_across = r.y1 - r.y0 > 1;
-    return r.x1 - r.x0 > 1 && (!can_be_cut_across || wide >= kPi * (r.y1 - r.y0) / e.height);
+    return r.x1 - r.x0 > 1 &&
+           (!can_be_cut_across || wide >= std::numbers::pi * (r.y1 - r.y0) / e.height);
 }
 
 std::pair<Region, Region> cut(const Environment& e, const SummedLuminance& sums, const Region& r) {
@@ -103,15 +100,21 @@ SceneLight light_of(const Environment& e, const Region& r) {
 
 }  // namespace
 
+double luminance(const glm::dvec3& light) {
+    return glm::dot(light, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
 glm::dvec3 Environment::direction(int x, int y) const {
-    const double longitude = 2.0 * kPi * ((x + 0.5) / width - 0.5);
-    const double from_top = kPi * (y + 0.5) / height;
+    const double longitude = 2.0 * std::numbers::pi * ((x + 0.5) / width - 0.5);
+    const double from_top = std::numbers::pi * (y + 0.5) / height;
     const double r = std::sin(from_top);
     return {r * std::sin(longitude), std::cos(from_top), -r * std::cos(longitude)};
 }
 
 double Environment::solid_angle(int y) const {
-    return 2.0 * kPi / width * (std::cos(kPi * y / height) - std::cos(kPi * (y + 1.0) / height));
+    return 2.0 * std::numbers::pi / width *
+           (std::cos(std::numbers::pi * y / height) -
+            std::cos(std::numbers::pi * (y + 1.0) / height));
 }
 
 glm::dvec3 Environment::light(int x, int y) const {

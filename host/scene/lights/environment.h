@@ -27,6 +27,9 @@ struct Environment {
     glm::dvec3 light(int x, int y) const;
 };
 
+/// Of linear Rec. 709 light, in its unit.
+double luminance(const glm::dvec3& light);
+
 /// A picture in any linear format that OpenImageIO reads (.hdr, .exr). Throws Error with the file
 /// for what cannot be read, is not twice as wide as high, or has a pixel that is negative or no
 /// number.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/base/error.h"
 #include "host/scene/lights/light_generator_hash.h"
@@ -15,7 +16,6 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kCoverage = 10.0;         // mean number of lights that reach a point of the box
 constexpr double kShellCoverage = 40.0;    // the same of a shell
 constexpr double kExposedRadiance = 0.24;  // of a surface of albedo 0.5: middle of a tone curve
@@ -97,8 +97,9 @@ double covering_radius(glm::dvec3 size, double count) {
     double extent[3] = {size.x, size.y, size.z};
     std::sort(extent, extent + 3);
     const double share = kCoverage / count;
-    const double ball = cube_root(share * extent[0] * extent[1] * extent[2] * 3.0 / (4.0 * kPi));
-    const double disc = std::sqrt(share * extent[1] * extent[2] / kPi);
+    const double ball =
+        cube_root(share * extent[0] * extent[1] * extent[2] * 3.0 / (4.0 * std::numbers::pi));
+    const double disc = std::sqrt(share * extent[1] * extent[2] / std::numbers::pi);
     const double interval = share * extent[2] / 2.0;
     const double diagonal = std::sqrt(glm::dot(size, size));
     return diagonal > 0.0 ? std::min({std::max({ball, disc, interval}), diagonal}) : 1.0;
@@ -109,7 +110,7 @@ double covering_radius(glm::dvec3 size, double count) {
 double covering_radius(const LightRegion& shell, double count) {
     const double space = volume(shell.outer) - volume(shell.hole);
     const glm::dvec3 size = shell.outer.size();
-    return std::min(cube_root(kShellCoverage / count * space * 3.0 / (4.0 * kPi)),
+    return std::min(cube_root(kShellCoverage / count * space * 3.0 / (4.0 * std::numbers::pi)),
                     std::sqrt(glm::dot(size, size)));
 }
 

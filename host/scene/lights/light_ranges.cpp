@@ -23,18 +23,30 @@ double range_of_light(double intensity_max_cd, double error_budget) {
     return std::sqrt(intensity_max_cd / (std::numbers::pi * error_budget));
 }
 
-std::size_t fill_missing_ranges(std::vector<SceneLight>& lights, double error_budget) {
-    std::size_t filled = 0;
+bool lacks_range(const SceneLight& light) {
+    // Only 0 means "not given". make_light_rows() rejects and counts what is unusable.
+    if (light.type == LightType::directional || light.range != 0.0f) return false;
+    const glm::vec3& i = light.intensity;
+    return std::isfinite(i.x + i.y + i.z) && std::min({i.x, i.y, i.z}) >= 0.0f;
+}
+
+void fill_missing_ranges(std::vector<SceneLight>& lights, Tails tails, double error_budget) {
+    const bool unlimited = tails == Tails::exact || tails == Tails::tree;
     for (SceneLight& light : lights) {
-        // Only 0 means "not given". A light with a negative or non-finite range or intensity stays
-        // as it is: make_light_rows() rejects and counts it.
-        if (light.type == LightType::directional || light.range != 0.0f) continue;
+        if (!lacks_range(light)) continue;
         const glm::vec3& i = light.intensity;
-        if (!std::isfinite(i.x + i.y + i.z) || std::min({i.x, i.y, i.z}) < 0.0f) continue;
-        light.range = static_cast<float>(range_of_light(std::max({i.x, i.y, i.z}), error_budget));
-        ++filled;
+        light.has_own_range = unlimited;
+        light.range =
+            unlimited ? kUnlimitedRange
+                      : static_cast<float>(range_of_light(std::max({i.x, i.y, i.z}), error_budget));
     }
-    return filled;
+}
+
+Tails tails_for(std::span<const SceneLight> lights, Tails asked, double error_budget) {
+    if (asked != Tails::automatic) return asked;
+    if (error_budget != kDefaultRangeBudget) return Tails::bounded;
+    const auto unranged = std::ranges::count_if(lights, lacks_range);
+    return static_cast<std::size_t>(unranged) <= kExactTails ? Tails::exact : Tails::bounded;
 }
 
 }  // namespace kilolux

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -11,6 +12,28 @@ namespace kilolux {
 /// Largest error in radiance of one light without a range on a white diffuse surface: one step of
 /// an 8-bit linear image whose white is 1.
 inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
+
+/// What becomes of the light that lights without a range send far away.
+///   exact       they reach every pixel, without a window
+///   bounded     each gets the range of range_of_light()
+///   stochastic  each gets a random range, at least that one, and weighs the more the less probable
+///               it was to reach a point: the mean of many pictures is that of exact
+///   tree        points reach every pixel, far ones by groups, as nodes of a tree that err by a
+///   stated
+///               share at most; spots are as with exact
+///   automatic   exact for at most kExactTails lights, unless a budget is given; else bounded. The
+///               number does not depend on the device: nor does the picture.
+enum class Tails { automatic, exact, bounded, stochastic, tree };
+
+/// What a node of the light tree may err by default: see kernels/device/tree_cut.h.
+inline constexpr float kDefaultTreeShare = 0.3f;
+
+/// Most lights without a range that `automatic` evaluates at every pixel.
+inline constexpr std::size_t kExactTails = 128;
+
+/// A range that no scene leaves [m]: positions are within 1e15 m, so the window (1 - (d/range)^4)
+/// rounds to 1 wherever a light can be asked for.
+inline constexpr float kUnlimitedRange = 1e18f;
 
 /// Range [m] for a light whose file gives none: where the radiance that it causes on a white
 /// Lambert surface that faces it, intensity / (pi * d^2), has fallen to `error_budget`:
@@ -26,10 +49,16 @@ inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 /// not finite, the intensity is negative or the budget is not positive.
 double range_of_light(double intensity_max_cd, double error_budget = kDefaultRangeBudget);
 
-/// Gives every point and spot light of `lights` without a range (0) the one of range_of_light().
-/// Leaves lights alone whose range or intensity is negative or not finite: they are unusable.
-/// Returns how many there were, so that the program can say so. Directional lights have none.
-std::size_t fill_missing_ranges(std::vector<SceneLight>& lights,
-                                double error_budget = kDefaultRangeBudget);
+/// Whether a point or spot light has no range (0) and can get one. One whose range or intensity is
+/// negative or not finite is unusable, whatever its range.
+bool lacks_range(const SceneLight& light);
+
+/// Gives every light of `lights` that lacks_range() one, the least where they are random; `tails`
+/// is not automatic.
+void fill_missing_ranges(std::vector<SceneLight>& lights, Tails tails,
+                         double error_budget = kDefaultRangeBudget);
+
+/// What `asked` means for these lights.
+Tails tails_for(std::span<const SceneLight> lights, Tails asked, double error_budget);
 
 }  // namespace kilolux

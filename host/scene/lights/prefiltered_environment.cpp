@@ -10,7 +10,6 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRoughnessMin = 0.045;  // ROUGHNESS_MIN of kernels/shared/surface.h
 constexpr double kNDotVMin = 1e-4;       // N_DOT_V_MIN, ibid.
 constexpr unsigned kTableSize = 64;
@@ -70,7 +69,9 @@ class Lobe {
     explicit Lobe(double roughness) : is_cosine_(roughness < 0.0) {
         const double alpha = alpha_of(roughness);
         alpha2_ = alpha * alpha;
-        reach_ = is_cosine_ ? 0.5 * kPi : std::min(0.5 * kPi, 2.0 * std::atan(kLobeAlphas * alpha));
+        reach_ = is_cosine_
+                     ? 0.5 * std::numbers::pi
+                     : std::min(0.5 * std::numbers::pi, 2.0 * std::atan(kLobeAlphas * alpha));
     }
     double weight(double cos_angle) const {
         if (is_cosine_) return cos_angle;
@@ -91,17 +92,18 @@ glm::vec3 mean_around(const Environment& e, const std::vector<Texel>& texels, co
                       const glm::dvec3& axis) {
     const double from_top = std::acos(std::clamp(axis.y, -1.0, 1.0));
     const auto row = [&](double angle) {
-        return static_cast<int>(std::floor(angle / kPi * e.height));
+        return static_cast<int>(std::floor(angle / std::numbers::pi * e.height));
     };
     const int first = std::max(row(from_top - lobe.reach()), 0);
     const int last = std::min(row(from_top + lobe.reach()), e.height - 1);
     const double around = std::sin(lobe.reach()) / std::max(std::sin(from_top), 1e-9);
-    const bool all = around >= 1.0 || lobe.reach() >= 0.5 * kPi;
-    const int half = all ? e.width / 2
-                         : std::min(e.width / 2, 1 + static_cast<int>(std::asin(around) /
-                                                                      (2.0 * kPi) * e.width));
-    const int middle =
-        static_cast<int>(std::floor((std::atan2(axis.x, -axis.z) / (2.0 * kPi) + 0.5) * e.width));
+    const bool all = around >= 1.0 || lobe.reach() >= 0.5 * std::numbers::pi;
+    const int half =
+        all ? e.width / 2
+            : std::min(e.width / 2, 1 + static_cast<int>(std::asin(around) /
+                                                         (2.0 * std::numbers::pi) * e.width));
+    const int middle = static_cast<int>(
+        std::floor((std::atan2(axis.x, -axis.z) / (2.0 * std::numbers::pi) + 0.5) * e.width));
     const double least = std::cos(lobe.reach());
     glm::dvec3 sum(0.0);
     double weights = 0.0;
@@ -162,7 +164,7 @@ glm::dvec2 specular_shares(double n_dot_v, double roughness) {
     const glm::dvec3 v(std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v);
     glm::dvec2 out(0.0);
     for (unsigned i = 0; i < kSamples; ++i) {
-        const double u = (i + 0.5) / kSamples, phi = 2.0 * kPi * mirrored(i);
+        const double u = (i + 0.5) / kSamples, phi = 2.0 * std::numbers::pi * mirrored(i);
         const double z = std::sqrt((1.0 - u) / (1.0 + (alpha2 - 1.0) * u));
         const double r = std::sqrt(1.0 - z * z);
         const glm::dvec3 h(r * std::cos(phi), r * std::sin(phi), z);
@@ -184,7 +186,8 @@ double diffuse_loss(double n_dot_v) {
     const glm::dvec3 v(std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v);
     double out = 0.0;
     for (unsigned i = 0; i < kSamples; ++i) {
-        const double u = (i + 0.5) / kSamples, phi = 2.0 * kPi * mirrored(i), r = std::sqrt(u);
+        const double u = (i + 0.5) / kSamples, phi = 2.0 * std::numbers::pi * mirrored(i),
+                     r = std::sqrt(u);
         const glm::dvec3 l(r * std::cos(phi), r * std::sin(phi), std::sqrt(1.0 - u));
         out += rise(glm::dot(v, glm::normalize(v + l))) / kSamples;
     }

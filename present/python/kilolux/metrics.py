@@ -13,8 +13,17 @@ from . import _native
 
 def _colours(picture: np.ndarray) -> np.ndarray:
     array = np.asarray(picture)
+    if array.dtype != np.uint8 and not np.issubdtype(array.dtype, np.floating):
+        raise _native.Error(f"picture: values are {array.dtype}, must be uint8 (sRGB codes) or floats (linear light)")
     colours = array[..., :3] if array.ndim == 3 else array
     return colours / 255.0 if array.dtype == np.uint8 else colours.astype(np.float64)
+
+
+def _of_one_kind(picture: np.ndarray, reference: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    codes = [np.asarray(image).dtype == np.uint8 for image in (picture, reference)]
+    if codes[0] != codes[1]:
+        raise _native.Error("compare: one picture has sRGB codes (uint8), the other linear light (floats)")
+    return _colours(picture), _colours(reference)
 
 
 def _linear(picture: np.ndarray) -> np.ndarray:
@@ -23,7 +32,7 @@ def _linear(picture: np.ndarray) -> np.ndarray:
 
 
 def _compare(picture: np.ndarray, reference: np.ndarray, peak: float = 0.0) -> dict[str, float]:
-    return _native.compare(_colours(picture), _colours(reference), peak)
+    return _native.compare(*_of_one_kind(picture, reference), peak)
 
 
 def rmse(picture: np.ndarray, reference: np.ndarray) -> float:
@@ -48,9 +57,10 @@ def psnr(picture: np.ndarray, reference: np.ndarray, peak: float | None = None) 
 
 
 def _flip(picture: np.ndarray, reference: np.ndarray) -> tuple[float, np.ndarray]:
+    pictures = _of_one_kind(picture, reference)
     if np.asarray(reference).dtype == np.uint8:
-        return _native.flip(_linear(_colours(picture)), _linear(_colours(reference)), False)
-    return _native.flip(_colours(picture), _colours(reference), True)
+        return _native.flip(_linear(pictures[0]), _linear(pictures[1]), False)
+    return _native.flip(*pictures, True)
 
 
 def flip(picture: np.ndarray, reference: np.ndarray) -> float:

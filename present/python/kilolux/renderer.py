@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,8 @@ class Frame:
 class Probe:
     """What lights a pixel; metres, world space.
 
-    lights  of the list that is evaluated: position [n, 3], intensity [n, 3] candela, range [n]
+    lights  of the list that is evaluated: position [n, 3], intensity [n, 3] candela, range [n];
+            empty with renderer="forward", which has no lists
     """
 
     drawn: bool
@@ -71,7 +73,7 @@ def _words(options: Mapping[str, Any]) -> list[str]:
     for name, value in {"quiet": not options.get("verbose", False), **options}.items():
         option = "--" + name.replace("_", "-")
         if value is True:
-            words.append(option)
+            words.append(f"{option}=true")
         elif value is not False and value is not None:
             words.append(f"{option}={_value(value)}")
     return words
@@ -89,6 +91,8 @@ def _light_list(lights: Any) -> list[Lights] | None:
 def _made_lights(groups: Iterable[Lights]) -> Any:
     made = _native.Lights()
     for group in groups:
+        if not isinstance(group, Lights):
+            raise _native.Error(f"lights: must be Lights or a list of them, not of {type(group).__name__}")
         made.extend(group._made())
     return made
 
@@ -142,15 +146,15 @@ class Renderer:
         `counts` fills stats["evaluations"]["useful_per_pixel"] and the stages' limits, by passes and
         measurements of their own.
         """
-        arrays, stats = self._native.render(time, counts)
-        return Frame(stats=json.loads(stats), **arrays)
+        made, stats = self._native.render(None if time is None else float(time), counts)
+        return Frame(stats=json.loads(stats), **made)
 
     def probe(self, x: int, y: int) -> Probe:
         """What lights pixel (x, y) of the last picture, (0, 0) on the upper left.
 
         After change(), and before any picture, that of the options is made first.
         """
-        return Probe(**self._native.probe(x, y))
+        return Probe(**self._native.probe(index(x), index(y)))
 
     def reference(self) -> Reference:
         """The float64 reference of the picture that probe() means: its own surfaces, every light.

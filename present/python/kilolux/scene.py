@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
+from . import _native, arrays
 
 
 def _rows(values: ArrayLike, count: int) -> np.ndarray:
     """float64 [count, 3], a single row repeated."""
-    return np.ascontiguousarray(np.broadcast_to(np.asarray(values, dtype=np.float64), (count, 3)))
+    return np.ascontiguousarray(np.broadcast_to(values, (count, 3)))
 
 
 def _column(values: ArrayLike, count: int) -> np.ndarray:
-    return np.ascontiguousarray(np.broadcast_to(np.asarray(values, dtype=np.float64), (count,)))
+    return np.ascontiguousarray(np.broadcast_to(values, (count,)))
 
 
 def _text(values: ArrayLike) -> str:
@@ -48,17 +48,19 @@ class Lights:
     kind: str = "point"
 
     def _made(self) -> Any:
-        position = np.atleast_2d(np.asarray(self.position, dtype=np.float64))
+        position = np.atleast_2d(arrays.floats(self.position, "lights: position"))
         if position.ndim != 2 or position.shape[1] != 3:
             raise _native.Error(f"lights: position has the shape {_text(self.position)}, must be (n, 3)")
         count = len(position)
-        intensity = np.asarray(self.intensity, dtype=np.float64)
+        others = {name: arrays.floats(getattr(self, name), f"lights: {name}") for name in
+                  ("range", "direction", "inner_cone", "outer_cone")}
+        intensity = arrays.floats(self.intensity, "lights: intensity")
         if intensity.ndim == 1 and intensity.shape != (3,):
             intensity = intensity[:, None]
         try:
             return _native.lights(
-                self.kind, position, _rows(self.direction, count), _rows(intensity, count),
-                _column(self.range, count), _column(self.inner_cone, count), _column(self.outer_cone, count))
+                self.kind, position, _rows(others["direction"], count), _rows(intensity, count),
+                *(_column(others[name], count) for name in ("range", "inner_cone", "outer_cone")))
         except ValueError as error:
             raise _native.Error(f"lights: {count} positions, but {error}") from None
 
@@ -106,32 +108,63 @@ class Mesh:
     name: str = "mesh"
 
 
-def _rgba(image: np.ndarray | None) -> np.ndarray | None:
-    if image is None or np.ndim(image) != 3 or np.shape(image)[2] != 3:
-        return image
-    return np.dstack([image, np.full(np.shape(image)[:2], 255, np.uint8)])
+def _rgba(image: Any, what: str) -> np.ndarray | None:
+    if image is None:
+        return None
+    pixels = np.asarray(image)
+    if pixels.dtype != np.uint8:
+        raise _native.Error(f"{what}: values are {pixels.dtype}, must be uint8")
+    if pixels.ndim == 3 and pixels.shape[2] == 3:
+        return np.dstack([pixels, np.full(pixels.shape[:2], 255, np.uint8)])
+    return pixels
 
 
-def _floats(values: ArrayLike | None, columns: int) -> np.ndarray:
+def _material_values(material: Material) -> dict[str, Any]:
+    """What the compiled half takes."""
+    what = f"material '{material.name}': "
+    values = dict(vars(material))
+    for key in ("base_color", "emissive"):
+        values[key] = arrays.vector(values[key], what + key)
+    for key in ("metallic", "roughness"):
+        values[key] = arrays.number(values[key], what + key, 0.0, 1.0)
+    for key in ("base_color_image", "metallic_roughness_image", "emissive_image"):
+        values[key] = _rgba(values[key], what + key)
+    return values
+
+
+def _floats(values: ArrayLike | None, columns: int, what: str = "") -> np.ndarray:
+    """float32 [n, columns]."""
     if values is None:
         return np.empty((0, columns), np.float32)
-    return np.ascontiguousarray(values, dtype=np.float32)
+    array = arrays.floats(values, what, np.float32)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise _native.Error(f"{what}: shape {array.shape}, must be (n, {columns})")
+    return np.ascontiguousarray(array)
 
 
-def _flat(mesh: Mesh) -> tuple[list[np.ndarray], np.ndarray, np.ndarray]:
-    """Per-vertex arrays in which no triangle shares a vertex, flat normals, and indices."""
-    indices = np.asarray(mesh.indices, dtype=np.int64)
-    positions = _floats(mesh.positions, 3)
+def _colors(values: ArrayLike | None, what: str) -> np.ndarray:
+    """float32 [n, 4], alpha 1 where there is none."""
+    if values is None or np.shape(values)[-1:] != (3,):
+        return _floats(values, 4, what)
+    colors = _floats(values, 3, what)
+    return np.hstack([colors, np.ones((len(colors), 1), np.float32)])
+
+
+def _flat(what: str, vertices: list[np.ndarray], indices: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
+    """positions, normals, texcoords and colors in which no triangle shares a vertex, and indices."""
+    positions, _, texcoords, colors = vertices
     if indices.size and (indices.min() < 0 or indices.max() >= len(positions)):
-        raise _native.Error(f"mesh '{mesh.name}': indices from {indices.min()} to {indices.max()}, "
+        raise _native.Error(f"{what}indices from {indices.min()} to {indices.max()}, "
                             f"but there are {len(positions)} positions")
     corners = indices.reshape(-1)
     triangles = positions[corners].reshape(-1, 3, 3).astype(np.float64)
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    arrays = [positions[corners]]
-    for values, columns in ((mesh.texcoords, 2), (mesh.colors, 4)):
-        arrays.append(_floats(None, columns) if values is None else _floats(values, columns)[corners])
-    return arrays, np.repeat(normals, 3, axis=0), np.arange(corners.size, dtype=np.int64).reshape(-1, 3)
+    for name, values in (("texcoords", texcoords), ("colors", colors)):
+        if len(values) not in (0, len(positions)):
+            raise _native.Error(f"{what}{name}: {len(values)} rows, but there are {len(positions)} positions")
+    spread = [values[corners] if len(values) else values for values in (texcoords, colors)]
+    repeated = np.repeat(normals, 3, axis=0).astype(np.float32)
+    return [positions[corners], repeated, *spread], np.arange(corners.size, dtype=np.int64).reshape(-1, 3)
 
 
 class Scene:
@@ -143,28 +176,27 @@ class Scene:
         self.lights = lights
         self._native = _native.Scene(name)
         self._materials: dict[int, tuple[int, Material]] = {}
-        for mesh in meshes:
+        for mesh in [meshes] if isinstance(meshes, Mesh) else meshes:
             self._add(mesh)
 
     def _material(self, material: Material | None) -> int | None:
         if material is None:
             return None
+        if not isinstance(material, Material):
+            raise _native.Error(f"mesh: material must be a Material, not {type(material).__name__}")
         if id(material) not in self._materials:
-            values = dict(vars(material), base_color=tuple(material.base_color), emissive=tuple(material.emissive))
-            for key in ("base_color_image", "metallic_roughness_image", "emissive_image"):
-                values[key] = _rgba(values[key])
-            self._native.add_material(values)
+            self._native.add_material(_material_values(material))
             self._materials[id(material)] = (len(self._materials), material)
         return self._materials[id(material)][0]
 
     def _add(self, mesh: Mesh) -> None:
+        what = f"mesh '{mesh.name}': "
+        vertices = [_floats(mesh.positions, 3, what + "positions"), _floats(mesh.normals, 3, what + "normals"),
+                    _floats(mesh.texcoords, 2, what + "texcoords"), _colors(mesh.colors, what + "colors")]
+        indices = arrays.indices(mesh.indices, what + "indices")
         if mesh.normals is None:
-            (positions, texcoords, colors), normals, indices = _flat(mesh)
-        else:
-            positions, normals = _floats(mesh.positions, 3), mesh.normals
-            texcoords, colors = _floats(mesh.texcoords, 2), _floats(mesh.colors, 4)
-            indices = np.asarray(mesh.indices, dtype=np.int64)
-        if colors.ndim == 2 and colors.shape[1] == 3:
-            colors = np.hstack([colors, np.ones((len(colors), 1), np.float32)])
-        self._native.add_mesh(mesh.name, positions, _floats(normals, 3), texcoords, colors, indices,
-                              self._material(mesh.material), np.asarray(mesh.world_from_object, np.float64))
+            vertices, indices = _flat(what, vertices, indices)
+        matrix = arrays.floats(mesh.world_from_object, what + "world_from_object")
+        if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+            raise _native.Error(f"{what}world_from_object must have the shape (4, 4) and be finite")
+        self._native.add_mesh(mesh.name, *vertices, indices, self._material(mesh.material), matrix)

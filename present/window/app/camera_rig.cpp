@@ -19,7 +19,7 @@ constexpr double kSpeedRange = 1e4;  // from the slowest to the fastest
 
 }  // namespace
 
-bool CameraMotion::any() const {
+bool CameraInput::any() const {
     const bool moves = move != glm::dvec3(0.0) || look != glm::dvec2(0.0);
     return moves || pan != glm::dvec2(0.0) || wheel != 0.0;
 }
@@ -74,7 +74,7 @@ glm::dvec3 CameraRig::turned(const glm::dvec3& direction, const glm::dvec2& radi
     return {std::cos(pitch) * std::sin(yaw), std::sin(pitch), -std::cos(pitch) * std::cos(yaw)};
 }
 
-void CameraRig::move(const CameraMotion& motion, CameraMode mode, double seconds) {
+void CameraRig::move(const CameraInput& motion, CameraMode mode, double seconds) {
     if (!motion.any()) return;
     if (mode == CameraMode::fly) {
         fly(motion, seconds);
@@ -83,7 +83,7 @@ void CameraRig::move(const CameraMotion& motion, CameraMode mode, double seconds
     }
 }
 
-void CameraRig::fly(const CameraMotion& motion, double seconds) {
+void CameraRig::fly(const CameraInput& motion, double seconds) {
     if (motion.wheel != 0.0) set_speed(speed_ * std::pow(kSpeedPerClick, motion.wheel));
     if (motion.move == glm::dvec3(0.0) && motion.look == glm::dvec2(0.0)) return;
     const double reach = std::max(glm::length(focal_ - camera_.position), 1e-6 * radius_);
@@ -99,7 +99,7 @@ void CameraRig::fly(const CameraMotion& motion, double seconds) {
     place(position, position + reach * forward);
 }
 
-void CameraRig::orbit(const CameraMotion& motion, double seconds) {
+void CameraRig::orbit(const CameraInput& motion, double seconds) {
     const glm::dvec3 offset = camera_.position - focal_;
     double distance = std::max(glm::length(offset), 1e-6 * radius_);
     const glm::dvec2 keys(motion.move.x, motion.move.y);

@@ -12,7 +12,7 @@ namespace kilolux {
 enum class CameraMode { fly, orbit };
 
 /// What input asks of the camera in one frame.
-struct CameraMotion {
+struct CameraInput {
     glm::dvec3 move{0.0};  // -1..1 along right, up, forward: keys held
     glm::dvec2 look{0.0};  // mouse [window heights], right and down: turn (fly) or orbit
     glm::dvec2 pan{0.0};   // mouse [window heights], right and down: orbit's pan
@@ -37,7 +37,7 @@ class CameraRig {
     void frame();
 
     /// Moves the camera for `seconds`.
-    void move(const CameraMotion& motion, CameraMode mode, double seconds);
+    void move(const CameraInput& motion, CameraMode mode, double seconds);
 
     const Camera& camera() const { return camera_; }
     const glm::dvec3& focal_point() const { return focal_; }
@@ -48,8 +48,8 @@ class CameraRig {
     void set_speed(double metres_per_second);
 
  private:
-    void fly(const CameraMotion& motion, double seconds);
-    void orbit(const CameraMotion& motion, double seconds);
+    void fly(const CameraInput& motion, double seconds);
+    void orbit(const CameraInput& motion, double seconds);
     glm::dvec3 turned(const glm::dvec3& direction, const glm::dvec2& radians) const;
     void place(const glm::dvec3& position, const glm::dvec3& focal);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "host/picture/view_canvas.h"
+#include "host/scene/lights/light_ranges.h"
 #include "present/window/panel/panel.h"
 
 namespace kilolux {
@@ -65,7 +66,9 @@ void share_row(const LightContribution& share, double total) {
     ImGui::TableNextColumn();
     ImGui::Text("%.2f m", share.distance);
     ImGui::TableNextColumn();
-    ImGui::Text("%.2f m", share.range);
+    // Kernels round a range down.
+    const bool ends = share.range < 0.5 * double{kUnlimitedRange};
+    ImGui::TextUnformatted(ends ? fmt::format("{:.2f} m", share.range).c_str() : "none");
     ImGui::TableNextColumn();
     const double part = total > 0.0 ? brightness(share.radiance) / total : 0.0;
     const std::string text =

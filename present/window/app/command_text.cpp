@@ -54,11 +54,15 @@ std::string render_command(const CameraRig& rig, const SharedOptions& options, c
     said.settings.want.aovs.clear();  // a PNG has no layers
     said.quiet = said.verbose = false;
     const auto standard = shared_option_texts({});
+    // The standards of lights and ambient are not those of every rig.
+    const bool has_own_rig = said.rig != Rig::automatic;
     std::string out = "kilolux render " + quoted(options.scene);
     const auto texts = shared_option_texts(said);
     for (std::size_t i = 0; i < texts.size(); ++i) {
         const auto& [name, value] = texts[i];
-        if (value == standard[i].second || name == "SCENE") continue;
+        const bool of_rig = name == "--lights" || name == "--ambient";
+        const bool is_standard = value == standard[i].second && !(of_rig && has_own_rig);
+        if (is_standard || name == "SCENE") continue;
         out +=
             value == "true" ? fmt::format(" {}", name) : fmt::format(" {} {}", name, quoted(value));
     }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "host/render/renderer.h"
+#include "host/scene/lights/rig.h"
 #include "present/window/app/task_thread.h"
 
 namespace kilolux {
@@ -18,6 +19,7 @@ struct PictureRequest {
     double time = 0.0;       // [s]
     std::span<uint> pixels;  // rows display_stride() apart
     int samples = 0;         // of settings.samples, the rest to come; 0: all
+    Rig rig{};               // whose lights the scene has
 };
 
 /// What came with a rendered picture.

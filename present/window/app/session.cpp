@@ -22,31 +22,34 @@ constexpr double kKeepSeconds = 0.5;   // a change has to last until it is writt
 constexpr std::chrono::milliseconds kStopPatience(200);
 constexpr int kSmallestKept = 64;  // [pixel] of the window's edges, from run to run
 
-std::string text_of(GLenum name) {
+std::string gl_text(GLenum name) {
     const GLubyte* text = glGetString(name);
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
 }  // namespace
 
-ViewSession::ViewSession(const Scene& scene, SessionOptions options, StateFile& file,
+ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile& file,
                          Window& window, const Window& context)
-    : scene_(scene),
+    : lit_scene_(scene),
+      scene_(scene.scene()),
       options_(std::move(options)),
       file_(file),
       window_(window),
       state_(options_.state),
       kept_(state_),
-      rig_(choose_camera(options_.shared, scene), bounds(scene)),
+      lit_by_(state_.rig),
+      rig_(choose_camera(options_.shared, scene_), bounds(scene_)),
       time_(options_.shared.time),
       gui_(window),
-      facts_{.scene = scene,
-             .triangles = triangle_count(scene),
-             .opengl = text_of(GL_RENDERER) + ", " + text_of(GL_VERSION)},
+      facts_{.scene = scene_,
+             .has_unranged_lights = std::ranges::any_of(scene_.lights, lacks_range),
+             .triangles = triangle_count(scene_),
+             .opengl = gl_text(GL_RENDERER) + ", " + gl_text(GL_VERSION)},
       scale_(state_.target_ms) {
     window_.on_event([this](const InputEvent& event) { take_event(event); });
     worker_ = std::make_unique<RenderWorker>(
-        scene, wanted().settings,
+        scene_, wanted().settings,
         [&context](bool use) { use ? context.make_current() : glfwMakeContextCurrent(nullptr); },
         [this] {
             woken_ = true;
@@ -165,6 +168,10 @@ void ViewSession::take_event(const InputEvent& event) {
 void ViewSession::take_results() {
     std::erase_if(pending_, [this](PendingPicture& pending) { return take_picture(pending); });
     take(limits_, [this](const DeviceLimits& limits) { facts_.limits = limits; });
+    if (!take(relighting_, [this](Relit relit) { take_lights(std::move(relit)); })) {
+        state_.rig = lit_by_;  // the former lights stay
+    }
+    if (!relighting_.valid()) obey_actions(std::exchange(held_back_, {}));
     take(measuring_, [this](FrameError error) { take_error(std::move(error)); });
     for (auto& saving : saving_) {
         take(saving, [this](const std::string& what) {

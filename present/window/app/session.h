@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "host/scene/animated_scene.h"
 #include "present/cli/options.h"
 #include "present/window/app/adaptive_scale.h"
 #include "present/window/app/camera_rig.h"
@@ -26,7 +27,8 @@ namespace kilolux {
 
 /// What a run of the window is given.
 struct SessionOptions {
-    SharedOptions shared;  // scene, camera, time
+    SharedOptions asked;   // before light_scene()
+    SharedOptions shared;  // scene, camera, time, and what light_scene() settled
     ViewState state;
     std::uint64_t exit_after = 0;  // pictures; 0: until it is closed
     std::vector<ScriptStep> script;
@@ -37,9 +39,9 @@ struct SessionOptions {
 /// every frame shows the latest picture with the panel beside it.
 class ViewSession {
  public:
-    /// `window` is current and on the screen; `context` becomes the worker's. Changes of the state
-    /// go to `file`.
-    ViewSession(const Scene& scene, SessionOptions options, StateFile& file, Window& window,
+    /// `window` is current and on the screen; `context` becomes the worker's, and so do the lights
+    /// of the scene. Changes of the state go to `file`.
+    ViewSession(AnimatedScene& scene, SessionOptions options, StateFile& file, Window& window,
                 const Window& context);
     ~ViewSession();
 
@@ -72,10 +74,19 @@ class ViewSession {
     // Input.
     void take_event(const InputEvent& event);
     void obey_key(const KeyEvent& key);
-    CameraMotion camera_motion();
+    CameraInput camera_motion();
     void steer();
-    void obey_actions(const Actions& actions);
+    void obey_actions(Actions actions);
+    void hold_back(Actions& actions);
     void reset_settings();
+
+    // Lights.
+    struct Relit {
+        SharedOptions options;  // settled
+        std::string line;       // what light_scene() says
+    };
+    void relight();
+    void take_lights(Relit relit);
 
     // Pictures.
     struct PendingPicture {
@@ -122,13 +133,15 @@ class ViewSession {
     void take_error(FrameError error);
     bool shows_error() const;
 
-    const Scene& scene_;
+    AnimatedScene& lit_scene_;  // its lights are the worker's
+    const Scene& scene_;        // the same
     SessionOptions options_;
     StateFile& file_;
     Window& window_;
     ViewState state_;
     ViewState kept_;  // as last written to file_
     ViewState seen_;  // when writing was considered last
+    Rig lit_by_;      // what the scene's lights are for
     CameraRig rig_;
     double time_;  // of the lights [s]
     InputState input_;
@@ -160,6 +173,8 @@ class ViewSession {
     std::future<std::optional<ProbedPixel>> probing_;
     std::future<FrozenClusters> freezing_;
     std::future<FrameError> measuring_;
+    std::future<Relit> relighting_;
+    Actions held_back_;                            // until the lights are replaced
     std::deque<std::future<std::string>> saving_;  // what was written
 
     std::unique_ptr<BoxPass> boxes_;        // made when first frozen

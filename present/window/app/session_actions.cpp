@@ -56,7 +56,8 @@ void ViewSession::take_error(FrameError error) {
     requested_.reset();  // the renderer's last picture is the window's again
 }
 
-void ViewSession::obey_actions(const Actions& actions) {
+void ViewSession::obey_actions(Actions actions) {
+    if (relighting_.valid()) hold_back(actions);
     if (actions.reset_camera) rig_.set(choose_camera(options_.shared, scene_));
     if (actions.frame_scene) rig_.frame();
     if (actions.scene_camera) {
@@ -86,6 +87,11 @@ void ViewSession::reset_settings() {
     fresh.settings.reflections = options_.shared.maps;
     fresh.window_size = state_.window_size;
     state_ = std::move(fresh);
+    SharedOptions& asked = options_.asked;
+    asked.settings.lights = state_.settings.lights;
+    asked.settings.ambient = state_.settings.ambient;
+    asked.lights_given = asked.ambient_given = false;
+    relight();
     file_.forget();
 }
 

@@ -41,9 +41,11 @@ void ViewSession::ask_probe() {
         if (s.width != drawn.settings.width || s.height != drawn.settings.height) return out;
         out = ProbedPixel{x, y, s.width, s.height, drawn.camera, renderer.probe(x, y), {}};
         const KernelFeatures& kernels = renderer.plan().kernels;
-        out->shares = light_contributions(out->probe, {.shading = shading_of(kernels),
-                                                       .orthographic = drawn.camera.orthographic,
-                                                       .light_d_min = double{kernels.light_d_min}});
+        out->shares =
+            light_contributions(out->probe, {.shading = shading_of(kernels),
+                                             .orthographic = drawn.camera.orthographic,
+                                             .light_d_min = double{kernels.light_d_min},
+                                             .drawn_ranges = double{kernels.drawn_ranges}});
         return out;
     });
 }

@@ -62,8 +62,8 @@ constexpr KeyBinding kBindings[] = {
 
 }  // namespace
 
-CameraMotion ViewSession::camera_motion() {
-    CameraMotion motion;
+CameraInput ViewSession::camera_motion() {
+    CameraInput motion;
     const bool command = input_.is_down(GLFW_KEY_LEFT_CONTROL);
     if (!gui_.wants_keys() && !command) {
         motion.move = {held(input_, GLFW_KEY_D, GLFW_KEY_A), held(input_, GLFW_KEY_E, GLFW_KEY_Q),

@@ -32,7 +32,8 @@ bool same_content(const PictureRequest& a, const PictureRequest& b) {
     resized.width = b.settings.width;
     resized.height = b.settings.height;
     resized.samples = b.settings.samples;
-    return resized == b.settings && a.time == b.time && same_camera(a.camera, b.camera);
+    return resized == b.settings && a.rig == b.rig && a.time == b.time &&
+           same_camera(a.camera, b.camera);
 }
 
 bool same_request(const PictureRequest& a, const PictureRequest& b) {
@@ -58,7 +59,7 @@ bool ViewSession::is_moving() const {
 Settled ViewSession::settled() const {
     if (state_.lights_move) return Settled::never;
     const bool busy = limits_.valid() || probing_.valid() || freezing_.valid() ||
-                      measuring_.valid() || !saving_.empty() ||
+                      measuring_.valid() || relighting_.valid() || !saving_.empty() ||
                       (!renders_always() && !pending_.empty());
     const bool shown =
         drawn_ && !is_moving() && same_request(*drawn_, wanted()) && has_all_samples(*drawn_);
@@ -96,11 +97,14 @@ PictureRequest ViewSession::wanted(double scale) const {
     if (state_.frozen) out.settings.want.aovs = {"depth"};
     out.camera = rig_.camera();
     out.time = time_;
+    out.rig = lit_by_;
     return out;
 }
 
 void ViewSession::request_picture() {
     if (is_resting()) return;
+    if (state_.rig != lit_by_ && !relighting_.valid()) relight();
+    if (relighting_.valid()) return;  // its settings belong to the lights to come
     if (state_.lights_move) time_ += state_.light_speed * frame_seconds_;
     scale_.set_target(state_.target_ms);
     PictureRequest next = wanted();

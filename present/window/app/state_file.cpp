@@ -96,6 +96,7 @@ void visit_picture(Visitor& v, RenderSettings& s) {
 template <typename Visitor>
 void visit(Visitor& v, ViewState& state) {
     visit_picture(v, state.settings);
+    v.choice("rig", "--rig", state.rig, names_of<Rig>());
     v.flag("lights_move", state.lights_move);
     v.number("light_speed", "", state.light_speed, NumberRange{0.01, 100.0});
     v.choice("camera_mode", "", state.camera_mode, {"fly", "orbit"});

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "host/render/settings.h"
+#include "host/scene/lights/rig.h"
 #include "present/window/app/camera_rig.h"
 
 namespace kilolux {
@@ -20,6 +21,7 @@ inline RenderSettings window_settings() {
 /// What can be set in the window. All but the last group is kept from one run to the next.
 struct ViewState {
     RenderSettings settings = window_settings();  // width, height and aovs follow from the window
+    Rig rig = Rig::automatic;                     // decides of settings' lights and ambient
     bool lights_move = false;
     double light_speed = 1.0;  // seconds of the lights' time per second
     CameraMode camera_mode = CameraMode::fly;

@@ -18,7 +18,8 @@ namespace kilolux {
 
 /// What the panel shows of the last picture and of what made it.
 struct PanelFacts {
-    const Scene& scene;
+    const Scene& scene;  // but its lights, which the worker replaces
+    bool has_unranged_lights = false;
     std::size_t triangles = 0;
     std::string opengl{};  // the window's renderer
     DeviceInfo device{};

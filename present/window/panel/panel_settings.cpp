@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/picture/views.h"
@@ -47,11 +48,20 @@ void Panel::lights() const {
     if (!ui.section("Lights", true)) return;
     LightOptions& lights = state.settings.lights;
     const LightScale scale = automatic_light_scale(lights, facts.scene);
+    ui.choice("Rig", state.rig, names_of<Rig>());
+    ui.tip("What lights the scene beside its own lights; it sets Lights and Ambient");
     ui.slider("Lights", lights.count, {1.0, 1e6, true, "%.0f"});
     ui.tip("Generated point lights; Ctrl+click to type a number");
     automatic_slider(ui, "Radius", lights.radius, scale.radius, {0.05, 100.0, true, "%.2f m"});
     automatic_slider(ui, "Intensity", lights.intensity, scale.intensity,
                      {1e-4, 1e4, true, "%.3g cd"});
+    if (facts.has_unranged_lights) {
+        ui.choice("Tails", state.settings.tails, names_of<Tails>());
+        ui.tip("Where the file's lights without a range end");
+        if (state.settings.tails == Tails::tree) {
+            ui.slider("Tree share", state.settings.tree_share, {0.001, 1.0, true, "%.3f"});
+        }
+    }
     ui.checkbox("Lights move", state.lights_move);
     ui.slider("Speed", state.light_speed, {0.05, 20.0, true, "%.2fx"});
     ui.slider("Seed", lights.seed, {1, 100, false, "%.0f"});

@@ -116,7 +116,7 @@ void error_table(const FrameError& error) {
 std::string lights_text(const FrameStats& s) {
     std::string out = short_count(s.lights_used) + " used";
     if (s.lights_rejected > 0) out += ", " + std::to_string(s.lights_rejected) + " rejected";
-    return out + ", dropped = " + std::to_string(s.lights_dropped);
+    return out;
 }
 
 void count_lines(const FrameStats& s) {

@@ -8,8 +8,6 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Half width of a tied curtain at a share `down` of its height: wide at the rod, narrow at the tie,
 // a little wider at the hem.
 double curtain_spread(double down) {
@@ -34,8 +32,8 @@ MeshBuilder banner() {
         [](double u, double v) {
             const double across = 1.0 - 2.0 * u;
             const double down = 1.0 - v;
-            const double fold = 0.05 * down * std::sin(3.0 * kPi * across + 0.8) +
-                                0.03 * down * down * std::sin(1.3 * kPi * across);
+            const double fold = 0.05 * down * std::sin(3.0 * std::numbers::pi * across + 0.8) +
+                                0.03 * down * down * std::sin(1.3 * std::numbers::pi * across);
             // The lower edge is a swallow's tail.
             const double tail = 1.0 - 0.14 * (1.0 - std::abs(across)) * down * down;
             return glm::dvec3(kHalf * across * (1.0 - 0.06 * down), -kLength * down * tail, -fold);
@@ -59,7 +57,7 @@ MeshBuilder curtain() {
                 const double spread = curtain_spread(down);
                 const double x = 1.22 - spread * (1.0 - across);
                 const double depth = 0.035 + 0.05 * std::min(down / 0.3, 1.0);
-                const double fold = depth * std::sin(2.0 * kPi * 6.0 * across) *
+                const double fold = depth * std::sin(2.0 * std::numbers::pi * 6.0 * across) *
                                     (0.75 + 0.25 * std::sin(5.0 * across + 3.0 * down));
                 return glm::dvec3(side * x, kTop + (kHem - kTop) * down, fold);
             },
@@ -75,7 +73,7 @@ MeshBuilder curtain_rod() {
     for (const double side : {-1.0, 1.0}) {
         std::vector<glm::dvec3> tie;
         for (int i = 0; i <= 16; ++i) {
-            const double angle = 2.0 * kPi * i / 16;
+            const double angle = 2.0 * std::numbers::pi * i / 16;
             tie.emplace_back(side * (1.145 + 0.105 * std::cos(angle)),
                              1.42 + 0.02 * std::cos(angle), 0.115 * std::sin(angle));
         }

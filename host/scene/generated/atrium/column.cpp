@@ -13,7 +13,6 @@ using atrium_plan::kGalleryFloor;
 using atrium_plan::kSpring;
 using atrium_plan::kUpperSpring;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kShaftBottom = 0.36;  // [m]
 constexpr double kShaftTop = 2.92;
 constexpr double kRadius = 0.30;
@@ -24,7 +23,7 @@ double shaft_radius(double share) { return kRadius * (1.0 - 0.14 * share * share
 
 // Depth of the fluting at an angle; flutes run out at the ends of the shaft.
 double flute_depth(double angle, double share) {
-    const double turn = angle * kFlutes / (2.0 * kPi);
+    const double turn = angle * kFlutes / (2.0 * std::numbers::pi);
     const double across = 2.0 * (turn - std::floor(turn)) - 1.0;  // -1..1 over a flute
     const double half = std::abs(across) / 0.86;
     const double scoop = half < 1.0 ? std::sqrt(1.0 - half * half) : 0.0;
@@ -35,7 +34,7 @@ double flute_depth(double angle, double share) {
 // Torus of `points` from (x, y) up by `height`, bulging outwards.
 void add_bulge(Profile& profile, double x, double y, double height, int points) {
     for (int i = 0; i <= points; ++i) {
-        const double angle = kPi * i / points - 0.5 * kPi;
+        const double angle = std::numbers::pi * i / points - 0.5 * std::numbers::pi;
         profile.points.emplace_back(x + 0.5 * height * std::cos(angle),
                                     y + 0.5 * height * (1.0 + std::sin(angle)));
     }
@@ -63,7 +62,7 @@ void add_leaf(MeshBuilder& builder, double angle, double height, double width) {
         const double curl = std::max(v - 0.62, 0.0) / 0.38;
         const double y = height * (v - 0.30 * curl * curl);
         const double across = 2.0 * u - 1.0;
-        const double lobes = 0.86 + 0.14 * std::cos(v * 5.0 * kPi);
+        const double lobes = 0.86 + 0.14 * std::cos(v * 5.0 * std::numbers::pi);
         const double half = width * lobes * (0.75 + 0.55 * v - 1.05 * v * v * v);
         const double out = bell_radius(std::max(y, 0.0)) + 0.014 + 0.085 * curl * curl +
                            0.018 * (1.0 - std::abs(across)) - 0.02 * across * across;
@@ -91,7 +90,7 @@ void add_volute(MeshBuilder& builder, double angle) {
     const glm::dvec3 eye = 0.455 * radial + glm::dvec3(0.0, kShaftTop + 0.46, 0.0);
     for (int i = 0; i <= kTurnSteps; ++i) {
         const double t = static_cast<double>(i) / kTurnSteps;
-        const double turn = 0.55 * kPi - 3.0 * kPi * t;
+        const double turn = 0.55 * std::numbers::pi - 3.0 * std::numbers::pi * t;
         const double r = 0.085 * (1.0 - 0.75 * t);
         path.push_back(eye + r * (std::cos(turn) * radial + glm::dvec3(0.0, std::sin(turn), 0.0)));
     }
@@ -124,11 +123,12 @@ void add_capital(MeshBuilder& builder) {
     }
     builder.lathe(bell, 16);
     for (int i = 0; i < 8; ++i) {
-        const double angle = 2.0 * kPi * i / 8;
+        const double angle = 2.0 * std::numbers::pi * i / 8;
         add_leaf(builder, angle, 0.27, 0.085);
-        add_leaf(builder, angle + kPi / 8, 0.44, 0.09);
+        add_leaf(builder, angle + std::numbers::pi / 8, 0.44, 0.09);
     }
-    for (int i = 0; i < 4; ++i) add_volute(builder, kPi / 4 + i * kPi / 2);
+    for (int i = 0; i < 4; ++i)
+        add_volute(builder, std::numbers::pi / 4 + i * std::numbers::pi / 2);
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ MeshBuilder column_shaft() {
     constexpr double kRows[] = {0.0, 0.015, 0.06, 0.4, 0.7, 0.94, 0.985, 1.0};
     constexpr int kRowCount = 7;
     const auto surface = [=](double u, double share) {
-        const double angle = 2.0 * kPi * u;
+        const double angle = 2.0 * std::numbers::pi * u;
         const double r = shaft_radius(share) - flute_depth(angle, share);
         return glm::dvec3(r * std::cos(angle), kShaftBottom + share * height, -r * std::sin(angle));
     };

@@ -7,11 +7,7 @@
 #include "host/scene/lights/light_generator_hash.h"
 
 namespace kilolux {
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 MeshBuilder urn() {
     MeshBuilder builder;
@@ -26,7 +22,7 @@ MeshBuilder urn() {
     for (const double side : {-1.0, 1.0}) {
         std::vector<glm::dvec3> handle;
         for (int i = 0; i <= 8; ++i) {
-            const double t = kPi * i / 8;
+            const double t = std::numbers::pi * i / 8;
             handle.emplace_back(side * (0.24 + 0.16 * std::sin(t)), 0.74 + 0.15 * std::cos(t), 0.0);
         }
         builder.tube(handle, 0.022, 6);
@@ -62,7 +58,7 @@ MeshBuilder tree_trunk(double bottom) {
         {0, bottom, 0}, {0.02, 0.9, 0.01}, {-0.01, 1.25, 0.03}, {0.01, 1.6, 0.0}, {0, 1.95, 0}};
     builder.tube(trunk, 0.055, 8);
     for (int i = 0; i < 5; ++i) {
-        const double angle = 2.0 * kPi * i / 5;
+        const double angle = 2.0 * std::numbers::pi * i / 5;
         const glm::dvec3 out(std::cos(angle), 0.0, std::sin(angle));
         const glm::dvec3 branch[3] = {glm::dvec3(0, 1.35 + 0.05 * i, 0),
                                       glm::dvec3(0, 1.62, 0) + 0.2 * out,
@@ -78,7 +74,7 @@ MeshBuilder foliage(double height, double radius, int leaves, std::uint64_t seed
         const std::uint64_t key = item_key(seed, static_cast<std::uint64_t>(i));
         const auto random = [key](std::uint64_t s) { return unit_double(item_bits(key, s)); };
         const double y = 2.0 * random(0) - 1.0;
-        const double angle = 2.0 * kPi * random(1);
+        const double angle = 2.0 * std::numbers::pi * random(1);
         const double ring = std::sqrt(1.0 - y * y);
         const glm::dvec3 out(ring * std::cos(angle), y, ring * std::sin(angle));
         const double r = radius * (0.55 + 0.45 * std::sqrt(random(2)));
@@ -116,7 +112,7 @@ MeshBuilder lantern_iron(double chain) {
                 0.6},
                6);
     for (int i = 0; i < 6; ++i) {
-        const double angle = 2.0 * kPi * i / 6;
+        const double angle = 2.0 * std::numbers::pi * i / 6;
         const glm::dvec3 out(std::cos(angle), 0.0, -std::sin(angle));
         const glm::dvec3 bar[2] = {0.125 * out + glm::dvec3(0, -0.39, 0),
                                    0.155 * out + glm::dvec3(0, 0.0, 0)};

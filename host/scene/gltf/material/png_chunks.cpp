@@ -15,26 +15,26 @@
 namespace kilolux {
 namespace {
 
-using Span = std::span<const unsigned char>;
+using PngBytes = std::span<const unsigned char>;
 
 constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', 13, 10, 26, 10};
 constexpr std::size_t kFrameBytes = 12;  // of a chunk: length, type, checksum
 // The chunks that pixels depend on: the critical ones and transparency.
 constexpr std::array<std::string_view, 5> kNeeded = {"IHDR", "PLTE", "IDAT", "IEND", "tRNS"};
 
-std::uint32_t big_endian(Span bytes) {
+std::uint32_t big_endian(PngBytes bytes) {
     return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |
            std::uint32_t{bytes[2]} << 8 | std::uint32_t{bytes[3]};
 }
 
 struct Chunk {
-    Span bytes;  // all of it
+    PngBytes bytes;  // all of it
     std::size_t offset = 0;
     std::string_view type;
 };
 
-Chunk chunk_at(Span png, std::size_t offset, const std::string& where) {
-    const Span rest = png.subspan(offset);
+Chunk png_chunk_at(PngBytes png, std::size_t offset, const std::string& where) {
+    const PngBytes rest = png.subspan(offset);
     if (rest.size() < kFrameBytes || big_endian(rest) > rest.size() - kFrameBytes) {
         throw Error(
             fmt::format("{}: is cut off in the chunk at byte {} of {}", where, offset, png.size()));
@@ -57,8 +57,8 @@ void check_chunk(const Chunk& chunk, const std::string& where) {
         if (std::islower(static_cast<unsigned char>(chunk.type[0]))) return;
         fail(chunk, where, "is of no type that PNG decoders know");
     }
-    const Span bytes = chunk.bytes;
-    const Span checked = bytes.subspan(4, bytes.size() - 8);  // type and data
+    const PngBytes bytes = chunk.bytes;
+    const PngBytes checked = bytes.subspan(4, bytes.size() - 8);  // type and data
     if (crc32_z(0, checked.data(), checked.size()) != big_endian(bytes.last(4))) {
         fail(chunk, where, "is damaged: its checksum is wrong");
     }
@@ -69,13 +69,13 @@ void check_chunk(const Chunk& chunk, const std::string& where) {
 
 }  // namespace
 
-void check_png(Span png, const std::string& where) {
+void check_png(PngBytes png, const std::string& where) {
     const bool starts = png.size() >= kSignature.size() &&
                         std::equal(kSignature.begin(), kSignature.end(), png.begin());
     if (!starts) throw Error(where + ": does not start as a PNG file does");
     bool has_pixels = false;
     for (std::size_t offset = kSignature.size(); offset < png.size();) {
-        const Chunk chunk = chunk_at(png, offset, where);
+        const Chunk chunk = png_chunk_at(png, offset, where);
         check_chunk(chunk, where);
         if (chunk.type == "IEND") break;
         has_pixels = has_pixels || chunk.type == "IDAT";

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kExtension = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* kGlossinessExtension = "KHR_materials_pbrSpecularGlossiness";
 constexpr double kDielectric = 0.04;  // reflectance head on of metallic-roughness's dielectrics
 constexpr double kLeast = 1e-6;       // keeps divisions finite; what they multiply is then 0
 
@@ -29,7 +29,7 @@ double solve_metallic(double diffuse, double specular, double diffuse_share) {
     return std::clamp((-b + root) / (2.0 * a), 0.0, 1.0);
 }
 
-double unit(double value) { return std::clamp(value, 0.0, 1.0); }
+double clamped_unit(double value) { return std::clamp(value, 0.0, 1.0); }
 
 // The extension's factors, and the opacity.
 SpecularGlossiness read_factors(const tinygltf::Value& extension, double& alpha) {
@@ -37,13 +37,15 @@ SpecularGlossiness read_factors(const tinygltf::Value& extension, double& alpha)
     const auto diffuse = numbers_member(extension, "diffuseFactor");
     const auto specular = numbers_member(extension, "specularFactor");
     if (diffuse.size() == 4) {
-        out.diffuse = {unit(diffuse[0]), unit(diffuse[1]), unit(diffuse[2])};
-        alpha = unit(diffuse[3]);
+        out.diffuse = {clamped_unit(diffuse[0]), clamped_unit(diffuse[1]),
+                       clamped_unit(diffuse[2])};
+        alpha = clamped_unit(diffuse[3]);
     }
     if (specular.size() == 3) {
-        out.specular = {unit(specular[0]), unit(specular[1]), unit(specular[2])};
+        out.specular = {clamped_unit(specular[0]), clamped_unit(specular[1]),
+                        clamped_unit(specular[2])};
     }
-    out.glossiness = unit(member_or(extension, "glossinessFactor", 1.0));
+    out.glossiness = clamped_unit(member_or(extension, "glossinessFactor", 1.0));
     return out;
 }
 
@@ -115,13 +117,14 @@ MetallicRoughness metallic_roughness_of(const SpecularGlossiness& from) {
 }
 
 bool is_specular_glossiness(const tinygltf::Material& material) {
-    return find_extension(material.extensions, kExtension) != nullptr;
+    return find_extension(material.extensions, kGlossinessExtension) != nullptr;
 }
 
 void convert_specular_glossiness(const GltfDocument& document, GltfMaterials& materials) {
     std::size_t count = 0;
     for (std::size_t m = 0; m < materials.materials.size(); ++m) {
-        const auto* extension = find_extension(document.model.materials[m].extensions, kExtension);
+        const auto* extension =
+            find_extension(document.model.materials[m].extensions, kGlossinessExtension);
         if (extension == nullptr) continue;
         double alpha = 1.0;
         const SpecularGlossiness factors = read_factors(*extension, alpha);

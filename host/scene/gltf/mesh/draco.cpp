@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kExtension = "KHR_draco_mesh_compression";
+constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 
 // The counts in a bit stream's header.
 struct DracoSize {
@@ -105,7 +105,7 @@ void replace_attributes(const GltfDocument& document, const tinygltf::Value& ext
         const auto* attribute = mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
         if (attribute == nullptr) {
             throw Error(fmt::format("{}.{}: {} is attribute {}, which the data do not have",
-                                    arrays.where, kExtension, name, id));
+                                    arrays.where, kDracoExtension, name, id));
         }
         entry->second.count = mesh.num_points();
         replace_attribute(document, *attribute, entry->second, arrays.decoded.emplace_back());
@@ -116,15 +116,16 @@ void replace_attributes(const GltfDocument& document, const tinygltf::Value& ext
 }  // namespace
 
 bool is_draco_compressed(const tinygltf::Primitive& primitive) {
-    return find_extension(primitive.extensions, kExtension) != nullptr;
+    return find_extension(primitive.extensions, kDracoExtension) != nullptr;
 }
 
 std::vector<std::uint32_t> decode_draco_primitive(const GltfDocument& document,
                                                   const tinygltf::Primitive& primitive,
                                                   PrimitiveArrays& arrays) {
-    const tinygltf::Value& extension = *find_extension(primitive.extensions, kExtension);
+    const tinygltf::Value& extension = *find_extension(primitive.extensions, kDracoExtension);
     const auto view = static_cast<std::size_t>(member_or(extension, "bufferView", 0));
-    const auto mesh = decode_mesh(document, document.views[view], arrays.where + "." + kExtension);
+    const auto mesh =
+        decode_mesh(document, document.views[view], arrays.where + "." + kDracoExtension);
     replace_attributes(document, extension, *mesh, arrays);
     std::vector<std::uint32_t> indices;
     indices.reserve(std::size_t{3} * mesh->num_faces());
@@ -132,7 +133,7 @@ std::vector<std::uint32_t> decode_draco_primitive(const GltfDocument& document,
         for (const draco::PointIndex& point : mesh->face(face)) {
             if (point.value() >= arrays.vertex_count) {
                 throw Error(fmt::format("{}.{}: vertex index {} is out of range", arrays.where,
-                                        kExtension, point.value()));
+                                        kDracoExtension, point.value()));
             }
             indices.push_back(point.value());
         }

@@ -8,7 +8,7 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kExtension = "EXT_meshopt_compression";
+constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
 // The values of the extension's object.
 struct MeshoptView {
@@ -22,7 +22,7 @@ struct MeshoptView {
 MeshoptView read_extension(const GltfDocument& document, std::size_t view,
                            const std::string& where) {
     const tinygltf::Value& object =
-        *find_extension(document.model.bufferViews[view].extensions, kExtension);
+        *find_extension(document.model.bufferViews[view].extensions, kMeshoptExtension);
     const Bytes& buffer =
         document.buffers[static_cast<std::size_t>(member_or(object, "buffer", 0))];
     const auto offset = static_cast<std::size_t>(member_or(object, "byteOffset", 0));
@@ -76,11 +76,12 @@ int decode(const MeshoptView& view, Bytes& out) {
 }  // namespace
 
 bool is_meshopt_compressed(const GltfDocument& document, std::size_t view) {
-    return find_extension(document.model.bufferViews[view].extensions, kExtension) != nullptr;
+    return find_extension(document.model.bufferViews[view].extensions, kMeshoptExtension) !=
+           nullptr;
 }
 
 Bytes decode_meshopt_view(const GltfDocument& document, std::size_t view) {
-    const std::string where = element_name("bufferViews", view) + "." + kExtension;
+    const std::string where = element_name("bufferViews", view) + "." + kMeshoptExtension;
     const MeshoptView compressed = read_extension(document, view, where);
     check_shape(document, compressed, where);
     document.budget->charge(compressed.count, compressed.stride, document.base.file + ": " + where);

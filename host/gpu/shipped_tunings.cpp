@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/gpu/shipped_tunings.h"
+
+#include <algorithm>
+
+namespace kilolux {
+
+std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
+                                           std::span<const ShippedTuning> table) {
+    const auto is_device = [&](const ShippedTuning& row) {
+        return row.platform == device.platform && row.device == device.name;
+    };
+    const auto is_class = [&](const ShippedTuning& row) {
+        return row.platform == device.platform && row.is_cpu == device.is_cpu &&
+               (!device.is_cpu || row.version == device.version);
+    };
+    auto found = std::ranges::find_if(table, is_device);
+    const bool same_device = found != table.end();
+    if (!same_device) found = std::ranges::find_if(table, is_class);
+    if (found == table.end()) return std::nullopt;
+    ShippedMatch match = {found->tuning, same_device};
+    int& chunks = match.tuning.tuning.cull_chunks;
+    chunks = std::clamp(chunks * device.compute_units / found->compute_units, 1, 65536);
+    return match;
+}
+
+}  // namespace kilolux

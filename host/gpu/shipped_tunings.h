@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "host/gpu/tuning_store.h"
+
+namespace kilolux {
+
+/// What `kilolux bench --tune` found on a device, as its certificate in host/certify/devices holds
+/// it.
+struct ShippedTuning {
+    std::string_view platform, device, version;  // as DeviceInfo has them
+    bool is_cpu = false;
+    int compute_units = 1;
+    StoredTuning tuning;
+};
+
+/// Those of all certificates; made of them by shipped_tunings.cmake.
+std::span<const ShippedTuning> shipped_tunings();
+
+/// A tuning found in a table, for the device at hand.
+struct ShippedMatch {
+    StoredTuning tuning;
+    bool same_device = false;  // else only of its class
+};
+
+/// The row of the device's platform and name; else one of its class: of its platform, and on CPUs
+/// of its OpenCL version, which names the instructions that PoCL compiles for. Chunks of lights go
+/// with the number of compute units. None: no row matches. What it says of the geometry is not
+/// for others: OpenGL's triangles and OpenCL's differ at edges, so only a measurement here changes
+/// them.
+std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
+                                           std::span<const ShippedTuning> table);
+
+}  // namespace kilolux

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kilolux {
+
+/// How much light a luminaire sends each way: photometry of type C (IES LM-63). Vertical angle 0 is
+/// the way it is aimed, horizontal angles turn about that axis.
+struct PhotometricWeb {
+    std::string name;                // of the file's light
+    std::string text;                // the IES file
+    std::vector<double> vertical;    // [deg] rising, within 0 to 180; two or more
+    std::vector<double> horizontal;  // [deg] 0 alone: the same all around; else rising, 0 to 360
+    std::vector<double> candela;     // [horizontal][vertical] >= 0 [cd]
+    double peak = 0.0;               // the largest of them, > 0 [cd]
+    std::vector<float> table;        // what kernels read: see kernels/shared/light_profile.h
+    double table_error = 0.0;  // what the table's steps lose at the file's angles, of the peak
+};
+
+/// Reads an IES file: LM-63-1986, -1991, -1995, -2002 and -2019. `where` starts the messages.
+///
+/// Symmetries are unfolded, multiplier and ballast factor applied. A tilt's factors (TILT=INCLUDE)
+/// are for a lamp that is not held as it was measured: they are skipped. Throws Error for
+/// photometry of type A or B, TILT=<file>, and whatever is not a photometric web.
+PhotometricWeb read_photometric_web(std::string text, const std::string& where);
+
+/// Bilinear between the file's angles; 0 beyond its vertical ones [cd]. Angles in degrees,
+/// `horizontal` from 0 to 360.
+double candela_at(const PhotometricWeb& web, double vertical, double horizontal);
+
+/// All light, integrated exactly over what candela_at() is [lm].
+double lumens(const PhotometricWeb& web);
+
+/// The table for kernels, of the steps that all of the file's angles are multiples of, where those
+/// are not too small; sets table_error otherwise.
+void make_profile_table(PhotometricWeb& web);
+
+/// Where each web's table starts in all of them, one after the other. Throws Error where they are
+/// more than kernels can number.
+std::vector<float> profile_starts(std::span<const PhotometricWeb> webs);
+
+}  // namespace kilolux

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+
+namespace kilolux {
+
+/// Means of as many pictures as each fine tile needs. The pictures are in two halves, and each
+/// half's spread decides where the other's mean ends: so a mean is right on average.
+class AdaptiveSamples {
+ public:
+    AdaptiveSamples(const Gpu& gpu, const Tuning& tuning);
+
+    /// Forgets all pictures.
+    void clear() { taken_[0] = taken_[1] = 0; }
+
+    /// Adds a picture to half 0 or 1; all must have the same size. Enqueues only.
+    void add(uint half, const Radiance& radiance, StageTimer& timer);
+
+    /// After as many pictures of each half, at least two: ends the means of which the standard
+    /// error of the luminance, over sqrt(luminance^2 + floor^2), is at most `error`, root mean
+    /// square over the pixels of a fine tile. Enqueues only.
+    void decide(float error, float floor, StageTimer& timer);
+
+    /// Which fine tiles take more. Blocks.
+    std::vector<bool> open_tiles() const;
+    uint tile_count() const { return fine_tile_count(view_); }
+    const View& view() const { return view_; }
+
+    /// Where means have ended, as MaskTiles reads it.
+    TileCounts done() const { return {fixed_.get()}; }
+
+    /// The mean of both halves. Valid until the next call. Enqueues only.
+    Radiance mean(StageTimer& timer);
+
+    /// Of each pixel's luminance in the last mean(), [height][stride].
+    DeviceArray<float> variance() const { return variance_.get(); }
+
+    /// Pictures that each pixel of the planes took, [height][stride], 0 beyond the width. Blocks.
+    std::vector<uint> taken() const;
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    cl::Program program_;
+    Kernel add_, decide_, mean_kernel_;
+    View view_{};
+    uint taken_[2] = {0, 0};
+    GrowingArray<uint> fixed_;   // [2][tiles]
+    GrowingArray<float> state_;  // [2][5][height][stride]
+    GrowingArray<float> mean_, variance_;
+};
+
+}  // namespace kilolux

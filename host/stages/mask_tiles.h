@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+
+namespace kilolux {
+
+/// Triangle ids without the fine tiles that need no more samples: those become background.
+class MaskTiles {
+ public:
+    MaskTiles(const Gpu& gpu, const Tuning& tuning);
+
+    /// Of ids[view.height][view.stride]. Valid until the next call. Enqueues only.
+    DeviceArray<uint> enqueue(const TileCounts& done, const View& view,
+                              const DeviceArray<uint>& ids, StageTimer& timer);
+
+ private:
+    int lanes_;
+    Tuning tuning_;
+    Kernel kernel_;
+    GrowingArray<uint> masked_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
+
+namespace kilolux {
+
+/// What a frame's pixels were lit by.
+struct LitPixels {
+    GBuffer gbuffer;
+    PreparedLights lights;
+    ClusterGrid grid{};
+    ActiveClusters clusters;
+};
+
+/// What lights without a range of their own leave out of a picture, pixel by pixel. For AOVs; no
+/// part of a frame otherwise.
+class TailErrors {
+ public:
+    TailErrors(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// A bound of the radiance that ranges took: [3][height][stride], 0 for background. `own`: the
+    /// camera-relative lights, of which those with a negative range have none of their own.
+    /// Enqueues only.
+    DeviceArray<float> bound(const LitPixels& lit, const DeviceArray<Light>& own,
+                             const ClusterBoxes& boxes, StageTimer& timer);
+
+    /// With a light tree, a bound of what its nodes add or leave out. Enqueues only.
+    DeviceArray<float> tree_bound(const LitPixels& lit, const RefinedLists& lists,
+                                  StageTimer& timer);
+
+    /// The estimated variance of the luminance that drawn ranges cause: [height][stride], 0 for
+    /// background. `shadow_variance`: with sampled shadows, theirs, which is added. `shadows`: with
+    /// shadows, what CastShadows made. Enqueues only.
+    DeviceArray<float> variance(const LitPixels& lit, const RefinedLists& lists,
+                                const ShadowWords& shadows, const ShadowSamples& samples,
+                                const DeviceArray<float>& shadow_variance, StageTimer& timer);
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    KernelFeatures features_;
+    std::optional<Kernel> moments_, bound_, tree_bound_, variance_;  // made when first asked for
+    GrowingArray<float> srgb_, moment_rows_, bounds_, variances_;
+};
+
+}  // namespace kilolux

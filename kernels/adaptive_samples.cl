@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Means of as many samples as each fine tile needs, until the standard error of its mean is small
+// enough.
+//
+// Whoever stops where samples happen to agree loses what is rare: such a mean is too dark where few
+// samples are bright (Kirk and Arvo 1991, "Unbiased Sampling Techniques for Image Synthesis"). So
+// there are two halves of the samples, and each one's spread decides where the other's mean ends:
+// a mean's count then does not depend on its own samples, and it is right on average. A tile takes
+// samples until both halves' means have ended.
+//
+// A half's state: planes of its mean (3), and of the running mean and the sum of squared deviations
+// of its luminance (Welford 1962), which go on after the mean has ended.
+#include "kernels/device/luminance.h"
+#include "kernels/shared/cluster_grid.h"
+
+#define STATE_PLANES 5
+
+// `mean` of n values after `value`, the n-th. What is infinite stays so.
+static inline FV mean_with(FV mean, FV value, float n) {
+    FV change = value - mean;
+    FV next = mean + change / n;
+    return lane_select(change - change == fv(0.0f), next, mean + value);
+}
+
+// Adds the n-th sample of half `h` where a tile is not done. One work-item takes VW neighbouring
+// pixels of a row.
+kernel void adaptive_samples_add(View view, uint h, uint n,
+                                 global const float* restrict radiance,  // [3][height][stride]
+                                 global const uint* restrict fixed,      // [2][tiles]
+                                 global float* restrict state) {  // in, out [2][5][height][stride]
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height || x >= view.width) return;
+    uint tile = fine_tile_of(view, x, y);
+    uint tiles = fine_tile_count(view);
+    if (fixed[tile] != 0 && fixed[tiles + tile] != 0) return;
+    uint plane = view.stride * view.height;
+    uint pixel = y * view.stride + x;
+    bool is_first = n == 1;
+    FV light[3];
+    for (uint c = 0; c < 3; ++c) light[c] = lane_load(radiance + c * plane + pixel);
+    global float* half_state = state + h * STATE_PLANES * plane + pixel;
+    if (fixed[h * tiles + tile] == 0) {
+        for (uint c = 0; c < 3; ++c) {
+            global float* mean = half_state + c * plane;
+            lane_store(is_first ? light[c] : mean_with(lane_load(mean), light[c], (float)n), mean);
+        }
+    }
+    FV seen = luminance(fv3(light[0], light[1], light[2]));
+    FV middle = is_first ? seen : lane_load(half_state + 3 * plane);
+    FV squares = is_first ? fv(0.0f) : lane_load(half_state + 4 * plane);
+    FV change = seen - middle;
+    middle = mean_with(middle, seen, (float)n);
+    lane_store(middle, half_state + 3 * plane);
+    lane_store(fma(change, seen - middle, squares), half_state + 4 * plane);
+}
+
+// After n samples of each half: where a half's samples say that the mean of both has a relative
+// standard error of at most the one asked for, the other's mean ends. A tile's squared error is the
+// mean over its pixels of variance / (luminance^2 + floor^2); what is not finite has none. One
+// work-item takes a tile: the sum's order is the same for every width of lanes.
+kernel void adaptive_samples_decide(View view, uint n, float squared_error, float squared_floor,
+                                    global const float* restrict state,
+                                    global uint* restrict fixed) {  // in, out [2][tiles]: the
+                                                                    // samples of a half's mean, 0
+                                                                    // while it takes more
+    uint tile = get_global_id(0);
+    uint tiles = fine_tile_count(view);
+    if (tile >= tiles || (fixed[tile] != 0 && fixed[tiles + tile] != 0)) return;
+    uint x0 = tile % fine_tiles_x(view) * FINE_TILE;
+    uint y0 = tile / fine_tiles_x(view) * FINE_TILE;
+    uint x1 = min(x0 + FINE_TILE, view.width);
+    uint y1 = min(y0 + FINE_TILE, view.height);
+    uint plane = view.stride * view.height;
+    float pixels = (float)((x1 - x0) * (y1 - y0));
+    for (uint h = 0; h < 2; ++h) {
+        global const float* middle = state + (h * STATE_PLANES + 3) * plane;
+        float sum = 0.0f;
+        for (uint y = y0; y < y1; ++y) {
+            for (uint x = x0; x < x1; ++x) {
+                uint i = y * view.stride + x;
+                float error = middle[plane + i] / fma(middle[i], middle[i], squared_floor);
+                sum += error - error == 0.0f ? error : 0.0f;
+            }
+        }
+        uint other = (1 - h) * tiles + tile;
+        // The variance of n values is off by sqrt(2 / (n - 1)) of it where a tile's pixels err
+        // alike: that much is granted. The mean of both halves has half the variance of one.
+        float degrees = (float)(n - 1);
+        float bound = sum * (1.0f + sqrt(2.0f / degrees));
+        bool is_enough = bound <= squared_error * pixels * 2.0f * (float)n * degrees;
+        if (fixed[other] == 0 && is_enough) fixed[other] = n;
+    }
+}
+
+// The mean of both halves, and the variance of its luminance. `n`: samples taken of each half where
+// a mean has not ended. One work-item takes VW neighbouring pixels of a row.
+kernel void adaptive_samples_mean(View view, uint n, global const float* restrict state,
+                                  global const uint* restrict fixed,
+                                  global float* restrict mean,        // out [3][height][stride]
+                                  global float* restrict variance) {  // out [height][stride]
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height || x >= view.width) return;
+    uint tile = fine_tile_of(view, x, y);
+    uint tiles = fine_tile_count(view);
+    uint plane = view.stride * view.height;
+    uint pixel = y * view.stride + x;
+    global const float* other = state + STATE_PLANES * plane;
+    for (uint c = 0; c < 3; ++c) {
+        FV sum = lane_load(state + c * plane + pixel) + lane_load(other + c * plane + pixel);
+        lane_store(0.5f * sum, mean + c * plane + pixel);
+    }
+    uint counts[2] = {fixed[tile], fixed[tiles + tile]};
+    float taken = (float)(counts[0] == 0 || counts[1] == 0 ? n : max(counts[0], counts[1]));
+    FV sum = fv(0.0f);
+    for (uint h = 0; h < 2; ++h) {
+        FV squares = lane_load(state + (h * STATE_PLANES + 4) * plane + pixel);
+        sum += squares / ((float)(counts[h] == 0 ? n : counts[h]) * (taken - 1.0f));
+    }
+    lane_store(0.25f * sum, variance + pixel);
+}

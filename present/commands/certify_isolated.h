@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "present/commands/certificate.h"
+#include "present/commands/certify.h"
+
+namespace kilolux {
+
+/// What processes of their own are to find out.
+struct IsolatedRequest {
+    std::string device;  // as --device has it
+    std::vector<HardCase> cases;
+    std::vector<int> lanes;
+    std::vector<CertificatePart> parts;
+};
+
+/// Runs this program for every case at every lane width, and for every part. A process that a
+/// signal ends, or that takes longer than kIsolatedSeconds, fails its case with that as the error.
+/// Calls `step` after each; what that throws comes out.
+Certificate certify_isolated(const IsolatedRequest& request, const std::function<void()>& step);
+
+inline constexpr int kIsolatedSeconds = 120;
+
+}  // namespace kilolux

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights without a range: exact, bounded with a bound of what is lost, and stochastic with its
+// error.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/base/error.h"
+#include "host/certify/tail_scenarios.h"
+#include "tests/support/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+constexpr int kWidth = 48;
+constexpr int kHeight = 27;
+constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
+
+// The grid with every kind of light, and `count` more that have no range.
+Scene scene_without_ranges(int count) {
+    Scene scene = grid_with_every_light();
+    const Box box = bounds(scene);
+    for (int i = 0; i < count; ++i) {
+        const double t = (i + 0.5) / count;
+        SceneLight light;
+        light.type = i % 3 == 0 ? LightType::spot : LightType::point;
+        light.position = {box.min.x + t * box.size().x, box.max.y + 0.3 + std::fmod(7.0 * t, 2.0),
+                          box.min.z + std::fmod(5.0 * t, 1.0) * box.size().z};
+        light.direction = glm::normalize(glm::dvec3(0.3, -1.0, 0.2));
+        light.intensity = {1.0f + static_cast<float>(i % 5), 3.0f, 2.0f};
+        light.inner_cone = 0.3f;
+        light.outer_cone = 0.9f;
+        scene.lights.push_back(light);
+    }
+    return scene;
+}
+
+RenderSettings tail_settings(Tails tails) {
+    RenderSettings settings = small_settings(kWidth, kHeight, 0);
+    settings.tails = tails;
+    settings.range_budget = 0.05;
+    return settings;
+}
+
+TEST(Tails, ExactOnesAreTheUnlimitedLights) {
+    const Scene scene = scene_without_ranges(40);
+    const TailAgreement found =
+        compare_tails({"", scene, first_camera(scene)}, tail_settings(Tails::exact));
+    EXPECT_GT(found.values, 1000);
+    EXPECT_LE(found.largest_error, 1e-5);
+}
+
+TEST(Tails, AreTheSameBitsHoweverTheyAreMade) {
+    const Scene scene = scene_without_ranges(300);
+    for (const Tails tails : {Tails::exact, Tails::bounded, Tails::stochastic}) {
+        RenderSettings settings = tail_settings(tails);
+        settings.lights.count = 50;
+        settings.samples = 2;
+        const Frame listed = render_once(scene, settings);
+        const auto expect_same = [&](const char* what) {
+            EXPECT_EQ(render_once(scene, settings).radiance, listed.radiance) << what;
+        };
+        settings.band_rows = 16;
+        expect_same("bands");
+        settings.band_rows = 0;
+        settings.grid = {5, 3, 2, 2};
+        expect_same("grid");
+        settings.kernels.lanes = 4;
+        expect_same("lanes");
+        settings.renderer = RendererKind::deferred_all;
+        expect_same("all lights");
+        settings.tail_seed = 2;
+        const bool drawn = tails == Tails::stochastic;
+        EXPECT_EQ(render_once(scene, settings).radiance != listed.radiance, drawn);
+    }
+}
+
+// Lights with a range of their own keep their bits.
+TEST(Tails, LeaveLightsWithRangesAlone) {
+    const Scene scene = grid_with_every_light();
+    RenderSettings settings = tail_settings(Tails::exact);
+    settings.lights.count = 100;
+    const Frame exact = render_once(scene, settings);
+    for (const Tails tails : {Tails::bounded, Tails::stochastic, Tails::tree, Tails::automatic}) {
+        settings.tails = tails;
+        EXPECT_EQ(render_once(scene, settings).radiance, exact.radiance);
+    }
+}
+
+// Every pixel's bound against what it lacks.
+TailAgreement check_bound(Shading shading, double budget) {
+    const Scene scene = scene_without_ranges(60);
+    RenderSettings settings = tail_settings(Tails::bounded);
+    settings.range_budget = budget;
+    settings.shading = shading;
+    settings.gbuffer = GBUFFER_FULL;
+    settings.width = 160;  // clusters of a tenth of the picture
+    settings.height = 90;
+    return compare_tails({"", scene, first_camera(scene)}, settings);
+}
+
+TEST(Tails, ABoundIsNeverBelowTheError) {
+    for (const double budget : {0.3, 0.05, 0.004}) {
+        for (const Shading shading : {Shading::lambert, Shading::blinn_phong, Shading::pbr}) {
+            const TailAgreement found = check_bound(shading, budget);
+            EXPECT_EQ(found.below, 0) << budget;
+            EXPECT_GT(found.lossy, 500) << budget;
+            if (shading != Shading::lambert) continue;
+            EXPECT_LE(found.looseness, 4.0) << budget;
+        }
+    }
+}
+
+TEST(Tails, ABoundIsNothingWhereNothingIsLost) {
+    RenderSettings settings = tail_settings(Tails::exact);
+    settings.want.aovs = {"error-bound"};
+    for (const float value : render_once(scene_without_ranges(5), settings).aovs.front().values) {
+        ASSERT_EQ(value, 0.0f);
+    }
+}
+
+float luminance_of(const std::vector<float>& radiance, std::size_t i) {
+    return 0.2126f * radiance[3 * i] + 0.7152f * radiance[3 * i + 1] +
+           0.0722f * radiance[3 * i + 2];
+}
+
+// Of many seeds: each pixel's mean is the exact one within its own error, and the errors that are
+// told are those that are seen.
+void expect_right_in_the_mean(const Scene& scene, Shadows shadows, int seeds) {
+    RenderSettings settings = tail_settings(Tails::exact);
+    settings.shadows = shadows == Shadows::off ? Shadows::off : Shadows::exact;
+    const Frame exact = render_once(scene, settings);
+    settings.tails = Tails::stochastic;
+    settings.range_budget = 0.3;
+    settings.shadows = shadows;
+    settings.want.aovs = {"error-standard"};
+    Renderer renderer(scene, settings);
+    std::vector<double> sum(kPixels), squares(kPixels), told(kPixels);
+    for (int seed = 1; seed <= seeds; ++seed) {
+        settings.tail_seed = settings.shadow_seed = static_cast<uint>(seed);
+        renderer.change(settings);
+        const Frame frame = renderer.render(first_camera(scene), 0.0);
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            const double off = luminance_of(frame.radiance, i) - luminance_of(exact.radiance, i);
+            const double error = frame.aovs.front().values[i];
+            sum[i] += off;
+            squares[i] += off * off;
+            told[i] += error * error;
+        }
+    }
+    int noisy = 0, beyond = 0;
+    double seen_variance = 0.0, told_variance = 0.0;
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        const double mean = sum[i] / seeds;
+        const double variance = squares[i] / seeds - mean * mean;
+        if (variance < 1e-12) continue;
+        ++noisy;
+        beyond += std::abs(mean) > 3.0 * std::sqrt(variance / seeds) ? 1 : 0;
+        seen_variance += variance;
+        told_variance += told[i] / seeds;
+    }
+    EXPECT_GT(noisy, 500);
+    EXPECT_LE(beyond, noisy / 50 + 2);
+    EXPECT_NEAR(told_variance / seen_variance, 1.0, 0.1);
+}
+
+TEST(Tails, StochasticOnesAreRightInTheMeanAndTellTheirError) {
+    expect_right_in_the_mean(scene_without_ranges(200), Shadows::off, 400);
+}
+
+TEST(Tails, StochasticOnesWithShadowsHaveOneError) {
+    expect_right_in_the_mean(scene_without_ranges(200), Shadows::exact, 300);
+    expect_right_in_the_mean(scene_without_ranges(200), Shadows::sampled, 400);
+}
+
+void expect_refused(const RenderSettings& settings, std::string_view reason) {
+    try {
+        Renderer renderer(make_generated_scene("plain"), settings);
+        FAIL() << "accepted";
+    } catch (const UsageError& error) {
+        EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+}
+
+TEST(Tails, ErrorsAreRefusedWhereThereAreNone) {
+    RenderSettings settings = tail_settings(Tails::exact);
+    settings.want.aovs = {"error-standard"};
+    expect_refused(settings, "--tails stochastic");
+    settings = tail_settings(Tails::stochastic);
+    settings.want.aovs = {"error-bound"};
+    expect_refused(settings, "error-standard");
+    settings = tail_settings(Tails::bounded);
+    settings.renderer = RendererKind::deferred_all;
+    settings.want.aovs = {"error-bound"};
+    expect_refused(settings, "--renderer deferred");
+}
+
+}  // namespace
+}  // namespace kilolux
