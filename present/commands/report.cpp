@@ -147,6 +147,16 @@ void write_shadow_errors(const fs::path& folder, const Report& report) {
                folder / "shadow_variance_over_rays");
 }
 
+// cut_offs.png: the ways with lights that lack a range, side by side.
+void write_cut_offs(const fs::path& folder, const Report& report, ReportRun& run) {
+    const auto is_one = [](const ReportRow& row) {
+        return row.setting.axis == SettingAxis::cut_off;
+    };
+    if (std::ranges::none_of(report.rows, is_one)) return;
+    write_canvas(folder / "cut_offs.png",
+                 cut_off_sheet(report.rows, run.references().unbounded(), report.caption));
+}
+
 // Writes report.csv, report.json, report.md, the plots, and the pictures of errors and worst pixels
 // to the folder of -o.
 void write_report(const ReportOptions& options, const Report& report, ReportRun& run) {
@@ -154,10 +164,11 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
     write_atomically(folder / "report.csv", to_csv(report_table(report.rows)));
     write_atomically(folder / "report.md", report_text(report));
     write_json((folder / "report.json").string(), report_json(report));
-    write_plot(surfaces_plot(report.rows, report.caption), folder / "time_against_error");
-    write_plot(unbounded_plot(report.rows, report.caption),
-               folder / "time_against_unbounded_error");
+    for (const auto& [stem, plot] : report_plots(report.rows, report.caption)) {
+        write_plot(plot, folder / stem);
+    }
     write_shadow_errors(folder, report);
+    write_cut_offs(folder, report, run);
     make_output_folder(folder / "worst");
     make_output_folder(folder / "errors");
     for (const ReportRow& row : report.rows) {

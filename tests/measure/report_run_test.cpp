@@ -133,13 +133,16 @@ void expect_whole_tables() {
     EXPECT_EQ(std::set<std::string>(table.columns.begin(), table.columns.end()).size(),
               table.columns.size());
     EXPECT_EQ(report_summary(rows).rows.size(), rows.size());
-    std::size_t points = 0;
-    for (const Plot& plot : {surfaces_plot(rows, "here"), unbounded_plot(rows, "here")}) {
-        for (const PlotSeries& series : plot.series) points += series.points.size();
+    std::map<std::string, std::size_t> points;
+    for (const auto& [stem, plot] : report_plots(rows, "here")) {
+        for (const PlotSeries& series : plot.series) points[stem] += series.points.size();
         EXPECT_TRUE(plot.pareto_front);
         EXPECT_EQ(plot.subtitle, "here");
     }
-    EXPECT_EQ(points, rows.size() + 1) << "the default is in both";
+    const std::map<std::string, std::size_t> expected = {{"time_against_error", rows.size() - 2},
+                                                         {"time_against_unbounded_error", 3},
+                                                         {"time_against_cut_off", 3}};
+    EXPECT_EQ(points, expected) << "the default is in all, the two cut-offs are in the last two";
     EXPECT_NE(report_notes(rows).find("on pictures of 64x36 pixels"), std::string::npos);
 }
 

@@ -19,8 +19,6 @@ constexpr double kNotBurntOut = 0.85;
 constexpr double k0 = 0.6 * 0.6 * 2.51, k1 = 0.6 * 0.03;
 constexpr double k3 = 0.6 * 0.6 * 2.43, k4 = 0.6 * 0.59, k5 = 0.14;
 
-double luminance(const double* rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
-
 // The positive x at which the curve reaches t: the larger root of the quadratic.
 double curve_inverse(double t) {
     const double a = k0 - t * k3;

@@ -19,6 +19,11 @@ struct RgbImage {
     }
 };
 
+/// Luminance of linear Rec. 709 light (ITU-R BT.709-6, item 3.2).
+inline double luminance(const double* rgb) {
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
 /// A black picture.
 RgbImage make_rgb_image(int width, int height);
 

@@ -141,6 +141,46 @@ void draw_worst(Sheet& sheet, const ReportRow& row, const Comparison& against) {
     sheet.top += kZoom * kCrop + kGap;
 }
 
+// Whole pictures of one size, two beside each other.
+class PanelSheet {
+ public:
+    PanelSheet(const RgbImage& size, int panels, const std::string& name,
+               const std::string& caption)
+        : whole_{0, 0, size.width, size.height},
+          zoom_((kMapWidth + size.width - 1) / size.width),
+          sheet_(
+              make_sheet(2 * width() + 3 * kGap, (panels + 1) / 2 * row_height(), name, caption)) {}
+
+    void draw(const std::string& title, const std::vector<std::uint8_t>& codes) {
+        const int left = kGap + panel_ % 2 * (width() + kGap);
+        const int top = sheet_.top + panel_ / 2 * row_height();
+        draw_text(sheet_.canvas, left, top, 1, title);
+        draw_region(sheet_.canvas, left, top + kSheetLine, zoom_,
+                    {codes, whole_.width, whole_.height}, whole_);
+        ++panel_;
+    }
+    Canvas finish() {
+        draw_legend_bar(sheet_.canvas);
+        return std::move(sheet_.canvas);
+    }
+
+ private:
+    int width() const { return zoom_ * whole_.width; }
+    int row_height() const { return kSheetLine + zoom_ * whole_.height + kGap; }
+
+    Region whole_;
+    int zoom_;
+    Sheet sheet_;
+    int panel_ = 0;
+};
+
+std::string told_text(const ReportRow& row) {
+    if (!row.told) return "";
+    return fmt::format(", tells {} {:.1e}",
+                       row.told->kind == ErrorTold::bound ? "bound" : "standard error",
+                       row.told->told);
+}
+
 }  // namespace
 
 Canvas worst_pixel_sheet(const ReportRow& row, const ReportReferences::All& references,
@@ -155,29 +195,32 @@ Canvas worst_pixel_sheet(const ReportRow& row, const ReportReferences::All& refe
 
 Canvas error_map_sheet(const ReportRow& row, const ReportReferences::All& references,
                        const std::string& caption) {
-    const Region whole{0, 0, row.picture.width, row.picture.height};
-    const int zoom = (kMapWidth + whole.width - 1) / whole.width;
-    const int width = zoom * whole.width, height = zoom * whole.height;
-    Sheet sheet = make_sheet(2 * width + 3 * kGap, 2 * (kSheetLine + height + kGap),
-                             row.setting.name, caption);
-    int panel = 0;
-    const auto draw = [&](const std::string& title, const std::vector<std::uint8_t>& codes) {
-        const int left = kGap + panel % 2 * (width + kGap);
-        const int top = sheet.top + panel / 2 * (kSheetLine + height + kGap);
-        draw_text(sheet.canvas, left, top, 1, title);
-        draw_region(sheet.canvas, left, top + kSheetLine, zoom, {codes, whole.width, whole.height},
-                    whole);
-        ++panel;
-    };
-    draw("picture", row.display);
+    PanelSheet sheet(row.picture, 4, row.setting.name, caption);
+    sheet.draw("picture", row.display);
     for (const auto& [name, reference, errors] : comparisons(row, references)) {
         const HdrMetrics& h = errors.hdr;
-        draw(fmt::format("{}: max {:.1e} at {}, RMSE {:.1e}", name, h.relative.max,
-                         pixel_text(h.relative), h.rmse),
-             error_codes(row, reference.picture));
+        sheet.draw(fmt::format("{}: max {:.1e} at {}, RMSE {:.1e}", name, h.relative.max,
+                               pixel_text(h.relative), h.rmse),
+                   error_codes(row, reference.picture));
     }
-    draw_legend_bar(sheet.canvas);
-    return std::move(sheet.canvas);
+    return sheet.finish();
+}
+
+Canvas cut_off_sheet(const std::vector<ReportRow>& rows, const ComparedReference& unbounded,
+                     const std::string& caption) {
+    std::vector<const ReportRow*> shown;
+    for (const ReportRow& row : rows) {
+        if (compares_cut_offs(row.setting.axis)) shown.push_back(&row);
+    }
+    PanelSheet sheet(unbounded.picture.radiance, 2 * static_cast<int>(shown.size()),
+                     "lights without a range: picture and error against R3", caption);
+    for (const ReportRow* row : shown) {
+        sheet.draw(row->setting.name, row->display);
+        sheet.draw(fmt::format("{:.3g} ms, RMSE {:.1e}{}", row->speed.frame_ms.median,
+                               row->unbounded.hdr.rmse, told_text(*row)),
+                   error_codes(*row, unbounded.picture));
+    }
+    return sheet.finish();
 }
 
 }  // namespace kilolux

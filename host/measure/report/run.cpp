@@ -173,6 +173,7 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     row.display = frame.display;
     const ReferencePicture& drawn = references_.drawn(settings).picture;
     row.drawn = compare_hdr(row.picture, drawn.radiance, {.scale = &drawn.scale});
+    row.told = told_error(row, renderer);
     timing.stats = frame.stats;
     timing.expected_ms = frame.stats.frame_ms * pixels(setting.settings) / pixels(settings);
     timing.scaled = timing.expected_ms > kSlowFrameMs;
@@ -181,6 +182,24 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
         timing.stages = frame.stats.stages;
     }
     return row;
+}
+
+// Of a second frame: to tell an error costs time.
+std::optional<ToldError> ReportRun::told_error(const ReportRow& row, Renderer& renderer) {
+    RenderSettings settings = at_error_size(row.setting.settings);
+    const std::optional<ErrorTold> kind = error_told_by(view_.scene, settings);
+    if (!kind) return std::nullopt;
+    on_step_();
+    settings.want = {};
+    settings.want.display = false;
+    settings.want.aovs = {told_aov(*kind)};
+    renderer.change(settings);
+    const Frame frame = renderer.render(view_.camera, view_.time);
+    const bool of_shadows = *kind == ErrorTold::standard && settings.tails != Tails::stochastic;
+    const ComparedReference& exact =
+        of_shadows ? references_.surfaces(settings) : references_.unbounded();
+    return compare_told(*kind, frame.aovs.front(), settings.samples, row.picture,
+                        exact.picture.radiance);
 }
 
 void ReportRun::render_into(Renderer& renderer, Timing& timing) {

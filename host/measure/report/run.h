@@ -15,6 +15,7 @@
 #include "host/measure/report/references.h"
 #include "host/measure/report/setting.h"
 #include "host/measure/report/shadow_error.h"
+#include "host/measure/report/told_error.h"
 #include "host/render/renderer.h"
 
 namespace kilolux {
@@ -46,6 +47,7 @@ struct ReportRow {
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
+    std::optional<ToldError> told;              // of ranges against R3, of shadows against R2
     std::optional<SampledShadowError> sampled;  // see add_shadow_errors()
     RgbImage picture;                           // linear, at the size of the comparison
     std::vector<std::uint8_t> display;          // its sRGB codes
@@ -86,6 +88,7 @@ class ReportRun {
     struct Timing;
 
     ReportRow compare(const ReportSetting& setting, Timing& timing);
+    std::optional<ToldError> told_error(const ReportRow& row, Renderer& renderer);
     void time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
                      Timing* standard);
     void render_into(Renderer& renderer, Timing& timing);

@@ -237,7 +237,12 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
 }
 
 double cut_off_of(const Scene& scene, const RenderSettings& settings) {
-    if (settings.lights.count == 0) return 0.0;
+    if (settings.lights.count == 0) {
+        const bool cuts =
+            std::ranges::any_of(scene.lights, lacks_range) &&
+            tails_for(scene.lights, settings.tails, settings.range_budget) == Tails::bounded;
+        return cuts ? double{settings.range_budget} : 0.0;
+    }
     const LightScale scale = automatic_light_scale(settings.lights, scene);
     return scale.intensity / (std::numbers::pi * scale.radius * scale.radius);
 }

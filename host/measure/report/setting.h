@@ -61,7 +61,7 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
                                            const DeviceInfo& device, const SettingChoice& choice);
 
 /// The radiance on a white surface at which the generated lights are cut off (range_of_light());
-/// 0 without them.
+/// without them that of the lights whose file gives no range; 0 where none is.
 double cut_off_of(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace kilolux

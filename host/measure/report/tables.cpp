@@ -107,10 +107,28 @@ void add_sampled(std::vector<Column<Row>>& columns, const std::vector<Row>& rows
                        }});
 }
 
-// Frame time against the RMSE against one reference, of the rows that `shown` takes.
-template <typename Shown>
-Plot error_plot(const std::vector<Row>& rows, const std::string& caption, Errors Row::*errors,
-                Shown shown) {
+bool has_told(const Row& row) { return row.told.has_value(); }
+
+bool tells(const Row& row, ErrorTold kind) { return row.told && row.told->kind == kind; }
+
+// What pictures tell of their errors, where some do.
+void add_told(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
+    if (std::ranges::none_of(rows, has_told)) return;
+    columns.push_back({"tells", [](const Row& row) {
+                           if (!row.told) return Cell();
+                           return Cell(row.told->kind == ErrorTold::bound ? "bound" : "standard");
+                       }});
+    columns.push_back(
+        {"told RMS", [](const Row& row) { return row.told ? Cell(row.told->told) : Cell(); }});
+    columns.push_back({"told / error", [](const Row& row) {
+                           const bool errs = row.told && row.told->error > 0.0;
+                           return errs ? Cell(row.told->told / row.told->error) : Cell();
+                       }});
+}
+
+// Frame time against `error`, of the rows that have one above 0.
+template <typename Error>
+Plot error_plot(const std::vector<Row>& rows, const std::string& caption, Error error) {
     Plot plot;
     plot.subtitle = caption;
     plot.x_label = "frame [ms] (ratio to the default's in pairs of frames; bars: 5 % to 95 %)";
@@ -118,15 +136,53 @@ Plot error_plot(const std::vector<Row>& rows, const std::string& caption, Errors
     plot.pareto_front = true;
     const double standard_ms = rows.empty() ? 0.0 : rows.front().speed.frame_ms.median;
     for (const Row& row : rows) {
-        if (!shown(row.setting.axis)) continue;
+        const std::optional<double> y = error(row);
+        if (!y || !(*y > 0.0)) continue;  // the axis is logarithmic
         const ReportSpeed& s = row.speed;
-        PlotPoint point{s.relative * standard_ms, (row.*errors).hdr.rmse, row.setting.name};
+        PlotPoint point{s.relative * standard_ms, *y, row.setting.name};
         point.x_low = s.relative_p5 * standard_ms;
         point.x_high = s.relative_p95 * standard_ms;
         series_of(plot, axis_name(row.setting.axis), PlotStyle::points).push_back(std::move(point));
     }
     return plot;
 }
+
+// A kind of plot: file, title, y axis, and a row's y where it is shown.
+struct PlotKind {
+    const char* stem;
+    const char* title;
+    const char* y_label;
+    std::optional<double> (*error)(const Row& row);
+};
+
+constexpr PlotKind kPlots[] = {
+    {"time_against_error", "Speed against error: the picture asked for, in float64 (R2)",
+     "RMSE against R2 [radiance]",
+     [](const Row& row) {
+         const bool shown = keeps_ranges(row.setting.axis);
+         return shown ? std::optional(row.surfaces.hdr.rmse) : std::nullopt;
+     }},
+    {"time_against_unbounded_error", "Speed against error: lights without a range, in float64 (R3)",
+     "RMSE against R3 [radiance]",
+     [](const Row& row) {
+         const bool shown = compares_cut_offs(row.setting.axis);
+         return shown ? std::optional(row.unbounded.hdr.rmse) : std::nullopt;
+     }},
+    {"time_against_bound", "Speed against the bound that the picture tells",
+     "root mean square of the AOV error-bound [radiance]",
+     [](const Row& row) {
+         return tells(row, ErrorTold::bound) ? std::optional(row.told->told) : std::nullopt;
+     }},
+    {"time_against_standard_error", "Speed against the standard error that the picture tells",
+     "root mean square of the luminance's standard error [radiance]",
+     [](const Row& row) {
+         return tells(row, ErrorTold::standard) ? std::optional(row.told->told) : std::nullopt;
+     }},
+    {"time_against_cut_off", "Speed against the radiance at which lights are cut off",
+     "cut-off [radiance on a white surface]", [](const Row& row) {
+         const bool shown = compares_cut_offs(row.setting.axis) && row.cut_off > 0.0;
+         return shown ? std::optional(row.cut_off) : std::nullopt;
+     }}};
 
 }  // namespace
 
@@ -163,6 +219,7 @@ Table report_table(const std::vector<Row>& rows) {
         {{"drawn rmse", [](const Row& row) { return row.drawn.rmse; }},
          {"drawn 99.9 % rel", [](const Row& row) { return row.drawn.relative.percentile_99_9; }},
          {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }}});
+    add_told(columns, rows);
     add_sampled(columns, rows);
     return make_table(columns, rows);
 }
@@ -194,6 +251,7 @@ Table report_summary(const std::vector<Row>& rows) {
         columns.insert(shade, stage_column("cast", {"shadow_scene", "shadow_origins",
                                                     "draw_shadows", "cast_shadows"}));
     }
+    add_told(columns, rows);
     add_sampled(columns, rows);
     return make_table(columns, rows);
 }
@@ -207,23 +265,25 @@ std::string report_notes(const std::vector<Row>& rows) {
         "R1: against float64 shading of the stored surfaces, the kernels' error. drawn: of the "
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
-        "of unlimited range.\n{}",
+        "of unlimited range.\n{}{}",
         error_size_text(rows.front()), size_text(s.width, s.height),
+        std::ranges::any_of(rows, has_told)
+            ? "told: root mean square of the error that a picture tells itself (--aov error-bound, "
+              "error-standard), and its ratio to the error.\n"
+            : "",
         has_sampled(rows) ? "exact RMSE, in 95 %: of sampled shadows, see below.\n" : "");
 }
 
-Plot surfaces_plot(const std::vector<Row>& rows, const std::string& caption) {
-    Plot plot = error_plot(rows, caption, &Row::surfaces, keeps_ranges);
-    plot.title = "Speed against error: the picture asked for, in float64 (R2)";
-    plot.y_label = "RMSE against R2 [radiance]";
-    return plot;
-}
-
-Plot unbounded_plot(const std::vector<Row>& rows, const std::string& caption) {
-    Plot plot = error_plot(rows, caption, &Row::unbounded, compares_cut_offs);
-    plot.title = "Speed against error: lights without a range, in float64 (R3)";
-    plot.y_label = "RMSE against R3 [radiance]";
-    return plot;
+std::vector<ReportPlot> report_plots(const std::vector<Row>& rows, const std::string& caption) {
+    std::vector<ReportPlot> out;
+    for (const PlotKind& kind : kPlots) {
+        Plot plot = error_plot(rows, caption, kind.error);
+        if (plot.series.empty()) continue;
+        plot.title = kind.title;
+        plot.y_label = kind.y_label;
+        out.push_back({kind.stem, std::move(plot)});
+    }
+    return out;
 }
 
 }  // namespace kilolux

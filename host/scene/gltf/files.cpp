@@ -99,9 +99,9 @@ GltfText split_glb(ByteSpan bytes, const std::string& name) {
         throw Error(name + ": the first chunk of the GLB is not JSON");
     }
     GltfText out;
-    const auto json = chunk_at(bytes, kHeaderBytes, name);
-    out.json.assign(json.begin(), json.end());
-    std::size_t offset = next_chunk(bytes, kHeaderBytes, json, name);
+    const auto text = chunk_at(bytes, kHeaderBytes, name);
+    out.json.assign(text.begin(), text.end());
+    std::size_t offset = next_chunk(bytes, kHeaderBytes, text, name);
     // Chunks of other types may stand anywhere after the first and are skipped (section 4.4.3.1).
     while (!out.has_binary && offset + kChunkHeaderBytes <= bytes.size()) {
         const auto chunk = chunk_at(bytes, offset, name);

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// What pictures tell of their errors, in the rows of a report.
+#include "host/measure/report/told_error.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "host/measure/report/error_sheets.h"
+#include "host/measure/report/run.h"
+#include "host/measure/report/tables.h"
+#include "tests/support/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+// Lights so weak that a budget's range ends within the scene.
+Scene scene_without_ranges() {
+    Scene scene = grid_with_every_light();
+    for (SceneLight& light : scene.lights) {
+        light.range = 0.0f;
+        light.intensity *= 0.02f;
+    }
+    return scene;
+}
+
+TEST(ToldError, IsComparedAsRootMeanSquares) {
+    RgbImage picture = make_rgb_image(2, 1), reference = make_rgb_image(2, 1);
+    picture.rgb = {1, 2, 3, 4, 5, 6};
+    reference.rgb = {1, 2, 3, 4, 5, 3};
+    const Layer bound{"error-bound", {"R", "G", "B"}, {2, 2, 2, 2, 2, 2}};
+    const ToldError bounded = compare_told(ErrorTold::bound, bound, 4, picture, reference);
+    EXPECT_DOUBLE_EQ(bounded.told, 2.0) << "of a bound no sample takes anything away";
+    EXPECT_DOUBLE_EQ(bounded.error, std::sqrt(9.0 / 6.0));
+    const Layer standard{"error-standard", {"error.standard"}, {0, 4}};
+    const ToldError sampled = compare_told(ErrorTold::standard, standard, 4, picture, reference);
+    EXPECT_DOUBLE_EQ(sampled.told, std::sqrt(4.0 / 2.0)) << "half of one sample's";
+    EXPECT_NEAR(sampled.error, std::sqrt(0.0722 * 0.0722 * 9.0 / 2.0), 1e-15);
+    EXPECT_THROW(compare_told(ErrorTold::bound, standard, 1, picture, reference), std::exception);
+}
+
+TEST(ToldError, IsThatOfTheWayWithLights) {
+    const Scene unranged = scene_without_ranges();
+    const Scene ranged = make_generated_scene("grid");
+    RenderSettings settings = small_settings(32, 18, 0);
+    const auto told = [&](const Scene& scene, Tails tails, Shadows shadows = Shadows::off) {
+        settings.tails = tails;
+        settings.shadows = shadows;
+        return error_told_by(scene, settings);
+    };
+    EXPECT_EQ(told(unranged, Tails::exact), std::nullopt);
+    EXPECT_EQ(told(unranged, Tails::bounded), ErrorTold::bound);
+    EXPECT_EQ(told(unranged, Tails::tree), ErrorTold::bound);
+    EXPECT_EQ(told(unranged, Tails::stochastic), ErrorTold::standard);
+    EXPECT_EQ(told(unranged, Tails::stochastic, Shadows::sampled), ErrorTold::standard);
+    EXPECT_EQ(told(unranged, Tails::exact, Shadows::sampled), ErrorTold::standard);
+    EXPECT_EQ(told(unranged, Tails::bounded, Shadows::sampled), std::nullopt) << "it is half of it";
+    EXPECT_EQ(told(ranged, Tails::bounded), std::nullopt) << "nothing is lost";
+    EXPECT_EQ(told(ranged, Tails::bounded, Shadows::sampled), ErrorTold::standard);
+    settings.renderer = RendererKind::deferred_all;
+    EXPECT_EQ(told(unranged, Tails::bounded), std::nullopt) << "only deferred tells it";
+}
+
+// The settings of the axis of cut-offs, measured once.
+struct CutOffs {
+    CutOffs() : scene(scene_without_ranges()), settings(small_settings(48, 27, 0)) {
+        settings.tails = Tails::bounded;
+        settings.range_budget = 0.25f;
+        run.emplace(ReportView{scene, first_camera(scene), 0.0}, settings);
+        auto wanted = report_settings(scene, settings, describe(choose_device(settings.device)),
+                                      {.quick = true});
+        std::erase_if(wanted, [](const ReportSetting& s) { return !compares_cut_offs(s.axis); });
+        rows = run->measure(wanted, {0, 1});
+    }
+    Scene scene;
+    RenderSettings settings;
+    std::optional<ReportRun> run;
+    std::vector<ReportRow> rows;
+};
+
+// Root mean square of a row's standard error, from a picture of its own.
+double standard_error(const CutOffs& of, const ReportRow& row) {
+    RenderSettings settings = of.run->at_error_size(row.setting.settings);
+    settings.want.aovs = {"error-standard"};
+    const Frame frame = render_once(of.scene, settings);
+    double sum = 0.0;
+    for (const float value : frame.aovs.front().values) sum += double{value} * value;
+    return std::sqrt(sum / (48 * 27) / settings.samples);
+}
+
+TEST(ToldError, StandsInAReportBesideTheError) {
+    CutOffs measured;
+    std::set<std::string> bounds, standards;
+    for (const ReportRow& row : measured.rows) {
+        if (!row.told) {
+            EXPECT_EQ(row.setting.name, "tails exact");
+            continue;
+        }
+        const double ratio = row.told->told / row.told->error;
+        if (row.told->kind == ErrorTold::bound) {
+            bounds.insert(row.setting.name);
+            EXPECT_GE(ratio, 1.0) << row.setting.name;
+            EXPECT_DOUBLE_EQ(row.told->error, row.unbounded.hdr.rmse) << row.setting.name;
+        } else {
+            standards.insert(row.setting.name);
+            EXPECT_GT(row.told->error, 0.0) << row.setting.name;
+            EXPECT_DOUBLE_EQ(row.told->told, standard_error(measured, row)) << row.setting.name;
+        }
+    }
+    EXPECT_EQ(bounds, (std::set<std::string>{"default", "cut-off 1/16", "cut-off 1/256"}));
+    EXPECT_EQ(standards, std::set<std::string>{"tails stochastic 4"});
+    EXPECT_EQ(measured.rows.front().cut_off, 0.25) << "of lights whose file gives no range";
+    std::set<std::string> stems;
+    for (const ReportPlot& plot : report_plots(measured.rows, "here")) stems.insert(plot.stem);
+    EXPECT_TRUE(stems.contains("time_against_bound"));
+    EXPECT_TRUE(stems.contains("time_against_standard_error"));
+    EXPECT_TRUE(stems.contains("time_against_cut_off"));
+    const Table summary = report_summary(measured.rows);
+    EXPECT_EQ(std::ranges::count(summary.columns, "told / error"), 1);
+    const ComparedReference& unbounded = measured.run->references().unbounded();
+    const Canvas sheet = cut_off_sheet(measured.rows, unbounded, "here");
+    const int panels = 7 * 27 + 14 + 6;  // magnified 7 times, with a line of text and a gap
+    EXPECT_GE(sheet.height, static_cast<int>(measured.rows.size()) * panels);
+    EXPECT_EQ(sheet.width, 2 * 7 * 48 + 3 * 6);
+}
+
+}  // namespace
+}  // namespace kilolux
