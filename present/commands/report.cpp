@@ -136,23 +136,26 @@ Json report_json(const Report& report) {
     return out;
 }
 
-// shadows.csv with its context, as `bench --table` takes it, and its plot.
-void write_shadow_errors(const fs::path& folder, const Report& report) {
-    if (report.shadows.empty()) return;
-    const fs::path csv = folder / "shadows.csv";
-    write_atomically(csv, to_csv(shadow_error_table(report.shadows)));
+// A table with its context, as `bench --table` takes it.
+void write_table(const fs::path& csv, const Table& table, const Report& report) {
+    write_atomically(csv, to_csv(table));
     write_json(context_file(csv).string(),
                {{"command", command_line()}, {"context", report.context}});
+}
+
+// shadows.csv and its plot.
+void write_shadow_errors(const fs::path& folder, const Report& report) {
+    if (report.shadows.empty()) return;
+    write_table(folder / "shadows.csv", shadow_error_table(report.shadows), report);
     write_plot(shadow_error_plot(report.shadows, report.caption),
                folder / "shadow_variance_over_rays");
 }
 
-// cut_offs.png: the ways with lights that lack a range, side by side.
+// cut_offs.csv, and cut_offs.png: the ways with lights that lack a range, side by side.
 void write_cut_offs(const fs::path& folder, const Report& report, ReportRun& run) {
-    const auto is_one = [](const ReportRow& row) {
-        return row.setting.axis == SettingAxis::cut_off;
-    };
-    if (std::ranges::none_of(report.rows, is_one)) return;
+    const Table table = cut_off_table(report.rows);
+    if (table.rows.empty()) return;
+    write_table(folder / "cut_offs.csv", table, report);
     write_canvas(folder / "cut_offs.png",
                  cut_off_sheet(report.rows, run.references().unbounded(), report.caption));
 }

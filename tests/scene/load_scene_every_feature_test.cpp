@@ -10,25 +10,6 @@ namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-
-// The same file as a .gltf with its buffer and images beside it, in names that need encoding.
-fs::path write_with_files(const fs::path& folder) {
-    GltfBuilder file = every_feature_file();
-    fs::create_directory(folder / "my maps");
-    json& images = file.root["images"];
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const json& view = file.root["bufferViews"][images[i]["bufferView"].get<std::size_t>()];
-        const auto first = file.bin.begin() + view["byteOffset"].get<std::ptrdiff_t>();
-        const std::string name = "my maps/image " + std::to_string(i);
-        write_file(folder / name, Blob(first, first + view["byteLength"].get<std::ptrdiff_t>()));
-        images[i] = {{"uri", i == 0 ? name : "my%20maps/image%20" + std::to_string(i)}};
-    }
-    write_file(folder / "all data.bin", file.bin);
-    file.root["buffers"][0]["uri"] = "all%20data.bin";
-    write_file(folder / "scene.gltf", file.root.dump());
-    return folder / "scene.gltf";
-}
 
 class LoadSceneEveryFeature : public testing::Test {
  protected:
@@ -156,7 +137,7 @@ TEST_F(LoadSceneEveryFeature, MovesWithTime) {
 
 TEST_F(LoadSceneEveryFeature, IsTheSameSceneFromFilesBesideIt) {
     testing::internal::CaptureStderr();
-    const Scene split = load_scene(write_with_files(folder_.path()));
+    const Scene split = load_scene(write_with_files(every_feature_file(), folder_.path()));
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "nothing is left out";
     EXPECT_EQ(scene_difference(scene_, split), "");
 }

@@ -162,6 +162,22 @@ void add_profile_lights(GltfBuilder& file) {
           {{"EXT_lights_ies", {{"light", 0}, {"multiplier", 2}, {"color", {0.5, 1, 0.25}}}}}}});
 }
 
+std::filesystem::path write_with_files(GltfBuilder file, const std::filesystem::path& folder) {
+    std::filesystem::create_directory(folder / "my maps");
+    json& images = file.root["images"];
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        const json& view = file.root["bufferViews"][images[i]["bufferView"].get<std::size_t>()];
+        const auto first = file.bin.begin() + view["byteOffset"].get<std::ptrdiff_t>();
+        const std::string name = "my maps/image " + std::to_string(i);
+        write_file(folder / name, Blob(first, first + view["byteLength"].get<std::ptrdiff_t>()));
+        images[i] = {{"uri", i == 0 ? name : "my%20maps/image%20" + std::to_string(i)}};
+    }
+    write_file(folder / "all data.bin", file.bin);
+    file.root["buffers"][0]["uri"] = "all%20data.bin";
+    write_file(folder / "scene.gltf", file.root.dump());
+    return folder / "scene.gltf";
+}
+
 GltfBuilder converted_features_file() {
     GltfBuilder file = quad_with_normal_map();
     add_points_and_lines(file);

@@ -15,6 +15,10 @@ const Blob& webp_image();
 /// A .glb: its second buffer is the fallback of EXT_meshopt_compression.
 GltfBuilder every_feature_file();
 
+/// Writes a file like that to `folder` as a .gltf with its buffer and images beside it, in names
+/// that need encoding. Returns its path.
+std::filesystem::path write_with_files(GltfBuilder file, const std::filesystem::path& folder);
+
 /// A file with everything that the loader makes something else of: specular-glossiness with both
 /// textures, points and lines, instancing, variants, an extension that it leaves out.
 GltfBuilder converted_features_file();

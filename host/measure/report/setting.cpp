@@ -170,7 +170,7 @@ void add_tails(Variants& v, const Scene& scene) {
         }
     }
     if (!can_group(scene, v.base)) return;
-    for (const float share : {0.03f, 0.1f, 0.3f, 1.0f}) {
+    for (const float share : {0.01f, 0.03f, 0.1f, 0.3f, 1.0f}) {
         if (v.base.tails == Tails::tree && share == v.base.tree_share) continue;
         if (v.choice.quick && share != kDefaultTreeShare) continue;
         v.add(SettingAxis::cut_off, fmt::format("tails tree {}", share),

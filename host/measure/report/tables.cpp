@@ -119,7 +119,7 @@ void add_told(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
                            return Cell(row.told->kind == ErrorTold::bound ? "bound" : "standard");
                        }});
     columns.push_back(
-        {"told RMS", [](const Row& row) { return row.told ? Cell(row.told->told) : Cell(); }});
+        {"told", [](const Row& row) { return row.told ? Cell(row.told->told) : Cell(); }});
     columns.push_back({"told / error", [](const Row& row) {
                            const bool errs = row.told && row.told->error > 0.0;
                            return errs ? Cell(row.told->told / row.told->error) : Cell();
@@ -169,7 +169,7 @@ constexpr PlotKind kPlots[] = {
          return shown ? std::optional(row.unbounded.hdr.rmse) : std::nullopt;
      }},
     {"time_against_bound", "Speed against the bound that the picture tells",
-     "root mean square of the AOV error-bound [radiance]",
+     "median of the AOV error-bound [radiance]",
      [](const Row& row) {
          return tells(row, ErrorTold::bound) ? std::optional(row.told->told) : std::nullopt;
      }},
@@ -256,6 +256,26 @@ Table report_summary(const std::vector<Row>& rows) {
     return make_table(columns, rows);
 }
 
+Table cut_off_table(const std::vector<Row>& rows) {
+    std::vector<Row> shown;
+    for (const Row& row : rows) {
+        if (compares_cut_offs(row.setting.axis)) shown.push_back(row);
+    }
+    if (shown.size() < 2) shown.clear();
+    std::vector<Column<Row>> columns = {
+        {"setting", [](const Row& row) { return row.setting.name; }},
+        {"Pareto", [](const Row& row) { return row.unbounded_front ? "R3" : ""; }},
+        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
+        {"x default", [](const Row& row) { return row.speed.relative; }},
+        stage_column("cut [ms]", {"cut_light_tree"}),
+        stage_column("shade [ms]", {"shade"}),
+        count_column("k", &ReportSpeed::k),
+        {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }},
+        {"R3 relMSE", [](const Row& row) { return row.unbounded.hdr.rel_mse; }}};
+    add_told(columns, shown);
+    return make_table(columns, shown);
+}
+
 std::string report_notes(const std::vector<Row>& rows) {
     const RenderSettings& s = rows.front().setting.settings;
     return fmt::format(
@@ -268,8 +288,9 @@ std::string report_notes(const std::vector<Row>& rows) {
         "of unlimited range.\n{}{}",
         error_size_text(rows.front()), size_text(s.width, s.height),
         std::ranges::any_of(rows, has_told)
-            ? "told: root mean square of the error that a picture tells itself (--aov error-bound, "
-              "error-standard), and its ratio to the error.\n"
+            ? "told: the error that a picture tells of itself, of a bound the median, of a "
+              "standard "
+              "error the root mean square; and its ratio to the error's.\n"
             : "",
         has_sampled(rows) ? "exact RMSE, in 95 %: of sampled shadows, see below.\n" : "");
 }

@@ -16,6 +16,10 @@ Table report_table(const std::vector<ReportRow>& rows);
 /// The columns that matter, for reading.
 Table report_summary(const std::vector<ReportRow>& rows);
 
+/// The rows about lights without a range: time, lights evaluated, error and what is told of it.
+/// Without rows where the report has none but the default.
+Table cut_off_table(const std::vector<ReportRow>& rows);
+
 /// Explains the summary's columns and says at which sizes they were measured; some lines.
 std::string report_notes(const std::vector<ReportRow>& rows);
 

@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/measure/metrics/compensated_sum.h"
+#include "host/measure/metrics/statistics.h"
 #include "host/scene/lights/light_ranges.h"
 
 namespace kilolux {
@@ -16,6 +17,32 @@ double root_mean_square(std::size_t count, Value value) {
     CompensatedSum squares;
     for (std::size_t i = 0; i < count; ++i) squares.add(value(i) * value(i));
     return count > 0 ? std::sqrt(squares.value() / static_cast<double>(count)) : 0.0;
+}
+
+ToldError compare_bound(const Layer& told, const RgbImage& picture, const RgbImage& reference) {
+    std::vector<double> bounds, errors;
+    for (std::size_t i = 0; i < told.values.size(); ++i) {
+        if (!(told.values[i] > 0.0f)) continue;
+        bounds.push_back(told.values[i]);
+        errors.push_back(std::abs(picture.rgb[i] - reference.rgb[i]));
+    }
+    if (bounds.empty()) return {ErrorTold::bound};
+    std::ranges::sort(bounds);
+    std::ranges::sort(errors);
+    return {ErrorTold::bound, quantile(bounds, 0.5), quantile(errors, 0.5)};
+}
+
+ToldError compare_standard(const Layer& told, int samples, const RgbImage& picture,
+                           const RgbImage& reference) {
+    const std::size_t count = picture.pixel_count();
+    // An AOV of several samples is that of the sample through the pixels' centres.
+    const double of_mean = 1.0 / std::sqrt(static_cast<double>(samples));
+    ToldError out{ErrorTold::standard};
+    out.told = root_mean_square(count, [&](std::size_t i) { return told.values[i] * of_mean; });
+    out.error = root_mean_square(count, [&](std::size_t i) {
+        return luminance(&picture.rgb[3 * i]) - luminance(&reference.rgb[3 * i]);
+    });
+    return out;
 }
 
 }  // namespace
@@ -44,18 +71,11 @@ ToldError compare_told(ErrorTold kind, const Layer& told, int samples, const Rgb
                        const RgbImage& reference) {
     require_same_size("told error", picture, reference);
     const bool bound = kind == ErrorTold::bound;
-    const std::size_t count = picture.pixel_count() * (bound ? 3 : 1);
-    if (told.values.size() != count)
+    if (told.values.size() != picture.pixel_count() * (bound ? 3 : 1)) {
         throw Error("told error: it has another size than the picture");
-    ToldError out{kind};
-    // An AOV of several samples is the mean of what each tells of itself.
-    const double shrink = bound ? 1.0 : std::sqrt(static_cast<double>(samples));
-    out.told = root_mean_square(count, [&](std::size_t i) { return told.values[i] / shrink; });
-    out.error = root_mean_square(count, [&](std::size_t i) {
-        if (bound) return picture.rgb[i] - reference.rgb[i];
-        return luminance(&picture.rgb[3 * i]) - luminance(&reference.rgb[3 * i]);
-    });
-    return out;
+    }
+    return bound ? compare_bound(told, picture, reference)
+                 : compare_standard(told, samples, picture, reference);
 }
 
 }  // namespace kilolux

@@ -20,8 +20,9 @@ enum class ErrorTold {
 /// What pictures of these settings tell; nothing where all lights are shaded as they are.
 std::optional<ErrorTold> error_told_by(const Scene& scene, const RenderSettings& settings);
 
-/// A picture's own word on its error beside the error, both as root mean squares over the pixels
-/// [radiance]: of all channels for a bound, of the luminance for a standard error.
+/// A picture's own word on its error beside the error [radiance]. For a bound both are medians over
+/// the channels of the pixels that have one: it holds at each. For a standard error both are root
+/// mean squares of the luminance over all pixels: it holds on average.
 struct ToldError {
     ErrorTold kind = ErrorTold::bound;
     double told = 0.0;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a device with memory of its own needs (staged uploads and read-backs, two lanes, a GPU's
+// kernels and groups), with the CPU's device treated as one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/support/render_fixture.h"
+
+namespace kilolux {
+namespace {
+
+// Treats the CPU as a GPU while it lives.
+class AsGpu {
+ public:
+    AsGpu() { setenv("KILOLUX_DEVICE_KIND", "gpu", 1); }
+    ~AsGpu() { unsetenv("KILOLUX_DEVICE_KIND"); }
+    AsGpu(const AsGpu&) = delete;
+    AsGpu& operator=(const AsGpu&) = delete;
+};
+
+RenderSettings settings_with(Geometry geometry) {
+    RenderSettings settings = small_settings(67, 41, 100);
+    settings.geometry = geometry;
+    settings.anisotropy = 1;
+    settings.bloom = 0.1f;
+    settings.want.radiance = true;
+    settings.want.aovs = {"depth", "normal", "position"};
+    return settings;
+}
+
+// Kernels differ in how they round a reciprocal root, in the last place: 1e-5 covers what a hundred
+// lights make of it.
+void expect_close(const std::vector<float>& found, const std::vector<float>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    const double most = std::ranges::max(expected);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        ASSERT_NEAR(found[i], expected[i], 1e-5 * most) << i;
+    }
+}
+
+void expect_same_picture(const Scene& scene, const RenderSettings& settings) {
+    const Frame host = render_once(scene, settings);
+    const AsGpu as_gpu;
+    const DeviceInfo device = describe(choose_device(settings.device));
+    ASSERT_FALSE(device.is_cpu);
+    ASSERT_EQ(device.lane_width, 2);
+    Renderer renderer(scene, settings);
+    const Frame first = renderer.render(first_camera(scene), 0.0);
+    const Frame again = renderer.render(first_camera(scene), 0.0);
+    EXPECT_EQ(first.radiance, again.radiance) << "a second frame stages into the same memory";
+    expect_close(first.radiance, host.radiance);
+    expect_close(first.bloomed, host.bloomed);
+    ASSERT_EQ(first.aovs.size(), host.aovs.size());
+    for (std::size_t i = 0; i < host.aovs.size(); ++i) {
+        expect_close(first.aovs[i].values, host.aovs[i].values);
+    }
+    int codes = 0;
+    ASSERT_EQ(first.display.size(), host.display.size());
+    for (std::size_t i = 0; i < host.display.size(); ++i) {
+        codes = std::max(codes, std::abs(int{first.display[i]} - int{host.display[i]}));
+    }
+    EXPECT_LE(codes, 1);
+    RenderSettings every = settings;
+    every.renderer = RendererKind::deferred_all;
+    renderer.change(every);
+    EXPECT_EQ(renderer.render(first_camera(scene), 0.0).radiance, first.radiance);
+}
+
+TEST(DiscreteDevice, PlanesAreUploaded) {
+    expect_same_picture(grid_with_every_light(), settings_with(Geometry::planes));
+}
+
+TEST(DiscreteDevice, IdsAreUploaded) {
+    expect_same_picture(grid_with_every_light(), settings_with(Geometry::ids));
+}
+
+TEST(DiscreteDevice, ComputeUploadsNothingButTheScene) {
+    expect_same_picture(grid_with_every_light(), settings_with(Geometry::compute));
+}
+
+TEST(DiscreteDevice, CastsShadows) {
+    RenderSettings settings = settings_with(Geometry::ids);
+    settings.shadows = Shadows::exact;
+    expect_same_picture(grid_with_every_light(), settings);
+}
+
+TEST(DiscreteDevice, FollowsMovingLights) {
+    const Scene scene = make_generated_scene("grid");
+    const RenderSettings settings = settings_with(Geometry::ids);
+    const AsGpu as_gpu;
+    Renderer renderer(scene, settings);
+    const Camera camera = first_camera(scene);
+    const Frame still = renderer.render(camera, 0.0), moved = renderer.render(camera, 0.5);
+    EXPECT_NE(still.radiance, moved.radiance);
+    EXPECT_EQ(renderer.render(camera, 0.0).radiance, still.radiance);
+    EXPECT_EQ(moved.radiance, render_once(scene, settings, 0.5).radiance);
+}
+
+}  // namespace
+}  // namespace kilolux
