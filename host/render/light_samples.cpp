@@ -83,6 +83,7 @@ Radiance Pipeline::light_sample(const Sample& band, uint number, const NeededTil
 void Pipeline::light_samples(const Sample& band, Measured out, const AfterShading& then) {
     if (settings.auto_samples.on) return light_until_error(band, out, then);
     if (settings.samples <= 1) {
+        between_();
         std::visit([&](auto& path) { path.light(band, out, then); }, path());
         return;
     }

@@ -114,7 +114,7 @@ class Pipeline {
     FrameReader reader_;
     StageTimer timer_;
     // Of the render() that runs.
-    std::function<void()> between_;  // called before every band and sample
+    std::function<void()> between_;  // called before every sample of every band
     DisplayMemory display_memory_;
     int refining_ = 0;  // samples of a picture that is refined; 0: it is made whole
     int summed_ = 0;    // of them in sum_ before

@@ -29,7 +29,6 @@ Frame Pipeline::render(const Camera& camera, double time, const std::function<vo
     const QueueDrain drain(gpu.queue);
     const LightInput lights = begin(camera, time, frame);
     for (const Band& band : make_bands(settings.height, memory.band_rows)) {
-        between_();
         const int tile = raster_tile(settings.height, band.first_row).first_row;
         render_band({camera, rows_, lights, band, tile == band.first_row}, frame);
     }

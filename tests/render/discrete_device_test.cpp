@@ -25,7 +25,7 @@ RenderSettings settings_with(Geometry geometry) {
     settings.geometry = geometry;
     settings.anisotropy = 1;
     settings.bloom = 0.1f;
-    settings.want.radiance = true;
+    settings.want.bloomed = true;
     settings.want.aovs = {"depth", "normal", "position"};
     return settings;
 }
@@ -34,6 +34,7 @@ RenderSettings settings_with(Geometry geometry) {
 // lights make of it.
 void expect_close(const std::vector<float>& found, const std::vector<float>& expected) {
     ASSERT_EQ(found.size(), expected.size());
+    ASSERT_FALSE(expected.empty());
     const double most = std::ranges::max(expected);
     for (std::size_t i = 0; i < found.size(); ++i) {
         ASSERT_NEAR(found[i], expected[i], 1e-5 * most) << i;
