@@ -143,12 +143,10 @@ void write_table(const fs::path& csv, const Table& table, const Report& report) 
                {{"command", command_line()}, {"context", report.context}});
 }
 
-// shadows.csv and its plot.
+// shadows.csv.
 void write_shadow_errors(const fs::path& folder, const Report& report) {
     if (report.shadows.empty()) return;
     write_table(folder / "shadows.csv", shadow_error_table(report.shadows), report);
-    write_plot(shadow_error_plot(report.shadows, report.caption),
-               folder / "shadow_variance_over_rays");
 }
 
 // cut_offs.csv, and cut_offs.png: the ways with lights that lack a range, side by side.
@@ -160,6 +158,16 @@ void write_cut_offs(const fs::path& folder, const Report& report, ReportRun& run
                  cut_off_sheet(report.rows, run.references().unbounded(), report.caption));
 }
 
+// Last, as they need gnuplot.
+void write_plots(const fs::path& folder, const Report& report) {
+    for (const auto& [stem, plot] : report_plots(report.rows, report.caption)) {
+        write_plot(plot, folder / stem);
+    }
+    if (report.shadows.empty()) return;
+    write_plot(shadow_error_plot(report.shadows, report.caption),
+               folder / "shadow_variance_over_rays");
+}
+
 // Writes report.csv, report.json, report.md, the plots, and the pictures of errors and worst pixels
 // to the folder of -o.
 void write_report(const ReportOptions& options, const Report& report, ReportRun& run) {
@@ -167,9 +175,6 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
     write_atomically(folder / "report.csv", to_csv(report_table(report.rows)));
     write_atomically(folder / "report.md", report_text(report));
     write_json((folder / "report.json").string(), report_json(report));
-    for (const auto& [stem, plot] : report_plots(report.rows, report.caption)) {
-        write_plot(plot, folder / stem);
-    }
     write_shadow_errors(folder, report);
     write_cut_offs(folder, report, run);
     make_output_folder(folder / "worst");
@@ -178,6 +183,7 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
         check_interrupt();
         write_errors(folder, report, row, run);
     }
+    write_plots(folder, report);
     note("wrote   " + folder.string());
 }
 

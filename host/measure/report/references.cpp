@@ -112,6 +112,14 @@ const ComparedReference& ReportReferences::unbounded() {
     return *unbounded_;
 }
 
+const ComparedReference& ReportReferences::unlimited(const RenderSettings& settings) {
+    RenderSettings exact = settings;
+    exact.tails = Tails::exact;
+    exact.range_budget = kDefaultRangeBudget;
+    exact.tree_share = kDefaultTreeShare;
+    return kernels(exact);
+}
+
 std::optional<std::uint64_t> missed_lights(const DecodedSurfaces& found,
                                            const ReferencePicture& reference) {
     if (found.covering.empty()) return std::nullopt;

@@ -44,6 +44,10 @@ class ReportReferences {
     /// shading model asked for. It differs from R2 by the rasteriser's error.
     const ComparedReference& drawn(const RenderSettings& settings);
 
+    /// R1 with every light that lacks a range reaching everywhere: what ranges, groups and random
+    /// numbers do alone is the difference from it.
+    const ComparedReference& unlimited(const RenderSettings& settings);
+
     struct All {
         const ComparedReference &kernels, &surfaces, &unbounded;
     };

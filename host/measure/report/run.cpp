@@ -53,16 +53,15 @@ std::string coverage_key(const RenderSettings& s) {
 }
 
 // The rows of a comparison that are in its Pareto set of time and RMSE.
-template <typename Compared>
-std::vector<ReportRow*> front(std::vector<ReportRow>& rows, PictureErrors ReportRow::*errors,
-                              Compared compared) {
+template <typename Compared, typename Rmse>
+std::vector<ReportRow*> front(std::vector<ReportRow>& rows, Compared compared, Rmse rmse) {
     std::vector<ReportRow*> all, out;
     std::vector<CostAndError> points;
     std::vector<double> noises;
     for (ReportRow& row : rows) {
         if (!compared(row.setting.axis)) continue;
         all.push_back(&row);
-        points.push_back({row.speed.relative, (row.*errors).hdr.rmse});
+        points.push_back({row.speed.relative, rmse(row)});
         noises.push_back(row.speed.noise);
     }
     for (const std::size_t i : pareto_set(points, noises)) out.push_back(all[i]);
@@ -154,6 +153,36 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
     return rows;
 }
 
+// The picture whose error is measured. Of several samples with random ranges it is their mean
+// without jitter, whose edges no reference has. A first frame that seems slow is made again: it may
+// have built the kernels.
+Frame ReportRun::picture_of(Renderer& renderer, const ReportSetting& setting) {
+    Frame frame = renderer.render(view_.camera, view_.time);
+    const double whole = pixels(setting.settings) / pixels(renderer.settings());
+    if (frame.stats.frame_ms * whole > kSlowFrameMs) {
+        on_step_();
+        frame = renderer.render(view_.camera, view_.time);
+    }
+    const int samples = renderer.settings().samples;
+    if (setting.axis != SettingAxis::cut_off || samples <= 1) return frame;
+    std::vector<double> sums(frame.radiance.size());
+    RenderSettings one = renderer.settings();
+    one.samples = 1;
+    for (int i = 0; i < samples; ++i) {
+        on_step_();
+        if (i > 0) ++one.tail_seed;
+        renderer.change(one);
+        const std::vector<float> light = renderer.render(view_.camera, view_.time).radiance;
+        for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += light[k];
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        frame.radiance[k] = static_cast<float>(sums[k] / samples);
+    }
+    frame.display = display_codes(rgb_image_of(frame.width, frame.height, frame.radiance),
+                                  one.exposure, one.tone_curve);
+    return frame;
+}
+
 ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     on_step_();
     const RenderSettings settings = at_error_size(setting.settings);
@@ -162,7 +191,7 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     row.cut_off = cut_off_of(view_.scene, settings);
     const ComparedReference& kernels = references_.kernels(settings);
     Renderer renderer(view_.scene, settings);
-    const Frame frame = renderer.render(view_.camera, view_.time);
+    const Frame frame = picture_of(renderer, setting);
     if (settings.renderer == RendererKind::deferred) {
         row.missed_lights = missed_lights(renderer.lit_surfaces().surfaces, kernels.picture);
     }
@@ -173,6 +202,9 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     row.display = frame.display;
     const ReferencePicture& drawn = references_.drawn(settings).picture;
     row.drawn = compare_hdr(row.picture, drawn.radiance, {.scale = &drawn.scale});
+    if (std::ranges::any_of(view_.scene.lights, lacks_range)) {
+        row.tails = compare_hdr(row.picture, references_.unlimited(settings).picture.radiance);
+    }
     row.told = told_error(row, renderer);
     timing.stats = frame.stats;
     timing.expected_ms = frame.stats.frame_ms * pixels(setting.settings) / pixels(settings);
@@ -190,16 +222,14 @@ std::optional<ToldError> ReportRun::told_error(const ReportRow& row, Renderer& r
     const std::optional<ErrorTold> kind = error_told_by(view_.scene, settings);
     if (!kind) return std::nullopt;
     on_step_();
+    settings.samples = 1;
     settings.want = {};
     settings.want.display = false;
     settings.want.aovs = {told_aov(*kind)};
     renderer.change(settings);
     const Frame frame = renderer.render(view_.camera, view_.time);
-    const bool of_shadows = *kind == ErrorTold::standard && settings.tails != Tails::stochastic;
-    const ComparedReference& exact =
-        of_shadows ? references_.surfaces(settings) : references_.unbounded();
-    return compare_told(*kind, frame.aovs.front(), settings.samples, row.picture,
-                        exact.picture.radiance);
+    return compare_told(*kind, frame.aovs.front(), row.setting.settings.samples, row.picture,
+                        references_.unlimited(settings).picture.radiance);
 }
 
 void ReportRun::render_into(Renderer& renderer, Timing& timing) {
@@ -301,12 +331,12 @@ void add_shadow_errors(std::vector<ReportRow>& rows,
 }
 
 void mark_fronts(std::vector<ReportRow>& rows) {
-    for (ReportRow* row : front(rows, &ReportRow::surfaces, keeps_ranges)) {
-        row->surfaces_front = true;
-    }
-    for (ReportRow* row : front(rows, &ReportRow::unbounded, compares_cut_offs)) {
-        row->unbounded_front = true;
-    }
+    const auto by_surfaces = [](const ReportRow& row) { return row.surfaces.hdr.rmse; };
+    const auto by_unbounded = [](const ReportRow& row) { return row.unbounded.hdr.rmse; };
+    const auto by_tails = [](const ReportRow& row) { return row.tails.rmse; };
+    for (ReportRow* row : front(rows, keeps_ranges, by_surfaces)) row->surfaces_front = true;
+    for (ReportRow* row : front(rows, compares_cut_offs, by_unbounded)) row->unbounded_front = true;
+    for (ReportRow* row : front(rows, compares_cut_offs, by_tails)) row->tails_front = true;
 }
 
 }  // namespace kilolux

@@ -47,12 +47,14 @@ struct ReportRow {
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
-    std::optional<ToldError> told;              // of ranges against R3, of shadows against R2
+    HdrMetrics tails;  // where lights lack a range: of what is done about that, see unlimited()
+    std::optional<ToldError> told;              // against the same
     std::optional<SampledShadowError> sampled;  // see add_shadow_errors()
     RgbImage picture;                           // linear, at the size of the comparison
     std::vector<std::uint8_t> display;          // its sRGB codes
     bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
     bool unbounded_front = false;  // in that of time and R3's RMSE, among the cut-offs
+    bool tails_front = false;      // in that of time and the RMSE of `tails`, among the same
 };
 
 /// Measures the settings of a report over one view of a scene.
@@ -87,6 +89,7 @@ class ReportRun {
     static constexpr int kRounds = 2;
     struct Timing;
 
+    Frame picture_of(Renderer& renderer, const ReportSetting& setting);
     ReportRow compare(const ReportSetting& setting, Timing& timing);
     std::optional<ToldError> told_error(const ReportRow& row, Renderer& renderer);
     void time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
@@ -110,7 +113,7 @@ std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows);
 /// Gives these rows their error.
 void add_shadow_errors(std::vector<ReportRow>& rows, const std::vector<SampledShadowError>& errors);
 
-/// Marks the rows of both Pareto sets.
+/// Marks the rows of the Pareto sets.
 void mark_fronts(std::vector<ReportRow>& rows);
 
 }  // namespace kilolux

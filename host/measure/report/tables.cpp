@@ -168,6 +168,13 @@ constexpr PlotKind kPlots[] = {
          const bool shown = compares_cut_offs(row.setting.axis);
          return shown ? std::optional(row.unbounded.hdr.rmse) : std::nullopt;
      }},
+    {"time_against_tails_error",
+     "Speed against error: lights without a range, on the same surfaces",
+     "RMSE against every light at every pixel [radiance]",
+     [](const Row& row) {
+         const bool shown = row.setting.axis == SettingAxis::cut_off && row.tails.rmse > 0.0;
+         return shown ? std::optional(row.tails.rmse) : std::nullopt;
+     }},
     {"time_against_bound", "Speed against the bound that the picture tells",
      "median of the AOV error-bound [radiance]",
      [](const Row& row) {
@@ -218,7 +225,8 @@ Table report_table(const std::vector<Row>& rows) {
         columns.end(),
         {{"drawn rmse", [](const Row& row) { return row.drawn.rmse; }},
          {"drawn 99.9 % rel", [](const Row& row) { return row.drawn.relative.percentile_99_9; }},
-         {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }}});
+         {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }},
+         {"tails rmse", [](const Row& row) { return row.tails.rmse; }}});
     add_told(columns, rows);
     add_sampled(columns, rows);
     return make_table(columns, rows);
@@ -230,9 +238,10 @@ Table report_summary(const std::vector<Row>& rows) {
         {"Pareto", front_text},
         {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
         {"x default", [](const Row& row) { return row.speed.relative; }},
-        stage_column("draw", {"geometry", "gbuffer_bridge"}),
+        stage_column("draw", {"geometry", "gbuffer_bridge", "bin_triangles", "raster_triangles",
+                              "resolve_surfaces"}),
         stage_column("lists", {"prepare_lights", "build_clusters", "cull_lights", "bin_pixels",
-                               "refine_lights"}),
+                               "refine_lights", "cut_light_tree"}),
         stage_column("shade", {"shade", "forward", "forward_plus"}),
         count_column("k", &ReportSpeed::k),
         {"k*/k", useful_share},
@@ -264,15 +273,17 @@ Table cut_off_table(const std::vector<Row>& rows) {
     if (shown.size() < 2) shown.clear();
     std::vector<Column<Row>> columns = {
         {"setting", [](const Row& row) { return row.setting.name; }},
-        {"Pareto", [](const Row& row) { return row.unbounded_front ? "R3" : ""; }},
+        {"Pareto", [](const Row& row) { return row.tails_front ? "yes" : ""; }},
         {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
         {"x default", [](const Row& row) { return row.speed.relative; }},
         stage_column("cut [ms]", {"cut_light_tree"}),
         stage_column("shade [ms]", {"shade"}),
         count_column("k", &ReportSpeed::k),
-        {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }},
-        {"R3 relMSE", [](const Row& row) { return row.unbounded.hdr.rel_mse; }}};
+        {"tails RMSE", [](const Row& row) { return row.tails.rmse; }},
+        {"tails relMSE", [](const Row& row) { return row.tails.rel_mse; }},
+        {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }}};
     add_told(columns, shown);
+    columns.push_back({"time", [](const Row& row) { return row.speed.scaled ? "by pixels" : ""; }});
     return make_table(columns, shown);
 }
 
