@@ -88,12 +88,13 @@ std::vector<SampledShadowError> shadow_errors(const ReportOptions& options, cons
                                 check_interrupt);
 }
 
-std::string caption_of(const SharedOptions& shared, const DeviceInfo& device,
+std::string caption_of(const SharedOptions& shared, const Scene& scene, const DeviceInfo& device,
                        const ReportRun& run) {
     const RenderSettings& s = shared.settings;
     const auto [width, height] = run.error_size();
     return fmt::format("{}, {} lights, {}x{} pixels, errors at {}x{}, {}", shared.scene,
-                       s.lights.count, s.width, s.height, width, height, device.name);
+                       s.lights.count + scene.lights.size(), s.width, s.height, width, height,
+                       device.name);
 }
 
 // "gbuffer half" -> "gbuffer_half".
@@ -227,7 +228,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     const ReportView view{scene, camera, shared.time};
     ReportRun run(view, shared.settings, error_limits(options.budget));
     report.context["error_resolution"] = run.error_size();
-    report.caption = caption_of(shared, device, run);
+    report.caption = caption_of(shared, scene, device, run);
     report.rows = measure(options, run, chosen_settings(options, scene));
     report.shadows = shadow_errors(options, view, run, report.rows);
     add_shadow_errors(report.rows, report.shadows);
