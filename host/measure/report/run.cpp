@@ -221,6 +221,7 @@ std::optional<ToldError> ReportRun::told_error(const ReportRow& row, Renderer& r
     RenderSettings settings = at_error_size(row.setting.settings);
     const std::optional<ErrorTold> kind = error_told_by(view_.scene, settings);
     if (!kind) return std::nullopt;
+    const ReferencePicture& reference = references_.unlimited(settings).picture;
     on_step_();
     settings.samples = 1;
     settings.want = {};
@@ -229,7 +230,7 @@ std::optional<ToldError> ReportRun::told_error(const ReportRow& row, Renderer& r
     renderer.change(settings);
     const Frame frame = renderer.render(view_.camera, view_.time);
     return compare_told(*kind, frame.aovs.front(), row.setting.settings.samples, row.picture,
-                        references_.unlimited(settings).picture.radiance);
+                        reference.radiance);
 }
 
 void ReportRun::render_into(Renderer& renderer, Timing& timing) {
