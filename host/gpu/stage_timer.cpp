@@ -2,32 +2,22 @@
 #include "host/gpu/stage_timer.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace kilolux {
 namespace {
 
 constexpr double kMsPerTick = 1e-6;  // profiling counts nanoseconds
 
-// When a command was enqueued and ran, on the device's clock.
-struct Span {
-    cl_ulong queued, start, end;
-};
-
-Span span_of(const cl::Event& event) {
-    return {event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>(),
-            event.getProfilingInfo<CL_PROFILING_COMMAND_START>(),
-            event.getProfilingInfo<CL_PROFILING_COMMAND_END>()};
+std::int64_t ticks(std::chrono::steady_clock::duration time) {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
 }
 
-// Gaps between commands, from where the later one was enqueued on.
-cl_ulong launch_ticks(std::vector<Span> spans) {
-    std::ranges::sort(spans, {}, &Span::start);
-    cl_ulong sum = 0;
-    for (std::size_t i = 1; i < spans.size(); ++i) {
-        const cl_ulong ready = std::max(spans[i - 1].end, spans[i].queued);
-        if (spans[i].start > ready) sum += spans[i].start - ready;
-    }
-    return sum;
+// On the device's clock.
+CommandSpan span_of(const cl::Event& event) {
+    return {static_cast<std::int64_t>(event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>()),
+            static_cast<std::int64_t>(event.getProfilingInfo<CL_PROFILING_COMMAND_START>()),
+            static_cast<std::int64_t>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>())};
 }
 
 }  // namespace
@@ -36,24 +26,43 @@ void StageTimer::record(std::string_view stage, const cl::Event& event) {
     auto entry = std::find_if(entries_.begin(), entries_.end(),
                               [&](const Entry& e) { return e.stage == stage; });
     if (entry == entries_.end()) entry = entries_.insert(entry, Entry{std::string(stage), {}});
-    entry->events.push_back(event);
+    entry->events.push_back({event, Clock::now()});
+}
+
+void StageTimer::record_host(double ms) {
+    const std::int64_t end = ticks(Clock::now().time_since_epoch());
+    host_.push_back({end - static_cast<std::int64_t>(ms / kMsPerTick), end});
 }
 
 std::vector<StageTimer::Time> StageTimer::take() {
+    idle_ = {};
+    if (entries_.empty()) return {};
     std::vector<Time> times;
-    std::vector<Span> spans;
+    std::vector<CommandSpan> spans;
+    if (last_) spans.push_back(*last_);
+    // From the device's clock to the host's: at least as much as the quickest record() tells.
+    std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
         Time time{entry.stage, 0.0};
-        for (const cl::Event& event : entry.events) {
+        for (const auto& [event, recorded] : entry.events) {
             event.wait();
-            spans.push_back(span_of(event));
-            time.ms += kMsPerTick * static_cast<double>(spans.back().end - spans.back().start);
+            const CommandSpan span = span_of(event);
+            spans.push_back(span);
+            time.ms += kMsPerTick * static_cast<double>(span.end - span.start);
+            offset = std::min(offset, ticks(recorded.time_since_epoch()) - span.queued);
         }
         times.push_back(std::move(time));
     }
     entries_.clear();
-    launch_ms_ = kMsPerTick * static_cast<double>(launch_ticks(std::move(spans)));
+    last_ = *std::ranges::max_element(spans, {}, &CommandSpan::end);
+    for (HostSpan& span : host_) span = {span.start - offset, span.end - offset};
+    idle_ = idle_time(std::move(spans), host_);
+    host_.clear();
     return times;
 }
+
+double StageTimer::launch_ms() const { return kMsPerTick * static_cast<double>(idle_.launch); }
+
+double StageTimer::enqueue_ms() const { return kMsPerTick * static_cast<double>(idle_.enqueue); }
 
 }  // namespace kilolux

@@ -2,17 +2,24 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "host/gpu/idle_time.h"
 
 namespace kilolux {
 
 /// Collects the profiling events of a frame under their stages' names.
 class StageTimer {
  public:
-    /// Adds an event to a stage; a stage may have several.
+    /// Adds an event to a stage; a stage may have several. Call it when the command was enqueued.
     void record(std::string_view stage, const cl::Event& event);
+
+    /// The last `ms` of the host have a row of their own.
+    void record_host(double ms);
 
     struct Time {
         std::string stage;
@@ -23,17 +30,27 @@ class StageTimer {
     /// done.
     std::vector<Time> take();
 
-    /// Of the events of the last take(): for how long the device idled although the next one was
-    /// enqueued [ms].
-    double launch_ms() const { return launch_ms_; }
+    /// Before each of the events of the last take(), but for the very first of all: for how long
+    /// the device idled although the event's command was enqueued [ms].
+    double launch_ms() const;
+    /// The same as long as it was not, without the time that record_host() tells of [ms].
+    double enqueue_ms() const;
 
  private:
+    using Clock = std::chrono::steady_clock;
+
+    struct Recorded {
+        cl::Event event;
+        Clock::time_point time;
+    };
     struct Entry {
         std::string stage;
-        std::vector<cl::Event> events;
+        std::vector<Recorded> events;
     };
     std::vector<Entry> entries_;
-    double launch_ms_ = 0.0;
+    std::optional<CommandSpan> last_;  // command of the last take()
+    std::vector<HostSpan> host_;       // on Clock
+    IdleTime idle_;
 };
 
 }  // namespace kilolux

@@ -28,10 +28,11 @@ struct StageTime {
     double limit_ms = 0.0;  // by the device's measured limits; 0: no model
 };
 
-/// Rows of no kernel: bringing pixels to the host, with what the host does there; and the device's
-/// idling before commands that were enqueued.
+/// Rows of no kernel: bringing pixels to the host, with what the host does there; the device's
+/// idling between commands, of which the next was enqueued, or was not.
 inline constexpr const char* kReadBackStage = "read_back";
 inline constexpr const char* kLaunchStage = "launch";
+inline constexpr const char* kEnqueueStage = "enqueue";
 
 /// Adds to the stage's time, or appends the stage.
 void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms);

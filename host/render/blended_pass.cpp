@@ -33,8 +33,7 @@ BlendedPass::BlendedPass(const PathContext& context, bool clustered)
       pass_(context.meshes(), forward_features(context.plan, clustered, false)) {}
 
 void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
-                       const GBufferTargets& targets, const HostCoarseLists* lists,
-                       std::vector<StageTime>& stages) {
+                       const GBufferTargets& targets, const HostCoarseLists* lists, Measured out) {
     const RenderSettings& settings = context_.settings;
     const View& view = radiance.view;
     const auto planes =
@@ -42,7 +41,7 @@ void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
     pass_.draw_blended(crop(sample.camera, settings.height, sample.band), view, targets, planes,
                        forward_lights(sample, settings.ambient, lists));
     upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
-    add_stage_time(stages, "blended", pass_.last_ms());
+    add_host_time(out, "blended", pass_.last_ms());
 }
 
 }  // namespace kilolux

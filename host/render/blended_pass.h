@@ -22,7 +22,7 @@ class BlendedPass {
     /// Draws them over `radiance`, behind what `targets` show. `lists`: null for every light.
     /// Blocks.
     void draw(const Sample& sample, const Radiance& radiance, const GBufferTargets& targets,
-              const HostCoarseLists* lists, std::vector<StageTime>& stages);
+              const HostCoarseLists* lists, Measured out);
 
  private:
     PathContext context_;

@@ -59,7 +59,7 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
     }
     if (blended_) {
         const HostCoarseLists lists = lighting_.light_lists().download_coarse(lighting_.lists());
-        blended_->draw(sample, radiance, surfaces_.targets(), &lists, out.stats.stages);
+        blended_->draw(sample, radiance, surfaces_.targets(), &lists, out);
         then(radiance);
     }
     return radiance;
@@ -220,7 +220,7 @@ Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterS
     out.stats.evaluations_per_pixel = sample.lights.count;
     out.stats.useful_evaluations_per_pixel = -1.0;
     if (blended_) {
-        blended_->draw(sample, radiance, surfaces_.targets(), nullptr, out.stats.stages);
+        blended_->draw(sample, radiance, surfaces_.targets(), nullptr, out);
     }
     then(radiance);
     return radiance;

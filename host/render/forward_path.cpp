@@ -37,8 +37,8 @@ Radiance ForwardPath::light(const Sample& sample, Measured out, const AfterShadi
                   background);
     const std::vector<float> planes = forward_.read_radiance(view.stride);
     upload<float>(context_.gpu, radiance.planes, planes);
+    add_host_time(out, clustered_ ? "forward_plus" : "forward", forward_.last_ms());
     then(radiance);
-    add_stage_time(out.stats.stages, clustered_ ? "forward_plus" : "forward", forward_.last_ms());
     out.stats.evaluations_per_pixel = -1.0;
     out.stats.useful_evaluations_per_pixel = -1.0;
     if (settings.want.counts) {

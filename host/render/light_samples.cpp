@@ -45,6 +45,7 @@ void add_times(StageTimer& timer, FrameStats& stats) {
         add_stage_time(stats.stages, time.stage, time.ms);
     }
     add_stage_time(stats.stages, kLaunchStage, timer.launch_ms());
+    add_stage_time(stats.stages, kEnqueueStage, timer.enqueue_ms());
 }
 
 // How many of the samples are wanted, and which of them the last frame has summed.

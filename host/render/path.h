@@ -87,4 +87,10 @@ struct Measured {
     FrameStats& stats;  // counts, and the host's stages
 };
 
+/// Adds a stage that the host or OpenGL has just ended.
+inline void add_host_time(Measured out, std::string_view stage, double ms) {
+    out.timer.record_host(ms);
+    add_stage_time(out.stats.stages, stage, ms);
+}
+
 }  // namespace kilolux

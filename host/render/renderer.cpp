@@ -79,7 +79,7 @@ void Pipeline::render_band(const Sample& band, Frame& frame) {
                   [&](const Radiance& radiance) { develop(radiance, frame); });
     const double placed_ms = reader_.finish();
     add_times(timer_, stats);
-    add_stage_time(stats.stages, kReadBackStage, placed_ms);
+    add_host_time({timer_, stats}, kReadBackStage, placed_ms);
     add_band(frame.stats, stats);
     frame.stats.frame_ms += ms_since(start);
     if (settings.want.pixels()) add_pixels(band, frame);

@@ -75,7 +75,7 @@ GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
     if (resolve_ && source.masked && !mask_) mask_.emplace(context_.gpu, context_.tuning);
     const std::uint64_t version = gbuffer_.version + 1;
     if (planes_) {
-        gbuffer_ = draw_planes(sample, out.stats.stages);
+        gbuffer_ = draw_planes(sample, out);
     } else {
         gbuffer_ = triangles_ ? draw_in_opencl(sample, out) : draw_ids(sample, out);
     }
@@ -84,19 +84,19 @@ GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
     return gbuffer_;
 }
 
-GBuffer SurfacePass::draw_planes(const Sample& sample, std::vector<StageTime>& stages) {
+GBuffer SurfacePass::draw_planes(const Sample& sample, Measured out) {
     const RenderSettings& settings = context_.settings;
     const Band band = sample.band;
     const Band tile = raster_tile(settings.height, band.first_row);
     if (sample.redraw) {
         planes_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows);
-        add_stage_time(stages, "geometry", planes_->last_ms());
+        add_host_time(out, "geometry", planes_->last_ms());
     }
     GBuffer gbuffer =
         bridge_.transfer(planes_->targets(), context_.plan.gbuffer,
                          view_of(sample.camera, settings.width, settings.height, band),
                          band.first_row - tile.first_row);
-    add_stage_time(stages, "gbuffer_bridge", bridge_.last_ms());
+    add_host_time(out, "gbuffer_bridge", bridge_.last_ms());
     return gbuffer;
 }
 
@@ -108,12 +108,12 @@ GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
         const auto open = open_tiles(sample, tile.first_row);
         ids_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows,
                    open ? &*open : nullptr);
-        add_stage_time(out.stats.stages, "geometry", ids_->last_ms());
+        add_host_time(out, "geometry", ids_->last_ms());
     }
     const View view = view_of(sample.camera, settings.width, settings.height, band);
     const DeviceArray<uint> ids =
         bridge_.transfer_ids(ids_->targets(), view, band.first_row - tile.first_row);
-    add_stage_time(out.stats.stages, "gbuffer_bridge", bridge_.last_ms());
+    add_host_time(out, "gbuffer_bridge", bridge_.last_ms());
     return resolve(ids, context_.surfaces->at(ids_->draws()), view, sample, out);
 }
 
@@ -149,7 +149,7 @@ void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffe
     shadows_.casters = context_.shadows->casters();
     const std::chrono::duration<double, std::milli> spent =
         std::chrono::steady_clock::now() - start;
-    add_stage_time(out.stats.stages, "shadow_scene", spent.count());
+    add_host_time(out, "shadow_scene", spent.count());
     shadows_.casters.materials = scene.materials;
     shadows_.casters.textures = scene.textures;
     shadows_.casters.texels = scene.texels;

@@ -54,7 +54,7 @@ class SurfacePass {
         bool masked;             // some tiles are background though surfaces cover them
         bool operator==(const Source&) const = default;
     };
-    GBuffer draw_planes(const Sample& sample, std::vector<StageTime>& stages);
+    GBuffer draw_planes(const Sample& sample, Measured out);
     GBuffer draw_ids(const Sample& sample, Measured out);
     GBuffer draw_in_opencl(const Sample& sample, Measured out);
     GBuffer resolve(const DeviceArray<uint>& drawn, const SurfaceBuffers& scene, const View& view,

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace kilolux {
+
+/// A command of the device, all three on one clock [ns].
+struct CommandSpan {
+    std::int64_t queued, start, end;
+};
+
+/// What the host did under a stage's name, on the same clock [ns].
+struct HostSpan {
+    std::int64_t start, end;
+};
+
+/// How long a device idled between its commands [ns].
+struct IdleTime {
+    std::int64_t launch = 0;   // the next command was enqueued
+    std::int64_t enqueue = 0;  // it was not yet; without what the host spans tell
+};
+
+/// Spans in any order; host spans do not overlap each other.
+IdleTime idle_time(std::vector<CommandSpan> commands, const std::vector<HostSpan>& host);
+
+}  // namespace kilolux
