@@ -114,9 +114,14 @@ TEST(Tails, ABoundIsNeverBelowTheError) {
 TEST(Tails, ABoundIsNothingWhereNothingIsLost) {
     RenderSettings settings = tail_settings(Tails::exact);
     settings.want.aovs = {"error-bound"};
-    const std::vector<float> bound =
-        render_once(scene_without_ranges(5), settings).aovs.front().values;
-    for (std::size_t i = 0; i < bound.size(); ++i) EXPECT_EQ(bound[i], 0.0f) << "value " << i;
+    for (const int lanes : {1, 4, 8, 16}) {
+        settings.kernels.lanes = lanes;
+        const std::vector<float> bound =
+            render_once(scene_without_ranges(5), settings).aovs.front().values;
+        for (std::size_t i = 0; i < bound.size(); ++i) {
+            EXPECT_EQ(bound[i], 0.0f) << "value " << i << ", lanes " << lanes;
+        }
+    }
 }
 
 float luminance_of(const std::vector<float>& radiance, std::size_t i) {
