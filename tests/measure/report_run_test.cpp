@@ -183,6 +183,12 @@ TEST(ReportRun, MeasuresWhatEachSettingCostsAndErrs) {
     expect_worst_pixels_in_the_middle();
 }
 
+TEST(ReportRun, ALargerFrameTellsHowTimeGrowsWithPixels) {
+    EXPECT_DOUBLE_EQ(extrapolated_ms({100.0, 5.0}, {400.0, 8.0}, 1000.0), 14.0);
+    EXPECT_DOUBLE_EQ(extrapolated_ms({100.0, 7.0}, {400.0, 7.0}, 1000.0), 7.0);
+    EXPECT_DOUBLE_EQ(extrapolated_ms({100.0, 9.0}, {400.0, 7.0}, 1000.0), 7.0);  // noise
+}
+
 TEST(ReportRun, DisplayCodesAreTheDevices) {
     const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_settings(64, 36, 100);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSettingMs = 10000.0;    // for the frames of a setting in a round
 constexpr double kSlowFrameMs = 20000.0;  // slower frames are not timed at full size
+constexpr int kLargerSide = 4;            // of the frame that tells how time grows with pixels
 
 double pixels(const RenderSettings& s) { return static_cast<double>(s.width) * s.height; }
 
@@ -207,13 +208,30 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     }
     row.told = told_error(row, renderer);
     timing.stats = frame.stats;
-    timing.expected_ms = frame.stats.frame_ms * pixels(setting.settings) / pixels(settings);
+    timing.expected_ms = expected_ms(setting.settings, frame.stats.frame_ms);
     timing.scaled = timing.expected_ms > kSlowFrameMs;
     if (timing.scaled) {
         timing.frames = {frame.stats.frame_ms};
         timing.stages = frame.stats.stages;
     }
     return row;
+}
+
+// Of a frame at full size, from that of the comparison. Where a small frame's time does not grow
+// with its pixels (few of them leave a GPU idle), a larger frame tells.
+double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms) {
+    RenderSettings larger = at_error_size(whole);
+    const TimedFrame small{pixels(larger), compared_ms};
+    const double proportional = compared_ms * pixels(whole) / small.pixels;
+    larger.width *= kLargerSide;
+    larger.height *= kLargerSide;
+    if (proportional <= kSlowFrameMs || pixels(larger) >= pixels(whole)) return proportional;
+    Renderer renderer(view_.scene, larger);
+    on_step_();
+    renderer.render(view_.camera, view_.time);  // makes what later frames keep
+    on_step_();
+    const Frame frame = renderer.render(view_.camera, view_.time);
+    return extrapolated_ms(small, {pixels(larger), frame.stats.frame_ms}, pixels(whole));
 }
 
 // Of a second frame: to tell an error costs time.
@@ -308,6 +326,11 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
         scale * row.speed.k * static_cast<double>(found->second.drawn_pixels);
     const double ms = shading_ms(row.speed);
     row.speed.evaluations_per_s = ms > 0.0 ? 1e3 * evaluations / ms : 0.0;
+}
+
+double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels) {
+    const double slope = std::max(0.0, larger.ms - small.ms) / (larger.pixels - small.pixels);
+    return larger.ms + slope * (pixels - larger.pixels);
 }
 
 std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows) {

@@ -91,6 +91,7 @@ class ReportRun {
 
     Frame picture_of(Renderer& renderer, const ReportSetting& setting);
     ReportRow compare(const ReportSetting& setting, Timing& timing);
+    double expected_ms(const RenderSettings& whole, double compared_ms);
     std::optional<ToldError> told_error(const ReportRow& row, Renderer& renderer);
     void time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
                      Timing* standard);
@@ -107,6 +108,13 @@ class ReportRun {
     std::map<std::string, FrameStats> coverages_;
     std::optional<Renderer> standard_;  // of the default setting, while frames are timed
 };
+
+/// Time of a frame [ms] of `pixels`, by a straight line through two smaller frames of increasing
+/// size; at least the larger one's.
+struct TimedFrame {
+    double pixels = 0.0, ms = 0.0;
+};
+double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels);
 
 /// Numbers of rays of the rows that are about sampled shadows, and those of ShadowErrorPlan.
 std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows);
