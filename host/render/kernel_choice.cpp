@@ -2,12 +2,24 @@
 #include "host/render/kernel_choice.h"
 
 namespace kilolux {
+namespace {
+
+// Tunings are of thousands of lights. With a million a GPU hides the waits of a chunk's walk behind
+// other chunks, this many times as many.
+constexpr int kManyLights = 8;
+
+}  // namespace
 
 StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& settings) {
     StoredTuning choice = known_tuning(device);
     if (settings.lanes > 0) choice.lanes = settings.lanes;
     if (settings.group_height > 0) choice.tuning.shade_rows = settings.group_height;
-    if (settings.chunks > 0) choice.tuning.cull_chunks = settings.chunks;
+    int& chunks = choice.tuning.cull_chunks;
+    if (settings.chunks > 0) {
+        chunks = settings.chunks;
+    } else if (!device.is_cpu) {
+        choice.tuning.most_cull_chunks = kManyLights * chunks;
+    }
     return choice;
 }
 

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/render/light_order.h"
@@ -15,7 +16,7 @@ namespace kilolux {
 namespace {
 
 // Generated lights are ordered anew this often [s]: they move at most 1.2 m/s, so neighbours stay
-// neighbours. The order at a time does not depend on the times before it.
+// neighbours. Order and places at a time do not depend on the times before it.
 constexpr double kOrderInterval = 0.5;
 // Within this of the origin [m] no light is too far from the camera to be used.
 constexpr double kNear = 4e14;
@@ -40,6 +41,8 @@ SceneLight placed_light(const SceneLight& light, const Camera& camera) {
 bool is_near(const glm::dvec3& p) {
     return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(kNear)));
 }
+
+std::array<double, 3> axes(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 std::vector<SceneLight> all_lights(const std::vector<SceneLight>& own, const LightOptions& options,
                                    const Scene& scene, double time) {
@@ -194,13 +197,34 @@ void LightSource::upload() {
     const std::span<WorldLight> rows = move_.stage(row_count());
     tbb::parallel_for(std::size_t{0}, row_count(),
                       [&](std::size_t i) { rows[i] = world_light(light(i)); });
+    stage_drifts();
     move_.upload();
+    drift_time_.reset();
     std::vector<DirectionalLight> directional;
     for (const std::uint32_t number : directional_order_) {
         directional.push_back(directional_row(own_[number]));
     }
     kilolux::upload<DirectionalLight>(gpu_, directional_.reserve(directional.size()), directional);
-    input_camera_.reset();
+}
+
+// How the generated lights move from the time of their order on: until the next one the device
+// finds their places.
+void LightSource::stage_drifts() {
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t i = 0; i < order_.size(); ++i) {
+        if (order_[i] >= own_.size()) rows.push_back(i);
+    }
+    if (rows.empty()) return;
+    const LightGenerator start(generated_, scene_, *order_time_);
+    std::vector<DriftBox> boxes;
+    for (const Box& part : start.parts())
+        boxes.push_back(drift_box(axes(part.min), axes(part.size())));
+    const std::span<LightDrift> drifts = move_.stage_drifts(rows.size(), boxes);
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+        const LightTrack& track = tracks_[rows[i]];
+        const LightTurns turns = start.turns(track);
+        drifts[i] = light_drift(rows[i], track.part, axes(turns.at), axes(turns.rate));
+    });
 }
 
 void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
@@ -214,8 +238,11 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
         at_time_.emplace(generated_, scene_, time);
         time_ = time;
         order_time_ = order_time(time);
-        if (out_of_order) find_order(camera_position);
-        upload();
+        input_camera_.reset();
+        if (out_of_order) {
+            find_order(camera_position);
+            upload();
+        }
     }
     stats.lights_given = own_.size() + generated_.count;
     stats.lights_used = order_.size() + tree_members_.size() + directional_order_.size();
@@ -225,6 +252,8 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
 
 LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, StageTimer& timer) {
     if (reuse && input_camera_ == camera_position) return input_;
+    if (!reuse || drift_time_ != time_) move_.drift(*time_ - *order_time_, timer);
+    drift_time_ = time_;
     const glm::dvec3& p = camera_position;
     input_.lights = move_.enqueue(point_pair(p.x, p.y, p.z), timer);
     input_.count = static_cast<uint>(order_.size());

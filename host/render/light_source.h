@@ -61,6 +61,7 @@ class LightSource {
     void find_order(const glm::dvec3& camera_position);
     void plant_tree(const std::vector<std::uint32_t>& members);
     void upload();
+    void stage_drifts();
     void upload_tables();
     void upload_profiles();
 
@@ -80,6 +81,7 @@ class LightSource {
     std::vector<std::uint32_t> order_, directional_order_;
     std::vector<LightTrack> tracks_;          // of order_'s generated lights, else unset
     std::optional<double> order_time_;        // at which the generated ones were ordered
+    std::optional<double> drift_time_;        // at which the device has them
     std::optional<glm::dvec3> order_camera_;  // from where they were, if that matters
     std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made
     LightInput input_;

@@ -20,7 +20,8 @@ using Bytes = std::uint64_t;
 // The program with its drivers and their compilers: resident size of a 16x16 picture, rounded up.
 constexpr Bytes kProgram = Bytes{256} << 20;
 // Of one light: twice as the scene has it, its track, rows on the host and on the device, prepared.
-constexpr Bytes kLight = 2 * sizeof(SceneLight) + sizeof(LightTrack) + 4 * 48 + 48;
+constexpr Bytes kLight =
+    2 * sizeof(SceneLight) + sizeof(LightTrack) + 4 * 48 + 48 + 2 * sizeof(LightDrift);
 // Radiance and display picture, and as much again while a file is made of them.
 constexpr Bytes kHostPixel = 2 * (3 * sizeof(float) + 4);
 // Radiance and display picture on the device, and twice on the host: as planes and pixels.

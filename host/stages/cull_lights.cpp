@@ -11,6 +11,16 @@ constexpr std::string_view kBruteForce = "cull_lights_brute_force";
 // Room to begin with: enough for most scenes' first frame.
 constexpr std::size_t kFirstCoarseEntries = std::size_t{1} << 20;
 
+// More lights a chunk than this are shared with more chunks.
+constexpr std::size_t kLightsOfChunk = 256;
+
+std::size_t chunk_count(std::size_t lights, const Tuning& tuning) {
+    const auto usual = static_cast<std::size_t>(tuning.cull_chunks);
+    const auto most = static_cast<std::size_t>(std::max(tuning.most_cull_chunks, 0));
+    const std::size_t wanted = std::max(usual, std::min(most, lights / kLightsOfChunk));
+    return std::clamp<std::size_t>(lights, 1, wanted);
+}
+
 BuildOptions cull_options(const KernelFeatures& features) {
     return BuildOptions()
         .define("HAS_SPOT_LIGHTS", features.spot_lights)
@@ -44,8 +54,7 @@ CoarseLists CullLights::lists_so_far(const DeviceArray<uint>& offsets) const {
 CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes& boxes,
                                 StageTimer& timer, const DeviceArray<std::uint8_t>& occupied) {
     const ClusterGrid& grid = boxes.grid;
-    const auto chunks =
-        std::clamp<std::size_t>(lights.count, 1, static_cast<std::size_t>(tuning_.cull_chunks));
+    const std::size_t chunks = chunk_count(lights.count, tuning_);
     const std::size_t stride = cursor_stride(grid);
     const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
     const DeviceArray<uint> counts = lists_.counts(stride);

@@ -9,6 +9,7 @@
 #include "host/base/source.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
+#include "kernels/shared/light_drift.h"
 #include "kernels/shared/surface_scene.h"
 #include "tests/support/test_gpu.h"
 
@@ -45,6 +46,10 @@ std::vector<Measure> surface_measures() {
     return {SIZE_OF(WorldLight),
             OFFSET_OF(WorldLight, light),
             OFFSET_OF(WorldLight, position_low),
+            SIZE_OF(LightDrift),
+            OFFSET_OF(LightDrift, rate_low),
+            SIZE_OF(DriftBox),
+            OFFSET_OF(DriftBox, extent_low),
             SIZE_OF(MeshRow),
             OFFSET_OF(MeshRow, material),
             OFFSET_OF(MeshRow, color),
@@ -114,8 +119,8 @@ std::vector<Measure> cluster_measures() {
 constexpr std::string_view kHeaders[] = {
     "kernels/shared/light_profile.h", "kernels/shared/cluster_grid.h",
     "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
-    "kernels/shared/light.h",         "kernels/shared/surface_scene.h",
-    "kernels/shared/view.h"};
+    "kernels/shared/light.h",         "kernels/shared/light_drift.h",
+    "kernels/shared/surface_scene.h", "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {
     Gpu gpu = test_gpu();

@@ -33,7 +33,7 @@ StageWork prefix_sum_work(double counts) {
 // root, q^2 3, the guard 4.
 InstructionCounts cone_guard_instructions() { return {24.0, 0.0, 1.0, 0.0}; }
 
-// Three differences of 7.
+// Three differences of 7. What lights that move by themselves add is left out.
 StageWork move_work(const StageCounts& c) {
     return {.bytes_read = c.lights * sizeof(WorldLight),
             .bytes_written = c.lights * sizeof(Light),

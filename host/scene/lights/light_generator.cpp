@@ -152,13 +152,18 @@ glm::dvec3 colour(double hue) {
     return glm::dvec3(white) + (1.0 - white) * pure;
 }
 
-// Position at `time` of a light that drifts along an axis of this extent and is reflected at its
-// ends. The phase is uniform over the whole period, so lights fill the box uniformly at every time.
+// Of a light that drifts along an axis of this extent and is reflected at its ends. The phase is
+// uniform over the whole period, so lights fill the box uniformly at every time.
+double turns_at(double extent, double phase, double speed, double time) {
+    const double turns = phase + speed * time / (2.0 * extent);
+    return turns - std::floor(turns);
+}
+
+// Position at `time` of such a light.
 double reflected_drift(double extent, double phase, double speed, double time) {
     if (!(extent > 0.0)) return 0.0;
     const double period = 2.0 * extent;
-    const double turns = phase + speed * time / period;
-    const double there = (turns - std::floor(turns)) * period;
+    const double there = turns_at(extent, phase, speed, time) * period;
     return std::min(there, period - there);
 }
 
@@ -222,6 +227,18 @@ SceneLight LightGenerator::at(const LightTrack& track) const {
     }
     out.intensity = track.intensity;
     out.range = static_cast<float>(options_.radius);
+    return out;
+}
+
+LightTurns LightGenerator::turns(const LightTrack& track) const {
+    const glm::dvec3 extents = parts_[track.part].size();
+    LightTurns out;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double extent = extents[axis];
+        if (!(extent > 0.0)) continue;
+        out.at[axis] = turns_at(extent, track.phase[axis], track.speed[axis], time_);
+        out.rate[axis] = track.speed[axis] / (2.0 * extent);
+    }
     return out;
 }
 

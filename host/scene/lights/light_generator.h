@@ -35,6 +35,13 @@ struct LightTrack {
     std::uint32_t part = 0;     // of the region, in which it stays
 };
 
+/// How far along its path a light is, by axis: turns of its period, and turns a second [1/s]. A
+/// period is twice the extent of its part.
+struct LightTurns {
+    glm::dvec3 at{0.0};  // [0, 1)
+    glm::dvec3 rate{0.0};
+};
+
 /// Single lights of `options` at a time [s], as generate_lights() makes them.
 class LightGenerator {
  public:
@@ -45,6 +52,10 @@ class LightGenerator {
     /// A light in two steps: the first costs more, and is the same at any time.
     LightTrack track(std::uint64_t light) const;
     SceneLight at(const LightTrack& track) const;
+    LightTurns turns(const LightTrack& track) const;
+
+    /// What lights stay inside: LightTrack::part.
+    const std::vector<Box>& parts() const { return parts_; }
 
  private:
     LightOptions options_;    // nothing automatic but the box

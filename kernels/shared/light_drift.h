@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights that move by themselves.
+#ifndef KILOLUX_SHARED_LIGHT_DRIFT_H
+#define KILOLUX_SHARED_LIGHT_DRIFT_H
+#include "kernels/shared/types.h"
+
+#if defined(__cplusplus)
+namespace kilolux {
+#endif
+
+// How a light of the world drifts along the axes of a box, reflected at its ends. Positions are
+// turns of 2^-64: a period is twice the box's extent.
+SHARED_STRUCT(LightDrift) {
+    uint4 high, low;            // xyz: turns at the start, upper and lower halves; w: row, box
+    uint4 rate_high, rate_low;  // xyz: turns a second, two's complement
+};
+SHARED_ASSERT(light_drift_size, sizeof(LightDrift) == 64);
+
+// A box that lights drift in, as pairs of floats [m].
+SHARED_STRUCT(DriftBox) {
+    float4 min, min_low;
+    float4 extent, extent_low;
+};
+SHARED_ASSERT(drift_box_size, sizeof(DriftBox) == 64);
+
+#if defined(__cplusplus)
+}  // namespace kilolux
+#endif
+#endif
