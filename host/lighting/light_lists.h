@@ -44,8 +44,9 @@ class LightLists {
 
     /// Makes the lists. `then` enqueues what reads them; it runs before the lists are known to be
     /// complete, and once more for each time that they had to grow, so the frame waits for the
-    /// device once. Active clusters are kept while gbuffer.version and the grid stay. Blocks.
-    /// Throws Error when the device cannot hold the lists.
+    /// device once. Active clusters are kept while gbuffer.version and the grid stay, lists while
+    /// input.version and its seed do, too. Blocks. Throws Error when the device cannot hold the
+    /// lists.
     ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                      StageTimer& timer, const std::function<void(const ListedLights&)>& then = {});
 
@@ -63,6 +64,13 @@ class LightLists {
     HostCoarseLists download_coarse(const ListedLights& lists) const;
 
  private:
+    // What lists are of.
+    struct Source {
+        std::uint64_t gbuffer = 0, lights = 0;  // versions
+        uint seed = 0;                          // of drawn ranges
+        ClusterGrid grid{};
+    };
+    bool keeps(const Source& wanted) const;
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer);
     ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
@@ -83,6 +91,8 @@ class LightLists {
     std::uint64_t binned_version_ = 0;
     ClusterGrid binned_grid_{};
     ActiveClusters active_;
+    Source kept_of_;
+    std::optional<ListedLights> kept_;
 };
 
 }  // namespace kilolux

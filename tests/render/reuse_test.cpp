@@ -98,5 +98,24 @@ TEST(Reuse, AStillCameraKeepsSurfacesAndBins) {
     EXPECT_FALSE(has_stage(renderer.render(camera, 0.1), "move_lights"));
 }
 
+TEST(Reuse, NothingThatMovesKeepsLists) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings();
+    Renderer renderer(scene, settings);
+    const Camera camera = first_camera(scene);
+    renderer.render(camera, 0.0);
+    const Frame first = renderer.render(camera, 0.0);
+    settings.exposure = 1.0f;
+    renderer.change(settings);
+    const Frame brighter = renderer.render(camera, 0.0);
+    for (const char* stage : {"cull_lights", "refine_lights", "count_pairs"}) {
+        EXPECT_FALSE(has_stage(brighter, stage)) << stage;
+    }
+    EXPECT_EQ(first.radiance, brighter.radiance);
+    EXPECT_NE(first.display, brighter.display);
+    EXPECT_EQ(first.stats.refined_pairs, brighter.stats.refined_pairs);
+    EXPECT_TRUE(has_stage(renderer.render(camera, 0.1), "cull_lights"));
+}
+
 }  // namespace
 }  // namespace kilolux

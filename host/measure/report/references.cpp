@@ -14,8 +14,10 @@
 namespace kilolux {
 namespace {
 
+// What tells references' lights apart: a tree's share is no matter, nor a budget without ranges.
 std::string ranges_key(const RenderSettings& s) {
-    return fmt::format("{} {} {} {} {}", static_cast<int>(s.tails), s.range_budget, s.tree_share,
+    const bool everywhere = s.tails == Tails::exact || s.tails == Tails::tree;
+    return fmt::format("{} {} {} {}", static_cast<int>(s.tails), everywhere ? 0.0 : s.range_budget,
                        s.lights.radius, s.lights.intensity);
 }
 
@@ -115,8 +117,6 @@ const ComparedReference& ReportReferences::unbounded() {
 const ComparedReference& ReportReferences::unlimited(const RenderSettings& settings) {
     RenderSettings exact = settings;
     exact.tails = Tails::exact;
-    exact.range_budget = kDefaultRangeBudget;
-    exact.tree_share = kDefaultTreeShare;
     return kernels(exact);
 }
 
