@@ -8,15 +8,16 @@ namespace kilolux {
 IdleTime idle_time(std::vector<CommandSpan> commands, const std::vector<HostSpan>& host) {
     std::ranges::sort(commands, {}, &CommandSpan::start);
     IdleTime out;
-    for (std::size_t i = 1; i < commands.size(); ++i) {
-        const std::int64_t done = commands[i - 1].end;
-        const std::int64_t next = commands[i].start;
-        if (next <= done) continue;
-        const std::int64_t ready = std::clamp(commands[i].queued, done, next);
+    std::int64_t done = commands.empty() ? 0 : commands.front().start;
+    for (const CommandSpan& command : commands) {
+        const std::int64_t idle_from = done, next = command.start;
+        done = std::max(done, command.end);
+        if (next <= idle_from) continue;
+        const std::int64_t ready = std::clamp(command.queued, idle_from, next);
         out.launch += next - ready;
-        out.enqueue += ready - done;
+        out.enqueue += ready - idle_from;
         for (const HostSpan& span : host) {
-            const std::int64_t from = std::max(span.start, done);
+            const std::int64_t from = std::max(span.start, idle_from);
             out.enqueue -= std::max<std::int64_t>(std::min(span.end, ready) - from, 0);
         }
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace kilolux {
 namespace {
@@ -19,6 +20,9 @@ CommandSpan span_of(const cl::Event& event) {
             static_cast<std::int64_t>(event.getProfilingInfo<CL_PROFILING_COMMAND_START>()),
             static_cast<std::int64_t>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>())};
 }
+
+// When the host began or ended: a command that takes no time.
+CommandSpan moment(std::int64_t time) { return {time, time, time}; }
 
 }  // namespace
 
@@ -37,15 +41,17 @@ void StageTimer::record_host(double ms) {
 std::vector<StageTimer::Time> StageTimer::take() {
     idle_ = {};
     if (entries_.empty()) return {};
+    for (const Entry& entry : entries_) {
+        for (const Recorded& recorded : entry.events) recorded.event.wait();
+    }
+    const Clock::time_point now = Clock::now();
     std::vector<Time> times;
     std::vector<CommandSpan> spans;
-    if (last_) spans.push_back(*last_);
     // From the device's clock to the host's: at least as much as the quickest record() tells.
     std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
         Time time{entry.stage, 0.0};
         for (const auto& [event, recorded] : entry.events) {
-            event.wait();
             const CommandSpan span = span_of(event);
             spans.push_back(span);
             time.ms += kMsPerTick * static_cast<double>(span.end - span.start);
@@ -54,8 +60,10 @@ std::vector<StageTimer::Time> StageTimer::take() {
         times.push_back(std::move(time));
     }
     entries_.clear();
-    last_ = *std::ranges::max_element(spans, {}, &CommandSpan::end);
     for (HostSpan& span : host_) span = {span.start - offset, span.end - offset};
+    for (const Clock::time_point end : {std::exchange(since_, now), now}) {
+        spans.push_back(moment(ticks(end.time_since_epoch()) - offset));
+    }
     idle_ = idle_time(std::move(spans), host_);
     host_.clear();
     return times;

@@ -3,7 +3,6 @@
 
 #include <CL/opencl.hpp>
 #include <chrono>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,10 +29,10 @@ class StageTimer {
     /// done.
     std::vector<Time> take();
 
-    /// Before each of the events of the last take(), but for the very first of all: for how long
-    /// the device idled although the event's command was enqueued [ms].
+    /// Between the last two take(), or from this object's beginning to the first: for how long the
+    /// device idled although the next command was enqueued [ms].
     double launch_ms() const;
-    /// The same as long as it was not, without the time that record_host() tells of [ms].
+    /// The same as long as none was, without the time that record_host() tells of [ms].
     double enqueue_ms() const;
 
  private:
@@ -48,8 +47,8 @@ class StageTimer {
         std::vector<Recorded> events;
     };
     std::vector<Entry> entries_;
-    std::optional<CommandSpan> last_;  // command of the last take()
-    std::vector<HostSpan> host_;       // on Clock
+    Clock::time_point since_ = Clock::now();  // idle time before it has been told
+    std::vector<HostSpan> host_;              // on Clock
     IdleTime idle_;
 };
 

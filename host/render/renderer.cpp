@@ -66,7 +66,7 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
     const Clock::time_point lights_start = Clock::now();
     lights_.update(time, camera, frame.stats);
     if (lights_on_host()) rows_ = lights_.rows(camera.position);
-    add_stage_time(frame.stats.stages, "light_input", ms_since(lights_start));
+    add_host_time({timer_, frame.stats}, "light_input", ms_since(lights_start));
     const LightInput input = lights_.input(camera.position, !settings.no_reuse, timer_);
     frame.stats.frame_ms = ms_since(start);
     return input;
@@ -78,8 +78,9 @@ void Pipeline::render_band(const Sample& band, Frame& frame) {
     light_samples(band, {timer_, stats},
                   [&](const Radiance& radiance) { develop(radiance, frame); });
     const double placed_ms = reader_.finish();
+    if (placed_ms > 0.0) timer_.record_host(placed_ms);
     add_times(timer_, stats);
-    add_host_time({timer_, stats}, kReadBackStage, placed_ms);
+    add_stage_time(stats.stages, kReadBackStage, placed_ms);
     add_band(frame.stats, stats);
     frame.stats.frame_ms += ms_since(start);
     if (settings.want.pixels()) add_pixels(band, frame);
@@ -102,6 +103,7 @@ void Pipeline::bloom_whole(Frame& frame) {
     const Clock::time_point start = Clock::now();
     read_display({whole_light_.get(), view_of(camera_, settings.width, settings.height)}, frame);
     const double placed_ms = reader_.finish();
+    if (placed_ms > 0.0) timer_.record_host(placed_ms);
     add_times(timer_, frame.stats);
     add_stage_time(frame.stats.stages, kReadBackStage, placed_ms);
     frame.stats.frame_ms += ms_since(start);

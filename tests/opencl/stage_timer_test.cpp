@@ -25,6 +25,12 @@ TEST(IdleTime, IsNoneBetweenCommandsThatTouchOrOverlap) {
     EXPECT_EQ(found.launch, 0);
 }
 
+TEST(IdleTime, BeginsWhereTheLastOfOverlappingCommandsEnds) {
+    const IdleTime found = idle_time({{0, 10, 40}, {0, 20, 25}, {45, 50, 60}}, {});
+    EXPECT_EQ(found.enqueue, 5);
+    EXPECT_EQ(found.launch, 5);
+}
+
 // Host spans have rows of their own: within a gap, across its ends, beside it, after the enqueue.
 TEST(IdleTime, LeavesOutWhatTheHostTellsOf) {
     const std::vector<CommandSpan> commands = {{0, 0, 100}, {200, 250, 300}};
@@ -76,6 +82,14 @@ TEST_F(Timer, TellsHowLongTheHostEnqueuedNothing) {
     EXPECT_GE(timer_.enqueue_ms(), 30.0) << "since the last command of the take before";
     EXPECT_TRUE(timer_.take().empty());
     EXPECT_EQ(timer_.enqueue_ms(), 0.0);
+}
+
+TEST_F(Timer, TellsWhatTheHostDidBeforeTheFirstAndAfterTheLastCommand) {
+    timer_ = StageTimer();
+    run_after(30.0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    timer_.take();
+    EXPECT_GE(timer_.enqueue_ms(), 60.0);
 }
 
 TEST_F(Timer, LeavesOutTheHostsOwnRows) {
