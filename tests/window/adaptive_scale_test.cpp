@@ -34,6 +34,22 @@ TEST(AdaptiveScale, DoesNotFlickerOnceItIsThere) {
     for (int i = 0; i < 20; ++i) EXPECT_EQ(settle(scale, 10.0, 300.0, 1), s) << i;
 }
 
+// The camera stands: surfaces are made where the size is new, and take three times as long as
+// light.
+TEST(AdaptiveScale, DoesNotFlickerBetweenSurfacesThatAreKeptAndMade) {
+    AdaptiveScale scale(80.0);
+    double last = 0.0;
+    int changes = 0;
+    for (int i = 0; i < 40; ++i) {
+        const double now = scale.scale(true);
+        changes += now != last ? 1 : 0;
+        scale.picture_took(now * now * (now != last ? 160.0 : 40.0), now);
+        last = now;
+    }
+    EXPECT_EQ(changes, 1);
+    EXPECT_EQ(scale.scale(true), 1.0);
+}
+
 TEST(AdaptiveScale, GrowsBackWhenThereIsRoom) {
     AdaptiveScale scale(80.0);
     EXPECT_LT(settle(scale, 10.0, 1000.0), 0.4);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kilolux {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kRoom = kStep * kStep * 0.9;
 
 void AdaptiveScale::picture_took(double ms, double scale) {
     if (!(ms > 0.0) || !(scale > 0.0)) return;
+    if (std::exchange(last_scale_, scale) != scale) return;
     const double share = ms / target_ms_;
     double next = scale;
     if (share > 1.0) {

@@ -16,7 +16,8 @@ class AdaptiveScale {
     void set_target(double target_ms) { target_ms_ = target_ms; }
     double target_ms() const { return target_ms_; }
 
-    /// A picture of the moving scale took `ms` at scale `scale`.
+    /// A picture of the moving scale took `ms` at scale `scale`. The first at a scale does not
+    /// count: it makes surfaces, which later ones keep while the camera stands.
     void picture_took(double ms, double scale);
 
     /// The scale of the next picture's edges, 0..1.
@@ -25,6 +26,7 @@ class AdaptiveScale {
  private:
     double target_ms_;
     double moving_scale_ = 1.0;
+    double last_scale_ = 0.0;  // of picture_took()
 };
 
 }  // namespace kilolux
