@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiance of every pixel: the sum of evaluate() over the lights of its active cluster.
+// Radiance of every pixel: the sum of evaluate() over the lights of its active cluster. With
+// DISPLAYED its sRGB codes, the bits that tonemap makes of the radiance.
 // One work-item shades VW pixels, neighbours in the order of their tile's clusters (bin_pixels). A
 // work-group lies within one fine tile; with STAGE > 0 it is a whole one.
 #define ORDERED_PIXELS 1
 #include "kernels/device/gbuffer.h"
-#include "kernels/device/radiance.h"
+#include "kernels/device/light_target.h"
 #include "kernels/device/sum_lights.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
@@ -84,7 +85,16 @@ kernel void shade(
     float rays, uint seed,
     global float* restrict variance,  // out [height][stride]: of the luminance, its estimate
 #endif
+#if DISPLAYED
+    float gain,
+    global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
+    global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
+    global uint* restrict display) {               // out [height][stride]: see display.h
+    LightTarget to = {display, {gain, bucket_boundary, bucket_code}};
+#else
     global float* restrict radiance) {  // out [3][height][stride]
+    LightTarget to = {radiance};
+#endif
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     bool inside = y < view.height;
@@ -103,10 +113,10 @@ kernel void shade(
 #endif
     uint row = inside ? y : view.height - 1u;  // rows below the image only help to stage
     GBuffer g = {gbuffer, layout, view, srgb};
-    prefetch_next_tile(g, radiance, x, row);
+    prefetch_next_tile(g, to, x, row);
     uint tile = fine_tile_of(view, x, y);
     if (cluster_offsets[tile] == cluster_offsets[tile + 1]) {  // background, for the whole group
-        if (inside) store_radiance(radiance, view, row_pixels(view, x, row), zero3());
+        if (inside) store_light(to, view, row_pixels(view, x, row), zero3());
         return;
     }
     Pixels pixels = pixels_of_item(view, x, row, order);
@@ -115,7 +125,7 @@ kernel void shade(
     bool any_drawn = inside && lane_any(drawn);
 #if STAGE == 0
     if (!any_drawn) {
-        store_radiance(radiance, view, pixels, zero3());
+        store_light(to, view, pixels, zero3());
         return;
     }
 #endif
@@ -140,7 +150,7 @@ kernel void shade(
 #else
     FV3 color = finish_shading(s, sum, ambient);
 #endif
-    if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
+    if (inside) store_light(to, view, pixels, select3(drawn, color, zero3()));
 #if SAMPLED_SHADOWS
     if (inside) store_plane(variance, pixels, lane_select(drawn, spread, fv(0.0f)));
 #endif

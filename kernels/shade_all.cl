@@ -4,7 +4,7 @@
 // with STAGE > 0 it is a whole one.
 #define ALL_LIGHTS 1
 #include "kernels/device/gbuffer.h"
-#include "kernels/device/radiance.h"
+#include "kernels/device/light_target.h"
 #include "kernels/device/sum_lights.h"
 
 kernel void shade_all(
@@ -31,6 +31,7 @@ kernel void shade_all(
     global float* restrict variance,  // out [height][stride]: of the luminance, its estimate
 #endif
     global float* restrict radiance) {  // out [3][height][stride]
+    LightTarget to = {radiance};
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     bool inside = y < view.height;
@@ -49,14 +50,14 @@ kernel void shade_all(
 #endif
     uint row = inside ? y : view.height - 1u;  // rows below the image only help to stage
     GBuffer g = {gbuffer, layout, view, srgb};
-    prefetch_next_tile(g, radiance, x, row);
+    prefetch_next_tile(g, to, x, row);
     Pixels pixels = row_pixels(view, x, row);
     FV depth01 = load_depth01(g, pixels);
     MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
     bool any_drawn = inside && lane_any(drawn);
 #if STAGE == 0
     if (!any_drawn) {
-        store_radiance(radiance, view, pixels, zero3());
+        store_light(to, view, pixels, zero3());
         return;
     }
 #endif
@@ -85,7 +86,7 @@ kernel void shade_all(
 #else
     FV3 color = finish_shading(s, sum, ambient);
 #endif
-    if (inside) store_radiance(radiance, view, pixels, select3(drawn, color, zero3()));
+    if (inside) store_light(to, view, pixels, select3(drawn, color, zero3()));
 #if SAMPLED_SHADOWS
     if (inside) store_plane(variance, pixels, lane_select(drawn, spread, fv(0.0f)));
 #endif

@@ -108,10 +108,29 @@ struct TileCounts {
     DeviceArray<uint> fixed;  // [2][tile_count]
 };
 
+/// What a frame's pixels are lit by.
+struct LitPixels {
+    GBuffer gbuffer;
+    PreparedLights lights;
+    ClusterGrid grid{};
+    ActiveClusters clusters;
+    RefinedLists refined;
+};
+
 /// Linear HDR radiance as three planes.
 struct Radiance {
-    DeviceArray<float> planes;  // [3][height][stride]
+    DeviceArray<float> planes;  // [3][height][stride]; none where it was shaded to a DisplayTarget
     View view{};
+};
+
+/// Where a display's sRGB codes go, and how radiance becomes codes.
+struct DisplayTarget {
+    DeviceArray<uint> pixels;  // [height][stride]: R | G << 8 | B << 16 | 255 << 24
+    View view{};
+    int tone_curve = 0;                  // TONE_CURVE_*
+    float gain = 1.0f;                   // 2^exposure
+    DeviceArray<float> bucket_boundary;  // [SRGB_BUCKETS]
+    DeviceArray<uint> bucket_code;       // [SRGB_BUCKETS]
 };
 
 }  // namespace kilolux

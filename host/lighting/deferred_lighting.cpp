@@ -38,12 +38,13 @@ Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer,
         shadows_ = {};
         samples_ = {};
     }
-    lists_ = light_lists_.run(input.lights, input.gbuffer, input.grid, timer,
-                              [&](const ListedLights& lists) {
-                                  if (cast_ && !kept_) cast(input, lists, timer);
-                                  radiance = shade(input, lists, timer);
-                                  if (then) then(radiance);
-                              });
+    lists_ = light_lists_.run(
+        input.lights, input.gbuffer, input.grid, timer, [&](const ListedLights& lists) {
+            if (cast_ && !kept_) cast(input, lists, timer);
+            radiance =
+                shade_.enqueue(lists.at(input.gbuffer), timer, shadows_, samples_, input.display);
+            if (then) then(radiance);
+        });
     kept_ = visibility;  // the lists that it was cast by are complete
     return radiance;
 }
@@ -67,39 +68,25 @@ bool DeferredLighting::keeps(const Visibility& wanted) const {
 
 void DeferredLighting::cast(const LightingInput& input, const ListedLights& lists,
                             StageTimer& timer) {
+    const LitPixels lit = lists.at(input.gbuffer);
     shadows_ = cast_->reserve(lists.lights, lists.clusters, timer);
     if (draw_) {
-        samples_.whole = unshadowed_
-                             ->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters,
-                                       lists.refined, timer)
-                             .planes;
+        samples_.whole = unshadowed_->enqueue(lit, timer).planes;
         samples_.rays = input.shadows.rays;
         samples_.seed = input.shadows.seed;
-        draw_->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters, lists.refined,
-                       shadows_, samples_, timer);
+        draw_->enqueue(lit, shadows_, samples_, timer);
     }
-    cast_->enqueue(input.shadows, lists.lights, lists.clusters, lists.refined, input.gbuffer.view,
-                   shadows_, timer);
+    cast_->enqueue(input.shadows, lit, shadows_, timer);
 }
 
 ShadowCounts DeferredLighting::count_shadows(const LightingInput& input, CastShadows& counting) {
     StageTimer untimed;
-    const ListedLights& lists = lists_;
-    if (draw_) {
-        draw_->enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters, lists.refined,
-                       shadows_, samples_, untimed);
-    }
-    counting.enqueue(input.shadows, lists.lights, lists.clusters, lists.refined, input.gbuffer.view,
-                     shadows_, untimed);
+    const LitPixels lit = lists_.at(input.gbuffer);
+    if (draw_) draw_->enqueue(lit, shadows_, samples_, untimed);
+    counting.enqueue(input.shadows, lit, shadows_, untimed);
     ShadowCounts out = counting.counts();
     out.words = cast_->words();
     return out;
-}
-
-Radiance DeferredLighting::shade(const LightingInput& input, const ListedLights& lists,
-                                 StageTimer& timer) {
-    return shade_.enqueue(input.gbuffer, lists.lights, input.grid, lists.clusters, lists.refined,
-                          timer, shadows_, samples_);
 }
 
 AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,

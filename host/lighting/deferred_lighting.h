@@ -17,6 +17,8 @@ struct LightingInput {
     LightInput lights;
     ClusterGrid grid{};
     ShadowInput shadows{};  // with KernelFeatures::shadows
+    // Where the picture goes in place of radiance, which is not made then.
+    std::optional<DisplayTarget> display = {};
 };
 
 /// Enqueues what reads a frame's radiance. It may run more than once a frame; only the last run's
@@ -32,6 +34,10 @@ class DeferredLighting {
     /// `surfaces`: with KernelFeatures::shadows, what of the casters' materials is read.
     DeferredLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                      const SurfaceFeatures& surfaces = {});
+
+    /// Builds what light() needs for a DisplayTarget's tone curve; none: for radiance. Else the
+    /// first light() does.
+    void build(std::optional<int> tone_curve) { shade_.build(tone_curve); }
 
     /// Radiance of every pixel; 0 for background. `then` runs before the frame is waited for.
     /// Which lights pixels see is kept while the versions of G-buffer and lights stay, and the
@@ -72,7 +78,6 @@ class DeferredLighting {
     Visibility visibility_of(const LightingInput& input) const;
     bool keeps(const Visibility& wanted) const;
     void cast(const LightingInput& input, const ListedLights& lists, StageTimer& timer);
-    Radiance shade(const LightingInput& input, const ListedLights& lists, StageTimer& timer);
 
     LightLists light_lists_;
     std::optional<CastShadows> cast_;  // with shadows
@@ -92,7 +97,7 @@ class AllLightsLighting {
     AllLightsLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                       const SurfaceFeatures& surfaces = {});
 
-    /// As DeferredLighting::light().
+    /// As DeferredLighting::light(), but always radiance.
     Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
 
     void set_ambient(float ambient) {

@@ -21,6 +21,11 @@ struct ListedLights {
     CoarseLists coarse;
     ActiveClusters clusters;
     RefinedLists refined;
+
+    /// With the G-buffer that they were made for.
+    LitPixels at(const GBuffer& gbuffer) const {
+        return {gbuffer, lights, grid, clusters, refined};
+    }
 };
 
 /// The lists that light one pixel, on the host.

@@ -66,6 +66,7 @@ struct FrameStats : PairCounts {
         0.0;                 // k*: lights whose range covers the pixel; < 0: not counted
     ShadowCounts shadows{};  // 0: not counted
     SampleCounts samples;
+    bool shaded_display = false;  // shading made the display picture: there is no tonemap stage
     std::vector<StageTime> stages;
     double frame_ms = 0.0;
 };

@@ -92,6 +92,7 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.evaluations += band.evaluations;
     whole.shadows = whole.shadows + band.shadows;
     add_samples(whole.samples, band.samples);
+    whole.shaded_display = band.shaded_display;
     for (const StageTime& stage : band.stages) add_stage_time(whole.stages, stage.name, stage.ms);
 }
 

@@ -35,10 +35,25 @@ LitSurfaces lit(const PathContext& context, DecodedSurfaces surfaces,
 
 }  // namespace
 
+bool PathContext::shades_display() const {
+    const FrameRequest& want = settings.want;
+    const bool is_one_sample = settings.samples <= 1 && !settings.auto_samples.on;
+    const bool is_all = !settings.background && !settings.reflections && settings.bloom <= 0.0f &&
+                        !has_blended_surfaces(scene.scene());
+    return settings.renderer == RendererKind::deferred && want.display && !want.radiance &&
+           want.view == ViewKind::lit && is_one_sample && is_all &&
+           !plan.kernels.fast_relaxed_math && !plan.kernels.native_math;
+}
+
 DeferredPath::DeferredPath(const PathContext& context)
     : context_(context),
       surfaces_(context),
       lighting_(context.gpu, context.tuning, context.plan.kernels, path_surfaces(context)) {
+    if (context.shades_display()) {
+        lighting_.build(static_cast<int>(context.settings.tone_curve));
+    } else {
+        lighting_.build({});
+    }
     if (!has_blended_surfaces(context.scene.scene())) return;
     lighting_.light_lists().list_everywhere();
     blended_.emplace(context, true);
@@ -49,11 +64,13 @@ Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShad
     gbuffer_ = surfaces_.draw(sample, out);
     lights_ = sample.lights;
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
-    const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows(sample)};
+    const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows(sample),
+                              sample.display};
     const AfterShading after =
         context_.with_environment(gbuffer_, out.timer, blended_ ? AfterShading() : then);
     const Radiance radiance = lighting_.light(input, out.timer, after);
     set_counts(out.stats);
+    out.stats.shaded_display = sample.display.has_value();
     if (context_.settings.want.shadow_counts && context_.plan.kernels.shadows) {
         out.stats.shadows = lighting_.count_shadows(input, counting());
     }
@@ -88,9 +105,7 @@ LightCounts DeferredPath::count_lights() {
         count_lights_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
     }
     StageTimer untimed;
-    const ListedLights& lists = lighting_.lists();
-    return count_lights_->enqueue(gbuffer_, lists.lights, lists.grid, lists.clusters, lists.refined,
-                                  untimed);
+    return count_lights_->enqueue(lighting_.lists().at(gbuffer_), untimed);
 }
 
 LitSurfaces DeferredPath::lit_surfaces() {
@@ -173,19 +188,17 @@ std::vector<float> DeferredPath::find_variance() {
         return std::vector<float>(std::size_t{gbuffer_.view.stride} * gbuffer_.view.height);
     }
     StageTimer untimed;
-    const ListedLights& lists = lighting_.lists();
     return download(context_.gpu,
-                    tail_errors().variance({gbuffer_, lists.lights, lists.grid, lists.clusters},
-                                           lists.refined, lighting_.shadows(), lighting_.samples(),
-                                           lighting_.variance(), untimed));
+                    tail_errors().variance(lighting_.lists().at(gbuffer_), lighting_.shadows(),
+                                           lighting_.samples(), lighting_.variance(), untimed));
 }
 
 std::vector<float> DeferredPath::find_bound() {
     StageTimer untimed;
     const ListedLights& lists = lighting_.lists();
-    const LitPixels lit{gbuffer_, lists.lights, lists.grid, lists.clusters};
+    const LitPixels lit = lists.at(gbuffer_);
     if (context_.plan.kernels.light_tree) {
-        return download(context_.gpu, tail_errors().tree_bound(lit, lists.refined, untimed));
+        return download(context_.gpu, tail_errors().tree_bound(lit, untimed));
     }
     return download(context_.gpu, tail_errors().bound(lit, lights_.lights, lists.boxes, untimed));
 }
@@ -194,10 +207,8 @@ void DeferredPath::count_seen(DecodedSurfaces& out) {
     const Gpu& gpu = context_.gpu;
     if (!count_seen_) count_seen_.emplace(gpu, context_.tuning, context_.plan.kernels);
     StageTimer untimed;
-    const ListedLights& lists = lighting_.lists();
     const SeenCounts counts =
-        count_seen_->enqueue(gbuffer_, lists.lights, lists.grid, lists.clusters, lists.refined,
-                             lighting_.shadows(), untimed);
+        count_seen_->enqueue(lighting_.lists().at(gbuffer_), lighting_.shadows(), untimed);
     const std::size_t size = std::size_t{out.view.stride} * out.view.height;
     out.facing = download<uint>(gpu, counts.facing, size);
     out.seen = download<uint>(gpu, counts.seen, size);

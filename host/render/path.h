@@ -45,6 +45,10 @@ struct PathContext {
         };
     }
 
+    /// Whether shading makes the display picture itself: where nothing else reads or changes the
+    /// light after it, and its kernels' arithmetic is that of tone mapping.
+    bool shades_display() const;
+
     /// Whether OpenCL makes the surfaces of OpenGL's ids: not for what OpenGL's fragments light.
     bool resolves() const {
         return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
@@ -78,7 +82,8 @@ struct Sample {
     Band band;
     bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
     uint number = 0;     // of the pixel's samples
-    const NeededTiles* needed = nullptr;  // none: all of the band
+    const NeededTiles* needed = nullptr;        // none: all of the band
+    std::optional<DisplayTarget> display = {};  // see LightingInput
 };
 
 /// What a path adds to while it lights a sample.

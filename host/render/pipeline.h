@@ -91,10 +91,13 @@ class Pipeline {
     void light_until_error(const Sample& band, Measured out, const AfterShading& then);
     Radiance light_sample(const Sample& band, uint number, const NeededTiles* needed, Measured out);
     void develop(const Radiance& radiance, Frame& frame);
+    void show(const Radiance& radiance, Frame& frame);
+    bool is_written_by_device() const { return gpu.info.is_cpu && !display_memory_.empty(); }
+    DisplayTarget display_target(const View& view);
     void bloom_whole(Frame& frame);
     void add_pixels(const Sample& band, Frame& frame);
     void show_view(double time, Frame& frame);
-    void read_display(const Radiance& glowing, Frame& frame);
+    void read_display(const DisplayTarget& display, Frame& frame);
 
     Tuning tuning_;
     LightSource lights_;

@@ -75,8 +75,14 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
 void Pipeline::render_band(const Sample& band, Frame& frame) {
     const Clock::time_point start = Clock::now();
     FrameStats stats;
-    light_samples(band, {timer_, stats},
-                  [&](const Radiance& radiance) { develop(radiance, frame); });
+    Sample lit = band;
+    if (context_.shades_display()) {
+        lit.display = display_target(view_of(camera_, settings.width, settings.height, band.band));
+    }
+    light_samples(lit, {timer_, stats}, [&](const Radiance& radiance) {
+        if (lit.display) return read_display(*lit.display, frame);
+        develop(radiance, frame);
+    });
     const double placed_ms = reader_.finish();
     if (placed_ms > 0.0) timer_.record_host(placed_ms);
     add_times(timer_, stats);
@@ -89,7 +95,7 @@ void Pipeline::render_band(const Sample& band, Frame& frame) {
 // From a band's light to what the caller wants of it.
 void Pipeline::develop(const Radiance& radiance, Frame& frame) {
     if (!frame.radiance.empty()) reader_.read_light(radiance, frame.radiance, timer_);
-    if (!blooms_at_end()) return read_display(radiance, frame);
+    if (!blooms_at_end()) return show(radiance, frame);
     const View& view = radiance.view;
     const std::size_t row = sizeof(float) * view.stride;
     gpu.queue.enqueueCopyBufferRect(radiance.planes, whole_light_.get().buffer(), {0, 0, 0},
@@ -101,7 +107,7 @@ void Pipeline::develop(const Radiance& radiance, Frame& frame) {
 // Light spreads over the whole picture: after the last band.
 void Pipeline::bloom_whole(Frame& frame) {
     const Clock::time_point start = Clock::now();
-    read_display({whole_light_.get(), view_of(camera_, settings.width, settings.height)}, frame);
+    show({whole_light_.get(), view_of(camera_, settings.width, settings.height)}, frame);
     const double placed_ms = reader_.finish();
     if (placed_ms > 0.0) timer_.record_host(placed_ms);
     add_times(timer_, frame.stats);
@@ -109,30 +115,40 @@ void Pipeline::bloom_whole(Frame& frame) {
     frame.stats.frame_ms += ms_since(start);
 }
 
-// Bloom -> tonemap -> picture. A CPU device's kernel writes to the caller's memory itself.
-void Pipeline::read_display(const Radiance& radiance, Frame& frame) {
+// Bloom -> tonemap -> picture.
+void Pipeline::show(const Radiance& radiance, Frame& frame) {
     const Radiance glowing =
         settings.bloom > 0.0f ? bloom_->enqueue(radiance, settings.bloom, timer_) : radiance;
     if (!frame.bloomed.empty()) reader_.read_light(glowing, frame.bloomed, timer_);
-    if (display_memory_.empty()) {
-        if (frame.display.empty()) return;
-        const std::span<uint> pixels(reinterpret_cast<uint*>(frame.display.data()),
-                                     frame.display.size() / sizeof(uint));
-        reader_.read_display(tonemap_.enqueue(glowing, settings.exposure, timer_), glowing.view,
-                             pixels, static_cast<std::size_t>(frame.width), timer_);
+    if (display_memory_.empty() && frame.display.empty()) return;
+    const DisplayTarget display = display_target(glowing.view);
+    tonemap_.enqueue(glowing, display, timer_);
+    read_display(display, frame);
+}
+
+// A CPU device's kernels write to the caller's memory themselves.
+DisplayTarget Pipeline::display_target(const View& view) {
+    if (!is_written_by_device()) return tonemap_.target(view, settings.exposure);
+    const cl::Buffer pixels(gpu.context, CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR,
+                            display_memory_.size_bytes(), display_memory_.data());
+    return tonemap_.target({pixels, display_memory_.size()}, view, settings.exposure);
+}
+
+void Pipeline::read_display(const DisplayTarget& display, Frame& frame) {
+    if (is_written_by_device()) {
+        void* mapped = gpu.queue.enqueueMapBuffer(display.pixels, CL_FALSE, CL_MAP_READ, 0,
+                                                  display_memory_.size_bytes());
+        gpu.queue.enqueueUnmapMemObject(display.pixels, mapped);
         return;
     }
-    const std::size_t bytes = display_memory_.size_bytes();
-    if (!gpu.info.is_cpu) {
-        reader_.read_display(tonemap_.enqueue(glowing, settings.exposure, timer_), glowing.view,
-                             display_memory_, glowing.view.stride, timer_);
-        return;
+    if (!display_memory_.empty()) {
+        return reader_.read_display(display.pixels, display.view, display_memory_,
+                                    display.view.stride, timer_);
     }
-    const cl::Buffer display(gpu.context, CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR, bytes,
-                             display_memory_.data());
-    tonemap_.enqueue_to(display, glowing, settings.exposure, timer_);
-    void* mapped = gpu.queue.enqueueMapBuffer(display, CL_FALSE, CL_MAP_READ, 0, bytes);
-    gpu.queue.enqueueUnmapMemObject(display, mapped);
+    const std::span<uint> pixels(reinterpret_cast<uint*>(frame.display.data()),
+                                 frame.display.size() / sizeof(uint));
+    reader_.read_display(display.pixels, display.view, pixels,
+                         static_cast<std::size_t>(frame.width), timer_);
 }
 
 // A band's AOVs, and its surfaces for a view.

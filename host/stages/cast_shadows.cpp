@@ -65,15 +65,17 @@ WorkSize CastShadows::work_size(uint tiles, const View& view) const {
     return groups(std::size_t{tiles} * (group == 1 ? 1 : kSplit), group);
 }
 
-void CastShadows::enqueue(const ShadowInput& input, const PreparedLights& lights,
-                          const ActiveClusters& clusters, const RefinedLists& lists,
-                          const View& view, const ShadowWords& words, StageTimer& timer) {
+void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
+                          StageTimer& timer) {
+    const View& view = lit.gbuffer.view;
+    const PreparedLights& lights = lit.lights;
+    const ActiveClusters& clusters = lit.clusters;
     const ShadowCasters& c = input.casters;
     const WorkSize size = work_size(clusters.tile_count, view);
     const auto enqueue = [&](const auto&... rest) {
         cast_.enqueue(size, timer, view, input.view, input.origins, lights.bounds,
                       lights.directional, lights.directional_count, clusters.offsets,
-                      clusters.clusters, clusters.capacity, clusters.order, lists.lists,
+                      clusters.clusters, clusters.capacity, clusters.order, lit.refined.lists,
                       words.offsets, c.nodes, c.triangles, c.masked, c.materials, c.textures,
                       c.texels, rest...);
     };

@@ -24,9 +24,8 @@ class CastShadows {
 
     /// Casts into what reserve() returned; with KernelFeatures::sampled_shadows the words hold what
     /// DrawShadows drew. Enqueues only.
-    void enqueue(const ShadowInput& input, const PreparedLights& lights,
-                 const ActiveClusters& clusters, const RefinedLists& lists, const View& view,
-                 const ShadowWords& words, StageTimer& timer);
+    void enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
+                 StageTimer& timer);
 
     /// Words of 32 bits of the last reserve().
     std::uint64_t words() const { return words_.read_total(); }

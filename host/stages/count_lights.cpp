@@ -16,15 +16,14 @@ CountLights::CountLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
       evaluated_(gpu, kCountLightsStage),
       covering_(gpu, kCountLightsStage) {}
 
-LightCounts CountLights::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
-                                 const ClusterGrid& grid, const ActiveClusters& clusters,
-                                 const RefinedLists& lists, StageTimer& timer) {
-    const View& view = gbuffer.view;
+LightCounts CountLights::enqueue(const LitPixels& lit, StageTimer& timer) {
+    const View& view = lit.gbuffer.view;
     const std::size_t pixels = std::size_t{view.stride} * view.height;
     const LightCounts out{evaluated_.reserve(pixels), covering_.reserve(pixels)};
     kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer,
-                    gbuffer.bytes, gbuffer.layout, view, lights.bounds, grid, clusters.offsets,
-                    clusters.clusters, clusters.capacity, lists.lists, out.evaluated, out.covering);
+                    lit.gbuffer.bytes, lit.gbuffer.layout, view, lit.lights.bounds, lit.grid,
+                    lit.clusters.offsets, lit.clusters.clusters, lit.clusters.capacity,
+                    lit.refined.lists, out.evaluated, out.covering);
     return out;
 }
 

@@ -19,9 +19,7 @@ class CountLights {
     CountLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only.
-    LightCounts enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
-                        const ClusterGrid& grid, const ActiveClusters& clusters,
-                        const RefinedLists& lists, StageTimer& timer);
+    LightCounts enqueue(const LitPixels& lit, StageTimer& timer);
 
  private:
     Gpu gpu_;

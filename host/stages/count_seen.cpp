@@ -16,18 +16,15 @@ CountSeen::CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures&
       facing_(gpu, kCountSeenStage),
       seen_(gpu, kCountSeenStage) {}
 
-SeenCounts CountSeen::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
-                              const ClusterGrid& grid, const ActiveClusters& clusters,
-                              const RefinedLists& lists, const ShadowWords& shadows,
-                              StageTimer& timer) {
-    const View& view = gbuffer.view;
+SeenCounts CountSeen::enqueue(const LitPixels& lit, const ShadowWords& shadows, StageTimer& timer) {
+    const View& view = lit.gbuffer.view;
     const std::size_t pixels = std::size_t{view.stride} * view.height;
     const SeenCounts out{facing_.reserve(pixels), seen_.reserve(pixels)};
     kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer,
-                    gbuffer.bytes, gbuffer.layout, view, lights.directional,
-                    lights.directional_count, lights.bounds, grid, clusters.offsets,
-                    clusters.clusters, clusters.capacity, clusters.order, lists.lists,
-                    shadows.offsets, shadows.words, out.facing, out.seen);
+                    lit.gbuffer.bytes, lit.gbuffer.layout, view, lit.lights.directional,
+                    lit.lights.directional_count, lit.lights.bounds, lit.grid, lit.clusters.offsets,
+                    lit.clusters.clusters, lit.clusters.capacity, lit.clusters.order,
+                    lit.refined.lists, shadows.offsets, shadows.words, out.facing, out.seen);
     return out;
 }
 

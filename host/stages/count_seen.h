@@ -20,9 +20,7 @@ class CountSeen {
     CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only.
-    SeenCounts enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
-                       const ClusterGrid& grid, const ActiveClusters& clusters,
-                       const RefinedLists& lists, const ShadowWords& shadows, StageTimer& timer);
+    SeenCounts enqueue(const LitPixels& lit, const ShadowWords& shadows, StageTimer& timer);
 
  private:
     Gpu gpu_;

@@ -89,54 +89,75 @@ DrawShadows::DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
       clear_(gpu, program_, kDrawStage, "draw_shadows_clear"),
       draw_(gpu, program_, kDrawStage, "draw_shadows") {}
 
-void DrawShadows::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
-                          const ClusterGrid& grid, const ActiveClusters& clusters,
-                          const RefinedLists& lists, const ShadowWords& words,
+void DrawShadows::enqueue(const LitPixels& lit, const ShadowWords& words,
                           const ShadowSamples& samples, StageTimer& timer) {
     constexpr std::size_t kClearItems = 16384;
+    const GBuffer& gbuffer = lit.gbuffer;
+    const PreparedLights& lights = lit.lights;
+    const ActiveClusters& clusters = lit.clusters;
     clear_.enqueue(items(kClearItems, 1), timer, words.offsets, clusters.tile_count, words.words);
     draw_.enqueue(resources_.work_size(gbuffer.view), timer, gbuffer.bytes, gbuffer.layout,
                   gbuffer.view, resources_.srgb(), samples.whole, lights.directional,
                   lights.directional_count, resources_.stored_lights(lights, timer),
-                  lights.profiles.lights, lights.profiles.tables, grid, clusters.offsets,
-                  clusters.clusters, clusters.capacity, clusters.order, lists.lists, words.offsets,
-                  samples.rays, samples.seed, words.words);
+                  lights.profiles.lights, lights.profiles.tables, lit.grid, clusters.offsets,
+                  clusters.clusters, clusters.capacity, clusters.order, lit.refined.lists,
+                  words.offsets, samples.rays, samples.seed, words.words);
 }
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : resources_(gpu, tuning, features),
-      kernel_(gpu,
-              build_program(gpu, kShadeStage,
-                            resources_.options()
-                                .define("SHADOWS", features.shadows ? kShadowBits : 0)
-                                .define("SAMPLED_SHADOWS", features.sampled_shadows)),
-              kShadeStage, "shade"),
-      has_shadows_(features.shadows),
-      samples_shadows_(features.sampled_shadows),
+    : gpu_(gpu),
+      features_(features),
+      resources_(gpu, tuning, features),
       variance_(gpu, kShadeStage) {}
 
-Radiance Shade::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
-                        const ClusterGrid& grid, const ActiveClusters& clusters,
-                        const RefinedLists& lists, StageTimer& timer, const ShadowWords& shadows,
-                        const ShadowSamples& samples) {
-    const View& view = gbuffer.view;
-    const Radiance out = resources_.radiance(view);
-    const auto enqueue = [&](const auto&... rest) {
-        kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
-                        resources_.srgb(), lights.directional, lights.directional_count,
-                        resources_.stored_lights(lights, timer), lights.profiles.lights,
-                        lights.profiles.tables, grid, clusters.offsets, clusters.clusters,
-                        clusters.capacity, clusters.order, lists.lists, ambient_, rest...);
-    };
-    if (samples_shadows_) {
-        enqueue(shadows.offsets, shadows.words, samples.whole, samples.rays, samples.seed,
-                variance_.reserve(std::size_t{view.stride} * view.height), out.planes);
-    } else if (has_shadows_) {
-        enqueue(shadows.offsets, shadows.words, out.planes);
-    } else {
-        enqueue(out.planes);
+void Shade::build(std::optional<int> tone_curve) {
+    if (kernels_.contains(tone_curve)) return;
+    BuildOptions options = resources_.options()
+                               .define("SHADOWS", features_.shadows ? kShadowBits : 0)
+                               .define("SAMPLED_SHADOWS", features_.sampled_shadows);
+    if (tone_curve) options.define("DISPLAYED", 1).define("TONE_CURVE", *tone_curve);
+    kernels_.try_emplace(tone_curve, gpu_, build_program(gpu_, kShadeStage, options), kShadeStage,
+                         "shade");
+}
+
+Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWords& shadows,
+                        const ShadowSamples& samples, const std::optional<DisplayTarget>& display) {
+    const std::optional<int> tone_curve =
+        display ? std::optional(display->tone_curve) : std::nullopt;
+    build(tone_curve);
+    Kernel& kernel = kernels_.at(tone_curve);
+    if (display) {
+        enqueue_shadowed(kernel, lit, timer, shadows, samples, display->gain,
+                         display->bucket_boundary, display->bucket_code, display->pixels);
+        return {{}, lit.gbuffer.view};
     }
+    const Radiance out = resources_.radiance(lit.gbuffer.view);
+    enqueue_shadowed(kernel, lit, timer, shadows, samples, out.planes);
     return out;
+}
+
+template <typename... Output>
+void Shade::enqueue_shadowed(Kernel& kernel, const LitPixels& lit, StageTimer& timer,
+                             const ShadowWords& shadows, const ShadowSamples& samples,
+                             const Output&... output) {
+    const View& view = lit.gbuffer.view;
+    const PreparedLights& lights = lit.lights;
+    const ActiveClusters& clusters = lit.clusters;
+    const auto enqueue = [&](const auto&... rest) {
+        kernel.enqueue(resources_.work_size(view), timer, lit.gbuffer.bytes, lit.gbuffer.layout,
+                       view, resources_.srgb(), lights.directional, lights.directional_count,
+                       resources_.stored_lights(lights, timer), lights.profiles.lights,
+                       lights.profiles.tables, lit.grid, clusters.offsets, clusters.clusters,
+                       clusters.capacity, clusters.order, lit.refined.lists, ambient_, rest...);
+    };
+    if (features_.sampled_shadows) {
+        enqueue(shadows.offsets, shadows.words, samples.whole, samples.rays, samples.seed,
+                variance_.reserve(std::size_t{view.stride} * view.height), output...);
+    } else if (features_.shadows) {
+        enqueue(shadows.offsets, shadows.words, output...);
+    } else {
+        enqueue(output...);
+    }
 }
 
 ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "host/gpu/features.h"
@@ -39,9 +40,8 @@ class DrawShadows {
     DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only.
-    void enqueue(const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
-                 const ActiveClusters& clusters, const RefinedLists& lists,
-                 const ShadowWords& words, const ShadowSamples& samples, StageTimer& timer);
+    void enqueue(const LitPixels& lit, const ShadowWords& words, const ShadowSamples& samples,
+                 StageTimer& timer);
 
  private:
     ShadingResources resources_;
@@ -49,15 +49,21 @@ class DrawShadows {
     Kernel clear_, draw_;
 };
 
-/// Radiance of every pixel from the lists of its active cluster.
+/// Radiance of every pixel from the lists of its active cluster, or its codes of a display.
 class Shade {
  public:
     Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
+    /// Builds the kernel that makes codes by TONE_CURVE_*; without one, that which makes radiance.
+    /// Else the first enqueue() that needs it does. Throws Error.
+    void build(std::optional<int> tone_curve);
+
     /// Enqueues only. `shadows`: with KernelFeatures::shadows, what CastShadows made of the lists.
-    Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, const ClusterGrid& grid,
-                     const ActiveClusters& clusters, const RefinedLists& lists, StageTimer& timer,
-                     const ShadowWords& shadows = {}, const ShadowSamples& samples = {});
+    /// `display`: where the codes go, the bits that Tonemap makes of the radiance; then there is no
+    /// radiance.
+    Radiance enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWords& shadows = {},
+                     const ShadowSamples& samples = {},
+                     const std::optional<DisplayTarget>& display = {});
 
     /// With sampled shadows, of the last enqueue(): the estimated variance of each pixel's
     /// luminance, [height][stride]; undefined for background.
@@ -67,9 +73,15 @@ class Shade {
     void set_ambient(float ambient) { ambient_ = ambient; }
 
  private:
+    template <typename... Output>
+    void enqueue_shadowed(Kernel& kernel, const LitPixels& lit, StageTimer& timer,
+                          const ShadowWords& shadows, const ShadowSamples& samples,
+                          const Output&... output);
+
+    Gpu gpu_;
+    KernelFeatures features_;
     ShadingResources resources_;
-    Kernel kernel_;
-    bool has_shadows_, samples_shadows_;
+    std::map<std::optional<int>, Kernel> kernels_;  // by tone curve; none: for radiance
     GrowingArray<float> variance_;
     float ambient_ = 0.0f;
 };

@@ -52,8 +52,7 @@ DeviceArray<float> TailErrors::bound(const LitPixels& lit, const DeviceArray<Lig
     return out;
 }
 
-DeviceArray<float> TailErrors::tree_bound(const LitPixels& lit, const RefinedLists& lists,
-                                          StageTimer& timer) {
+DeviceArray<float> TailErrors::tree_bound(const LitPixels& lit, StageTimer& timer) {
     const View& view = lit.gbuffer.view;
     if (!tree_bound_) {
         tree_bound_ = kernel_of(gpu_.with_lanes(1), "tree_bound", tail_options(features_));
@@ -61,13 +60,13 @@ DeviceArray<float> TailErrors::tree_bound(const LitPixels& lit, const RefinedLis
     const DeviceArray<float> out = bounds_.reserve(std::size_t{3} * view.stride * view.height);
     tree_bound_->enqueue(pixel_items(view, 1, tuning_.shade_rows), timer, lit.gbuffer.bytes,
                          lit.gbuffer.layout, view, srgb_.get(), lit.grid, lit.clusters.offsets,
-                         lit.clusters.clusters, lit.clusters.capacity, lists.lists,
+                         lit.clusters.clusters, lit.clusters.capacity, lit.refined.lists,
                          lit.lights.lights, lit.lights.count, lit.lights.nodes, out);
     return out;
 }
 
-DeviceArray<float> TailErrors::variance(const LitPixels& lit, const RefinedLists& lists,
-                                        const ShadowWords& shadows, const ShadowSamples& samples,
+DeviceArray<float> TailErrors::variance(const LitPixels& lit, const ShadowWords& shadows,
+                                        const ShadowSamples& samples,
                                         const DeviceArray<float>& shadow_variance,
                                         StageTimer& timer) {
     const View& view = lit.gbuffer.view;
@@ -80,11 +79,12 @@ DeviceArray<float> TailErrors::variance(const LitPixels& lit, const RefinedLists
         gpu_.queue.enqueueFillBuffer(out.buffer(), 0.0f, 0, pixels * sizeof(float));
     }
     const auto enqueue = [&](const auto&... rest) {
-        variance_->enqueue(
-            pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, lit.gbuffer.bytes,
-            lit.gbuffer.layout, view, srgb_.get(), lit.lights.directional_count, lit.lights.lights,
-            lit.lights.profiles.lights, lit.lights.profiles.tables, lit.grid, lit.clusters.offsets,
-            lit.clusters.clusters, lit.clusters.capacity, lit.clusters.order, lists.lists, rest...);
+        variance_->enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer,
+                           lit.gbuffer.bytes, lit.gbuffer.layout, view, srgb_.get(),
+                           lit.lights.directional_count, lit.lights.lights,
+                           lit.lights.profiles.lights, lit.lights.profiles.tables, lit.grid,
+                           lit.clusters.offsets, lit.clusters.clusters, lit.clusters.capacity,
+                           lit.clusters.order, lit.refined.lists, rest...);
     };
     if (features_.sampled_shadows) {
         enqueue(shadows.offsets, shadows.words, samples.whole, samples.rays, out);

@@ -10,14 +10,6 @@
 
 namespace kilolux {
 
-/// What a frame's pixels were lit by.
-struct LitPixels {
-    GBuffer gbuffer;
-    PreparedLights lights;
-    ClusterGrid grid{};
-    ActiveClusters clusters;
-};
-
 /// What lights without a range of their own leave out of a picture, pixel by pixel. For AOVs; no
 /// part of a frame otherwise.
 class TailErrors {
@@ -31,14 +23,13 @@ class TailErrors {
                              const ClusterBoxes& boxes, StageTimer& timer);
 
     /// With a light tree, a bound of what its nodes add or leave out. Enqueues only.
-    DeviceArray<float> tree_bound(const LitPixels& lit, const RefinedLists& lists,
-                                  StageTimer& timer);
+    DeviceArray<float> tree_bound(const LitPixels& lit, StageTimer& timer);
 
     /// The estimated variance of the luminance that drawn ranges cause: [height][stride], 0 for
     /// background. `shadow_variance`: with sampled shadows, theirs, which is added. `shadows`: with
     /// shadows, what CastShadows made. Enqueues only.
-    DeviceArray<float> variance(const LitPixels& lit, const RefinedLists& lists,
-                                const ShadowWords& shadows, const ShadowSamples& samples,
+    DeviceArray<float> variance(const LitPixels& lit, const ShadowWords& shadows,
+                                const ShadowSamples& samples,
                                 const DeviceArray<float>& shadow_variance, StageTimer& timer);
 
  private:

@@ -2,6 +2,7 @@
 #include "host/stages/tonemap.h"
 
 #include <cmath>
+#include <utility>
 
 #include "host/base/srgb.h"
 
@@ -15,6 +16,7 @@ constexpr std::string_view kTonemapStage = "tonemap";
 Tonemap::Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve)
     : gpu_(gpu),
       tuning_(tuning),
+      tone_curve_(tone_curve),
       kernel_(gpu,
               build_program(gpu, kTonemapStage, BuildOptions().define("TONE_CURVE", tone_curve)),
               kTonemapStage, "tonemap"),
@@ -27,18 +29,25 @@ Tonemap::Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve)
 }
 
 DeviceArray<uint> Tonemap::enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer) {
-    const DeviceArray<uint> display =
-        display_.reserve(std::size_t{radiance.view.stride} * radiance.view.height);
-    enqueue_to(display, radiance, exposure_ev, timer);
-    return display;
+    const DisplayTarget to = target(radiance.view, exposure_ev);
+    enqueue(radiance, to, timer);
+    return to.pixels;
 }
 
-void Tonemap::enqueue_to(const DeviceArray<uint>& display, const Radiance& radiance,
-                         float exposure_ev, StageTimer& timer) {
+void Tonemap::enqueue(const Radiance& radiance, const DisplayTarget& to, StageTimer& timer) {
     const uint pixels = radiance.view.stride * radiance.view.height;
     kernel_.enqueue(items(pixels / static_cast<uint>(gpu_.info.lane_width), tuning_.light_group),
-                    timer, radiance.planes, pixels, std::exp2(exposure_ev), boundary_.get(),
-                    code_.get(), display);
+                    timer, radiance.planes, pixels, to.gain, to.bucket_boundary, to.bucket_code,
+                    to.pixels);
+}
+
+DisplayTarget Tonemap::target(const View& view, float exposure_ev) {
+    return target(display_.reserve(std::size_t{view.stride} * view.height), view, exposure_ev);
+}
+
+DisplayTarget Tonemap::target(DeviceArray<uint> pixels, const View& view, float exposure_ev) const {
+    return {std::move(pixels), view,       tone_curve_, std::exp2(exposure_ev),
+            boundary_.get(),   code_.get()};
 }
 
 }  // namespace kilolux

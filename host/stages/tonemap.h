@@ -13,16 +13,20 @@ class Tonemap {
     /// `tone_curve`: TONE_CURVE_*.
     Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve);
 
-    /// Returns uint[height][stride]: R | G << 8 | B << 16 | 255 << 24. Enqueues only.
+    /// The codes of `radiance`, in this stage's own memory. Enqueues only.
     DeviceArray<uint> enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer);
 
-    /// The same into the caller's `display`, which has room for all pixels. Enqueues only.
-    void enqueue_to(const DeviceArray<uint>& display, const Radiance& radiance, float exposure_ev,
-                    StageTimer& timer);
+    /// The same to a target that this stage has made. Enqueues only.
+    void enqueue(const Radiance& radiance, const DisplayTarget& to, StageTimer& timer);
+
+    /// A target in this stage's own memory, or in the caller's, which has room for all pixels.
+    DisplayTarget target(const View& view, float exposure_ev);
+    DisplayTarget target(DeviceArray<uint> pixels, const View& view, float exposure_ev) const;
 
  private:
     Gpu gpu_;
     Tuning tuning_;
+    int tone_curve_;
     Kernel kernel_;
     GrowingArray<float> boundary_;
     GrowingArray<uint> code_, display_;

@@ -53,6 +53,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     state.settings.reflections = options.shared.maps;
     state.settings.want.aovs.clear();
     state.settings.want.probes = true;
+    state.settings.want.radiance = false;
     // Pictures that are counted are made one by one, each whole.
     const bool counts = options.exit_after > 0;
     if (!is_given(command, "--samples") && !counts) state.settings.samples = kRestSamples;

@@ -199,10 +199,8 @@ GBufferLighting::Lit GBufferLighting::light(const HostSurfaces& surfaces, const 
     DeferredLighting lighting(gpu_, tuning, features);
     lighting.set_ambient(ambient);
     const Radiance radiance = lighting.light({gbuffer, input, grid}, timer);
-    const ListedLights& lists = lighting.lists();
     CountLights count(gpu_, tuning, features);
-    const LightCounts counts =
-        count.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    const LightCounts counts = count.enqueue(lighting.lists().at(gbuffer), timer);
     Lit out{without_padding(download(gpu_, radiance.planes), view, 3),
             without_padding(download(gpu_, counts.evaluated), view, 1),
             without_padding(download(gpu_, counts.covering), view, 1)};

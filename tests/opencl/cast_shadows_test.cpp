@@ -133,25 +133,20 @@ CastFrame cast_frame(int lanes, int group) {
                             origins_of(gpu, features, gbuffer)};
     CastShadows cast(gpu, tuning, features, {}), counting(gpu, tuning, features, {}, true);
     const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
-    cast.enqueue(input, lists.lights, lists.clusters, lists.refined, view, words, timer);
+    cast.enqueue(input, lists.at(gbuffer), words, timer);
     const std::size_t size = std::size_t{3} * view.stride * view.height;
     CastFrame out;
     out.words = download(gpu, words.words, cast.words());
-    counting.enqueue(input, lists.lights, lists.clusters, lists.refined, view, words, timer);
+    counting.enqueue(input, lists.at(gbuffer), words, timer);
     out.counts = counting.counts();
     EXPECT_EQ(download(gpu, words.words, cast.words()), out.words) << "counting changes a bit";
     Shade shade(gpu, tuning, features);
-    out.listed = download<float>(
-        gpu,
-        shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer, words)
-            .planes,
-        size);
+    out.listed = download<float>(gpu, shade.enqueue(lists.at(gbuffer), timer, words).planes, size);
     ShadeAll shade_all(gpu, tuning, features);
     out.all =
         download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer, input).planes, size);
     CountSeen count(gpu, tuning, features);
-    const SeenCounts counts =
-        count.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, words, timer);
+    const SeenCounts counts = count.enqueue(lists.at(gbuffer), words, timer);
     const auto depth01 = download<float>(gpu, gbuffer.bytes.buffer(), size / 3);
     const auto seen = download<uint>(gpu, counts.seen, size / 3);
     const auto facing = download<uint>(gpu, counts.facing, size / 3);

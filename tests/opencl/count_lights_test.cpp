@@ -54,8 +54,7 @@ Counted count_lights(int lanes, std::uint32_t light_count) {
     out.lists = download_lists(gpu, {}, device);
     CountLights stage(gpu, tuning, {});
     StageTimer timer;
-    const LightCounts counts =
-        stage.enqueue(gbuffer, device.lights, out.grid, device.clusters, device.refined, timer);
+    const LightCounts counts = stage.enqueue(device.at(gbuffer), timer);
     const std::size_t size = std::size_t{view.stride} * view.height;
     out.evaluated = download<uint>(gpu, counts.evaluated, size);
     out.covering = download<uint>(gpu, counts.covering, size);

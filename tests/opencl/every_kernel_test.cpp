@@ -55,10 +55,8 @@ KernelFeatures features_of(const Variant& v) {
 Radiance shade_both_ways(const Gpu& gpu, Shade& shade, ShadeAll& shade_all, const GBuffer& gbuffer,
                          const ListedLights& lists) {
     StageTimer timer;
-    const ClusterGrid& grid = lists.boxes.grid;
     const std::size_t size = std::size_t{3} * gbuffer.view.stride * gbuffer.view.height;
-    const Radiance radiance =
-        shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    const Radiance radiance = shade.enqueue(lists.at(gbuffer), timer);
     const auto listed = download<float>(gpu, radiance.planes, size);
     const auto all =
         download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer).planes, size);
@@ -67,6 +65,19 @@ Radiance shade_both_ways(const Gpu& gpu, Shade& shade, ShadeAll& shade_all, cons
         if (listed[i] != all[i]) break;
     }
     return radiance;
+}
+
+// Shading to a display has the bits of tone mapping, which this runs, too.
+void show_both_ways(const Gpu& gpu, const Tuning& tuning, Shade& shade, const LitPixels& lit,
+                    const Radiance& radiance) {
+    constexpr float kExposure = 0.5f;
+    StageTimer timer;
+    Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
+    const auto mapped = download(gpu, tonemap.enqueue(radiance, kExposure, timer));
+    const DisplayTarget to = tonemap.target(radiance.view, kExposure);
+    gpu.queue.enqueueFillBuffer(to.pixels.buffer(), cl_uint{0}, 0, mapped.size() * sizeof(uint));
+    shade.enqueue(lit, timer, {}, {}, to);
+    EXPECT_EQ(download(gpu, to.pixels), mapped);
 }
 
 void run_every_kernel(const Variant& v) {
@@ -99,13 +110,12 @@ void run_every_kernel(const Variant& v) {
     Shade shade(gpu, tuning, features);
     ShadeAll shade_all(gpu, tuning, features);
     const Radiance radiance = shade_both_ways(gpu, shade, shade_all, gbuffer, lists);
+    show_both_ways(gpu, tuning, shade, lists.at(gbuffer), radiance);
     FillBackground background(gpu, tuning);
     background.set_image(std::vector<float>(6, 0.5f), 2, 1);
     background.enqueue(gbuffer, radiance, timer);
-    Tonemap tonemap(gpu, tuning, TONE_CURVE_NEUTRAL);
-    tonemap.enqueue(radiance, 0.0f, timer);
     CountLights count(gpu, tuning, features);
-    count.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer);
+    count.enqueue(lists.at(gbuffer), timer);
     decode(gpu, features, gbuffer);
     const HostLists host = download_lists(gpu, features, lists);
     EXPECT_GT(host.refined.size(), 100u);

@@ -117,13 +117,8 @@ TreeFrame light_by_tree(int lanes, float share) {
     TailErrors errors(gpu, tuning, features);
     const std::size_t size = std::size_t{3} * view.stride * view.height;
     TreeFrame out;
-    out.radiance = download<float>(
-        gpu,
-        shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer).planes,
-        size);
-    out.bound = download<float>(
-        gpu, errors.tree_bound({gbuffer, lists.lights, grid, lists.clusters}, lists.refined, timer),
-        size);
+    out.radiance = download<float>(gpu, shade.enqueue(lists.at(gbuffer), timer).planes, size);
+    out.bound = download<float>(gpu, errors.tree_bound(lists.at(gbuffer), timer), size);
     for (const ActiveCluster& c : stages.active_clusters(lists)) out.entries += c.list_count;
     return out;
 }

@@ -57,10 +57,7 @@ Frame shade_frame(const Gpu& gpu, const FrameInput& in, const Tuning& tuning) {
     StageTimer timer;
     const std::size_t size = std::size_t{3} * view.stride * view.height;
     Frame frame;
-    frame.listed = download<float>(
-        gpu,
-        shade.enqueue(gbuffer, lists.lights, grid, lists.clusters, lists.refined, timer).planes,
-        size);
+    frame.listed = download<float>(gpu, shade.enqueue(lists.at(gbuffer), timer).planes, size);
     frame.all = download<float>(gpu, shade_all.enqueue(gbuffer, lists.lights, timer).planes, size);
     frame.lists = fingerprint(download_lists(gpu, in.features, lists));
     frame.lights = download<ShadeLight>(gpu, lists.lights.lights, in.lights.size());

@@ -91,13 +91,13 @@ double BenchRun::time_at(BenchMotion motion, int i) const {
 
 std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFrames& frames) {
     watch_.look_again();
-    const RenderSettings settings = settings_at(base_, point);
+    RenderSettings settings = settings_at(base_, point);
+    settings.want.radiance = false;  // as in a window
     std::vector<FrameStats> measured;
     FrameSetup setup;
     {
         Renderer renderer(scene_, settings, gl_);
         setup = frame_setup(settings, renderer.plan(), renderer.device());
-        // As in a window: the float radiance stays on the device.
         std::vector<uint> picture(display_stride(settings.width) *
                                   static_cast<std::size_t>(settings.height));
         for (int i = 0; i < frames.warm_up + frames.measured; ++i) {

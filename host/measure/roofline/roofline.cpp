@@ -218,8 +218,12 @@ double listed_surface_bytes(const StageCounts& c) {
            sizeof(ActiveCluster) * c.active_clusters + index_bytes(c) * c.refined_pairs;
 }
 
+// Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest 6);
+// packing 5. Tone curves differ: none is counted.
+constexpr InstructionCounts kDisplayCodes{74.0, 0.0, 6.0};
+
 // Sampled shadows shade twice: with all lights, and without hidden ones that were drawn.
-StageWork shade_work(const StageCounts& c) {
+StageWork radiance_work(const StageCounts& c) {
     StageWork work{.bytes_read = listed_surface_bytes(c),
                    .bytes_written = kRadianceBytes * c.pixels,
                    .instructions = shading_instructions(c),
@@ -235,6 +239,14 @@ StageWork shade_work(const StageCounts& c) {
     work.bytes_written = 2.0 * work.bytes_written + sizeof(float) * c.pixels;
     work.instructions = 2.0 * work.instructions + listed_pairs(c) * InstructionCounts{3.0};
     work.launches = 2;
+    return work;
+}
+
+StageWork shade_work(const StageCounts& c) {
+    StageWork work = radiance_work(c);
+    if (!c.shaded_display) return work;
+    work.bytes_written += (kDisplayBytes - kRadianceBytes) * c.pixels;
+    work.instructions = work.instructions + c.pixels * kDisplayCodes;
     return work;
 }
 
@@ -317,11 +329,9 @@ StageWork bloom_work(const StageCounts& c) {
 }
 
 StageWork tonemap_work(const StageCounts& c) {
-    // Exposure 3, bound 9; sRGB codes 3 * (bounds 2, roots 2, polynomial 6, line 3, code and rest
-    // 6); packing 5. Tone curves differ: none is counted.
     return {.bytes_read = kRadianceBytes * c.pixels,
             .bytes_written = kDisplayBytes * c.pixels,
-            .instructions = c.pixels * InstructionCounts{74.0, 0.0, 6.0},
+            .instructions = c.pixels * kDisplayCodes,
             .launches = 1};
 }
 
@@ -447,6 +457,7 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     c.full_evaluations =
         leaves_early(setup.kernels) ? std::min(in_range, c.evaluations) : c.evaluations;
     c.all_lights = all_lights;
+    c.shaded_display = stats.shaded_display;
     c.shadow_rays = number(stats.shadows.rays);
     c.shadow_seen = number(stats.shadows.seen);
     c.shadow_nodes = number(stats.shadows.nodes);

@@ -42,7 +42,8 @@ struct StageCounts {
     double shadow_triangles = 0.0;
     double shadow_points = 0.0;
     double shadow_words = 0.0;
-    bool all_lights = false;  // are evaluated at every pixel
+    bool all_lights = false;      // are evaluated at every pixel
+    bool shaded_display = false;  // shading makes codes of a display in place of radiance
     double gbuffer_bytes_per_pixel = 12.0;
     double bridge_bytes_per_pixel = 12.0;  // that OpenGL hands over: the G-buffer, or ids
     bool device_is_host = true;            // the device reads them where OpenGL left them

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where shading stores a pixel's light: as three planes of radiance or, with DISPLAYED, as codes of
+// a display.
+#ifndef KILOLUX_DEVICE_LIGHT_TARGET_H
+#define KILOLUX_DEVICE_LIGHT_TARGET_H
+#include "kernels/device/display.h"
+#include "kernels/device/gbuffer.h"
+#include "kernels/device/radiance.h"
+
+#ifndef DISPLAYED
+#define DISPLAYED 0
+#endif
+
+typedef struct LightTarget {
+#if DISPLAYED
+    global uint* codes;  // [height][stride]
+    DisplayCurve curve;
+#else
+    global float* radiance;  // [3][height][stride]
+#endif
+} LightTarget;
+
+static inline void store_light(LightTarget to, View view, Pixels pixels, FV3 color) {
+#if DISPLAYED
+    store_plane_codes(to.codes, pixels, display_codes(to.curve, color));
+#else
+    store_radiance(to.radiance, view, pixels, color);
+#endif
+}
+
+// Asks for the row's pixels in the tile to the right, which a CPU's thread shades next.
+static inline void prefetch_next_tile(GBuffer g, LightTarget to, uint x, uint y) {
+    uint place = y * g.view.stride + x + FINE_TILE;
+    prefetch_surface(g, place);
+#if DISPLAYED
+    prefetch_to_write(to.codes + place);
+#else
+    uint plane = g.view.stride * g.view.height;
+    prefetch_to_write(to.radiance + place);
+    prefetch_to_write(to.radiance + plane + place);
+    prefetch_to_write(to.radiance + 2 * plane + place);
+#endif
+}
+#endif
