@@ -15,13 +15,8 @@
 namespace kilolux {
 namespace {
 
-// Generated lights are ordered anew this often [s]: they move at most 1.2 m/s, so neighbours stay
-// neighbours. Order and places at a time do not depend on the times before it.
-constexpr double kOrderInterval = 0.5;
 // Within this of the origin [m] no light is too far from the camera to be used.
 constexpr double kNear = 4e14;
-
-double order_time(double time) { return std::floor(time / kOrderInterval) * kOrderInterval; }
 
 // Grows with every change of the scene that may be one of its lights.
 std::uint32_t lights_revision(const Scene& scene) { return scene.revision + scene.lights_revision; }
@@ -42,16 +37,6 @@ bool is_near(const glm::dvec3& p) {
     return glm::all(glm::lessThan(glm::abs(p), glm::dvec3(kNear)));
 }
 
-std::array<double, 3> axes(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
-std::vector<SceneLight> all_lights(const std::vector<SceneLight>& own, const LightOptions& options,
-                                   const Scene& scene, double time) {
-    std::vector<SceneLight> out = own;
-    const std::vector<SceneLight> generated = generate_lights(options, scene, time);
-    out.insert(out.end(), generated.begin(), generated.end());
-    return out;
-}
-
 }  // namespace
 
 uint tail_seed(const RenderSettings& settings, uint sample) {
@@ -66,11 +51,9 @@ std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& sett
     const Tails tails = tails_for(scene.lights, settings.tails, settings.range_budget);
     fill_missing_ranges(own, tails == Tails::stochastic ? Tails::exact : tails,
                         settings.range_budget);
-    const std::vector<SceneLight> now = all_lights(own, settings.lights, scene, time);
-    const auto ordered = all_lights(own, settings.lights, scene, order_time(time));
-    std::vector<SceneLight> out;
-    for (const std::uint32_t number : order_by_place(ordered)) out.push_back(now[number]);
-    return out;
+    const std::vector<SceneLight> generated = generate_lights(settings.lights, scene, time);
+    own.insert(own.end(), generated.begin(), generated.end());
+    return own;
 }
 
 LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
@@ -80,7 +63,8 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
       revision_(lights_revision(scene)),
       tails_(tails_for(scene.lights, settings.tails, settings.range_budget)),
       range_budget_(settings.range_budget),
-      generated_(settings.lights),
+      options_(settings.lights),
+      generated_(gpu, tuning),
       own_(scene.lights),
       headlights_(headlights_of(own_)),
       move_(gpu, tuning),
@@ -95,10 +79,10 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
 }
 
 void LightSource::set_generated(const LightOptions& generated) {
-    if (generated == generated_) return;
-    generated_ = generated;
+    if (generated == options_) return;
+    options_ = generated;
     time_.reset();
-    order_time_.reset();
+    is_ordered_ = false;
 }
 
 void LightSource::set_tails(const RenderSettings& settings) {
@@ -119,7 +103,7 @@ void LightSource::take_up_changes() {
     headlights_ = headlights_of(own_);
     headlight_camera_.reset();
     time_.reset();
-    order_time_.reset();
+    is_ordered_ = false;
 }
 
 void LightSource::place_headlights(const Camera& camera) {
@@ -128,14 +112,15 @@ void LightSource::place_headlights(const Camera& camera) {
     for (const std::size_t i : headlights_) own_[i] = placed_light(scene_.lights[i], camera);
     fill_missing_ranges(own_, tails_, range_budget_);
     time_.reset();
-    order_time_.reset();
+    is_ordered_ = false;
 }
 
 // The point or spot light of a row.
 SceneLight LightSource::light(std::size_t place) const {
-    if (place >= order_.size()) return tree_.lights[place - order_.size()];
+    if (place >= list_count()) return tree_.lights[place - list_count()];
+    if (place >= order_.size()) return generated_.at(place - order_.size());
     const std::uint32_t number = order_[place];
-    return number < own_.size() ? own_[number] : at_time_->at(tracks_[place]);
+    return number < own_.size() ? own_[number] : far_[number - own_.size()];
 }
 
 void LightSource::find_order(const glm::dvec3& camera_position) {
@@ -143,7 +128,9 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
     directional_order_.clear();
     order_camera_.reset();
     std::vector<std::uint32_t> members;
-    const auto lights = all_lights(own_, generated_, scene_, *order_time_);
+    std::vector<SceneLight> lights = own_;
+    far_ = is_far_ ? generate_lights(options_, scene_, *time_) : std::vector<SceneLight>();
+    lights.insert(lights.end(), far_.begin(), far_.end());
     bool all_near = is_near(camera_position);
     for (const std::uint32_t number : order_by_place(lights)) {
         const SceneLight& light = lights[number];
@@ -156,10 +143,7 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
     }
     plant_tree(members);
     if (!all_near) order_camera_ = camera_position;
-    tracks_.resize(order_.size());
-    tbb::parallel_for(std::size_t{0}, order_.size(), [&](std::size_t i) {
-        if (order_[i] >= own_.size()) tracks_[i] = at_time_->track(order_[i] - own_.size());
-    });
+    is_ordered_ = true;
 }
 
 // Anew where the lights are others or have moved.
@@ -184,22 +168,23 @@ void LightSource::upload_tables() {
 }
 
 void LightSource::upload_profiles() {
-    std::vector<AimedProfile> profiles(row_count());
-    tbb::parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) {
-        profiles[i] = aimed_profile(light(i), scene_, profile_starts_);
-    });
+    std::vector<AimedProfile> profiles(row_count(), aimed_profile({}, scene_, profile_starts_));
+    for (std::size_t i = 0; i < row_count(); ++i) {
+        const bool drifts = i >= order_.size() && i < list_count();
+        if (!drifts) profiles[i] = aimed_profile(light(i), scene_, profile_starts_);
+    }
     kilolux::upload<AimedProfile>(gpu_, profiles_.reserve(profiles.size()), profiles);
     input_.profiles.lights = profiles_.get();
 }
 
+// The lights that the host places.
 void LightSource::upload() {
     if (!scene_.aimed_profiles.empty()) upload_profiles();
-    const std::span<WorldLight> rows = move_.stage(row_count());
-    tbb::parallel_for(std::size_t{0}, row_count(),
-                      [&](std::size_t i) { rows[i] = world_light(light(i)); });
-    stage_drifts();
-    move_.upload();
-    drift_time_.reset();
+    const std::span<WorldLight> rows = move_.stage(row_count() - drifting());
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+        rows[i] = world_light(light(i < order_.size() ? i : i + drifting()));
+    });
+    move_.upload(order_.size(), drifting());
     std::vector<DirectionalLight> directional;
     for (const std::uint32_t number : directional_order_) {
         directional.push_back(directional_row(own_[number]));
@@ -207,56 +192,49 @@ void LightSource::upload() {
     kilolux::upload<DirectionalLight>(gpu_, directional_.reserve(directional.size()), directional);
 }
 
-// How the generated lights move from the time of their order on: until the next one the device
-// finds their places.
-void LightSource::stage_drifts() {
-    std::vector<std::uint32_t> rows;
-    for (std::uint32_t i = 0; i < order_.size(); ++i) {
-        if (order_[i] >= own_.size()) rows.push_back(i);
-    }
-    if (rows.empty()) return;
-    const LightGenerator start(generated_, scene_, *order_time_);
-    std::vector<DriftBox> boxes;
-    for (const Box& part : start.parts())
-        boxes.push_back(drift_box(axes(part.min), axes(part.size())));
-    const std::span<LightDrift> drifts = move_.stage_drifts(rows.size(), boxes);
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-        const LightTrack& track = tracks_[rows[i]];
-        const LightTurns turns = start.turns(track);
-        drifts[i] = light_drift(rows[i], track.part, axes(turns.at), axes(turns.rate));
-    });
+// Whether every generated light is usable from here, so that the device may place them.
+bool LightSource::drifts_near(const glm::dvec3& camera_position) const {
+    const Box& box = generated_.box();
+    return is_near(camera_position) && is_near(box.min) && is_near(box.max) &&
+           is_usable(generated_.first(), camera_position);
 }
 
 void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
     take_up_changes();
     place_headlights(camera);
-    const glm::dvec3& camera_position = camera.position;
-    const bool out_of_order = order_time_ != order_time(time) ||
-                              (order_camera_ && *order_camera_ != camera_position) ||
-                              (!order_camera_ && !is_near(camera_position));
-    if (out_of_order || time_ != time) {
-        at_time_.emplace(generated_, scene_, time);
+    const bool has_moved = time_ != time;
+    if (has_moved) {
         time_ = time;
-        order_time_ = order_time(time);
+        generated_.set(options_, scene_, time);
         input_camera_.reset();
-        if (out_of_order) {
-            find_order(camera_position);
-            upload();
-        }
+        is_drifted_ = false;
     }
-    stats.lights_given = own_.size() + generated_.count;
-    stats.lights_used = order_.size() + tree_members_.size() + directional_order_.size();
+    const bool is_far = options_.count > 0 && !drifts_near(camera.position);
+    const bool is_stale = !is_ordered_ || is_far_ != is_far || (is_far && has_moved) ||
+                          (order_camera_ && *order_camera_ != camera.position) ||
+                          (!order_camera_ && !is_near(camera.position));
+    if (is_stale) {
+        is_far_ = is_far;
+        input_camera_.reset();
+        is_drifted_ = false;
+        find_order(camera.position);
+        upload();
+    }
+    stats.lights_given = own_.size() + options_.count;
+    stats.lights_used = list_count() + tree_members_.size() + directional_order_.size();
     stats.lights_rejected = stats.lights_given - stats.lights_used;
     stats.directional_lights = directional_order_.size();
 }
 
 LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, StageTimer& timer) {
     if (reuse && input_camera_ == camera_position) return input_;
-    if (!reuse || drift_time_ != time_) move_.drift(*time_ - *order_time_, timer);
-    drift_time_ = time_;
+    if (drifting() > 0 && (!reuse || !is_drifted_)) {
+        generated_.place(move_.world(), order_.size(), timer);
+    }
+    is_drifted_ = true;
     const glm::dvec3& p = camera_position;
     input_.lights = move_.enqueue(point_pair(p.x, p.y, p.z), timer);
-    input_.count = static_cast<uint>(order_.size());
+    input_.count = static_cast<uint>(list_count());
     input_.directional = directional_.get();
     input_.directional_count = static_cast<uint>(directional_order_.size());
     input_camera_ = camera_position;
@@ -264,7 +242,8 @@ LightInput LightSource::input(const glm::dvec3& camera_position, bool reuse, Sta
     return input_;
 }
 
-LightRows LightSource::rows(const glm::dvec3& camera_position) const {
+LightRows LightSource::rows(const glm::dvec3& camera_position) {
+    if (drifting() > 0) generated_.read_order();
     std::vector<SceneLight> lights(row_count());
     tbb::parallel_for(std::size_t{0}, row_count(), [&](std::size_t i) { lights[i] = light(i); });
     for (const std::uint32_t number : directional_order_) lights.push_back(own_[number]);

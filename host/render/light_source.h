@@ -7,6 +7,7 @@
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
 #include "host/picture/frame.h"
+#include "host/render/generated_lights.h"
 #include "host/render/light_rows.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
@@ -17,9 +18,9 @@
 
 namespace kilolux {
 
-/// All lights of a scene at `time` [s], its own and the generated ones, each with a range, in the
-/// order in which kernels go through them (light_order.h); `camera` has the headlights. Ranges that
-/// the renderer draws reach everywhere here, as in the mean.
+/// All lights of a scene at `time` [s], its own and then the generated ones, each with a range;
+/// `camera` has the headlights. Ranges that the renderer draws reach everywhere here, as in the
+/// mean.
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
                                   const Camera& camera, double time);
 
@@ -28,7 +29,8 @@ uint tail_seed(const RenderSettings& settings, uint sample);
 
 /// All lights of a scene, its own and the generated ones, at any time. They are on the device in
 /// the world's coordinates: a camera that moves costs one kernel, lights that stay are not uploaded
-/// again.
+/// again. Rows are the scene's point and spot lights (light_order.h), the generated ones
+/// (DriftLights), and those of a tree.
 class LightSource {
  public:
     /// Lights of the scene without a range get one as settings.tails says. The scene must outlive
@@ -50,18 +52,20 @@ class LightSource {
     /// `reuse`: the last call's where nothing changed. Enqueues only.
     LightInput input(const glm::dvec3& camera_position, bool reuse, StageTimer& timer);
 
-    /// The same rows on the host, made in double.
-    LightRows rows(const glm::dvec3& camera_position) const;
+    /// The same rows on the host, made in double. After input().
+    LightRows rows(const glm::dvec3& camera_position);
 
  private:
     void take_up_changes();
     void place_headlights(const Camera& camera);
     SceneLight light(std::size_t place) const;
-    std::size_t row_count() const { return order_.size() + tree_.lights.size(); }
+    std::size_t list_count() const { return order_.size() + drifting(); }
+    std::size_t row_count() const { return list_count() + tree_.lights.size(); }
+    std::size_t drifting() const { return is_far_ ? 0 : generated_.count(); }
+    bool drifts_near(const glm::dvec3& camera_position) const;
     void find_order(const glm::dvec3& camera_position);
     void plant_tree(const std::vector<std::uint32_t>& members);
     void upload();
-    void stage_drifts();
     void upload_tables();
     void upload_profiles();
 
@@ -70,19 +74,21 @@ class LightSource {
     std::optional<std::uint32_t> revision_;  // of the scene that own_ are of; none: out of date
     Tails tails_;
     double range_budget_;
-    LightOptions generated_;
+    LightOptions options_;
+    GeneratedLights generated_;
     std::vector<SceneLight> own_;             // with ranges, in the world
     std::vector<std::size_t> headlights_;     // those of own_ that follow the camera
     std::optional<Camera> headlight_camera_;  // that they are placed by
-    std::optional<double> time_;              // none: not made yet
-    std::optional<LightGenerator> at_time_;   // of time_
-    // Numbers of the lights, own_ before generated ones: usable point and spot lights in the order
-    // of the kernels; directional ones.
+    std::optional<double> time_;              // of the generated ones; none: not made yet
+    // Some may not be usable, as so far away: the host places generated lights, too.
+    bool is_far_ = false;
+    bool is_drifted_ = false;      // the device has the generated lights' rows of time_
+    std::vector<SceneLight> far_;  // the generated ones then
+    // Numbers of the lights that the host places, own_ before far_: usable point and spot lights in
+    // the order of the kernels; directional ones. None: to be found.
+    bool is_ordered_ = false;
     std::vector<std::uint32_t> order_, directional_order_;
-    std::vector<LightTrack> tracks_;          // of order_'s generated lights, else unset
-    std::optional<double> order_time_;        // at which the generated ones were ordered
-    std::optional<double> drift_time_;        // at which the device has them
-    std::optional<glm::dvec3> order_camera_;  // from where they were, if that matters
+    std::optional<glm::dvec3> order_camera_;  // from where they are usable, if that matters
     std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made
     LightInput input_;
     MoveLights move_;

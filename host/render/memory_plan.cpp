@@ -19,9 +19,10 @@ using Bytes = std::uint64_t;
 
 // The program with its drivers and their compilers: resident size of a 16x16 picture, rounded up.
 constexpr Bytes kProgram = Bytes{256} << 20;
-// Of one light: twice as the scene has it, its track, rows on the host and on the device, prepared.
+// Of one light: twice as the scene has it, rows on the host and on the device, prepared; its path,
+// three times, and its place in their order, twice.
 constexpr Bytes kLight =
-    2 * sizeof(SceneLight) + sizeof(LightTrack) + 4 * 48 + 48 + 2 * sizeof(LightDrift);
+    2 * sizeof(SceneLight) + 4 * 48 + 48 + 3 * sizeof(LightDrift) + 2 * sizeof(std::uint64_t);
 // Radiance and display picture, and as much again while a file is made of them.
 constexpr Bytes kHostPixel = 2 * (3 * sizeof(float) + 4);
 // Radiance and display picture on the device, and twice on the host: as planes and pixels.

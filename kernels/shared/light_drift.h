@@ -8,20 +8,24 @@
 namespace kilolux {
 #endif
 
-// How a light of the world drifts along the axes of a box, reflected at its ends. Positions are
-// turns of 2^-64: a period is twice the box's extent.
+// How a point light drifts along the axes of a box, reflected at its ends. Positions are turns of
+// 2^-64: a period is twice the box's extent.
 SHARED_STRUCT(LightDrift) {
-    uint4 high, low;            // xyz: turns at the start, upper and lower halves; w: row, box
-    uint4 rate_high, rate_low;  // xyz: turns a second, two's complement
+    // xyz: turns at the start, upper and lower halves; w: the box, luminous intensity's red [cd]
+    uint4 high, low;
+    // xyz: turns a second, two's complement; w: intensity's green and blue
+    uint4 rate_high, rate_low;
 };
 SHARED_ASSERT(light_drift_size, sizeof(LightDrift) == 64);
 
-// A box that lights drift in, as pairs of floats [m].
+// A box that lights of one range drift in, as pairs of floats [m].
 SHARED_STRUCT(DriftBox) {
-    float4 min, min_low;
-    float4 extent, extent_low;
+    float4 min, min_low;        // min.w: the lights' range [m]
+    float4 extent, extent_low;  // w: 0
+    // xyz: of the curve by which lights are ordered, the cell of `min`, and cells along the extent
+    uint4 first_cell, cells;
 };
-SHARED_ASSERT(drift_box_size, sizeof(DriftBox) == 64);
+SHARED_ASSERT(drift_box_size, sizeof(DriftBox) == 96);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

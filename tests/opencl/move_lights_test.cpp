@@ -76,82 +76,22 @@ TEST(MoveLights, IsTheDifferenceOfDoubles) {
     }
 }
 
-double drifted(double min, double extent, double turns, double rate, double seconds) {
-    double at = turns + rate * seconds;
-    at -= std::floor(at);
-    return min + 2.0 * extent * std::min(at, 1.0 - at);
-}
-
-// A light that drifts in a box, seen from where doubles put it: what is left is the error.
-class Drift {
- public:
-    double error(const Point& min, const Point& extent, const Point& turns, const Point& rate,
-                 double seconds) {
-        const DriftBox box = drift_box(min, extent);
-        move_.stage(1)[0] = light_at({-1.0, -2.0, -3.0});
-        move_.stage_drifts(1, {&box, 1})[0] = light_drift(0, 0, turns, rate);
-        move_.upload();
-        StageTimer timer;
-        move_.drift(seconds, timer);
-        Point eye;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            eye[axis] = drifted(min[axis], extent[axis], turns[axis], rate[axis], seconds);
-        }
-        const PointPair pair = point_pair(eye[0], eye[1], eye[2]);
-        const float4 left = download(gpu_, move_.enqueue(pair, timer)).at(0).position_range;
-        EXPECT_EQ(left.w, 2.5f);
-        return std::max({std::abs(left.x), std::abs(left.y), std::abs(left.z)});
-    }
-
- private:
-    Gpu gpu_ = test_gpu();
-    MoveLights move_{gpu_, default_tuning(gpu_.info)};
-};
-
-TEST(MoveLights, DriftAsDoublesDo) {
-    std::mt19937_64 random(11);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    Drift drift;
-    for (int i = 0; i < 200; ++i) {
-        const double far = std::array{0.0, 10.0, 1048576.0}[static_cast<std::size_t>(i % 3)];
-        Point min{}, extent{}, turns{}, rate{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            min[axis] = far * (unit(random) - 0.5);
-            extent[axis] = 40.0 * unit(random);
-            turns[axis] = unit(random);
-            rate[axis] = unit(random) - 0.5;
-        }
-        const double most = 40.0 + far;
-        EXPECT_LE(drift.error(min, extent, turns, rate, unit(random)), std::ldexp(most, -45)) << i;
-    }
-}
-
-TEST(MoveLights, DriftTurnsAtTheEndsOfItsBox) {
-    const Point min = {1.0, 1.0, 1.0}, extent = {4.0, 0.0, 2.0};
-    Drift drift;
-    for (const double turns : {0.0, 0.25, 0.5, 0.75, 0.999999999}) {
-        for (const double rate : {-0.499, -0.25, 0.0, 0.25, 0.499}) {
-            const double error =
-                drift.error(min, extent, {turns, turns, turns}, {rate, rate, rate}, 0.999);
-            EXPECT_LE(error, std::ldexp(5.0, -45)) << turns << ' ' << rate;
-        }
-    }
-}
-
-TEST(MoveLights, OnlyTheLightsThatDriftMove) {
+// Rows of others between: where they are and what they hold is theirs.
+TEST(MoveLights, LeavesAGapForOthers) {
     const Gpu gpu = test_gpu();
     MoveLights move(gpu, default_tuning(gpu.info));
     const auto rows = move.stage(3);
-    for (WorldLight& row : rows) row = light_at({1.0, 2.0, 3.0});
-    const std::array boxes = {drift_box({0, 0, 0}, {1, 1, 1}), drift_box({8, 8, 8}, {4, 4, 4})};
-    move.stage_drifts(1, boxes)[0] = light_drift(1, 1, {0.25, 0.25, 0.25}, {0.125, 0.125, 0.125});
-    move.upload();
+    for (std::size_t i = 0; i < 3; ++i) rows[i] = light_at({static_cast<double>(i), 2.0, 3.0});
+    move.upload(1, 2);
+    const std::vector<WorldLight> others(2, light_at({7.0, 8.0, 9.0}));
+    gpu.queue.enqueueWriteBuffer(move.world(), CL_TRUE, sizeof(WorldLight), 2 * sizeof(WorldLight),
+                                 others.data());
     StageTimer timer;
-    move.drift(0.5, timer);
-    const auto lights = download(gpu, move.enqueue(point_pair(0, 0, 0), timer));
-    EXPECT_EQ(lights.at(0).position_range.x, 1.0f);
-    EXPECT_EQ(lights.at(1).position_range.x, 10.5f);
-    EXPECT_EQ(lights.at(2).position_range.z, 3.0f);
+    std::vector<float> found;
+    for (const Light& light : download(gpu, move.enqueue(point_pair(0, 0, 0), timer))) {
+        found.push_back(light.position_range.x);
+    }
+    EXPECT_EQ(found, (std::vector<float>{0.0f, 7.0f, 7.0f, 1.0f, 2.0f}));
 }
 
 TEST(MoveLights, KeepsTheRestOfALight) {

@@ -57,6 +57,14 @@ class LightGenerator {
     /// What lights stay inside: LightTrack::part.
     const std::vector<Box>& parts() const { return parts_; }
 
+    /// Of every light [m].
+    float range() const { return static_cast<float>(options_.radius); }
+
+    /// Whether the lights of another time have the same tracks.
+    bool has_paths_of(const LightGenerator& other) const {
+        return options_ == other.options_ && parts_ == other.parts_;
+    }
+
  private:
     LightOptions options_;    // nothing automatic but the box
     std::vector<Box> parts_;  // of the region: one, or six about a hole

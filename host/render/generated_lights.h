@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/scene/lights/light_generator.h"
+#include "host/stages/drift_lights.h"
+
+namespace kilolux {
+
+/// The lights that LightOptions mean, on the device: their paths travel once, then the device moves
+/// and orders them. Where they are at a time does not depend on the times before it.
+class GeneratedLights {
+ public:
+    GeneratedLights(const Gpu& gpu, const Tuning& tuning) : drift_(gpu, tuning) {}
+
+    /// Those of `options` in the scene as it is now, at `time` [s].
+    void set(const LightOptions& options, const Scene& scene, double time);
+
+    std::size_t count() const { return count_; }
+
+    /// The corners between which all of them stay.
+    const Box& box() const { return box_; }
+
+    /// Writes their rows from `first` on, in the order of their places. Enqueues only.
+    void place(const DeviceArray<WorldLight>& world, std::size_t first, StageTimer& timer);
+
+    /// Brings their order to the host for at(). Blocks.
+    void read_order();
+
+    /// One of them, where there are some: all have its range and brightness.
+    SceneLight first() const { return (*generator_)[0]; }
+
+    /// The light of row first + `place`: after read_order().
+    SceneLight at(std::size_t place) const { return (*generator_)[order_[place]]; }
+
+ private:
+    void stage(const LightOptions& options, const Scene& scene);
+
+    DriftLights drift_;
+    std::optional<LightGenerator> generator_;  // of the time
+    std::optional<LightGenerator> staged_;     // of the start, on the device
+    std::size_t count_ = 0;
+    Box box_;
+    double time_ = 0.0, start_ = 0.0;   // [s]
+    std::optional<double> order_time_;  // of the device's order; none: to be made
+    std::vector<std::uint32_t> order_;  // on the host, if it was read
+};
+
+}  // namespace kilolux
