@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/base/error.h"
+#include "host/base/point_pair.h"
 
 namespace kilolux {
 namespace {
@@ -54,7 +55,7 @@ InstanceRow row_of(const glm::dmat4& m, double determinant) {
     InstanceRow out{};
     const glm::dvec3 eye = eye_of(m);
     const glm::vec3 high(eye);
-    const glm::vec3 low(eye - glm::dvec3(high));
+    const glm::vec3 low(lost_by_rounding(eye.x), lost_by_rounding(eye.y), lost_by_rounding(eye.z));
     const glm::dvec3 rest = glm::dvec3(m[3]) + glm::dmat3(m) * (glm::dvec3(high) + glm::dvec3(low));
     const glm::dmat3 linear = glm::transpose(glm::dmat3(m));
     const glm::dmat3 normal = normal_matrix(glm::dmat3(m), determinant);
