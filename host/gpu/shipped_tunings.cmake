@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Writes shipped_tunings() as C++: the tunings that certificates hold as measured on their device.
+# Writes shipped_tunings() as C++: the tunings that certificates hold as measured on their device, by
+# the run that made them or by an earlier one whose tuning it was shipped with.
 #   cmake -DOUTPUT=<file.cpp> "-DFILES=<certificate.json>|..." -P host/gpu/shipped_tunings.cmake
 cmake_minimum_required(VERSION 3.22)
 string(REPLACE "|" ";" FILES "${FILES}")
@@ -37,7 +38,7 @@ set(rows "")
 foreach(file IN LISTS FILES)
   file(READ ${file} json)
   string(JSON source ERROR_VARIABLE none GET "${json}" tuning source)
-  if(source STREQUAL "measured here")
+  if(source STREQUAL "measured here" OR source STREQUAL "shipped for this device")
     make_row("${json}" row)
     string(APPEND rows "${row}")
   endif()
