@@ -3,7 +3,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
 
@@ -11,8 +10,6 @@ namespace kilolux {
 namespace {
 
 constexpr std::size_t kRowsAtOnce = 64;
-constexpr std::size_t kSlices = 8;                         // of a display picture
-constexpr std::size_t kLeastSlice = std::size_t{1} << 20;  // smaller copies cost more [byte]
 
 // Calls each(y) for every row: memory that is written for the first time is slow on one core.
 template <typename Each>
@@ -38,13 +35,14 @@ Entry& entry_of(std::list<Entry>& entries, Key* Entry::*member, Key* key, const 
 
 }  // namespace
 
-// Bytes begin .. end of a buffer to the same bytes of `to`.
-cl::Event FrameReader::read(const cl::Buffer& buffer, std::size_t begin, std::size_t end,
-                            std::byte* to, StageTimer& timer) {
+void FrameReader::stage(Staged& staged, const cl::Buffer& buffer, const View& view,
+                        std::size_t bytes, StageTimer& timer) {
+    std::byte* to = staged.pinned.reserve(bytes);
+    staged.view = view;
+    staged.source = to;
     cl::Event event;
-    gpu_.queue.enqueueReadBuffer(buffer, CL_FALSE, begin, end - begin, to + begin, nullptr, &event);
+    gpu_.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, to, nullptr, &event);
     timer.record(kReadBackStage, event);
-    return event;
 }
 
 void FrameReader::read_display(const cl::Buffer& display, const View& view, std::span<uint> pixels,
@@ -61,32 +59,18 @@ void FrameReader::read_display(const cl::Buffer& display, const View& view, std:
     }
     Display& out = entry_of(displays_, &Display::pixels, first, gpu_);
     out.stride = to_stride;
-    out.view = view;
-    const std::size_t row = sizeof(uint) * view.stride, bytes = row * view.height;
-    std::byte* to = out.pinned.reserve(bytes);
-    out.source = to;
-    const std::size_t count = std::clamp<std::size_t>(bytes / kLeastSlice, 1, kSlices);
-    out.slices.clear();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t top = view.height * i / count, end = view.height * (i + 1) / count;
-        out.slices.push_back({top, end, read(display, row * top, row * end, to, timer)});
-    }
+    stage(out, display, view, sizeof(uint) * view.stride * view.height, timer);
 }
 
 void FrameReader::read_light(const Radiance& radiance, std::vector<float>& rgb, StageTimer& timer) {
     const View& view = radiance.view;
     Light& out = entry_of(lights_, &Light::rgb, &rgb, gpu_);
-    const std::size_t bytes = std::size_t{3} * sizeof(float) * view.stride * view.height;
-    std::byte* to = out.pinned.reserve(bytes);
-    out.view = view;
-    out.source = to;
-    read(radiance.planes, 0, bytes, to, timer);
+    stage(out, radiance.planes, view, 3 * sizeof(float) * view.stride * view.height, timer);
 }
 
-void FrameReader::place(const Display& display, const Slice& slice) {
+void FrameReader::place(const Display& display) {
     const View& view = display.view;
-    for_each_row(slice.end - slice.first, [&](std::size_t i) {
-        const std::size_t y = slice.first + i;
+    for_each_row(view.height, [&](std::size_t y) {
         std::memcpy(display.pixels + y * display.stride,
                     display.source + sizeof(uint) * y * view.stride, sizeof(uint) * view.width);
     });
@@ -112,21 +96,13 @@ void FrameReader::reset() {
 }
 
 double FrameReader::finish() {
-    gpu_.queue.flush();
-    for (const Display& display : displays_) {
-        if (!display.pixels) continue;
-        for (const Slice& slice : display.slices) {
-            slice.read.wait();
-            if (&slice != &display.slices.back()) place(display, slice);
-        }
-    }
     gpu_.queue.finish();
     const auto start = std::chrono::steady_clock::now();
-    for (const Display& display : displays_) {
-        if (display.pixels) place(display, display.slices.back());
-    }
     for (const Light& light : lights_) {
         if (light.rgb) place(light);
+    }
+    for (const Display& display : displays_) {
+        if (display.pixels) place(display);
     }
     reset();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)

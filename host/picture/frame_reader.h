@@ -15,8 +15,7 @@
 namespace kilolux {
 
 /// Brings bands of a frame from the device to the host, without waiting for the device: through
-/// pinned memory where the device has memory of its own, a slice of a display picture while the
-/// next one travels. What is read twice is the later one.
+/// pinned memory where the device has memory of its own. What is read twice is the later one.
 class FrameReader {
  public:
     explicit FrameReader(const Gpu& gpu) : gpu_(gpu) {}
@@ -45,25 +44,19 @@ class FrameReader {
         const std::byte* source = nullptr;
         View view{};
     };
-    // Rows of a band on their way.
-    struct Slice {
-        std::size_t first = 0, end = 0;
-        cl::Event read;
-    };
     struct Display : Staged {
         using Staged::Staged;
         uint* pixels = nullptr;  // of the band; null: nothing was read
         std::size_t stride = 0;
-        std::vector<Slice> slices;
     };
     struct Light : Staged {
         using Staged::Staged;
         std::vector<float>* rgb = nullptr;  // null: nothing was read
     };
 
-    cl::Event read(const cl::Buffer& buffer, std::size_t begin, std::size_t end, std::byte* to,
-                   StageTimer& timer);
-    static void place(const Display& display, const Slice& slice);
+    void stage(Staged& staged, const cl::Buffer& buffer, const View& view, std::size_t bytes,
+               StageTimer& timer);
+    static void place(const Display& display);
     static void place(const Light& light);
 
     Gpu gpu_;
