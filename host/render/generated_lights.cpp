@@ -25,29 +25,30 @@ void GeneratedLights::set(const LightOptions& options, const Scene& scene, doubl
     generator_.emplace(options, scene, time);
     const double start = floor_to(time, kPathInterval);
     if (staged_ && start_ == start && staged_->has_paths_of(*generator_)) return;
+    staged_.reset();  // a failure leaves nothing staged
+    stage(LightGenerator(options, scene, start), options.count);
     start_ = start;
-    stage(options, scene);
 }
 
-void GeneratedLights::stage(const LightOptions& options, const Scene& scene) {
-    staged_.emplace(options, scene, start_);
-    count_ = options.count;
+void GeneratedLights::stage(const LightGenerator& paths, std::size_t count) {
     order_time_.reset();
     box_ = {};
     std::vector<DriftBox> boxes;
-    for (const Box& part : staged_->parts()) {
-        boxes.push_back(drift_box(axes(part.min), axes(part.size()), staged_->range()));
+    for (const Box& part : paths.parts()) {
+        boxes.push_back(drift_box(axes(part.min), axes(part.size()), paths.range()));
         box_.add(part.min);
         box_.add(part.max);
     }
-    const std::span<LightDrift> rows = drift_.stage(count_, boxes);
-    tbb::parallel_for(std::size_t{0}, count_, [&](std::size_t i) {
-        const LightTrack track = staged_->track(i);
-        const LightTurns turns = staged_->turns(track);
+    const std::span<LightDrift> rows = drift_.stage(count, boxes);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        const LightTrack track = paths.track(i);
+        const LightTurns turns = paths.turns(track);
         const glm::vec3& c = track.intensity;
         rows[i] = light_drift(axes(turns.at), axes(turns.rate), {c.x, c.y, c.z}, track.part);
     });
     drift_.upload();
+    count_ = count;
+    staged_ = paths;
 }
 
 void GeneratedLights::place(const DeviceArray<WorldLight>& world, std::size_t first,

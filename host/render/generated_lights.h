@@ -36,7 +36,7 @@ class GeneratedLights {
     SceneLight at(std::size_t place) const { return (*generator_)[order_[place]]; }
 
  private:
-    void stage(const LightOptions& options, const Scene& scene);
+    void stage(const LightGenerator& paths, std::size_t count);
 
     DriftLights drift_;
     std::optional<LightGenerator> generator_;  // of the time

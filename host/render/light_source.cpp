@@ -143,7 +143,6 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
     }
     plant_tree(members);
     if (!all_near) order_camera_ = camera_position;
-    is_ordered_ = true;
 }
 
 // Anew where the lights are others or have moved.
@@ -204,8 +203,9 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
     place_headlights(camera);
     const bool has_moved = time_ != time;
     if (has_moved) {
-        time_ = time;
+        time_.reset();  // until it is done
         generated_.set(options_, scene_, time);
+        time_ = time;
         input_camera_.reset();
         is_drifted_ = false;
     }
@@ -217,8 +217,10 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
         is_far_ = is_far;
         input_camera_.reset();
         is_drifted_ = false;
+        is_ordered_ = false;  // until it is done
         find_order(camera.position);
         upload();
+        is_ordered_ = true;
     }
     stats.lights_given = own_.size() + options_.count;
     stats.lights_used = list_count() + tree_members_.size() + directional_order_.size();

@@ -80,14 +80,13 @@ class LightSource {
     std::vector<std::size_t> headlights_;     // those of own_ that follow the camera
     std::optional<Camera> headlight_camera_;  // that they are placed by
     std::optional<double> time_;              // of the generated ones; none: not made yet
-    // Some may not be usable, as so far away: the host places generated lights, too.
-    bool is_far_ = false;
-    bool is_drifted_ = false;      // the device has the generated lights' rows of time_
+    bool is_drifted_ = false;                 // the device has their rows of time_
+    bool is_far_ = false;  // some may not be usable, as so far away: the host places them, too
     std::vector<SceneLight> far_;  // the generated ones then
     // Numbers of the lights that the host places, own_ before far_: usable point and spot lights in
-    // the order of the kernels; directional ones. None: to be found.
-    bool is_ordered_ = false;
+    // the order of the kernels; directional ones.
     std::vector<std::uint32_t> order_, directional_order_;
+    bool is_ordered_ = false;                 // the lists above are of today's lights
     std::optional<glm::dvec3> order_camera_;  // from where they are usable, if that matters
     std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made
     LightInput input_;
