@@ -2,7 +2,7 @@
 // Lights that move by themselves: where they are, and the order in which kernels go through them,
 // neighbours in space beside each other. Integers decide, so both are the same on every device.
 //
-//   drift_keys     a light's cell on a Morton curve, within cubes of 32 cells along an edge
+//   drift_keys     a light's place in the order (light_order.h)
 //   drift_count    digits of a chunk's keys
 //   (prefix_sum over digits and chunks)
 //   drift_scatter  a chunk's keys to their places by digit: a stable radix sort, pass after pass
@@ -10,6 +10,7 @@
 //   drift_lights   the lights' rows
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_drift.h"
+#include "kernels/shared/light_order.h"
 
 #define DIGIT_BITS 8
 #define DIGITS (1 << DIGIT_BITS)
@@ -61,38 +62,27 @@ static inline float2 place_in_box(ulong share, float min, float min_low, float e
     return (float2)(sum, lost - (sum - s));
 }
 
-// The cell that a share of 2^-63 of `cells` lies in.
-static inline uint cell_at(ulong share, uint first, uint cells) {
-    uint upper = (uint)min(share >> 31, (ulong)0xffffffffu);
-    return first + mul_hi(upper, cells);
+// The cell that a pair of floats lies in, in cells.
+static inline uint cell_at(float2 place, float cells_per_metre) {
+    float cell = place.x * cells_per_metre;
+    float whole = floor(cell);
+    float rest = (cell - whole) + place.y * cells_per_metre;
+    if (!(fabs(cell) < LIGHT_CELLS)) return LIGHT_CELL_FAR;
+    return (uint)((int)whole + (int)floor(rest));
 }
 
-// The six lower bits, two zeros between each.
-static inline uint spread(uint x) {
-    x = x & 0x3fu;
-    x = (x | x << 8) & 0x300fu;
-    x = (x | x << 4) & 0x30c3u;
-    return (x | x << 2) & 0x9249u;
-}
+// Where a light is.
+typedef struct DriftPlace {
+    float2 x, y, z;  // pairs of floats [m]
+} DriftPlace;
 
-static inline uint morton(uint x, uint y, uint z) {
-    return spread(x) | spread(y) << 1 | spread(z) << 2;
-}
-
-static inline uint reversed(uint x) {
-    x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
-    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
-    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
-    x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
-    return x << 16 | x >> 16;
-}
-
-// 18 bits of the cube, reversed, so that neighbouring cubes are far from each other: lights near
-// the camera cost more than others, and consecutive ones are culled by one work-group. Then the
-// cell in the cube but for its last bit.
-static inline uint curve_key(uint x, uint y, uint z) {
-    uint cube = morton(x >> 5, y >> 5, z >> 5);
-    return (reversed(cube) & 0xffffc000u) | morton(x & 31u, y & 31u, z & 31u) >> 1;
+static inline DriftPlace place_at(LightDrift d, DriftBox box, Elapsed elapsed) {
+    DriftShares at = shares_at(d, elapsed);
+    DriftPlace out;
+    out.x = place_in_box(at.x, box.min.x, box.min_low.x, box.extent.x, box.extent_low.x);
+    out.y = place_in_box(at.y, box.min.y, box.min_low.y, box.extent.y, box.extent_low.y);
+    out.z = place_in_box(at.z, box.min.z, box.min_low.z, box.extent.z, box.extent_low.z);
+    return out;
 }
 
 kernel void drift_keys(global const LightDrift* restrict drifts,  // [count]
@@ -103,11 +93,10 @@ kernel void drift_keys(global const LightDrift* restrict drifts,  // [count]
     if (i >= count) return;
     LightDrift d = drifts[i];
     DriftBox box = boxes[d.high.w];
-    DriftShares share = shares_at(d, (Elapsed){seconds, of_halves(rest_high, rest_low)});
-    uint x = cell_at(share.x, box.first_cell.x, box.cells.x);
-    uint y = cell_at(share.y, box.first_cell.y, box.cells.y);
-    uint z = cell_at(share.z, box.first_cell.z, box.cells.z);
-    keys[i] = (uint2)(curve_key(x, y, z), i);
+    DriftPlace p = place_at(d, box, (Elapsed){seconds, of_halves(rest_high, rest_low)});
+    float scale = box.extent.w;
+    uint key = light_order_key(cell_at(p.x, scale), cell_at(p.y, scale), cell_at(p.z, scale));
+    keys[i] = (uint2)(key, i);
 }
 
 // The first light of a chunk; that of the next is its end.
@@ -162,15 +151,12 @@ kernel void drift_lights(global const LightDrift* restrict drifts,  // [count]
     if (i >= count) return;
     LightDrift d = drifts[i];
     DriftBox box = boxes[d.high.w];
-    DriftShares at = shares_at(d, (Elapsed){seconds, of_halves(rest_high, rest_low)});
-    float2 x = place_in_box(at.x, box.min.x, box.min_low.x, box.extent.x, box.extent_low.x);
-    float2 y = place_in_box(at.y, box.min.y, box.min_low.y, box.extent.y, box.extent_low.y);
-    float2 z = place_in_box(at.z, box.min.z, box.min_low.z, box.extent.z, box.extent_low.z);
+    DriftPlace p = place_at(d, box, (Elapsed){seconds, of_halves(rest_high, rest_low)});
     WorldLight row;
-    row.light.position_range = (float4)(x.x, y.x, z.x, box.min.w);
+    row.light.position_range = (float4)(p.x.x, p.y.x, p.z.x, box.min.w);
     row.light.color_scale =
         (float4)(as_float(d.low.w), as_float(d.rate_high.w), as_float(d.rate_low.w), 1.0f);
     row.light.axis_cos = (float4)(0.0f, 0.0f, 0.0f, -1.0f);  // a point light's cone
-    row.position_low = (float4)(x.y, y.y, z.y, 0.0f);
+    row.position_low = (float4)(p.x.y, p.y.y, p.z.y, 0.0f);
     world[first + i] = row;
 }

@@ -4,53 +4,20 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <thread>
 #include <tuple>
 
+#include "host/base/light_cells.h"
+
 namespace kilolux {
 namespace {
 
-constexpr int kAxisBits = 21;                  // three axes fill 63 bits
 constexpr std::size_t kSerialCount = 1 << 15;  // fewer places are sorted before a thread starts
-
-// The bits of x, two zeros between each.
-std::uint64_t spread(std::uint64_t x) {
-    x = (x | x << 32) & 0x1f00000000ffff;
-    x = (x | x << 16) & 0x1f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    x = (x | x << 2) & 0x1249249249249249;
-    return x;
-}
-
-// The number of the cell of this edge, from the middle of the range of numbers on.
-std::uint64_t cell_of(double x, double edge) {
-    constexpr double kMiddle = 1 << (kAxisBits - 1);
-    return static_cast<std::uint64_t>(
-        std::clamp(std::floor(x / edge) + kMiddle, 0.0, 2.0 * kMiddle - 1.0));
-}
-
-std::uint64_t reversed(std::uint64_t x) {
-    x = (x & 0x5555555555555555) << 1 | (x >> 1 & 0x5555555555555555);
-    x = (x & 0x3333333333333333) << 2 | (x >> 2 & 0x3333333333333333);
-    x = (x & 0x0f0f0f0f0f0f0f0f) << 4 | (x >> 4 & 0x0f0f0f0f0f0f0f0f);
-    return __builtin_bswap64(x);
-}
-
-// Along the curve within a cube; cubes by the reversed bits of their number, so that neighbours are
-// far from each other: lights near the camera cost more than others, and consecutive ones are
-// culled by one work-group.
-std::uint64_t scatter_cubes(std::uint64_t morton) {
-    constexpr int kCubeBits = 3 * 5;  // of the cells in a cube
-    const std::uint64_t cell = morton & ((std::uint64_t{1} << kCubeBits) - 1);
-    return reversed(morton >> kCubeBits << (kCubeBits + 1)) << kCubeBits | cell;
-}
 
 struct Place {
     int range_exponent = std::numeric_limits<int>::max();
-    std::uint64_t key = 0;
+    uint key = 0;
     std::uint32_t light = 0;
 };
 
@@ -63,12 +30,9 @@ Place place_of(const SceneLight& light, std::uint32_t number) {
     const bool placed = light.type != LightType::directional && std::isfinite(p.x + p.y + p.z) &&
                         std::isfinite(light.range) && light.range > 0.0f;
     if (!placed) return {.light = number};
-    const int exponent = std::ilogb(light.range);
-    const double edge = std::ldexp(0.125, exponent);
-    return {exponent,
-            scatter_cubes(spread(cell_of(p.x, edge)) | spread(cell_of(p.y, edge)) << 1 |
-                          spread(cell_of(p.z, edge)) << 2),
-            number};
+    const double edge = light_cell_edge(light.range);
+    const auto cell = [&](double x) { return light_cell(x, edge); };
+    return {std::ilogb(light.range), light_order_key(cell(p.x), cell(p.y), cell(p.z)), number};
 }
 
 // Calls each(0) ... each(parts - 1), in a thread each.

@@ -9,11 +9,10 @@
 
 namespace kilolux {
 
-/// The order in which kernels go through lights: neighbours in space beside each other, along a
-/// Morton curve (Morton 1966) within cubes two to four ranges wide, so that a pixel's lights are
-/// near each other in memory and in few blocks of its sum. Which of two lights comes first depends
-/// on these two alone; equal places keep their order. Directional lights and what is not finite
-/// come last.
+/// The order in which kernels go through lights (kernels/shared/light_order.h), range by range:
+/// neighbours in space beside each other, so that a pixel's lights are near each other in memory
+/// and in few blocks of its sum. Which of two lights comes first depends on these two alone; equal
+/// places keep their order. Directional lights and what is not finite come last.
 std::vector<std::uint32_t> order_by_place(std::span<const SceneLight> lights);
 
 /// Puts lights into that order.

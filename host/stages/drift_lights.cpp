@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "host/base/light_cells.h"
 #include "host/base/point_pair.h"
 
 namespace kilolux {
@@ -52,25 +53,11 @@ LightDrift light_drift(const std::array<double, 3>& turns, const std::array<doub
 
 DriftBox drift_box(const std::array<double, 3>& min, const std::array<double, 3>& extent,
                    float range) {
-    // As the host's order of lights: an eighth of the range, rounded down to a power of two.
-    const double edge = std::ldexp(0.125, std::ilogb(range));
-    constexpr double kMostCells = 0x1p31;
-    const auto cell = [&](double v) {
-        return static_cast<uint>(
-            static_cast<std::int64_t>(std::fmod(std::floor(v / edge), 0x1p31)));
-    };
-    const auto cells = [&](double v) {
-        return static_cast<uint>(std::clamp(std::ceil(v / edge), 1.0, kMostCells));
-    };
     const PointPair corner = point_pair(min[0], min[1], min[2]);
     const PointPair size = point_pair(extent[0], extent[1], extent[2]);
-    DriftBox out{corner.high,
-                 corner.low,
-                 size.high,
-                 size.low,
-                 {cell(min[0]), cell(min[1]), cell(min[2]), 0},
-                 {cells(extent[0]), cells(extent[1]), cells(extent[2]), 0}};
+    DriftBox out{corner.high, corner.low, size.high, size.low};
     out.min.w = range;
+    out.extent.w = static_cast<float>(1.0 / light_cell_edge(range));
     return out;
 }
 

@@ -21,11 +21,9 @@ SHARED_ASSERT(light_drift_size, sizeof(LightDrift) == 64);
 // A box that lights of one range drift in, as pairs of floats [m].
 SHARED_STRUCT(DriftBox) {
     float4 min, min_low;        // min.w: the lights' range [m]
-    float4 extent, extent_low;  // w: 0
-    // xyz: of the curve by which lights are ordered, the cell of `min`, and cells along the extent
-    uint4 first_cell, cells;
+    float4 extent, extent_low;  // extent.w: cells of the lights' order a metre
 };
-SHARED_ASSERT(drift_box_size, sizeof(DriftBox) == 96);
+SHARED_ASSERT(drift_box_size, sizeof(DriftBox) == 64);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

@@ -49,7 +49,7 @@ std::vector<Measure> surface_measures() {
             SIZE_OF(LightDrift),
             OFFSET_OF(LightDrift, rate_low),
             SIZE_OF(DriftBox),
-            OFFSET_OF(DriftBox, cells),
+            OFFSET_OF(DriftBox, extent_low),
             SIZE_OF(MeshRow),
             OFFSET_OF(MeshRow, material),
             OFFSET_OF(MeshRow, color),

@@ -8,6 +8,10 @@
 #include <limits>
 #include <random>
 
+#include "host/render/generated_lights.h"
+#include "host/scene/generated/scenes.h"
+#include "tests/support/test_gpu.h"
+
 namespace kilolux {
 namespace {
 
@@ -122,6 +126,33 @@ TEST(LightOrder, KeepsTheOrderOfEqualPlacesAndFarOnes) {
         EXPECT_EQ(out[i].inner_cone, static_cast<float>(i + 3));
     for (const std::size_t i : {3u, 4u, 5u})
         EXPECT_EQ(out[i].inner_cone, static_cast<float>(i - 3));
+}
+
+// An exported scene's lights are ordered by the host: the picture has the bits of the swarm's.
+TEST(LightOrder, IsTheDevicesOrderOfGeneratedOnes) {
+    const Gpu gpu = test_gpu();
+    const Scene scene = make_generated_scene("grid");
+    for (const double radius : {0.0, 0.11, 3.0, 1e-30}) {
+        for (const double time : {0.0, 1.5, 2048.5}) {
+            LightOptions options;
+            options.count = 3000;
+            options.radius = radius;
+            options.box = {{-7.3, -1e-3, 0.1}, {5.9, 4.4, 1e4}};
+            GeneratedLights generated(gpu, default_tuning(gpu.info));
+            generated.set(options, scene, time);
+            const DeviceArray<WorldLight> world(
+                new_buffer(gpu, std::vector<WorldLight>(options.count)));
+            StageTimer timer;
+            generated.place(world, 0, timer);
+            generated.read_order();
+            const std::vector<SceneLight> lights = generate_lights(options, scene, time);
+            const std::vector<std::uint32_t> order = order_by_place(lights);
+            for (std::size_t i = 0; i < lights.size(); ++i) {
+                ASSERT_EQ(generated.at(i).position, lights[order[i]].position)
+                    << radius << " m, " << time << " s, place " << i;
+            }
+        }
+    }
 }
 
 TEST(LightOrder, OfNoLightIsNone) { EXPECT_TRUE(sorted({}).empty()); }

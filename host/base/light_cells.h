@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/shared/light_order.h"
+
+namespace kilolux {
+
+/// Edge of the cells by which lights of this range are ordered [m]: a power of two, an eighth to a
+/// sixteenth of the range. Its inverse is a float.
+inline double light_cell_edge(float range) {
+    return std::ldexp(0.125, std::max(std::ilogb(range), -120));
+}
+
+/// The number of the cell that x [m] lies in along an axis.
+inline uint light_cell(double x, double edge) {
+    const double cell = x / edge;
+    if (!(std::abs(cell) < LIGHT_CELLS)) return LIGHT_CELL_FAR;
+    return static_cast<uint>(static_cast<int>(std::floor(cell)));
+}
+
+}  // namespace kilolux
