@@ -56,8 +56,11 @@ struct FrameStats : PairCounts {
     std::uint64_t zero_normals =
         0;  // vertices of the scene whose normal has no direction: drawn as +Z of the view
     // That OpenCL draws; 0 where OpenGL does.
-    std::uint64_t triangles = 0;        // of the instances in view
-    std::uint64_t triangle_pairs = 0;   // of them and tiles of the picture
+    std::uint64_t triangles = 0;       // of the instances in view
+    std::uint64_t triangle_pairs = 0;  // of them and tiles of the picture
+    // What OpenCL makes surfaces of; 0: not counted.
+    std::uint64_t seen_triangles = 0;   // that some pixel shows
+    std::uint64_t texels = 0;           // read at least: four for a mip level of a texture
     std::uint32_t grid[3] = {0, 0, 0};  // tiles x, tiles y, slices
     // k, over pixels that are not background; < 0: not counted. Forward shading counts fragments
     // that later ones hide, too.

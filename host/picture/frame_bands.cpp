@@ -87,6 +87,8 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.refine_tests += band.refine_tests;
     whole.triangles += band.triangles;
     whole.triangle_pairs += band.triangle_pairs;
+    whole.seen_triangles += band.seen_triangles;
+    whole.texels += band.texels;
     whole.refined_pairs += band.refined_pairs;
     whole.drawn_pixels += band.drawn_pixels;
     whole.evaluations += band.evaluations;

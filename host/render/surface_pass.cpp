@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/surface_pass.h"
 
+#include <algorithm>
 #include <chrono>
+#include <numeric>
 
 #include "host/base/log.h"
 #include "host/render/grid_request.h"
@@ -15,6 +17,18 @@ std::optional<OpenTiles> open_tiles(const Sample& sample, int first_row) {
     OpenTiles out = sample.needed->open;
     out.first_row = sample.band.first_row - first_row;
     return out;
+}
+
+// A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
+Gpu resolving(const Gpu& gpu) { return gpu.info.is_cpu ? gpu : gpu.with_lanes(1); }
+
+// Triangles that some pixel shows.
+std::uint64_t count_seen_triangles(std::span<const uint> ids) {
+    const uint most = ids.empty() ? 0 : std::ranges::max(ids);
+    std::vector<bool> seen(std::size_t{most} + 1);
+    for (const uint id : ids) seen[id] = true;
+    seen[0] = false;  // background
+    return static_cast<std::uint64_t>(std::ranges::count(seen, true));
 }
 
 }  // namespace
@@ -38,8 +52,7 @@ SurfacePass::SurfacePass(const PathContext& context)
         planes_.emplace(context.meshes(), context.plan.gbuffer);
         return;
     }
-    // A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
-    const Gpu gpu = context.gpu.info.is_cpu ? context.gpu : context.gpu.with_lanes(1);
+    const Gpu gpu = resolving(context.gpu);
     const Scene& scene = context.scene.scene();
     const SurfaceFeatures features = path_surfaces(context);
     if (!context.surfaces) {
@@ -139,8 +152,23 @@ GBuffer SurfacePass::resolve(const DeviceArray<uint>& drawn, const SurfaceBuffer
     const GBuffer gbuffer = resolve_->enqueue(
         ids, scene, make_gbuffer_layout(context_.plan.gbuffer, view.stride, view.height), view,
         out.timer);
+    if (context_.settings.want.counts) count(ids, scene, view, out.stats);
     if (origins_) place_origins(ids, scene, gbuffer, sample, out);
     return gbuffer;
+}
+
+// What resolving has to do, see FrameStats. Blocks.
+void SurfacePass::count(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
+                        FrameStats& stats) {
+    if (!texels_) {
+        texels_.emplace(resolving(context_.gpu), context_.tuning, context_.surfaces->features());
+    }
+    StageTimer untimed;
+    const std::size_t size = std::size_t{view.stride} * view.height;
+    const std::vector<uint> texels =
+        download<uint>(context_.gpu, texels_->enqueue(ids, scene, view, untimed), size);
+    stats.texels = std::accumulate(texels.begin(), texels.end(), std::uint64_t{0});
+    stats.seen_triangles = count_seen_triangles(download<uint>(context_.gpu, ids, size));
 }
 
 void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,

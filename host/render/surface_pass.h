@@ -7,6 +7,7 @@
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/pixel_probe.h"
 #include "host/render/path.h"
+#include "host/stages/count_texels.h"
 #include "host/stages/decode_gbuffer.h"
 #include "host/stages/mask_tiles.h"
 #include "host/stages/shadow_origins.h"
@@ -59,6 +60,8 @@ class SurfacePass {
     GBuffer draw_in_opencl(const Sample& sample, Measured out);
     GBuffer resolve(const DeviceArray<uint>& drawn, const SurfaceBuffers& scene, const View& view,
                     const Sample& sample, Measured out);
+    void count(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
+               FrameStats& stats);
     void place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                        const GBuffer& gbuffer, const Sample& sample, Measured out);
 
@@ -67,6 +70,7 @@ class SurfacePass {
     std::optional<IdsPass> ids_;              // else
     std::optional<TriangleIds> triangles_;    // else
     std::optional<ResolveSurfaces> resolve_;  // of ids_ or triangles_
+    std::optional<CountTexels> texels_;       // of the same, made when first asked for
     std::optional<ShadowOrigins> origins_;    // with shadows
     std::optional<MaskTiles> mask_;           // made when first asked for
     GBufferBridge bridge_;

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a material's texture is read at fragments: texture coordinates, transformed.
+//
+// TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
+// G-buffer keeps.
 #ifndef KILOLUX_DEVICE_FOOTPRINT_H
 #define KILOLUX_DEVICE_FOOTPRINT_H
 #include "kernels/device/texture.h"
 #include "kernels/device/triangle.h"
+
+#define HAS_USE(use) ((TEXTURE_USES & (1 << (use))) != 0)
 
 #if HAS_TEXCOORD0 || HAS_TEXCOORD1
 static inline Footprint footprint_of(global const SurfaceMaterial* material, const Fragment* f,

@@ -2,14 +2,12 @@
 // A fragment's material: factors times textures, as glTF 2.0 defines them; raster/shaders/
 // material.glsl is the same for OpenGL's fragments.
 //
-// TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
-// G-buffer keeps. HAS_SPECULAR, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some are unlit.
+// TEXTURE_USES: see footprint.h. HAS_SPECULAR, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some
+// are unlit.
 #ifndef KILOLUX_DEVICE_RESOLVED_SURFACE_H
 #define KILOLUX_DEVICE_RESOLVED_SURFACE_H
 #include "kernels/device/footprint.h"
 #include "kernels/shared/surface.h"
-
-#define HAS_USE(use) ((TEXTURE_USES & (1 << (use))) != 0)
 
 // A material's textures at the fragments.
 typedef struct Textures {

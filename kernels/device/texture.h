@@ -323,25 +323,39 @@ static inline bool is_anisotropic(global const TextureRow* row) {
     return (row->filter & (FILTER_MINIFY_NEAREST | FILTER_NO_MIPMAPS)) == 0u;
 }
 
-static inline FV4 sample_anisotropic(TextureBuffers buffers, global const TextureRow* row,
-                                     Footprint at) {
+// Samples along the longer side of a footprint.
+typedef struct Samples {
+    FV count, weight;
+    FV step_u, step_v;  // from one to the next
+    FV lambda;
+} Samples;
+
+static inline Samples samples_along(global const TextureRow* row, Footprint at) {
     Sides sides = sides_of(row, at);
     MASK along_x = lane_mask(sides.x2 >= sides.y2);
     FV longer = max(sides.x2, sides.y2);
     FV shorter = max(min(sides.x2, sides.y2), fv(1e-30f));
-    FV count = min(max(ceil(lane_sqrt(longer / shorter)), fv(1.0f)), fv((float)MAX_ANISOTROPY));
-    FV weight = fv(1.0f) / count;
-    FV step_u = lane_select(along_x, at.u_dx, at.u_dy) * weight;
-    FV step_v = lane_select(along_x, at.v_dx, at.v_dy) * weight;
-    FV lambda = lambda_of(longer * weight * weight);
-    float most = lane_max(count);
+    Samples out;
+    out.count = min(max(ceil(lane_sqrt(longer / shorter)), fv(1.0f)), fv((float)MAX_ANISOTROPY));
+    out.weight = fv(1.0f) / out.count;
+    out.step_u = lane_select(along_x, at.u_dx, at.u_dy) * out.weight;
+    out.step_v = lane_select(along_x, at.v_dx, at.v_dy) * out.weight;
+    out.lambda = lambda_of(longer * out.weight * out.weight);
+    return out;
+}
+
+static inline FV4 sample_anisotropic(TextureBuffers buffers, global const TextureRow* row,
+                                     Footprint at) {
+    Samples s = samples_along(row, at);
+    float most = lane_max(s.count);
     FV4 sum;
     sum.x = sum.y = sum.z = sum.w = fv(0.0f);
     for (float i = 0.0f; i < most; i += 1.0f) {
-        FV along = fma(count, fv(-0.5f), fv(i + 0.5f));
-        Lookup tap = make_lookup(row, fma(step_u, along, at.u), fma(step_v, along, at.v), lambda);
+        FV along = fma(s.count, fv(-0.5f), fv(i + 0.5f));
+        Lookup tap =
+            make_lookup(row, fma(s.step_u, along, at.u), fma(s.step_v, along, at.v), s.lambda);
         FV4 texel = fetch_texture(buffers, row, &tap);
-        FV share = lane_select(fv(i) < count, weight, fv(0.0f));
+        FV share = lane_select(fv(i) < s.count, s.weight, fv(0.0f));
         sum.x = fma(texel.x, share, sum.x);
         sum.y = fma(texel.y, share, sum.y);
         sum.z = fma(texel.z, share, sum.z);

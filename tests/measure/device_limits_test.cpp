@@ -33,6 +33,7 @@ void expect_plausible(const DeviceLimits& l) {
     // A special function takes a vector instruction at least.
     EXPECT_LT(l.rsqrt_per_s, l.lane_instructions_per_s);
     EXPECT_LT(l.divisions_per_s, l.lane_instructions_per_s);
+    EXPECT_LT(l.texels_per_s, l.lane_instructions_per_s);
 }
 
 TEST_F(DeviceLimitsTest, ArePlausibleAndUseTheVectorUnit) {

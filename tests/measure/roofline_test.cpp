@@ -11,9 +11,10 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kDeviceStages[] = {
-    "prepare_lights", "build_clusters", "cull_lights",    "bin_pixels",   "refine_lights", "shade",
-    "bloom",          "tonemap",        "shadow_origins", "draw_shadows", "cast_shadows"};
+constexpr const char* kDeviceStages[] = {"prepare_lights", "build_clusters", "cull_lights",
+                                         "bin_pixels",     "refine_lights",  "shade",
+                                         "bloom",          "tonemap",        "shadow_origins",
+                                         "draw_shadows",   "cast_shadows",   "resolve_surfaces"};
 
 // Round numbers, so that times can be worked out by hand.
 DeviceLimits round_limits() {
@@ -25,6 +26,7 @@ DeviceLimits round_limits() {
     l.rsqrt_per_s = 4e9;
     l.sqrt_per_s = 5e9;
     l.divisions_per_s = 8e9;
+    l.texels_per_s = 2e9;
     l.read_bandwidth = 4e10;
     l.write_bandwidth = 2e10;
     l.copy_bandwidth = 3e10;
@@ -53,6 +55,8 @@ StageCounts some_counts() {
     c.refined_pairs = 40000.0;
     c.evaluations = 8e6;
     c.full_evaluations = 4e6;
+    c.seen_triangles = 1e5;
+    c.texels = 2e7;
     c.shadow_rays = 3e6;
     c.shadow_seen = 2e6;
     c.shadow_nodes = 4e5;
@@ -75,6 +79,9 @@ TEST(Roofline, LimitIsTheGreatestBoundAndTheLaunches) {
     work.instructions.divisions = 8e7;  // 20 + 10 ms
     EXPECT_NEAR(stage_limit(work, limits).ms, 30.002, 1e-9);
     EXPECT_EQ(stage_limit(work, limits).bound, Bound::special_functions);
+    work.texels = 7e7;  // 35 ms
+    EXPECT_NEAR(stage_limit(work, limits).ms, 35.002, 1e-9);
+    EXPECT_EQ(stage_limit(work, limits).bound, Bound::texels);
     work.bytes_written = 1e9;  // 50 ms
     EXPECT_NEAR(stage_limit(work, limits).ms, 50.002, 1e-9);
     EXPECT_EQ(stage_limit(work, limits).bound, Bound::bytes);
@@ -104,6 +111,8 @@ TEST(Roofline, IsMonotoneInEveryCount) {
                                            &StageCounts::refined_pairs,
                                            &StageCounts::evaluations,
                                            &StageCounts::full_evaluations,
+                                           &StageCounts::seen_triangles,
+                                           &StageCounts::texels,
                                            &StageCounts::shadow_rays,
                                            &StageCounts::shadow_seen,
                                            &StageCounts::shadow_nodes,
@@ -111,9 +120,10 @@ TEST(Roofline, IsMonotoneInEveryCount) {
                                            &StageCounts::shadow_points,
                                            &StageCounts::shadow_words,
                                            &StageCounts::gbuffer_bytes_per_pixel};
-    for (const char* stage : {"gbuffer_bridge", "prepare_lights", "build_clusters", "cull_lights",
-                              "bin_pixels", "refine_lights", "shade", "bloom", "tonemap",
-                              "shadow_origins", "draw_shadows", "cast_shadows"}) {
+    for (const char* stage :
+         {"gbuffer_bridge", "prepare_lights", "build_clusters", "cull_lights", "bin_pixels",
+          "refine_lights", "shade", "bloom", "tonemap", "shadow_origins", "draw_shadows",
+          "cast_shadows", "resolve_surfaces"}) {
         bool grew = false;
         for (double StageCounts::*const field : fields) {
             // More tiles leave fewer further clusters: a tile's first cluster costs less than its

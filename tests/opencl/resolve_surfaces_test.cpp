@@ -10,6 +10,7 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/stages/bin_triangles.h"
 #include "host/stages/build_mips.h"
+#include "host/stages/count_texels.h"
 #include "host/stages/decode_gbuffer.h"
 #include "host/stages/raster_triangles.h"
 #include "kernels/shared/surface_planes.h"
@@ -37,14 +38,16 @@ View small_view() {
 // Keeps what SurfaceBuffers refer to.
 class QuadScene {
  public:
-    explicit QuadScene(const Gpu& gpu) : gpu_(gpu) {
+    // `repeats` of the texture along each edge.
+    explicit QuadScene(const Gpu& gpu, float repeats = 1.0f) : gpu_(gpu) {
         // Position, normal, tangent, texcoord; a rectangle at depth 2 that leaves the left columns.
         constexpr float kEdge = 1.6f;
         std::vector<float> vertices;
         for (const auto& [x, y, u, v] :
              {std::array{-kEdge, -9.0f, 0.0f, 1.0f}, std::array{9.0f, -9.0f, 1.0f, 1.0f},
               std::array{9.0f, 9.0f, 1.0f, 0.0f}, std::array{-kEdge, 9.0f, 0.0f, 0.0f}}) {
-            const std::array row = {x, y, -2.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f, 1.0f, u, v};
+            const std::array row = {x,    y,    -2.0f, 0.0f, 0.0f,        1.0f,
+                                    1.0f, 0.0f, 0.0f,  1.0f, u * repeats, v * repeats};
             vertices.insert(vertices.end(), row.begin(), row.end());
         }
         MeshRow mesh{};
@@ -114,6 +117,23 @@ class QuadScene {
     GrowingArray<std::uint64_t> texels_{gpu_, "test"};
 };
 
+SurfaceFeatures quad_features(int anisotropy) {
+    SurfaceFeatures surfaces;
+    surfaces.texture_uses = 1u << USE_BASE_COLOR | 1u << USE_NORMAL;
+    surfaces.texcoord0 = true;
+    surfaces.anisotropy = anisotropy;
+    return surfaces;
+}
+
+// Its two triangles by turns, from column 3 on.
+std::vector<uint> quad_ids(const View& view) {
+    std::vector<uint> ids(std::size_t{view.stride} * view.height, 0);
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 3; x < view.width; ++x) ids[y * view.stride + x] = 1 + (x + y) % 2;
+    }
+    return ids;
+}
+
 // The planes of a layout, as bytes; `decoded` gets them as shading sees them.
 std::vector<std::byte> resolved(const Gpu& gpu, uint layout, int anisotropy,
                                 std::vector<float>* decoded = nullptr) {
@@ -124,15 +144,9 @@ std::vector<std::byte> resolved(const Gpu& gpu, uint layout, int anisotropy,
     GBufferNeeds needs;
     static_cast<SceneFeatures&>(needs) = features;
     needs.layout = layout;
-    SurfaceFeatures surfaces;
-    surfaces.texture_uses = 1u << USE_BASE_COLOR | 1u << USE_NORMAL;
-    surfaces.texcoord0 = true;
-    surfaces.anisotropy = anisotropy;
+    const SurfaceFeatures surfaces = quad_features(anisotropy);
     const QuadScene scene(gpu);
-    std::vector<uint> ids(std::size_t{view.stride} * view.height, 0);
-    for (uint y = 0; y < view.height; ++y) {
-        for (uint x = 3; x < view.width; ++x) ids[y * view.stride + x] = 1 + (x + y) % 2;
-    }
+    const std::vector<uint> ids = quad_ids(view);
     GrowingArray<uint> device_ids(gpu, "test");
     upload<uint>(gpu, device_ids.reserve(ids.size()), ids);
     const Tuning tuning = default_tuning(gpu.info);
@@ -216,6 +230,38 @@ std::vector<uint> drawn_ids(const Gpu& gpu, int group) {
     return ids;
 }
 
+// Texels that a pixel of the quad is made of, all the same.
+uint texels_of_quad(int lanes, float repeats, int anisotropy) {
+    const Gpu gpu = test_gpu(lanes);
+    const View view = small_view();
+    const QuadScene scene(gpu, repeats);
+    const std::vector<uint> ids = drawn_ids(gpu, 1);
+    GrowingArray<uint> device_ids(gpu, "test");
+    upload<uint>(gpu, device_ids.reserve(ids.size()), ids);
+    CountTexels count(gpu, default_tuning(gpu.info), quad_features(anisotropy));
+    StageTimer timer;
+    const std::vector<uint> counts =
+        download(gpu, count.enqueue(device_ids.get(), scene.buffers, view, timer));
+    const uint expected = counts[kWidth - 1];
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.width; ++x) {
+            const std::size_t i = y * view.stride + x;
+            EXPECT_EQ(counts[i], ids[i] == 0 ? 0u : expected) << x << ' ' << y;
+        }
+    }
+    return expected;
+}
+
+// A pixel is 0.094 * repeats texels wide and 0.033 * repeats high. Both uses read one texture.
+TEST(CountTexels, CountsLevelsAndSamples) {
+    for (const int lanes : {1, 2, 16}) {
+        EXPECT_EQ(texels_of_quad(lanes, 1.0f, 1), 4u) << "magnified";
+        EXPECT_EQ(texels_of_quad(lanes, 20.0f, 1), 8u) << "between two mip levels";
+        EXPECT_EQ(texels_of_quad(lanes, 20.0f, 8), 12u) << "three samples of the finest";
+        EXPECT_EQ(texels_of_quad(lanes, 40.0f, 8), 24u) << "three samples between two";
+    }
+}
+
 }  // namespace
 
 TEST(EveryKernel, Triangles) {
@@ -232,6 +278,7 @@ TEST(EveryKernel, Triangles) {
 // Under oclgrind, with the other kernels.
 TEST(EveryKernel, Surfaces) {
     for (const int lanes : {1, 4}) {
+        texels_of_quad(lanes, 20.0f, 1);
         for (const uint layout :
              {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
             EXPECT_FALSE(resolved(test_gpu(lanes), layout, lanes).empty());

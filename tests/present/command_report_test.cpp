@@ -177,9 +177,6 @@ TEST_F(Report, ABudgetIsChosenOnceAndKept) {
     EXPECT_TRUE(contains(at_half.err, "measured now, and kept")) << "another width, another choice";
     const std::string chosen = first.err.substr(first.err.find("chose"));
     EXPECT_TRUE(contains(second.err, chosen.substr(0, chosen.find(';')))) << second.err;
-    const ChildResult other = small({"render", "-o", picture, "--max-error", "0.5",
-                                     "--error-metric", "rmse", "--light-seed", "2", "--quiet"});
-    EXPECT_EQ(other.code, 0) << other.err;
     const ChildResult bench =
         small({"bench", "--max-error", "0.5", "--frames", "1", "--warm-up", "0"});
     EXPECT_EQ(bench.code, 0) << bench.err;

@@ -130,6 +130,8 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     if (point.renderer == RendererKind::deferred_all) stats.evaluations_per_pixel = local;
     stats.useful_evaluations_per_pixel = covered.useful_k;
     stats.shadows = covered.shadows;
+    stats.seen_triangles = covered.seen_triangles;
+    stats.texels = covered.texels;
     BenchRow row;
     row.point = point;
     row.k = stats.evaluations_per_pixel;
@@ -194,7 +196,8 @@ const BenchRun::Coverage& BenchRun::coverage(const SweepPoint& point) {
     settings.renderer = RendererKind::deferred;
     settings.want.counts = settings.want.shadow_counts = true;
     const FrameStats stats = render(settings).stats;
-    found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels, stats.shadows};
+    found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels, stats.shadows,
+                     stats.seen_triangles, stats.texels};
     return found->second;
 }
 

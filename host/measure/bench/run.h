@@ -70,6 +70,7 @@ class BenchRun {
         double useful_k = 0.0;
         std::uint64_t drawn_pixels = 0;
         ShadowCounts shadows{};
+        std::uint64_t seen_triangles = 0, texels = 0;
     };
     using SceneKey = std::tuple<std::array<int, 2>, std::uint64_t, uint>;
 

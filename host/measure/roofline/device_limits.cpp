@@ -24,6 +24,7 @@ constexpr LimitField kFields[] = {
     {"rsqrt_per_s", &DeviceLimits::rsqrt_per_s},
     {"sqrt_per_s", &DeviceLimits::sqrt_per_s},
     {"divisions_per_s", &DeviceLimits::divisions_per_s},
+    {"texels_per_s", &DeviceLimits::texels_per_s},
     {"read_bytes_per_s", &DeviceLimits::read_bandwidth},
     {"write_bytes_per_s", &DeviceLimits::write_bandwidth},
     {"copy_bytes_per_s", &DeviceLimits::copy_bandwidth},
@@ -79,6 +80,7 @@ bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
     rose |= raise(limits.rsqrt_per_s, rate("rsqrt_rate", kFmaChains));
     rose |= raise(limits.sqrt_per_s, rate("sqrt_rate", kFmaChains));
     rose |= raise(limits.divisions_per_s, rate("division_rate", kFmaChains));
+    rose |= raise(limits.texels_per_s, kernels.texels_per_s());
     return rose;
 }
 

@@ -22,6 +22,7 @@ struct DeviceLimits {
     double rsqrt_per_s = 0.0;              // OpenCL C's functions as compiled
     double sqrt_per_s = 0.0;
     double divisions_per_s = 0.0;
+    double texels_per_s = 0.0;    // 64 bits each, as textures are read, from the nearest cache
     double read_bandwidth = 0.0;  // [byte/s], buffers larger than every cache
     double write_bandwidth = 0.0;
     double copy_bandwidth = 0.0;

@@ -74,13 +74,16 @@ LimitKernels::LimitKernels(const Gpu& gpu)
       items_(static_cast<std::size_t>(gpu.info.compute_units) *
              (gpu.info.is_cpu ? 4 : 16 * group_)),
       walkers_(gpu.info.is_cpu ? static_cast<std::size_t>(gpu.info.compute_units) : items_),
-      out_(gpu.context, CL_MEM_READ_WRITE, items_ * kMostLanes * sizeof(float)) {
-    widths_.push_back({gpu.info.lane_width, program_});
+      out_(gpu.context, CL_MEM_READ_WRITE, items_ * kMostLanes * sizeof(float)),
+      texels_(gpu.context, CL_MEM_READ_WRITE, kTexels * sizeof(cl_ulong)) {
+    gpu.queue.enqueueFillBuffer<cl_ulong>(texels_, 1, 0, kTexels * sizeof(cl_ulong));
+    widths_.push_back({gpu.info.lane_width, program_, build_program(gpu, "measure_texels")});
     const int twice = 2 * gpu.info.lane_width;
     const bool is_own_width = gpu.info.lane_width == describe(gpu.device).lane_width;
-    if (gpu.info.is_cpu && is_own_width && twice <= kMostLanes)
-        widths_.push_back(
-            {twice, build_program(Gpu(gpu.context, gpu.queue, twice), "measure_limits")});
+    if (!gpu.info.is_cpu || !is_own_width || twice > kMostLanes) return;
+    const Gpu wide(gpu.context, gpu.queue, twice);
+    widths_.push_back(
+        {twice, build_program(wide, "measure_limits"), build_program(wide, "measure_texels")});
 }
 
 double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
@@ -94,6 +97,19 @@ double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
         const double unit = static_cast<double>(items_) * width.lanes * operations;
         best = std::max(best, best_rate(unit, 1u << 30, [&](uint n) {
                             return event_seconds(run(items, n, kA, kB, out_));
+                        }));
+    }
+    return best;
+}
+
+double LimitKernels::texels_per_s() {
+    const cl::EnqueueArgs items(gpu_.queue, cl::NDRange(items_), cl::NDRange(group_));
+    double best = 0.0;
+    for (const Width& width : widths_) {
+        cl::KernelFunctor<uint, cl::Buffer, cl::Buffer> run(width.texels, "texel_rate");
+        const double unit = static_cast<double>(items_) * width.lanes * kTexelChains;
+        best = std::max(best, best_rate(unit, 1u << 30, [&](uint n) {
+                            return event_seconds(run(items, n, texels_, out_));
                         }));
     }
     return best;

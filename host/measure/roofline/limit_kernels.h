@@ -13,6 +13,9 @@ namespace kilolux {
 /// Independent chains of kernels/measure_limits.cl.
 inline constexpr int kFmaChains = 10;
 inline constexpr int kAddChains = 4;
+/// Of kernels/measure_texels.cl: texels of the table, and of an iteration.
+inline constexpr int kTexels = 1024;
+inline constexpr int kTexelChains = 4;
 /// Of devices that do not report theirs [byte].
 inline constexpr std::uint64_t kSmallestCache = 1 << 20;
 
@@ -29,15 +32,18 @@ struct MemoryRates {
     double copy = 0.0;
 };
 
-/// Runs kernels/measure_limits.cl; each rate is the best of several runs. Memory at the Gpu's lane
-/// width; arithmetic, where that is a CPU's own, also at twice the width, which shading uses and
-/// which AVX-512 needs for its full rate.
+/// Runs kernels/measure_limits.cl and measure_texels.cl; each rate is the best of several runs.
+/// Memory at the Gpu's lane width; arithmetic, where that is a CPU's own, also at twice the width,
+/// which shading uses and which AVX-512 needs for its full rate.
 class LimitKernels {
  public:
     explicit LimitKernels(const Gpu& gpu);
 
     /// Of a *_rate kernel that does `operations` a lane and iteration.
     double lane_operations_per_s(const char* kernel, int operations);
+
+    /// Texels that lanes read from a table in the nearest cache.
+    double texels_per_s();
 
     /// Of two filled buffers of `bytes` each: what reading, writing and copying one takes.
     MemoryRates memory_rates(std::uint64_t bytes);
@@ -54,13 +60,14 @@ class LimitKernels {
     cl::Program program_;
     struct Width {
         int lanes;
-        cl::Program program;
+        cl::Program program, texels;
     };
     std::vector<Width> widths_;  // of the *_rate kernels
     std::size_t group_;          // work-items of a group
     std::size_t items_;          // work-items of the *_rate kernels
     std::size_t walkers_;        // work-items that share a buffer
     cl::Buffer out_;
+    cl::Buffer texels_;  // a table
 };
 
 /// A device's limits during a benchmark: those kept from before, measured again until they converge

@@ -73,14 +73,22 @@ StageWork raster_triangles_work(const StageCounts& c) {
     return work;
 }
 
-// Textures are left out: which a pixel reads, and at how many levels, differs by material.
+// A triangle is set up once, however many pixels show it.
 StageWork resolve_work(const StageCounts& c) {
+    constexpr double kVertex = (3 + 3) * sizeof(float);  // further attributes are left out
+    constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * kVertex;
     StageWork work;
-    work.bytes_read = sizeof(uint) * c.pixels;
+    work.bytes_read = sizeof(uint) * c.pixels + kTriangle * c.seen_triangles;
     work.bytes_written = c.gbuffer_bytes_per_pixel * c.pixels;
     // Ray 2, weights 22 and a division, depth 2, its buffer value 3 and 2 divisions, normal 6, its
     // unit vector 9 with a root and a division, octahedral 18 and a division, packing 8.
     work.instructions = c.drawn_pixels * InstructionCounts{70.0, 0.0, 1.0, 5.0};
+    // A triangle: differences from the eye 18, rows 27, edges and their sum 4 * 15. A texel's
+    // channel is taken out 1, converted 1 and mixed 1.5; two channels. Where texels lie is left
+    // out: textures of one size share it.
+    work.instructions = work.instructions + c.seen_triangles * InstructionCounts{105.0} +
+                        c.texels * InstructionCounts{7.0};
+    work.texels = c.texels;
     work.launches = 1;
     return work;
 }
@@ -395,7 +403,8 @@ double special_seconds(const InstructionCounts& counts, const DeviceLimits& limi
 }  // namespace
 
 const char* bound_name(Bound bound) {
-    constexpr const char* kNames[] = {"bytes", "instructions", "special functions", "launches"};
+    constexpr const char* kNames[] = {"bytes", "instructions", "special functions", "texels",
+                                      "launches"};
     return kNames[static_cast<std::size_t>(bound)];
 }
 
@@ -410,12 +419,14 @@ StageLimit stage_limit(const StageWork& work, const DeviceLimits& limits) {
     const double bytes = bytes_seconds(work, limits);
     const double instructions = work.instructions.total / limits.lane_instructions_per_s;
     const double special = special_seconds(work.instructions, limits);
-    const double most = std::max({bytes, instructions, special});
+    const double texels = work.texels > 0.0 ? work.texels / limits.texels_per_s : 0.0;
+    const double most = std::max({bytes, instructions, special, texels});
     StageLimit limit;
     limit.ms = 1e3 * (most + launches);
     if (launches < most) {
         limit.bound = most == bytes          ? Bound::bytes
                       : most == instructions ? Bound::instructions
+                      : most == texels       ? Bound::texels
                                              : Bound::special_functions;
     }
     return limit;
@@ -449,6 +460,8 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     c.refine_tests = number(stats.refine_tests);
     c.triangles = number(stats.triangles);
     c.triangle_pairs = number(stats.triangle_pairs);
+    c.seen_triangles = number(stats.seen_triangles);
+    c.texels = number(stats.texels);
     c.refined_pairs = number(stats.refined_pairs);
     const bool all_lights = setup.renderer == RendererKind::deferred_all;
     c.evaluations = c.drawn_pixels * (all_lights ? c.lights : stats.evaluations_per_pixel);

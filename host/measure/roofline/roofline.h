@@ -14,8 +14,9 @@
 ///
 /// Bytes: each input and output once for every launch that needs it; registers and near caches are
 /// free. Instructions: see instruction_counts.h; special functions are also counted apart, as their
-/// units are slower. Lights that evaluate() leaves early count as range tests only. Tunables
-/// (chunks, groups, lanes) cost nothing. OpenGL's and the host's stages have no model.
+/// units are slower. Texels come from the nearest cache, one by one. Lights that evaluate() leaves
+/// early count as range tests only. Tunables (chunks, groups, lanes) cost nothing. OpenGL's and the
+/// host's stages have no model.
 namespace kilolux {
 
 /// What the stages of one frame had to work on.
@@ -33,6 +34,9 @@ struct StageCounts {
     double refined_pairs = 0.0;
     double triangles = 0.0;  // that OpenCL draws
     double triangle_pairs = 0.0;
+    // Of resolving; not counted: 0.
+    double seen_triangles = 0.0;
+    double texels = 0.0;
     double evaluations = 0.0;       // of lights at pixels: k * drawn_pixels
     double full_evaluations = 0.0;  // of those that do not leave early; not counted: 0
     // Of shadows, see ShadowCounts; not counted: 0.
@@ -56,6 +60,7 @@ struct StageWork {
     double bytes_written = 0.0;
     double bytes_uploaded = 0.0;  // from host memory to a device with its own
     InstructionCounts instructions{};
+    double texels = 0.0;  // read at places of their own
     int launches = 0;
 
     double bytes() const { return bytes_read + bytes_written; }  // in the device's memory
@@ -65,11 +70,11 @@ struct StageWork {
 std::optional<StageWork> stage_work(std::string_view stage, const StageCounts& counts);
 
 /// Which limit of the device bounds a stage.
-enum class Bound { bytes, instructions, special_functions, launches };
+enum class Bound { bytes, instructions, special_functions, texels, launches };
 const char* bound_name(Bound bound);
 
-/// The time that work takes at the limits: the greatest of its bytes', instructions' and special
-/// functions' time, and its launches beside.
+/// The time that work takes at the limits: the greatest of its bytes', instructions', special
+/// functions' and texels' time, and its launches beside.
 struct StageLimit {
     double ms = 0.0;
     Bound bound = Bound::launches;

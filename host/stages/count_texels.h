@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/features.h"
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
+
+namespace kilolux {
+
+/// Texels that each pixel's surface is made of. For limits.
+class CountTexels {
+ public:
+    CountTexels(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& surfaces);
+
+    /// [view.height][view.stride], 0 for background; ids as ResolveSurfaces reads them. Valid until
+    /// the next call. Enqueues only.
+    DeviceArray<uint> enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
+                              const View& view, StageTimer& timer);
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    Kernel kernel_;
+    GrowingArray<uint> counts_;
+};
+
+}  // namespace kilolux
