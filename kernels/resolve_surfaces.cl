@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Triangle ids -> G-buffer: each pixel's triangle is interpolated, its textures are sampled, and
-// the planes of the layout are written. One work-item resolves VW neighbouring pixels of a row.
+// the planes of the layout are written. One work-item resolves a block of VW pixels.
 //
-// Triangles are set up one by one, in scalars, and evaluated in all lanes: 16 pixels hold few of
+// Triangles are set up one by one, in scalars, and evaluated in all lanes: a block holds few of
 // them. Texels are fetched lane by lane and filtered in lanes. A CPU would wait for most of them: a
 // material's are asked for, of all its textures, before the first is read.
 #include "kernels/device/resolved_surface.h"
@@ -19,21 +19,19 @@ kernel void resolve_surfaces(
     global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
     global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
     global uchar* restrict gbuffer) {              // out: the layout's planes
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    Pixels pixels = row_pixels(view, x, y);
-    UV id = lane_load(ids + pixels.first);
-    MASK drawn = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
-    GBufferTarget to = {gbuffer, layout, view, bucket_boundary, bucket_code, pixels, drawn};
+    Block block = block_of_item(view, get_global_id(0), get_global_id(1));
+    if (block.rows == 0u) return;
+    UV id = load_block(ids, block);
+    MASK drawn = lane_mask(id != (UV)(0u)) & within_picture(view, block);
+    GBufferTarget to = {gbuffer, layout, view, bucket_boundary, bucket_code, block, drawn};
     if (!lane_any(drawn)) {
         store_surface(to, background_surface(), fv(1.0f));
         return;
     }
     SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
                           indices,   materials,       textures, texels};
-    Fragment fragment = interpolate_fragment(scene, view, pixels, id, drawn);
+    Fragment fragment = interpolate_fragment(scene, view, block.pixels, id, drawn);
     Surface s = resolve_materials(scene, &fragment, drawn);
-    s.position = view_position(view, pixels.x, pixels.y, fragment.z);
+    s.position = view_position(view, block.pixels.x, block.pixels.y, fragment.z);
     store_surface(to, s, fragment.z);
 }

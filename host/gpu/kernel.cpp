@@ -12,6 +12,12 @@ WorkSize pixel_items(const View& view, int lanes, int rows) {
             cl::NDRange(width, height)};
 }
 
+WorkSize block_items(const View& view, int lanes, int rows) {
+    View tiles = view;
+    tiles.height = static_cast<uint>(round_up(view.height, FINE_TILE));
+    return pixel_items(tiles, lanes, rows);
+}
+
 Kernel::Kernel(const Gpu& gpu, const cl::Program& program, std::string_view stage, const char* name)
     : queue_(gpu.queue),
       kernel_(in_stage(stage, [&] { return cl::Kernel(program, name); })),

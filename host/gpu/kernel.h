@@ -35,6 +35,9 @@ inline WorkSize groups(std::size_t count, int group) {
 /// high.
 WorkSize pixel_items(const View& view, int lanes, int rows);
 
+/// The same for whole tiles: of blocks of pixels (kernels/device/block.h).
+WorkSize block_items(const View& view, int lanes, int rows);
+
 /// One kernel of a stage, made once. A launch sets all arguments in their order.
 class Kernel {
  public:

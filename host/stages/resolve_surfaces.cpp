@@ -39,7 +39,7 @@ GBuffer ResolveSurfaces::enqueue(const DeviceArray<uint>& ids, const SurfaceBuff
     out.layout = layout;
     out.view = view;
     out.bytes = planes_.reserve(gbuffer_bytes(layout, view.stride, view.height));
-    kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, ids, view,
+    kernel_.enqueue(block_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, ids, view,
                     layout, scene.instances, scene.instance_blocks, scene.meshes, scene.vertices,
                     scene.indices, scene.materials, scene.textures, scene.texels, boundary_.get(),
                     code_.get(), out.bytes);

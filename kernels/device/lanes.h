@@ -39,6 +39,11 @@
 #define lane_to_float(u) KX_CONCAT(convert_, FV)(u)
 #define lane_to_uint(x) KX_CONCAT(convert_, UV)(x)
 #define lane_to_int(x) KX_CONCAT(convert_, IV)(x)
+#if VW == 1
+#define lane_to_uchar(u) convert_uchar(u)
+#else
+#define lane_to_uchar(u) KX_CONCAT(convert_uchar, VW)(u)
+#endif
 
 // A comparison's value as a mask of all bits, whatever the width: scalars compare to 0 or 1.
 #if VW == 1

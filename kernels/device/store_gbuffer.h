@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes VW neighbouring pixels of a row to a G-buffer, as load_surface() reads them.
+// Writes a block of pixels to a G-buffer, as load_surface() reads them.
 #ifndef KILOLUX_DEVICE_STORE_GBUFFER_H
 #define KILOLUX_DEVICE_STORE_GBUFFER_H
+#include "kernels/device/block.h"
 #include "kernels/device/lanes.h"
-#include "kernels/device/pixels.h"
 #include "kernels/device/srgb.h"
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/surface.h"
@@ -16,7 +16,7 @@ typedef struct GBufferTarget {
     View view;
     global const float* bucket_boundary;  // [SRGB_BUCKETS]
     global const uint* bucket_code;       // [SRGB_BUCKETS]
-    Pixels pixels;
+    Block block;
     MASK drawn;  // other pixels become 0 in every plane
 } GBufferTarget;
 
@@ -25,13 +25,15 @@ static inline global uchar* plane_of(GBufferTarget to, uint plane) {
 }
 
 static inline void store_plane_float(GBufferTarget to, uint plane, FV value) {
-    lane_store(lane_select(to.drawn, value, fv(0.0f)),
-               (global float*)plane_of(to, plane) + to.pixels.first);
+    FV kept = lane_select(to.drawn, value, fv(0.0f));
+    global float* at = (global float*)plane_of(to, plane) + to.block.pixels.first;
+    STORE_BLOCK(kept, at, to.block);
 }
 
 static inline void store_plane_uint(GBufferTarget to, uint plane, UV value) {
-    lane_store(select((UV)(0u), value, to.drawn),
-               (global uint*)plane_of(to, plane) + to.pixels.first);
+    UV kept = select((UV)(0u), value, to.drawn);
+    global uint* at = (global uint*)plane_of(to, plane) + to.block.pixels.first;
+    STORE_BLOCK(kept, at, to.block);
 }
 
 static inline void store_plane_float3(GBufferTarget to, uint first_plane, FV3 value) {
@@ -71,11 +73,8 @@ static inline void store_optional_planes(GBufferTarget to, Surface s) {
 #endif
 #if HAS_OCCLUSION
     UV code = select((UV)(0u), unorm_code(s.occlusion, 255.0f), to.drawn);
-#if VW == 1
-    plane_of(to, PLANE_OCCLUSION)[to.pixels.first] = (uchar)code;
-#else
-    lane_store(KX_CONCAT(convert_uchar, VW)(code), plane_of(to, PLANE_OCCLUSION) + to.pixels.first);
-#endif
+    global uchar* at = plane_of(to, PLANE_OCCLUSION) + to.block.pixels.first;
+    STORE_BLOCK(lane_to_uchar(code), at, to.block);
 #endif
 #if HAS_SPECULAR
     FV3 root = fv3(lane_sqrt(s.specular.x), lane_sqrt(s.specular.y), lane_sqrt(s.specular.z));
@@ -106,18 +105,8 @@ static inline void store_layout(GBufferTarget to, Surface s) {
 static inline void store_plane_half(GBufferTarget to, uint plane, FV value) {
     FV finite = min(max(value, fv(-65504.0f)), fv(65504.0f));
     FV kept = lane_select(to.drawn, finite, fv(0.0f));
-    global half* at = (global half*)plane_of(to, plane) + to.pixels.first;
-#if VW == 1
-    vstore_half_rte(kept, 0, at);
-#elif VW == 2
-    vstore_half2_rte(kept, 0, at);
-#elif VW == 4
-    vstore_half4_rte(kept, 0, at);
-#elif VW == 8
-    vstore_half8_rte(kept, 0, at);
-#else
-    vstore_half16_rte(kept, 0, at);
-#endif
+    global half* at = (global half*)plane_of(to, plane) + to.block.pixels.first;
+    STORE_BLOCK_HALF(kept, at, to.block);
 }
 
 static inline void store_plane_half3(GBufferTarget to, uint first_plane, FV3 v, float4 offset) {
@@ -145,9 +134,10 @@ static inline void store_rows(GBufferTarget to, uint plane, FV x, FV y, FV z, FV
     lane_store(lane_select(to.drawn, y, fv(0.0f)), lanes[1]);
     lane_store(lane_select(to.drawn, z, fv(0.0f)), lanes[2]);
     lane_store(lane_select(to.drawn, w, fv(0.0f)), lanes[3]);
-    global float4* rows = (global float4*)plane_of(to, plane) + to.pixels.first;
-    for (uint i = 0; i < VW; ++i) {
-        rows[i] = (float4)(lanes[0][i], lanes[1][i], lanes[2][i], lanes[3][i]);
+    global float4* rows = (global float4*)plane_of(to, plane) + to.block.pixels.first;
+    for (uint i = 0; i < to.block.rows * BLOCK_COLUMNS; ++i) {
+        rows[i / BLOCK_COLUMNS * to.block.stride + i % BLOCK_COLUMNS] =
+            (float4)(lanes[0][i], lanes[1][i], lanes[2][i], lanes[3][i]);
     }
 }
 
@@ -179,7 +169,7 @@ static inline FV depth01_of(View view, Pixels pixels, FV z) {
 }
 
 static inline void store_surface(GBufferTarget to, Surface s, FV z) {
-    store_plane_float(to, PLANE_DEPTH, depth01_of(to.view, to.pixels, z));
+    store_plane_float(to, PLANE_DEPTH, depth01_of(to.view, to.block.pixels, z));
     store_layout(to, s);
 }
 #endif
