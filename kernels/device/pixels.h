@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The VW pixels of a work-item. With ORDERED_PIXELS they may be any of a tile's, else they are
-// neighbours in a row.
+// The VW pixels of a work-item. With ORDERED_PIXELS they may be any of a tile's, with BLOCK_PIXELS
+// they are a block (block.h), else they are neighbours in a row.
 #ifndef KILOLUX_DEVICE_PIXELS_H
 #define KILOLUX_DEVICE_PIXELS_H
 #include "kernels/device/lanes.h"
@@ -10,11 +10,17 @@
 #ifndef ORDERED_PIXELS
 #define ORDERED_PIXELS 0
 #endif
+#ifndef BLOCK_PIXELS
+#define BLOCK_PIXELS 0
+#endif
 
 // Where VW pixels are.
 typedef struct Pixels {
     FV x, y;     // centres in the picture [pixel]
     uint first;  // lane 0's place in a plane
+#if BLOCK_PIXELS
+    uint rows;  // of the block that a plane has; 0: it lies below
+#endif
 #if ORDERED_PIXELS
     bool in_row;     // lane i's place is first + i
     uint place[VW];  // each lane's place in a plane

@@ -16,7 +16,7 @@ typedef struct GBufferTarget {
     View view;
     global const float* bucket_boundary;  // [SRGB_BUCKETS]
     global const uint* bucket_code;       // [SRGB_BUCKETS]
-    Block block;
+    Pixels pixels;
     MASK drawn;  // other pixels become 0 in every plane
 } GBufferTarget;
 
@@ -26,14 +26,14 @@ static inline global uchar* plane_of(GBufferTarget to, uint plane) {
 
 static inline void store_plane_float(GBufferTarget to, uint plane, FV value) {
     FV kept = lane_select(to.drawn, value, fv(0.0f));
-    global float* at = (global float*)plane_of(to, plane) + to.block.pixels.first;
-    STORE_BLOCK(kept, at, to.block);
+    global float* at = (global float*)plane_of(to, plane) + to.pixels.first;
+    STORE_BLOCK(kept, at, to.pixels, to.view.stride);
 }
 
 static inline void store_plane_uint(GBufferTarget to, uint plane, UV value) {
     UV kept = select((UV)(0u), value, to.drawn);
-    global uint* at = (global uint*)plane_of(to, plane) + to.block.pixels.first;
-    STORE_BLOCK(kept, at, to.block);
+    global uint* at = (global uint*)plane_of(to, plane) + to.pixels.first;
+    STORE_BLOCK(kept, at, to.pixels, to.view.stride);
 }
 
 static inline void store_plane_float3(GBufferTarget to, uint first_plane, FV3 value) {
@@ -73,8 +73,8 @@ static inline void store_optional_planes(GBufferTarget to, Surface s) {
 #endif
 #if HAS_OCCLUSION
     UV code = select((UV)(0u), unorm_code(s.occlusion, 255.0f), to.drawn);
-    global uchar* at = plane_of(to, PLANE_OCCLUSION) + to.block.pixels.first;
-    STORE_BLOCK(lane_to_uchar(code), at, to.block);
+    global uchar* at = plane_of(to, PLANE_OCCLUSION) + to.pixels.first;
+    STORE_BLOCK(lane_to_uchar(code), at, to.pixels, to.view.stride);
 #endif
 #if HAS_SPECULAR
     FV3 root = fv3(lane_sqrt(s.specular.x), lane_sqrt(s.specular.y), lane_sqrt(s.specular.z));
@@ -105,8 +105,8 @@ static inline void store_layout(GBufferTarget to, Surface s) {
 static inline void store_plane_half(GBufferTarget to, uint plane, FV value) {
     FV finite = min(max(value, fv(-65504.0f)), fv(65504.0f));
     FV kept = lane_select(to.drawn, finite, fv(0.0f));
-    global half* at = (global half*)plane_of(to, plane) + to.block.pixels.first;
-    STORE_BLOCK_HALF(kept, at, to.block);
+    global half* at = (global half*)plane_of(to, plane) + to.pixels.first;
+    STORE_BLOCK_HALF(kept, at, to.pixels, to.view.stride);
 }
 
 static inline void store_plane_half3(GBufferTarget to, uint first_plane, FV3 v, float4 offset) {
@@ -134,11 +134,17 @@ static inline void store_rows(GBufferTarget to, uint plane, FV x, FV y, FV z, FV
     lane_store(lane_select(to.drawn, y, fv(0.0f)), lanes[1]);
     lane_store(lane_select(to.drawn, z, fv(0.0f)), lanes[2]);
     lane_store(lane_select(to.drawn, w, fv(0.0f)), lanes[3]);
-    global float4* rows = (global float4*)plane_of(to, plane) + to.block.pixels.first;
-    for (uint i = 0; i < to.block.rows * BLOCK_COLUMNS; ++i) {
-        rows[i / BLOCK_COLUMNS * to.block.stride + i % BLOCK_COLUMNS] =
+    global float4* rows = (global float4*)plane_of(to, plane) + to.pixels.first;
+#if BLOCK_PIXELS
+    for (uint i = 0; i < to.pixels.rows * BLOCK_COLUMNS; ++i) {
+        rows[i / BLOCK_COLUMNS * to.view.stride + i % BLOCK_COLUMNS] =
             (float4)(lanes[0][i], lanes[1][i], lanes[2][i], lanes[3][i]);
     }
+#else
+    for (uint i = 0; i < VW; ++i) {
+        rows[i] = (float4)(lanes[0][i], lanes[1][i], lanes[2][i], lanes[3][i]);
+    }
+#endif
 }
 
 static inline void store_layout(GBufferTarget to, Surface s) {
@@ -169,7 +175,7 @@ static inline FV depth01_of(View view, Pixels pixels, FV z) {
 }
 
 static inline void store_surface(GBufferTarget to, Surface s, FV z) {
-    store_plane_float(to, PLANE_DEPTH, depth01_of(to.view, to.block.pixels, z));
+    store_plane_float(to, PLANE_DEPTH, depth01_of(to.view, to.pixels, z));
     store_layout(to, s);
 }
 #endif
