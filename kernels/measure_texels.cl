@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many texels a device reads at best: the limit of what samples textures.
+// TEXELS: of the table, a power of two.
 #include "kernels/device/texture.h"
 
 #define EACH_4(op) op(0) op(1) op(2) op(3)
-#define TEXELS 1024u  // of the table
-#define TAKE_TEXELS(i)                                           \
-    texels = gather_texels(table, place ^ (UV)(i * TEXELS / 4)); \
-    low##i ^= texels.low;                                        \
+#define TAKE_TEXELS(i)                                            \
+    texels = gather_texels(table, place ^ (UV)(i * TEXELS / 4u)); \
+    low##i ^= texels.low;                                         \
     high##i ^= texels.high;
 #define DECLARE_TEXELS(i) UV low##i = (UV)(0u), high##i = (UV)(0u);
 #define JOIN_TEXELS(i) sum ^= low##i ^ high##i;

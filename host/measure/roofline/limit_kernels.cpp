@@ -49,6 +49,10 @@ double best_rate(double unit, uint most, Run run) {
     return unit * n / seconds;
 }
 
+cl::Program texel_program(const Gpu& gpu) {
+    return build_program(gpu, "measure_texels", BuildOptions().define("TEXELS", kTexels));
+}
+
 }  // namespace
 
 std::uint64_t large_buffer_bytes(const DeviceInfo& device) {
@@ -77,13 +81,12 @@ LimitKernels::LimitKernels(const Gpu& gpu)
       out_(gpu.context, CL_MEM_READ_WRITE, items_ * kMostLanes * sizeof(float)),
       texels_(gpu.context, CL_MEM_READ_WRITE, kTexels * sizeof(cl_ulong)) {
     gpu.queue.enqueueFillBuffer<cl_ulong>(texels_, 1, 0, kTexels * sizeof(cl_ulong));
-    widths_.push_back({gpu.info.lane_width, program_, build_program(gpu, "measure_texels")});
+    widths_.push_back({gpu.info.lane_width, program_, texel_program(gpu)});
     const int twice = 2 * gpu.info.lane_width;
     const bool is_own_width = gpu.info.lane_width == describe(gpu.device).lane_width;
     if (!gpu.info.is_cpu || !is_own_width || twice > kMostLanes) return;
     const Gpu wide(gpu.context, gpu.queue, twice);
-    widths_.push_back(
-        {twice, build_program(wide, "measure_limits"), build_program(wide, "measure_texels")});
+    widths_.push_back({twice, build_program(wide, "measure_limits"), texel_program(wide)});
 }
 
 double LimitKernels::lane_operations_per_s(const char* kernel, int operations) {
