@@ -22,11 +22,15 @@ std::optional<OpenTiles> open_tiles(const Sample& sample, int first_row) {
 // A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
 Gpu resolving(const Gpu& gpu) { return gpu.info.is_cpu ? gpu : gpu.with_lanes(1); }
 
-// Triangles that some pixel shows.
-std::uint64_t count_seen_triangles(std::span<const uint> ids) {
-    const uint most = ids.empty() ? 0 : std::ranges::max(ids);
-    std::vector<bool> seen(std::size_t{most} + 1);
-    for (const uint id : ids) seen[id] = true;
+// Triangles that some pixel shows. What lies right of the picture in a row says nothing.
+std::uint64_t count_seen_triangles(std::span<const uint> ids, const View& view) {
+    std::vector<bool> seen(1);
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (const uint id : ids.subspan(y * view.stride, view.width)) {
+            if (id >= seen.size()) seen.resize(std::size_t{id} + 1);
+            seen[id] = true;
+        }
+    }
     seen[0] = false;  // background
     return static_cast<std::uint64_t>(std::ranges::count(seen, true));
 }
@@ -168,7 +172,7 @@ void SurfacePass::count(const DeviceArray<uint>& ids, const SurfaceBuffers& scen
     const std::vector<uint> texels =
         download<uint>(context_.gpu, texels_->enqueue(ids, scene, view, untimed), size);
     stats.texels = std::accumulate(texels.begin(), texels.end(), std::uint64_t{0});
-    stats.seen_triangles = count_seen_triangles(download<uint>(context_.gpu, ids, size));
+    stats.seen_triangles = count_seen_triangles(download<uint>(context_.gpu, ids, size), view);
 }
 
 void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
