@@ -1,68 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the triangles of every tile of the picture: a counting sort of (triangle, tile) pairs.
+// Sets up triangles and lists those of every tile of the picture: a counting sort of (triangle,
+// tile) pairs.
 //
-//   bin_triangles_bounds  the tiles that a triangle's box of pixels touches; none where no pixel
-//                         can show it: turned away, outside, between pixels' centres
 //   bin_triangles_clear   (groups only) cursors to 0
-//   bin_triangles_count   pairs by (chunk of triangles, tile)
+//   bin_triangles_set_up  triangles -> rows and boxes of tiles, and pairs by (chunk of triangles,
+//                         tile); none where no pixel can show it: turned away, outside, between
+//                         pixels' centres
 //   bin_triangles_offset  where each chunk's pairs begin within each tile, and its total
 //   (prefix_sum over tiles)
 //   bin_triangles_fill    writes the triangles' numbers
 //
-// GROUP == 1: a work-item walks a chunk, lists ascend. Else a work-group takes GROUP triangles, all
-// cursors are one chunk's and are moved by atomics: lists have any order, which the raster does not
-// see, since of equally near triangles the first by number shows.
+// GROUP == 1: a work-item walks a chunk, VW triangles at once, lists ascend. Else a work-group
+// takes GROUP triangles, all cursors are one chunk's and are moved by atomics: lists have any
+// order, which the raster does not see, since of equally near triangles the first by number shows.
 #ifndef GROUP
 #define GROUP 1
 #endif
 #include "kernels/device/chunk_starts.h"
+#include "kernels/device/raster_set_up.h"
 #include "kernels/device/raster_tile.h"
-#include "kernels/device/raster_triangle.h"
+#include "kernels/device/scan_group.h"
 
-// Tiles of a box from which on each is tested against the triangle's edges, and from which on all
-// items of a work-group share the tests.
+// Tiles of a box from which on its edges say which of them a triangle touches.
 #define FEW_TILES 4u
-#define MANY_TILES 32u
 
-kernel void bin_triangles_bounds(
-    View view,
-    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
-    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    uint triangle_count,
-    global uint* restrict columns,  // out [triangle_count, whole vectors]: intervals of tiles
-    global uint* restrict rows) {   // out, likewise
-    uint first = (uint)get_global_id(0) * VW;
-    if (first >= triangle_count) return;
-    SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
-    UV numbers = lane_numbers + first;
-    ViewTriangles t = view_triangles(scene, numbers, lane_mask(numbers < (UV)(triangle_count)));
-    PixelBounds b = pixel_bounds(view, t.v);
-    MASK outside = is_empty_bounds(b);
-    UV column_interval = (UV)(EMPTY_INTERVAL);
-    UV row_interval = (UV)(EMPTY_INTERVAL);
-    if (lane_any(~outside)) {
-        FV3 seen[3];
-        turn_from_longest(t.v);
-        for (uint i = 0; i < 3; ++i) seen[i] = seen_vertex(view, t.v[i]);
-        MASK kept =
-            ~outside & ~outside_view(view, seen) & shows_side(facing_of(seen).sign, t.winding);
-        UV x0 = KX_CONCAT(as_, UV)(b.x0) / TILE_WIDTH;
-        UV x1 = KX_CONCAT(as_, UV)(b.x1) / TILE_WIDTH;
-        UV y0 = KX_CONCAT(as_, UV)(b.y0) / TILE_HEIGHT;
-        UV y1 = KX_CONCAT(as_, UV)(b.y1) / TILE_HEIGHT;
-        column_interval = select(column_interval, x0 | x1 << 16, kept);
-        row_interval = select(row_interval, y0 | y1 << 16, kept);
-    }
-    lane_store(column_interval, columns + first);
-    lane_store(row_interval, rows + first);
+// A triangle and the tiles that its pixels' box touches.
+typedef struct TileBox {
+    uint number;         // with MASKED_TRIANGLE
+    uint columns, rows;  // intervals of tiles
+} TileBox;
+
+static inline TileBox tile_box(const SetUpLanes* s, uint lane, uint number) {
+    TileBox out;
+    out.number = s->masked[lane] != 0 ? number | MASKED_TRIANGLE : number;
+    out.columns = interval_of(s->x0[lane] / TILE_WIDTH, s->x1[lane] / TILE_WIDTH);
+    out.rows = interval_of(s->y0[lane] / TILE_HEIGHT, s->y1[lane] / TILE_HEIGHT);
+    return out;
 }
 
-// What finds a triangle's tiles, and where pairs go: counted, or filled in.
+static inline void store_box(TileBox box, global uint* boxes) {
+    vstore4((uint4)(box.number, box.columns, box.rows, 0u), 0, boxes);
+}
+static inline TileBox load_box(global const uint* boxes) {
+    uint4 b = vload4(0, boxes);
+    TileBox out = {b.x, b.y, b.z};
+    return out;
+}
+
+// Where pairs go: counted, or filled in.
 typedef struct TileWalk {
-    SurfaceScene scene;
     View view;
+    global const RasterRow* triangles;
     global uint* cursors;        // of this chunk, or of all
     global const uint* offsets;  // [tiles + 1]; fill only
     global uint* lists;          // fill only
@@ -72,7 +60,7 @@ typedef struct TileWalk {
     bool some_closed;            // else nothing is read of `closed`
 } TileWalk;
 
-static inline void put_triangle(TileWalk walk, uint tile, uint triangle) {
+static inline void put_triangle(TileWalk walk, uint tile, uint number) {
     if (walk.some_closed && walk.closed[tile] != 0) return;
 #if GROUP == 1
     uint slot = walk.cursors[tile]++;
@@ -81,115 +69,104 @@ static inline void put_triangle(TileWalk walk, uint tile, uint triangle) {
 #endif
     if (!walk.fill) return;
     uint place = walk.offsets[tile] + slot;
-    if (place < walk.capacity) walk.lists[place] = triangle;
+    if (place < walk.capacity) walk.lists[place] = number;
 }
 
-// One triangle's scaled edges.
-typedef struct Edges {
-    float3 e[3];
-} Edges;
+// Columns of pixels.
+typedef struct Span {
+    float first, last;
+} Span;
 
-static inline float first_lane(FV v) {
-#if VW == 1
-    return v;
-#else
-    return v.s0;
-#endif
-}
-
-static inline Edges edges_of(TileWalk walk, uint triangle) {
-    UV number = (UV)(triangle);
-    ViewTriangles t = view_triangles(walk.scene, number, (MASK)(-1));
-    RasterTriangles r = set_up_triangles(walk.view, ray_span(walk.view), t);
-    Edges out;
-    for (uint i = 0; i < 3; ++i) {
-        out.e[i] =
-            (float3)(first_lane(r.edge[i].x), first_lane(r.edge[i].y), first_lane(r.edge[i].z));
+// The part of a span in which one edge's function can be positive on the rays from y0 to y1. The
+// function errs by less than 1, the quotient by less than 1/32 of a pixel.
+static inline Span cut_span(View view, global const float* edge, float y0, float y1, Span span) {
+    float step = edge[0] * view.ray.x;
+    float start = fma(edge[0], fma(0.5f, view.ray.x, view.ray.y),
+                      fmax(edge[1] * y0, edge[1] * y1) - edge[2]) +
+                  2.0f;
+    float zero = -start / step;
+    if (step > 0.0f) {
+        span.first = fmax(span.first, zero - 0.03125f);
+    } else if (step < 0.0f) {
+        span.last = fmin(span.last, zero + 0.03125f);
+    } else if (start < 0.0f) {
+        span.last = -1.0f;
     }
-    return out;
+    return span;
 }
 
-// False only where the triangle surely covers none of the tile's pixels.
-static inline bool touches_tile(View view, Edges edges, uint column, uint row) {
-    float x0 = fma((float)(column * TILE_WIDTH) + 0.5f, view.ray.x, view.ray.y);
-    float x1 = fma((float)(column * TILE_WIDTH + TILE_WIDTH) - 0.5f, view.ray.x, view.ray.y);
-    float y0 = ray_y(view, row * TILE_HEIGHT);
-    float y1 = ray_y(view, row * TILE_HEIGHT + TILE_HEIGHT - 1u);
-    for (uint i = 0; i < 3; ++i) {
-        float3 e = edges.e[i];
-        float most = fmax(e.x * x0, e.x * x1) + fmax(e.y * y0, e.y * y1) - e.z;
-        if (most < -1.0f) return false;
+// The columns of tiles in a row of them that hold all pixels that the triangle covers.
+static inline uint touched_columns(TileWalk walk, TileBox box, uint row) {
+    global const RasterRow* triangle = walk.triangles + (box.number & ~MASKED_TRIANGLE);
+    float y0 = ray_y(walk.view, row * TILE_HEIGHT);
+    float y1 = ray_y(walk.view, row * TILE_HEIGHT + TILE_HEIGHT - 1u);
+    Span span = {(float)(interval_first(box.columns) * TILE_WIDTH),
+                 (float)(interval_last(box.columns) * TILE_WIDTH + TILE_WIDTH - 1u)};
+    for (uint i = 0; i < 3; ++i) span = cut_span(walk.view, triangle->edge + 3 * i, y0, y1, span);
+    if (!(span.first <= span.last)) return EMPTY_INTERVAL;
+    return interval_of((uint)span.first / TILE_WIDTH, (uint)span.last / TILE_WIDTH);
+}
+
+// One row of a box of tiles.
+static inline void walk_row(TileWalk walk, TileBox box, uint row) {
+    bool few = interval_count(box.columns) * interval_count(box.rows) < FEW_TILES;
+    uint columns = few ? box.columns : touched_columns(walk, box, row);
+    uint first = row * raster_tiles_x(walk.view);
+    for (uint column = interval_first(columns); column <= interval_last(columns); ++column) {
+        put_triangle(walk, first + column, box.number);
     }
-    return true;
-}
-
-static inline void walk_few(TileWalk walk, uint triangle, uint columns, uint rows) {
-    uint tiles_x = raster_tiles_x(walk.view);
-    for (uint row = interval_first(rows); row <= rows >> 16; ++row) {
-        for (uint column = interval_first(columns); column <= columns >> 16; ++column) {
-            put_triangle(walk, row * tiles_x + column, triangle);
-        }
-    }
-}
-
-// Every `step`-th tile from number `first` on.
-static inline void walk_many(TileWalk walk, uint triangle, uint columns, uint rows, uint first,
-                             uint step) {
-    uint tiles_x = raster_tiles_x(walk.view);
-    uint across = interval_count(columns);
-    uint total = across * interval_count(rows);
-    Edges edges = edges_of(walk, triangle);
-    for (uint i = first; i < total; i += step) {
-        uint column = interval_first(columns) + i % across;
-        uint row = interval_first(rows) + i / across;
-        if (touches_tile(walk.view, edges, column, row)) {
-            put_triangle(walk, row * tiles_x + column, triangle);
-        }
-    }
-}
-
-static inline uint tiles_of(uint columns, uint rows) {
-    if (columns == EMPTY_INTERVAL) return 0u;
-    return interval_count(columns) * interval_count(rows);
 }
 
 #if GROUP == 1
-// This work-item's chunk of the triangles.
-static inline void walk_chunk(TileWalk walk, global const uint* columns, global const uint* rows,
-                              uint triangle_count) {
-    ulong chunk = get_group_id(0);
-    ulong chunks = get_num_groups(0);
-    uint end = (uint)(triangle_count * (chunk + 1u) / chunks);
-    for (uint i = (uint)(triangle_count * chunk / chunks); i < end; ++i) {
-        uint tiles = tiles_of(columns[i], rows[i]);
-        if (tiles == 0u) continue;
-        if (tiles < FEW_TILES) {
-            walk_few(walk, i, columns[i], rows[i]);
-        } else {
-            walk_many(walk, i, columns[i], rows[i], 0u, 1u);
-        }
+static inline void walk_box(TileWalk walk, TileBox box) {
+    for (uint row = interval_first(box.rows); row <= interval_last(box.rows); ++row) {
+        walk_row(walk, box, row);
     }
 }
-#else
-// This work-group's triangles: each item its own, and those of many tiles all items together.
-static inline void walk_chunk(TileWalk walk, global const uint* columns, global const uint* rows,
-                              uint triangle_count, local uint* many, local uint* many_count) {
-    uint i = get_global_id(0);
-    if (get_local_id(0) == 0) *many_count = 0u;
-    barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item adds to it
-    if (i < triangle_count) {
-        uint tiles = tiles_of(columns[i], rows[i]);
-        if (tiles >= MANY_TILES) {
-            many[atomic_inc(many_count)] = i;
-        } else if (tiles >= FEW_TILES) {
-            walk_many(walk, i, columns[i], rows[i], 0u, 1u);
-        } else if (tiles > 0u) {
-            walk_few(walk, i, columns[i], rows[i]);
-        }
+
+// Triangles of a chunk, in whole vectors.
+static inline uint chunk_begin(uint triangle_count, uint chunk) {
+    ulong vectors = (triangle_count + VW - 1u) / VW;
+    return (uint)(vectors * chunk / get_num_groups(0)) * VW;
+}
+
+// The kept ones of VW triangles. Returns where the next box goes.
+static inline uint keep_triangles(const SetUp* s, uint first, TileWalk walk,
+                                  global RasterRow* triangles, global uint* boxes, uint next) {
+    SetUpLanes lanes;
+    store_lanes(s, &lanes);
+    for (uint lane = 0; lane < VW; ++lane) {
+        if (lanes.kept[lane] == 0) continue;
+        triangles[first + lane] = raster_row(&lanes, lane);
+        TileBox box = tile_box(&lanes, lane, first + lane);
+        store_box(box, boxes + 4 * (size_t)next++);
+        walk_box(walk, box);
     }
-    barrier(CLK_LOCAL_MEM_FENCE);  // all are there
-    for (uint j = 0; j < *many_count; ++j) {
-        walk_many(walk, many[j], columns[many[j]], rows[many[j]], get_local_id(0), GROUP);
+    return next;
+}
+#else
+// The boxes of all items, row by row, so that large ones keep no item longer than small ones.
+// `ends`, `boxes`: [GROUP].
+static inline void walk_group(TileWalk walk, TileBox mine, local ulong* ends,
+                              local TileBox* boxes) {
+    uint item = get_local_id(0);
+    bool kept = mine.columns != EMPTY_INTERVAL;
+    boxes[item] = mine;
+    scan_group(kept ? interval_count(mine.rows) : 0u, ends);  // and all boxes are there
+    uint total = (uint)ends[GROUP - 1];
+    for (uint i = item; i < total; i += GROUP) {
+        uint first = 0, last = GROUP - 1;  // of the items that row i may be of
+        while (first < last) {
+            uint middle = (first + last) / 2u;
+            if (ends[middle] > i) {
+                last = middle;
+            } else {
+                first = middle + 1u;
+            }
+        }
+        TileBox box = boxes[first];
+        uint before = first == 0u ? 0u : (uint)ends[first - 1u];
+        walk_row(walk, box, interval_first(box.rows) + i - before);
     }
 }
 #endif
@@ -199,35 +176,57 @@ kernel void bin_triangles_clear(uint count, global uint* restrict cursors) {
     if (i < count) cursors[i] = 0u;
 }
 
-#if GROUP == 1
-#define WALK_CHUNK(walk) walk_chunk(walk, columns, rows, triangle_count)
-#define CHUNK_CURSORS(view) \
-    (cursors + get_group_id(0) * cursor_stride(raster_tiles_x(view) * raster_tiles_y(view)))
-#else
-#define WALK_CHUNK(walk)    \
-    local uint many[GROUP]; \
-    local uint many_count;  \
-    walk_chunk(walk, columns, rows, triangle_count, many, &many_count)
-#define CHUNK_CURSORS(view) cursors
-#endif
-
-kernel void bin_triangles_count(
-    View view, global const InstanceRow* restrict instances,
-    global const uint* restrict instance_blocks, global const MeshRow* restrict meshes,
-    global const float* restrict vertices, global const uint* restrict indices,
-    global const SurfaceMaterial* restrict materials, uint triangle_count,
-    global const uint* restrict columns,  // [triangle_count]
-    global const uint* restrict rows,     // [triangle_count]
+kernel void bin_triangles_set_up(
+    View view,
+    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
+    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
+    global const MeshRow* restrict meshes, global const float* restrict vertices,
+    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
+    uint triangle_count,
     uint some_closed,                     // 0: `closed` is not read
     global const uchar* restrict closed,  // [tiles]: 1 where no triangle is needed
-    global uint* restrict cursors) {      // out [chunks][cursor_stride]: pairs
+    global RasterRow* triangles,          // out [triangle_count]: kept ones, by number
+    global uint* restrict boxes,    // out [triangle_count][4]: TileBox; GROUP == 1: of kept ones,
+                                    // from each chunk's beginning on; else by number
+    global uint* restrict kept,     // out [chunks]: kept triangles; GROUP == 1 only
+    global uint* restrict cursors)  // out [chunks][cursor_stride]: pairs
+{
     SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
-    TileWalk walk = {scene, view, CHUNK_CURSORS(view), 0, 0, 0u, false, closed, some_closed != 0};
+    uint tiles = raster_tiles_x(view) * raster_tiles_y(view);
 #if GROUP == 1
-    uint stride = cursor_stride(raster_tiles_x(view) * raster_tiles_y(view));
-    for (uint i = 0; i < stride; ++i) walk.cursors[i] = 0u;
+    uint chunk = get_group_id(0);
+    TileWalk walk = {view,  triangles, cursors + chunk * cursor_stride(tiles),
+                     0,     0,         0u,
+                     false, closed,    some_closed != 0u};
+    for (uint i = 0; i < cursor_stride(tiles); ++i) walk.cursors[i] = 0u;
+    uint begin = chunk_begin(triangle_count, chunk);
+    uint end = chunk_begin(triangle_count, chunk + 1u);
+    uint next = begin;
+    for (uint first = begin; first < end; first += VW) {
+        UV numbers = lane_numbers + first;
+        SetUp s = set_up_triangles(scene, view, numbers, lane_mask(numbers < (UV)(triangle_count)));
+        if (lane_any(s.kept)) next = keep_triangles(&s, first, walk, triangles, boxes, next);
+    }
+    kept[chunk] = next - begin;
+#else
+    local ulong ends[GROUP];
+    local TileBox shared_boxes[GROUP];
+    TileWalk walk = {view, triangles, cursors, 0, 0, 0u, false, closed, some_closed != 0u};
+    uint number = get_global_id(0);
+    TileBox box = {number, EMPTY_INTERVAL, EMPTY_INTERVAL};
+    if (number < triangle_count) {
+        SetUp s = set_up_triangles(scene, view, number, -1);
+        if (s.kept != 0) {
+            SetUpLanes lanes;
+            store_lanes(&s, &lanes);
+            triangles[number] = raster_row(&lanes, 0);
+            box = tile_box(&lanes, 0, number);
+        }
+        store_box(box, boxes + 4 * (size_t)number);
+    }
+    barrier(CLK_GLOBAL_MEM_FENCE);  // the group's rows are there for all of its items
+    walk_group(walk, box, ends, shared_boxes);
 #endif
-    WALK_CHUNK(walk);
 }
 
 // One work-item for VW tiles.
@@ -240,18 +239,30 @@ kernel void bin_triangles_offset(
 }
 
 kernel void bin_triangles_fill(
-    View view, global const InstanceRow* restrict instances,
-    global const uint* restrict instance_blocks, global const MeshRow* restrict meshes,
-    global const float* restrict vertices, global const uint* restrict indices,
-    global const SurfaceMaterial* restrict materials, uint triangle_count,
-    global const uint* restrict columns, global const uint* restrict rows, uint some_closed,
-    global const uchar* restrict closed,
+    View view, uint triangle_count, uint some_closed, global const uchar* restrict closed,
+    global const RasterRow* restrict triangles, global const uint* restrict boxes,
+    global const uint* restrict kept,     // all as bin_triangles_set_up made them
     global uint* restrict cursors,        // in: starts [chunks][cursor_stride]; used up
     global const uint* restrict offsets,  // [tiles + 1]
     global uint* restrict lists,          // out [capacity]
     uint capacity) {
-    SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
-    TileWalk walk = {scene, view,   CHUNK_CURSORS(view), offsets, lists, capacity,
-                     true,  closed, some_closed != 0};
-    WALK_CHUNK(walk);
+#if GROUP == 1
+    uint chunk = get_group_id(0);
+    uint stride = cursor_stride(raster_tiles_x(view) * raster_tiles_y(view));
+    TileWalk walk = {view, triangles, cursors + chunk * stride, offsets, lists, capacity,
+                     true, closed,    some_closed != 0u};
+    uint begin = chunk_begin(triangle_count, chunk);
+    for (uint i = begin; i < begin + kept[chunk]; ++i) {
+        walk_box(walk, load_box(boxes + 4 * (size_t)i));
+    }
+#else
+    local ulong ends[GROUP];
+    local TileBox shared_boxes[GROUP];
+    TileWalk walk = {view,     triangles, cursors, offsets,          lists,
+                     capacity, true,      closed,  some_closed != 0u};
+    uint number = get_global_id(0);
+    TileBox box = {number, EMPTY_INTERVAL, EMPTY_INTERVAL};
+    if (number < triangle_count) box = load_box(boxes + 4 * (size_t)number);
+    walk_group(walk, box, ends, shared_boxes);
+#endif
 }

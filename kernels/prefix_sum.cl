@@ -12,29 +12,12 @@
 #ifndef PER_ITEM
 #define PER_ITEM 1024
 #endif
+#include "kernels/device/scan_group.h"
 
 static inline ulong sum_of_item(global const uint* counts, uint n, uint first) {
     ulong sum = 0;
     for (uint i = first; i < min(first + PER_ITEM, n); ++i) sum += counts[i];
     return sum;
-}
-
-// Exclusive scan of one value a work-item over the work-group.
-static inline ulong scan_group(ulong value, local ulong* shared_sums) {
-#if GROUP == 1
-    return 0ul;
-#else
-    uint item = get_local_id(0);
-    shared_sums[item] = value;
-    barrier(CLK_LOCAL_MEM_FENCE);  // every value is there before any is read
-    for (uint step = 1; step < GROUP; step <<= 1) {
-        ulong other = item >= step ? shared_sums[item - step] : 0ul;
-        barrier(CLK_LOCAL_MEM_FENCE);  // all have read before any writes
-        shared_sums[item] += other;
-        barrier(CLK_LOCAL_MEM_FENCE);  // all have written before the next round reads
-    }
-    return shared_sums[item] - value;
-#endif
 }
 
 // Offsets of an item's neighbours, the first of which is `sum`; modulo 2^32: the host refuses

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles' triangles -> the triangle that each pixel shows, by a work-group a tile: each item sets up
+// Tiles' triangles -> the triangle that each pixel shows, by a work-group a tile: each item fetches
 // a triangle, then all items test their pixels against all of them. For GPUs, with one lane.
 #ifndef GROUP
 #define GROUP 256
@@ -33,10 +33,9 @@
 typedef struct SharedTriangle {
     float3 edge[3];
     float3 plane;
-    float farthest, nearest, sign;
-    uint columns, rows;  // first | last << 16, of the tile; first > last: none
-    uint number;
-    int masked;
+    float farthest, nearest;
+    uint columns, rows;  // intervals of pixels of the tile; none: EMPTY_INTERVAL
+    uint number;         // with MASKED_TRIANGLE
 } SharedTriangle;
 
 // A pixel so far.
@@ -67,41 +66,36 @@ static inline RasterPixel first_pixel(View view, uint tile_x, uint tile_y, uint 
     return p;
 }
 
-// The part of first .. last that lies in a tile's `size` pixels from `start` on.
-static inline uint interval_in_tile(int first, int last, uint start, uint size) {
-    int from = max(first - (int)start, 0);
-    int to = min(last - (int)start, (int)size - 1);
-    return from > to ? EMPTY_INTERVAL : interval_of((uint)from, (uint)to);
+// The part of an interval that lies in a tile's `size` pixels from `start` on.
+static inline uint interval_in_tile(uint interval, uint start, uint size) {
+    uint first = max(interval_first(interval), start) - start;
+    uint last = min(interval_last(interval), start + size - 1u);
+    return last < start + first ? EMPTY_INTERVAL : interval_of(first, last - start);
 }
 
-static inline SharedTriangle shared_triangle(SurfaceScene scene, View view, float2 span,
-                                             uint tile_x, uint tile_y, uint number) {
-    ViewTriangles t = view_triangles(scene, number, -1);
-    RasterTriangles r = set_up_triangles(view, span, t);
-    PixelBounds b = pixel_bounds(view, t.v);
+static inline SharedTriangle shared_triangle(global const RasterRow* row, uint number, uint tile_x,
+                                             uint tile_y) {
+    RasterRow t = *row;
     SharedTriangle out;
     for (uint i = 0; i < 3; ++i) {
-        out.edge[i] = (float3)(r.edge[i].x, r.edge[i].y, r.edge[i].z);
+        out.edge[i] = (float3)(t.edge[3 * i], t.edge[3 * i + 1], t.edge[3 * i + 2]);
     }
-    out.plane = (float3)(r.plane.x, r.plane.y, r.plane.z);
-    out.farthest = r.farthest;
-    out.nearest = r.nearest;
-    out.sign = r.sign;
-    out.columns = interval_in_tile(b.x0, b.x1, tile_x, TILE_WIDTH);
-    out.rows = r.alive != 0 ? interval_in_tile(b.y0, b.y1, tile_y, TILE_HEIGHT) : EMPTY_INTERVAL;
+    out.plane = (float3)(t.plane[0], t.plane[1], t.plane[2]);
+    out.farthest = t.farthest;
+    out.nearest = t.nearest;
+    out.columns = interval_in_tile(t.columns, tile_x, TILE_WIDTH);
+    out.rows = interval_in_tile(t.rows, tile_y, TILE_HEIGHT);
     out.number = number;
-    out.masked = t.masked;
     return out;
 }
 
 static inline bool overlaps(uint interval, uint first, uint size) {
-    return (interval & 0xffffu) < first + size && (interval >> 16) >= first;
+    return interval_first(interval) < first + size && interval_last(interval) >= first;
 }
 
 // Appends the item's triangle to the lists of the regions that its box touches.
 static inline void list_in_regions(const SharedTriangle* t, uchar item, local uint* counts,
                                    local uchar (*lists)[GROUP]) {
-    if (t->columns == EMPTY_INTERVAL || t->rows == EMPTY_INTERVAL) return;
     for (uint region = 0; region < REGIONS; ++region) {
         if (!overlaps(t->columns, region % REGIONS_ACROSS * REGION_WIDTH, REGION_WIDTH)) continue;
         if (!overlaps(t->rows, region / REGIONS_ACROSS * REGION_HEIGHT, REGION_HEIGHT)) continue;
@@ -110,19 +104,14 @@ static inline void list_in_regions(const SharedTriangle* t, uchar item, local ui
 }
 
 static inline bool within(uint interval, uint i) {
-    return i >= (interval & 0xffffu) && i <= (interval >> 16);
+    return i >= interval_first(interval) && i <= interval_last(interval);
 }
 
 // Where floats cannot tell, integers do. Rare: inlined, it would cost the others registers.
 __attribute__((noinline)) static bool decide_exactly(SurfaceScene scene, View view, uint number,
-                                                     float sign, float2 ray) {
-    Triangle t = fetch_triangle(scene, number + 1u);
-    float3 seen[3];
-    for (uint i = 0; i < 3; ++i) {
-        seen[i] = view_vertex(t.instance, vload3(0, t.vertex[i]));
-        if (view.orthographic != 0u) seen[i].z = -1.0f;
-    }
-    return covers_exactly(seen, sign, ray);
+                                                     float2 ray) {
+    ExactTriangle t = exact_triangle(scene, view, number);
+    return covers_exactly(&t, ray);
 }
 
 #if HAS_MASKS
@@ -143,17 +132,17 @@ static inline void draw_pixel(SurfaceScene scene, View view, local const SharedT
             min(along(t->edge[1], p->ray_x, p->ray_y), along(t->edge[2], p->ray_x, p->ray_y)));
     if (least < -1.0f) return;
     float key = min(max(along(t->plane, p->ray_x, p->ray_y), t->farthest), t->nearest);
-    bool nearer = key > p->key || (key == p->key && p->id != 0u && t->number + 1u < p->id);
+    uint number = t->number & ~MASKED_TRIANGLE;
+    bool nearer = key > p->key || (key == p->key && p->id != 0u && number + 1u < p->id);
     if (!nearer || !(key <= p->nearest)) return;
-    if (!(least > 1.0f) &&
-        !decide_exactly(scene, view, t->number, t->sign, (float2)(p->ray_x, p->ray_y))) {
+    if (!(least > 1.0f) && !decide_exactly(scene, view, number, (float2)(p->ray_x, p->ray_y))) {
         return;
     }
 #if HAS_MASKS
-    if (t->masked != 0 && !shows_texel(scene, view, t->number, p->x, p->y)) return;
+    if (t->number != number && !shows_texel(scene, view, number, p->x, p->y)) return;
 #endif
     p->key = key;
-    p->id = t->number + 1u;
+    p->id = number + 1u;
 }
 
 kernel void raster_triangles(
@@ -163,13 +152,14 @@ kernel void raster_triangles(
     global const MeshRow* restrict meshes, global const float* restrict vertices,
     global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
     global const TextureRow* restrict textures, global const ulong* restrict texels,
-    global const uint* restrict offsets,  // [tiles + 1]
-    global const uint* restrict numbers,  // [capacity]: triangles of each tile, in any order
+    global const RasterRow* restrict triangles,  // by number; listed ones
+    global const uint* restrict offsets,         // [tiles + 1]
+    global const uint* restrict lists,           // [capacity]: triangles of each tile, in any order
     uint capacity,
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
     local SharedTriangle batch[GROUP];
-    local uchar lists[REGIONS][GROUP];  // items, whose triangles they are
-    local uint listed[REGIONS];
+    local uchar listed[REGIONS][GROUP];  // items, whose triangles they are
+    local uint listed_count[REGIONS];
     SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
                           indices,   materials,       textures, texels};
     uint tiles_x = raster_tiles_x(view);
@@ -179,22 +169,23 @@ kernel void raster_triangles(
     RasterPixel pixels[ROUNDS];
 #pragma unroll
     for (uint i = 0; i < ROUNDS; ++i) pixels[i] = first_pixel(view, tile_x, tile_y, i);
-    float2 span = ray_span(view);
     uint item = get_local_id(0);
     uint region = item / REGION_ITEMS;
     uint end = min(offsets[tile + 1], capacity);
     for (uint first = offsets[tile]; first < end; first += GROUP) {
         uint mine = first + item;
-        if (item < REGIONS) listed[item] = 0u;
+        if (item < REGIONS) listed_count[item] = 0u;
         barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item adds to it
         if (mine < end) {
-            SharedTriangle t = shared_triangle(scene, view, span, tile_x, tile_y, numbers[mine]);
+            uint number = lists[mine];
+            SharedTriangle t =
+                shared_triangle(triangles + (number & ~MASKED_TRIANGLE), number, tile_x, tile_y);
             batch[item] = t;
-            list_in_regions(&t, (uchar)item, listed, lists);
+            list_in_regions(&t, (uchar)item, listed_count, listed);
         }
-        barrier(CLK_LOCAL_MEM_FENCE);  // all are set up
-        for (uint j = 0; j < listed[region]; ++j) {
-            local const SharedTriangle* t = batch + lists[region][j];
+        barrier(CLK_LOCAL_MEM_FENCE);  // all are there
+        for (uint j = 0; j < listed_count[region]; ++j) {
+            local const SharedTriangle* t = batch + listed[region][j];
 #pragma unroll
             for (uint i = 0; i < ROUNDS; ++i) draw_pixel(scene, view, t, pixels + i);
         }

@@ -1,179 +1,204 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles' triangles -> the triangle that each pixel shows, by one work-item a tile, in lanes: VW
-// triangles are set up at once, then each is drawn row by row, VW pixels at a time. For CPUs.
+// Tiles' triangles -> the triangle that each pixel shows, by one work-item a tile, triangle by
+// triangle, VW pixels at a time. For CPUs.
+//
+// A vector of pixels is a strip: STRIP_ROWS rows of neighbouring columns, since most triangles are
+// few pixels wide. The tile keeps its pixels column by column within the rows of a strip, so a
+// strip that begins at any column is one vector in memory.
+#include "kernels/device/prefetch.h"
 #include "kernels/device/raster_tile.h"
 #include "kernels/device/raster_triangle.h"
 #if HAS_MASKS
 #include "kernels/device/alpha_mask.h"
 #endif
 
+#if VW == 16
+#define STRIP_ROWS 2
+#define STRIP_COLUMNS 8
+#elif VW == 8
+#define STRIP_ROWS 2
+#define STRIP_COLUMNS 4
+#else
+#define STRIP_ROWS 1
+#define STRIP_COLUMNS VW
+#endif
+#define TILE_STRIPS (TILE_HEIGHT / STRIP_ROWS)
 // Strips begin where a triangle does: the last may end past the tile.
-#define TILE_STRIDE (TILE_WIDTH + VW)
+#define STRIP_STRIDE ((TILE_WIDTH + STRIP_COLUMNS) * STRIP_ROWS)
+#define strip_lanes_x (lane_numbers / STRIP_ROWS)
+#define strip_lanes_y (lane_numbers % STRIP_ROWS)
 
-// Keys and ids so far, of the tile's pixels; and the rays' x of its columns.
+// Triangles' rows are asked for so many triangles ahead.
+#define ROWS_AHEAD 8
+
+// Keys and ids so far, of the tile's pixels; and their rays.
 typedef struct Tile {
-    float key[TILE_HEIGHT * TILE_STRIDE];
-    uint id[TILE_HEIGHT * TILE_STRIDE];
-    float ray_x[TILE_STRIDE];
+    float key[TILE_STRIPS * STRIP_STRIDE];
+    uint id[TILE_STRIPS * STRIP_STRIDE];
+    float ray_x[STRIP_STRIDE];
+    float ray_y[TILE_STRIPS][VW];
     uint x, y;           // of its first pixel, in the planes
     uint width, height;  // of its pixels in the picture
 } Tile;
 
-// RasterTriangles, triangle by triangle.
-typedef struct Batch {
-    float edge[9][VW];
-    float plane[3][VW];
-    float farthest[VW], nearest[VW];
-    float sign[VW];
-    int x0[VW], x1[VW], y0[VW], y1[VW];  // within the tile
-    int masked[VW];
-} Batch;
+// VW pixels.
+typedef struct Strip {
+    uint x, y;  // of its first column, in the tile; of its row of strips
+} Strip;
+
+static inline uint place_of(Strip s) { return s.y * STRIP_STRIDE + s.x * STRIP_ROWS; }
+
+// The pixels' centres in the picture.
+static inline FV centres_x(const Tile* tile, Strip s) {
+    return lane_to_float(strip_lanes_x + (tile->x + s.x)) + 0.5f;
+}
+static inline FV centres_y(View view, const Tile* tile, Strip s) {
+    return lane_to_float(strip_lanes_y + (tile->y + s.y * STRIP_ROWS + view.first_row)) + 0.5f;
+}
 
 static inline void clear_tile(View view, Tile* tile) {
-    for (uint x = 0; x < TILE_STRIDE; x += VW) {
-        lane_store(ray_x(view, lane_numbers + (tile->x + x)), tile->ray_x + x);
+    Strip s = {0, 0};
+    for (s.x = 0; s.x < TILE_WIDTH + STRIP_COLUMNS; s.x += STRIP_COLUMNS) {
+        FV x = fma(centres_x(tile, s), fv(view.ray.x), fv(view.ray.y));
+        lane_store(x, tile->ray_x + s.x * STRIP_ROWS);
     }
-    for (uint y = 0; y < TILE_HEIGHT; ++y) {
-        FV py = fv((float)(tile->y + y + view.first_row) + 0.5f);
-        for (uint x = 0; x < TILE_STRIDE; x += VW) {
-            FV px = lane_to_float(lane_numbers + (tile->x + x)) + 0.5f;
-            lane_store(far_key(view, px, py), tile->key + y * TILE_STRIDE + x);
-            lane_store((UV)(0u), tile->id + y * TILE_STRIDE + x);
+    for (s.y = 0; s.y < TILE_STRIPS; ++s.y) {
+        FV py = centres_y(view, tile, s);
+        lane_store(fma(py, fv(view.ray.z), fv(view.ray.w)), tile->ray_y[s.y]);
+        for (s.x = 0; s.x < TILE_WIDTH + STRIP_COLUMNS; s.x += STRIP_COLUMNS) {
+            lane_store(far_key(view, centres_x(tile, s), py), tile->key + place_of(s));
+            lane_store((UV)(0u), tile->id + place_of(s));
         }
     }
 }
 
-static inline void store3(FV3 v, float (*to)[VW]) {
-    lane_store(v.x, to[0]);
-    lane_store(v.y, to[1]);
-    lane_store(v.z, to[2]);
+// The strips of a tile that a triangle's box touches.
+typedef struct StripBox {
+    uint x0, x1;  // columns
+    uint y0, y1;  // rows of strips; y0 > y1: none
+} StripBox;
+
+static inline StripBox strip_box(const Tile* tile, global const RasterRow* t) {
+    StripBox out;
+    out.x0 = max(interval_first(t->columns), tile->x) - tile->x;
+    out.x1 = min(interval_last(t->columns) - tile->x, tile->width - 1u);
+    out.y0 = (max(interval_first(t->rows), tile->y) - tile->y) / STRIP_ROWS;
+    out.y1 = min(interval_last(t->rows) - tile->y, tile->height - 1u) / STRIP_ROWS;
+    return out;
 }
 
-// Sets up the triangles of `numbers`, as many as are `wanted`.
-static inline void fill_batch(SurfaceScene scene, View view, const Tile* tile, float2 span,
-                              UV numbers, MASK wanted, Batch* out) {
-    ViewTriangles t = view_triangles(scene, numbers, wanted);
-    RasterTriangles r = set_up_triangles(view, span, t);
-    PixelBounds b = pixel_bounds(view, t.v);
-    for (uint i = 0; i < 3; ++i) store3(r.edge[i], out->edge + 3 * i);
-    store3(r.plane, out->plane);
-    lane_store(r.farthest, out->farthest);
-    lane_store(r.nearest, out->nearest);
-    lane_store(r.sign, out->sign);
-    IV x = (IV)((int)tile->x);
-    IV y = (IV)((int)tile->y);
-    lane_store(max(b.x0 - x, (IV)(0)), out->x0);
-    lane_store(min(b.x1 - x, (IV)((int)tile->width - 1)), out->x1);
-    lane_store(max(b.y0 - y, (IV)(0)), out->y0);
-    // No rows where nothing is covered.
-    lane_store(select((IV)(-1), min(b.y1 - y, (IV)((int)tile->height - 1)), r.alive & wanted),
-               out->y1);
-    lane_store(t.masked, out->masked);
-}
-
-// A triangle on its way over the tile's rows.
-typedef struct DrawnTriangle {
-    uint number;  // along the instances
-    float sign;
-    FV edge_x[3], plane_x;  // of its affine functions; and what they are at the row's x = 0
-    FV edge_row[3], plane_row;
+// A triangle's affine functions along a row of strips: x times the ray's x, and the rest.
+typedef struct StripEdges {
+    FV x[3], plane_x, rest[3], plane_rest;
     FV farthest, nearest;
-} DrawnTriangle;
+} StripEdges;
 
-static inline void begin_row(const Batch* b, uint i, float ry, DrawnTriangle* t) {
+static inline StripEdges edges_of(global const RasterRow* t) {
+    StripEdges out;
+    for (uint e = 0; e < 3; ++e) out.x[e] = fv(t->edge[3 * e]);
+    out.plane_x = fv(t->plane[0]);
+    out.farthest = fv(t->farthest);
+    out.nearest = fv(t->nearest);
+    return out;
+}
+
+static inline void begin_strips(const Tile* tile, uint y, global const RasterRow* t,
+                                StripEdges* edges) {
+    FV ry = lane_load(tile->ray_y[y]);
+#pragma unroll
     for (uint e = 0; e < 3; ++e) {
-        t->edge_row[e] = fv(fma(b->edge[3 * e + 1][i], ry, -b->edge[3 * e + 2][i]));
+        edges->rest[e] = fma(fv(t->edge[3 * e + 1]), ry, fv(-t->edge[3 * e + 2]));
     }
-    t->plane_row = fv(fma(b->plane[1][i], ry, -b->plane[2][i]));
+    edges->plane_rest = fma(fv(t->plane[1]), ry, fv(-t->plane[2]));
 }
 
 // Where floats cannot tell, integers do. Rare: inlined, it would keep its caller from that.
-__attribute__((noinline)) static MASK decide_exactly(SurfaceScene scene, View view,
-                                                     const DrawnTriangle* t, const float* rays_x,
-                                                     float ry, MASK unsure) {
-    Triangle triangle = fetch_triangle(scene, t->number + 1u);
-    float3 seen[3];
-    for (uint i = 0; i < 3; ++i) {
-        seen[i] = view_vertex(triangle.instance, vload3(0, triangle.vertex[i]));
-        if (view.orthographic != 0u) seen[i].z = -1.0f;
-    }
+__attribute__((noinline)) static MASK decide_exactly(SurfaceScene scene, View view, uint number,
+                                                     FV rx, FV ry, MASK unsure) {
+    ExactTriangle t = exact_triangle(scene, view, number);
+    float x[VW], y[VW];
     int inside[VW];
+    lane_store(rx, x);
+    lane_store(ry, y);
     lane_store(unsure, inside);
     for (uint i = 0; i < VW; ++i) {
-        if (inside[i] != 0) {
-            inside[i] = covers_exactly(seen, t->sign, (float2)(rays_x[i], ry)) ? -1 : 0;
-        }
+        if (inside[i] != 0) inside[i] = covers_exactly(&t, (float2)(x[i], y[i])) ? -1 : 0;
     }
     return lane_load(inside);
 }
 
+// What all triangles of a tile are drawn with.
+typedef struct Canvas {
+    SurfaceScene scene;
+    View view;
+    Tile* tile;
+} Canvas;
+
 // The pixels of a strip that the triangle covers; past its box there are none.
-static inline MASK covered(SurfaceScene scene, View view, const DrawnTriangle* t,
-                           const float* rays_x, float ry) {
-    FV rx = lane_load(rays_x);
-    FV least = fma(t->edge_x[0], rx, t->edge_row[0]);
-    least = min(least, fma(t->edge_x[1], rx, t->edge_row[1]));
-    least = min(least, fma(t->edge_x[2], rx, t->edge_row[2]));
+static inline MASK covered(Canvas c, uint number, const StripEdges* edges, Strip s) {
+    FV rx = lane_load(c.tile->ray_x + s.x * STRIP_ROWS);
+    FV least = fma(edges->x[0], rx, edges->rest[0]);
+    least = min(least, fma(edges->x[1], rx, edges->rest[1]));
+    least = min(least, fma(edges->x[2], rx, edges->rest[2]));
     MASK inside = lane_mask(least > fv(1.0f));
     MASK unsure = ~lane_mask(least < fv(-1.0f)) & ~inside;
-    if (lane_any(unsure)) inside |= decide_exactly(scene, view, t, rays_x, ry, unsure);
+    if (lane_any(unsure)) {
+        inside |=
+            decide_exactly(c.scene, c.view, number, rx, lane_load(c.tile->ray_y[s.y]), unsure);
+    }
     return inside;
 }
 
-static inline FV keys_of(const DrawnTriangle* t, const float* rays_x) {
-    FV key = fma(t->plane_x, lane_load(rays_x), t->plane_row);
-    return min(max(key, t->farthest), t->nearest);
+static inline FV keys_of(const Tile* tile, const StripEdges* edges, Strip s) {
+    FV rx = lane_load(tile->ray_x + s.x * STRIP_ROWS);
+    FV key = fma(edges->plane_x, rx, edges->plane_rest);
+    return min(max(key, edges->farthest), edges->nearest);
 }
 
-static inline void store_strip(Tile* tile, uint place, MASK wins, FV key, uint number) {
-    lane_store(lane_select(wins, key, lane_load(tile->key + place)), tile->key + place);
-    lane_store(select(lane_load(tile->id + place), (UV)(number + 1u), wins), tile->id + place);
-}
-
-// Not nearer than the near plane.
-static inline MASK behind_near(View view, const Tile* tile, FV key, uint x, uint y) {
-    FV px = lane_to_float(lane_numbers + (tile->x + x)) + 0.5f;
-    FV py = fv((float)(tile->y + y + view.first_row) + 0.5f);
-    return lane_mask(key <= far_key(view, px, py) + near_from_far(view));
+static inline void store_strip(Tile* tile, Strip s, MASK wins, FV key, uint number) {
+    float* keys = tile->key + place_of(s);
+    uint* ids = tile->id + place_of(s);
+    lane_store(lane_select(wins, key, lane_load(keys)), keys);
+    lane_store(select(lane_load(ids), (UV)(number + 1u), wins), ids);
 }
 
 // Triangles that neither alpha nor the near plane cuts.
-static inline void draw_whole(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
-                              DrawnTriangle* t) {
-    for (int y = b->y0[i]; y <= b->y1[i]; ++y) {
-        float ry = ray_y(view, tile->y + (uint)y);
-        begin_row(b, i, ry, t);
-        for (int x = b->x0[i]; x <= b->x1[i]; x += VW) {
-            uint place = (uint)y * TILE_STRIDE + (uint)x;
-            FV key = keys_of(t, tile->ray_x + x);
-            MASK wins = covered(scene, view, t, tile->ray_x + x, ry) &
-                        lane_mask(key > lane_load(tile->key + place));
-            store_strip(tile, place, wins, key, t->number);
+static inline void draw_whole(Canvas c, global const RasterRow* t, uint number) {
+    StripEdges edges = edges_of(t);
+    StripBox box = strip_box(c.tile, t);
+    Strip s;
+    for (s.y = box.y0; s.y <= box.y1; ++s.y) {
+        begin_strips(c.tile, s.y, t, &edges);
+        for (s.x = box.x0; s.x <= box.x1; s.x += STRIP_COLUMNS) {
+            FV key = keys_of(c.tile, &edges, s);
+            MASK nearer = lane_mask(key > lane_load(c.tile->key + place_of(s)));
+            store_strip(c.tile, s, covered(c, number, &edges, s) & nearer, key, number);
         }
     }
 }
 
-// The pixels of a strip that a triangle wins whose turn comes in any order.
-static inline MASK wins_cut(SurfaceScene scene, View view, const Tile* tile, const DrawnTriangle* t,
-                            uint x, uint y, FV key) {
-    uint place = y * TILE_STRIDE + x;
-    FV old = lane_load(tile->key + place);
+// The pixels of a strip that a triangle wins whose turn comes in any order, and which the near
+// plane may cut.
+static inline MASK wins_cut(Canvas c, uint number, const StripEdges* edges, Strip s, FV key) {
+    FV old = lane_load(c.tile->key + place_of(s));
     // Background has the number 0 - 1, which is not smaller.
     MASK first =
-        lane_mask(key == old) & lane_mask((UV)(t->number) < lane_load(tile->id + place) - 1u);
-    return covered(scene, view, t, tile->ray_x + x, ray_y(view, tile->y + y)) &
-           (lane_mask(key > old) | first) & behind_near(view, tile, key, x, y);
+        lane_mask(key == old) & lane_mask((UV)(number) < lane_load(c.tile->id + place_of(s)) - 1u);
+    FV far = far_key(c.view, centres_x(c.tile, s), centres_y(c.view, c.tile, s));
+    MASK behind_near = lane_mask(key <= far + near_from_far(c.view));
+    return covered(c, number, edges, s) & (lane_mask(key > old) | first) & behind_near;
 }
 
 // Triangles that the near plane cuts.
-static inline void draw_cut(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
-                            DrawnTriangle* t) {
-    for (int y = b->y0[i]; y <= b->y1[i]; ++y) {
-        begin_row(b, i, ray_y(view, tile->y + (uint)y), t);
-        for (int x = b->x0[i]; x <= b->x1[i]; x += VW) {
-            FV key = keys_of(t, tile->ray_x + x);
-            MASK wins = wins_cut(scene, view, tile, t, (uint)x, (uint)y, key);
-            store_strip(tile, (uint)y * TILE_STRIDE + (uint)x, wins, key, t->number);
+static inline void draw_cut(Canvas c, global const RasterRow* t, uint number) {
+    StripEdges edges = edges_of(t);
+    StripBox box = strip_box(c.tile, t);
+    Strip s;
+    for (s.y = box.y0; s.y <= box.y1; ++s.y) {
+        begin_strips(c.tile, s.y, t, &edges);
+        for (s.x = box.x0; s.x <= box.x1; s.x += STRIP_COLUMNS) {
+            FV key = keys_of(c.tile, &edges, s);
+            store_strip(c.tile, s, wins_cut(c, number, &edges, s, key), key, number);
         }
     }
 }
@@ -191,27 +216,26 @@ typedef struct Fragments {
 } Fragments;
 
 // Which lanes are set cannot be foreseen: each is written, and the next in its place if it is not.
-static inline void add_fragments(const Tile* tile, View view, uint x, uint y, MASK wins, FV key,
-                                 Fragments* f) {
+static inline void add_fragments(Canvas c, Strip s, MASK wins, FV key, Fragments* f) {
     uint flag[VW];
-    float keys[VW];
+    float keys[VW], x[VW], y[VW];
     lane_store(lane_bits(wins) & 1u, flag);
     lane_store(key, keys);
-    float py = (float)(tile->y + y + view.first_row) + 0.5f;
+    lane_store(centres_x(c.tile, s), x);
+    lane_store(centres_y(c.view, c.tile, s), y);
     uint count = f->count;
 #pragma unroll
     for (uint lane = 0; lane < VW; ++lane) {
-        f->x[count] = (float)(tile->x + x + lane) + 0.5f;
-        f->y[count] = py;
+        f->x[count] = x[lane];
+        f->y[count] = y[lane];
         f->key[count] = keys[lane];
-        f->place[count] = y * TILE_STRIDE + x + lane;
+        f->place[count] = place_of(s) + lane;
         count += flag[lane];
     }
     f->count = count;
 }
 
-static inline void draw_fragments(SurfaceScene scene, View view, Tile* tile,
-                                  const MaskedTriangle* t, uint number, Fragments* f) {
+static inline void draw_fragments(Canvas c, const MaskedTriangle* t, uint number, Fragments* f) {
     for (uint first = 0; first < f->count; first += VW) {
         uint count = min(f->count - first, (uint)VW);
         for (uint i = count; i < VW; ++i) {
@@ -223,97 +247,68 @@ static inline void draw_fragments(SurfaceScene scene, View view, Tile* tile,
         pixels.y = lane_load(f->y + first);
         pixels.first = 0;
         int left[VW];
-        lane_store(passes_mask(scene, view, t, pixels), left);
+        lane_store(passes_mask(c.scene, c.view, t, pixels), left);
         for (uint i = 0; i < count; ++i) {
             if (left[i] == 0) continue;
-            tile->key[f->place[first + i]] = f->key[first + i];
-            tile->id[f->place[first + i]] = number + 1u;
+            c.tile->key[f->place[first + i]] = f->key[first + i];
+            c.tile->id[f->place[first + i]] = number + 1u;
         }
     }
     f->count = 0;
 }
 
-static inline void draw_masked(SurfaceScene scene, View view, Tile* tile, const Batch* b, uint i,
-                               DrawnTriangle* t) {
-    MaskedTriangle masked = fetch_masked_triangle(scene, view, t->number);
+static inline void draw_masked(Canvas c, global const RasterRow* t, uint number) {
+    MaskedTriangle masked = fetch_masked_triangle(c.scene, c.view, number);
     Fragments fragments;
     fragments.count = 0;
-    for (int y = b->y0[i]; y <= b->y1[i]; ++y) {
-        begin_row(b, i, ray_y(view, tile->y + (uint)y), t);
-        for (int x = b->x0[i]; x <= b->x1[i]; x += VW) {
-            FV key = keys_of(t, tile->ray_x + x);
-            MASK wins = wins_cut(scene, view, tile, t, (uint)x, (uint)y, key);
+    StripEdges edges = edges_of(t);
+    StripBox box = strip_box(c.tile, t);
+    Strip s;
+    for (s.y = box.y0; s.y <= box.y1; ++s.y) {
+        begin_strips(c.tile, s.y, t, &edges);
+        for (s.x = box.x0; s.x <= box.x1; s.x += STRIP_COLUMNS) {
+            FV key = keys_of(c.tile, &edges, s);
+            MASK wins = wins_cut(c, number, &edges, s, key);
             if (!lane_any(wins)) continue;
-            add_fragments(tile, view, (uint)x, (uint)y, wins, key, &fragments);
-            if (fragments.count < MOST_FRAGMENTS) continue;
-            draw_fragments(scene, view, tile, &masked, t->number, &fragments);
+            add_fragments(c, s, wins, key, &fragments);
+            if (fragments.count >= MOST_FRAGMENTS) draw_fragments(c, &masked, number, &fragments);
         }
     }
-    draw_fragments(scene, view, tile, &masked, t->number, &fragments);
+    draw_fragments(c, &masked, number, &fragments);
+}
+
+// Triangles that alpha cuts come after the others, which may hide them: samples cost most.
+#define MOST_PUT_OFF (64 * VW)
+
+static inline void draw_put_off(Canvas c, global const RasterRow* triangles, const uint* put_off,
+                                uint count) {
+    for (uint i = 0; i < count; ++i) draw_masked(c, triangles + put_off[i], put_off[i]);
 }
 #endif
 
-// One triangle of a batch. `sure_key`: no pixel's near plane has a smaller one.
-static inline void draw_triangle(SurfaceScene scene, View view, float sure_key, Tile* tile,
-                                 const Batch* b, uint i, uint number) {
-    DrawnTriangle t;
-    t.number = number;
-    t.sign = b->sign[i];
-    for (uint e = 0; e < 3; ++e) t.edge_x[e] = fv(b->edge[3 * e][i]);
-    t.plane_x = fv(b->plane[0][i]);
-    t.farthest = fv(b->farthest[i]);
-    t.nearest = fv(b->nearest[i]);
-#if HAS_MASKS
-    if (b->masked[i] != 0) {
-        draw_masked(scene, view, tile, b, i, &t);
-        return;
-    }
+// Of a strip's row: every STRIP_ROWS-th lane.
+#if STRIP_ROWS == 1
+#define ROW_OF_STRIP(v, i) (v)
+#elif STRIP_ROWS == 2
+#define ROW_OF_STRIP(v, i) ((i) == 0 ? (v).even : (v).odd)
 #endif
-    if (b->nearest[i] < sure_key) {
-        draw_whole(scene, view, tile, b, i, &t);
-    } else {
-        draw_cut(scene, view, tile, b, i, &t);
-    }
-}
+#if STRIP_COLUMNS == 1
+#define store_row(v, p) (*(p) = (v))
+#else
+#define store_row(v, p) KX_CONCAT(vstore, STRIP_COLUMNS)(v, 0, p)
+#endif
 
 static inline void store_tile(View view, const Tile* tile, global uint* ids) {
     uint end = min(tile->x + TILE_WIDTH, view.stride) - tile->x;
     for (uint y = 0; y < tile->height; ++y) {
         global uint* row = ids + (size_t)(tile->y + y) * view.stride + tile->x;
-        for (uint x = 0; x < end; x += VW) {
-            lane_store(lane_load(tile->id + y * TILE_STRIDE + x), row + x);
+        Strip s = {0, y / STRIP_ROWS};
+        for (; s.x < end; s.x += STRIP_COLUMNS) {
+            UV strip = lane_load(tile->id + place_of(s));
+            store_row(ROW_OF_STRIP(strip, y % STRIP_ROWS), row + s.x);
         }
     }
 }
-
-// Draws triangles of one tile, in their order. With `put_off` not null, those that alpha cuts are
-// appended to it instead, of which there are `put_off_count`, and room for VW more.
-static inline void draw_list(SurfaceScene scene, View view, Tile* tile, const uint* numbers,
-                             uint count, uint* put_off, uint* put_off_count) {
-    Batch batch;
-    fill_batch(scene, view, tile, ray_span(view), lane_load(numbers),
-               lane_mask(lane_numbers < (UV)(count)), &batch);
-    float sure_key = least_near_key(view);
-    for (uint i = 0; i < count; ++i) {
-        if (put_off && batch.masked[i] != 0) {
-            put_off[(*put_off_count)++] = numbers[i];
-        } else {
-            draw_triangle(scene, view, sure_key, tile, &batch, i, numbers[i]);
-        }
-    }
-}
-
-#if HAS_MASKS
-// Triangles that alpha cuts come after the others, which may hide them: samples cost most.
-#define MOST_PUT_OFF (64 * VW)
-
-static inline void draw_put_off(SurfaceScene scene, View view, Tile* tile, const uint* put_off,
-                                uint count) {
-    for (uint first = 0; first < count; first += VW) {
-        draw_list(scene, view, tile, put_off + first, min(count - first, (uint)VW), 0, 0);
-    }
-}
-#endif
 
 kernel void raster_triangles(
     View view,
@@ -322,40 +317,50 @@ kernel void raster_triangles(
     global const MeshRow* restrict meshes, global const float* restrict vertices,
     global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
     global const TextureRow* restrict textures, global const ulong* restrict texels,
-    global const uint* restrict offsets,  // [tiles + 1]
-    global const uint* restrict lists,    // [capacity]: triangles of each tile, ascending
+    global const RasterRow* restrict triangles,  // by number; listed ones
+    global const uint* restrict offsets,         // [tiles + 1]
+    global const uint* restrict lists,           // [capacity]: triangles of each tile, ascending
     uint capacity,
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
     SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
                           indices,   materials,       textures, texels};
     uint tiles_x = raster_tiles_x(view);
-    uint number = get_global_id(0);
+    uint tile_number = get_global_id(0);
     Tile tile;
-    tile.x = number % tiles_x * TILE_WIDTH;
-    tile.y = number / tiles_x * TILE_HEIGHT;
+    tile.x = tile_number % tiles_x * TILE_WIDTH;
+    tile.y = tile_number / tiles_x * TILE_HEIGHT;
     tile.width = min(view.width - tile.x, (uint)TILE_WIDTH);
     tile.height = min(view.height - tile.y, (uint)TILE_HEIGHT);
     clear_tile(view, &tile);
-    uint end = min(offsets[number + 1], capacity);
+    Canvas canvas = {scene, view, &tile};
+    float sure_key = least_near_key(view);
+    uint end = min(offsets[tile_number + 1], capacity);
 #if HAS_MASKS
-    uint put_off[MOST_PUT_OFF + 2 * VW];
+    uint put_off[MOST_PUT_OFF];
     uint put_off_count = 0;
 #endif
-    for (uint first = offsets[number]; first < end; first += VW) {
-        uint triangles[VW];
-        for (uint i = 0; i < VW; ++i) triangles[i] = lists[min(first + i, end - 1u)];
-        uint count = min(end - first, (uint)VW);
+    for (uint i = offsets[tile_number]; i < end; ++i) {
+        prefetch_to_read(triangles + (lists[min(i + ROWS_AHEAD, end - 1u)] & ~MASKED_TRIANGLE));
+        uint number = lists[i] & ~MASKED_TRIANGLE;
 #if HAS_MASKS
-        draw_list(scene, view, &tile, triangles, count, put_off, &put_off_count);
-        if (put_off_count < MOST_PUT_OFF) continue;
-        draw_put_off(scene, view, &tile, put_off, put_off_count);
-        put_off_count = 0;
-#else
-        draw_list(scene, view, &tile, triangles, count, 0, 0);
+        if (lists[i] != number) {
+            put_off[put_off_count++] = number;
+            if (put_off_count == MOST_PUT_OFF) {
+                draw_put_off(canvas, triangles, put_off, put_off_count);
+                put_off_count = 0;
+            }
+            continue;
+        }
 #endif
+        global const RasterRow* t = triangles + number;
+        if (t->nearest < sure_key) {
+            draw_whole(canvas, t, number);
+        } else {
+            draw_cut(canvas, t, number);
+        }
     }
 #if HAS_MASKS
-    draw_put_off(scene, view, &tile, put_off, put_off_count);
+    draw_put_off(canvas, triangles, put_off, put_off_count);
 #endif
     store_tile(view, &tile, ids);
 }

@@ -3,6 +3,7 @@
 
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
+#include "kernels/shared/raster_row.h"
 #include "kernels/shared/shadow.h"
 #include "kernels/shared/surface_scene.h"
 
@@ -76,8 +77,9 @@ struct ShadowWords {
 };
 
 /// Triangles of each tile of the picture: lists[offsets[t] .. offsets[t + 1]), numbers along the
-/// instances.
+/// instances, as kernels/device/raster_tile.h has them.
 struct TriangleLists {
+    DeviceArray<RasterRow> triangles;  // by number; those of the lists
     DeviceArray<uint> offsets;  // [tile_count + 1]
     DeviceArray<uint> lists;    // [capacity]
     uint capacity = 0;

@@ -9,6 +9,7 @@
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/raster_row.h"
 #include "kernels/shared/surface_planes.h"
 #include "raster/forward_pass.h"
 
@@ -124,9 +125,10 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     if (settings.reflections) {
         need.device_fixed += settings.reflections->texels.size() * sizeof(float);
     }
-    // The tiles of each triangle; their lists are like those of lights.
+    // Each triangle's row and box of tiles; the tiles' lists are like those of lights.
     if (settings.geometry == Geometry::compute) {
-        need.device_fixed += 2 * sizeof(std::uint32_t) * triangle_count(scene);
+        need.device_fixed +=
+            (sizeof(RasterRow) + 4 * sizeof(std::uint32_t)) * triangle_count(scene);
     }
     if (plan.kernels.shadows) need.device_fixed += shadow_scene_bytes(scene);
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::string_view kBinTrianglesStage = "bin_triangles";
 constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room for from the start
+constexpr std::size_t kBoxWords = 4;                       // of a triangle's box of tiles
 
 BuildOptions bin_options(const Tuning& tuning) {
     BuildOptions options;
@@ -22,13 +23,13 @@ BinTriangles::BinTriangles(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
       program_(build_program(gpu, kBinTrianglesStage, bin_options(tuning))),
-      bounds_(gpu, program_, kBinTrianglesStage, "bin_triangles_bounds"),
       clear_(gpu, program_, kBinTrianglesStage, "bin_triangles_clear"),
-      count_(gpu, program_, kBinTrianglesStage, "bin_triangles_count"),
+      set_up_(gpu, program_, kBinTrianglesStage, "bin_triangles_set_up"),
       offset_(gpu, program_, kBinTrianglesStage, "bin_triangles_offset"),
       fill_(gpu, program_, kBinTrianglesStage, "bin_triangles_fill"),
-      columns_(gpu, kBinTrianglesStage),
-      rows_(gpu, kBinTrianglesStage),
+      triangles_(gpu, kBinTrianglesStage),
+      boxes_(gpu, kBinTrianglesStage),
+      kept_(gpu, kBinTrianglesStage),
       cursors_(gpu, kBinTrianglesStage),
       closed_(gpu, kBinTrianglesStage),
       lists_(gpu, tuning, kBinTrianglesStage, sizeof(uint)) {
@@ -53,29 +54,26 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
                  : std::clamp<std::size_t>(triangle_count, 1,
                                            static_cast<std::size_t>(tuning_.cull_chunks));
     const std::size_t some = std::max<std::size_t>(triangle_count, 1);
-    const DeviceArray<uint> columns = columns_.reserve(round_up(some, lanes));
-    const DeviceArray<uint> rows = rows_.reserve(round_up(some, lanes));
+    out.triangles = triangles_.reserve(some);
+    const DeviceArray<uint> boxes = boxes_.reserve(kBoxWords * some);
+    const DeviceArray<uint> kept = kept_.reserve(chunks);
     const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
     const DeviceArray<uint> counts = lists_.counts(stride);
-    bounds_.enqueue(items((some + lanes - 1) / lanes, tuning_.light_group), timer, view,
-                    scene.instances, scene.instance_blocks, scene.meshes, scene.vertices,
-                    scene.indices, scene.materials, triangle_count, columns, rows);
+    const WorkSize walk = by_group ? items(some, tuning_.raster_group) : groups(chunks, 1);
     if (by_group) {
         clear_.enqueue(items(stride, tuning_.raster_group), timer, static_cast<uint>(stride),
                        cursors);
     }
-    const WorkSize walk = by_group ? items(some, tuning_.raster_group) : groups(chunks, 1);
-    count_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
-                   scene.vertices, scene.indices, scene.materials, triangle_count, columns, rows,
-                   some_closed_, closed_.get(), cursors);
+    set_up_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
+                    scene.vertices, scene.indices, scene.materials, triangle_count, some_closed_,
+                    closed_.get(), out.triangles, boxes, kept, cursors);
     offset_.enqueue(items(stride / lanes, tuning_.light_group), timer, out.tile_count,
                     static_cast<uint>(chunks), cursors, counts);
     out.offsets = lists_.enqueue_offsets(out.tile_count, timer);
     out.lists = lists_.entries<uint>();
     out.capacity = lists_.capacity();
-    fill_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
-                  scene.vertices, scene.indices, scene.materials, triangle_count, columns, rows,
-                  some_closed_, closed_.get(), cursors, out.offsets, out.lists, out.capacity);
+    fill_.enqueue(walk, timer, view, triangle_count, some_closed_, closed_.get(), out.triangles,
+                  boxes, kept, cursors, out.offsets, out.lists, out.capacity);
     return out;
 }
 

@@ -9,8 +9,8 @@
 
 namespace kilolux {
 
-/// Lists the triangles that each tile's pixels may show. As CullLights, it works with the room of
-/// the last call, and fits() says whether that was enough.
+/// Sets up triangles and lists those that each tile's pixels may show. As CullLights, it works with
+/// the room of the last call, and fits() says whether that was enough.
 class BinTriangles {
  public:
     BinTriangles(const Gpu& gpu, const Tuning& tuning);
@@ -33,8 +33,9 @@ class BinTriangles {
     Gpu gpu_;
     Tuning tuning_;
     cl::Program program_;
-    Kernel bounds_, clear_, count_, offset_, fill_;
-    GrowingArray<uint> columns_, rows_, cursors_;
+    Kernel clear_, set_up_, offset_, fill_;
+    GrowingArray<RasterRow> triangles_;
+    GrowingArray<uint> boxes_, kept_, cursors_;
     GrowingArray<std::uint8_t> closed_;
     uint some_closed_ = 0;
     CountedList lists_;

@@ -36,8 +36,8 @@ DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const Tr
     const DeviceArray<uint> ids = ids_.reserve(std::size_t{view.stride} * view.height);
     kernel_.enqueue(groups(lists.tile_count, tuning_.raster_group), timer, view, scene.instances,
                     scene.instance_blocks, scene.meshes, scene.vertices, scene.indices,
-                    scene.materials, scene.textures, scene.texels, lists.offsets, lists.lists,
-                    lists.capacity, ids);
+                    scene.materials, scene.textures, scene.texels, lists.triangles, lists.offsets,
+                    lists.lists, lists.capacity, ids);
     return ids;
 }
 

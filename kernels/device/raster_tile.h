@@ -16,11 +16,15 @@ static inline uint raster_tiles_y(View view) {
     return (view.height + TILE_HEIGHT - 1) / TILE_HEIGHT;
 }
 
-// Columns and rows of tiles, ends included, packed: first | last << 16; first > last: none.
+// Numbers from first to last, packed: first | last << 16; first > last: none.
 static inline uint interval_of(uint first, uint last) { return first | last << 16; }
 #define EMPTY_INTERVAL 1u
 static inline uint interval_first(uint interval) { return interval & 0xffffu; }
+static inline uint interval_last(uint interval) { return interval >> 16; }
 static inline uint interval_count(uint interval) {
-    return (interval >> 16) + 1u - (interval & 0xffffu);
+    return interval_last(interval) + 1u - interval_first(interval);
 }
+
+// A triangle's number in a tile's list, with this bit where alpha cuts it.
+#define MASKED_TRIANGLE 0x80000000u
 #endif

@@ -10,6 +10,7 @@
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
 #include "kernels/shared/light_drift.h"
+#include "kernels/shared/raster_row.h"
 #include "kernels/shared/surface_scene.h"
 #include "tests/support/test_gpu.h"
 
@@ -50,6 +51,9 @@ std::vector<Measure> surface_measures() {
             OFFSET_OF(LightDrift, rate_low),
             SIZE_OF(DriftBox),
             OFFSET_OF(DriftBox, extent_low),
+            SIZE_OF(RasterRow),
+            OFFSET_OF(RasterRow, plane),
+            OFFSET_OF(RasterRow, columns),
             SIZE_OF(MeshRow),
             OFFSET_OF(MeshRow, material),
             OFFSET_OF(MeshRow, color),
@@ -120,7 +124,8 @@ constexpr std::string_view kHeaders[] = {
     "kernels/shared/light_profile.h", "kernels/shared/cluster_grid.h",
     "kernels/shared/clusters.h",      "kernels/shared/gbuffer.h",
     "kernels/shared/light.h",         "kernels/shared/light_drift.h",
-    "kernels/shared/surface_scene.h", "kernels/shared/view.h"};
+    "kernels/shared/raster_row.h",    "kernels/shared/surface_scene.h",
+    "kernels/shared/view.h"};
 
 void expect_equal(const std::vector<Measure>& measures) {
     Gpu gpu = test_gpu();

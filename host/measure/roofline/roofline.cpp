@@ -6,6 +6,7 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/raster_row.h"
 #include "kernels/shared/shadow.h"
 
 namespace kilolux {
@@ -41,34 +42,33 @@ StageWork move_work(const StageCounts& c) {
             .launches = 1};
 }
 
-// A triangle is three indices and about half a vertex: neighbours share theirs. The prefix sum over
-// tiles is left out.
+// A triangle is three indices and about half a vertex: neighbours share theirs. Of those that no
+// pixel shows, how many are set up is left out; so is the prefix sum over tiles.
 StageWork bin_triangles_work(const StageCounts& c) {
     constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * 3 * sizeof(float);
-    constexpr double kIntervals = 2 * sizeof(uint);
+    constexpr double kBox = 4 * sizeof(uint);
     StageWork work;
-    work.bytes_read = (kTriangle + 2.0 * kIntervals) * c.triangles;
-    work.bytes_written = kIntervals * c.triangles + sizeof(uint) * c.triangle_pairs;
+    work.bytes_read = kTriangle * c.triangles + kBox * c.seen_triangles;
+    work.bytes_written =
+        (sizeof(RasterRow) + kBox) * c.seen_triangles + sizeof(uint) * c.triangle_pairs;
     // Three vertices: differences 6, rows 12, reciprocal 9, pixel 4. Their extremes 12, to whole
-    // pixels 12, to tiles 6, outside of the view 28, the determinant 17 and its bound 20. A pair is
-    // counted (1) and placed (3).
-    work.instructions =
-        c.triangles * InstructionCounts{188.0} + c.triangle_pairs * InstructionCounts{4.0};
-    work.launches = 4 + kPrefixSumLaunches;
+    // pixels 12, outside of the view 28, the determinant 17 and its bound 20. One that is set up:
+    // three edges of 35 with a division each, the plane 15, to tiles 6. A pair is counted (1) and
+    // placed (3).
+    work.instructions = c.triangles * InstructionCounts{182.0} +
+                        c.seen_triangles * InstructionCounts{126.0, 0.0, 0.0, 3.0} +
+                        c.triangle_pairs * InstructionCounts{4.0};
+    work.launches = 3 + kPrefixSumLaunches;
     return work;
 }
 
 // Every pixel is covered once at least; what lies behind, and alpha's samples, are left out.
 StageWork raster_triangles_work(const StageCounts& c) {
-    constexpr double kTriangle = 3 * sizeof(uint) + 3 * 3 * sizeof(float);
     StageWork work;
-    work.bytes_read = (sizeof(uint) + kTriangle) * c.triangle_pairs;
+    work.bytes_read = (sizeof(uint) + sizeof(RasterRow)) * c.triangle_pairs;
     work.bytes_written = sizeof(uint) * c.pixels;
-    // A pair's vertices and determinant as above 130, three edges of 35 with a division each, the
-    // plane 15, pixels 24. A pixel: edges 3, their least 2, two comparisons, key 3, nearer 1, taken
-    // 2, stored 2.
-    work.instructions = c.triangle_pairs * InstructionCounts{274.0, 0.0, 0.0, 3.0} +
-                        c.drawn_pixels * InstructionCounts{15.0};
+    // A pixel: edges 3, their least 2, two comparisons, key 3, nearer 1, taken 2, stored 2.
+    work.instructions = c.drawn_pixels * InstructionCounts{15.0};
     work.launches = 1;
     return work;
 }
