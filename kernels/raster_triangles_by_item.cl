@@ -112,10 +112,17 @@ static inline void begin_strips(const Tile* tile, uint y, global const RasterRow
     edges->plane_rest = fma(fv(t->plane[1]), ry, fv(-t->plane[2]));
 }
 
+// What all triangles of a tile are drawn with.
+typedef struct Canvas {
+    const SurfaceScene* scene;
+    const View* view;
+    Tile* tile;
+} Canvas;
+
 // Where floats cannot tell, integers do. Rare: inlined, it would keep its caller from that.
-__attribute__((noinline)) static MASK decide_exactly(SurfaceScene scene, View view, uint number,
-                                                     FV rx, FV ry, MASK unsure) {
-    ExactTriangle t = exact_triangle(scene, view, number);
+__attribute__((noinline)) static MASK decide_exactly(const SurfaceScene* scene, const View* view,
+                                                     uint number, FV rx, FV ry, MASK unsure) {
+    ExactTriangle t = exact_triangle(*scene, *view, number);
     float x[VW], y[VW];
     int inside[VW];
     lane_store(rx, x);
@@ -126,13 +133,6 @@ __attribute__((noinline)) static MASK decide_exactly(SurfaceScene scene, View vi
     }
     return lane_load(inside);
 }
-
-// What all triangles of a tile are drawn with.
-typedef struct Canvas {
-    SurfaceScene scene;
-    View view;
-    Tile* tile;
-} Canvas;
 
 // The pixels of a strip that the triangle covers; past its box there are none.
 static inline MASK covered(Canvas c, uint number, const StripEdges* edges, Strip s) {
@@ -155,11 +155,15 @@ static inline FV keys_of(const Tile* tile, const StripEdges* edges, Strip s) {
     return min(max(key, edges->farthest), edges->nearest);
 }
 
+// PoCL makes a vstore16 of four stores; these are one.
+typedef FV UnalignedFloats __attribute__((aligned(4)));
+typedef UV UnalignedUints __attribute__((aligned(4)));
+
 static inline void store_strip(Tile* tile, Strip s, MASK wins, FV key, uint number) {
-    float* keys = tile->key + place_of(s);
-    uint* ids = tile->id + place_of(s);
-    lane_store(lane_select(wins, key, lane_load(keys)), keys);
-    lane_store(select(lane_load(ids), (UV)(number + 1u), wins), ids);
+    UnalignedFloats* keys = (UnalignedFloats*)(tile->key + place_of(s));
+    UnalignedUints* ids = (UnalignedUints*)(tile->id + place_of(s));
+    *keys = lane_select(wins, key, *keys);
+    *ids = select(*ids, (UV)(number + 1u), wins);
 }
 
 // Triangles that neither alpha nor the near plane cuts.
@@ -184,8 +188,8 @@ static inline MASK wins_cut(Canvas c, uint number, const StripEdges* edges, Stri
     // Background has the number 0 - 1, which is not smaller.
     MASK first =
         lane_mask(key == old) & lane_mask((UV)(number) < lane_load(c.tile->id + place_of(s)) - 1u);
-    FV far = far_key(c.view, centres_x(c.tile, s), centres_y(c.view, c.tile, s));
-    MASK behind_near = lane_mask(key <= far + near_from_far(c.view));
+    FV far = far_key(*c.view, centres_x(c.tile, s), centres_y(*c.view, c.tile, s));
+    MASK behind_near = lane_mask(key <= far + near_from_far(*c.view));
     return covered(c, number, edges, s) & (lane_mask(key > old) | first) & behind_near;
 }
 
@@ -222,7 +226,7 @@ static inline void add_fragments(Canvas c, Strip s, MASK wins, FV key, Fragments
     lane_store(lane_bits(wins) & 1u, flag);
     lane_store(key, keys);
     lane_store(centres_x(c.tile, s), x);
-    lane_store(centres_y(c.view, c.tile, s), y);
+    lane_store(centres_y(*c.view, c.tile, s), y);
     uint count = f->count;
 #pragma unroll
     for (uint lane = 0; lane < VW; ++lane) {
@@ -247,7 +251,7 @@ static inline void draw_fragments(Canvas c, const MaskedTriangle* t, uint number
         pixels.y = lane_load(f->y + first);
         pixels.first = 0;
         int left[VW];
-        lane_store(passes_mask(c.scene, c.view, t, pixels), left);
+        lane_store(passes_mask(*c.scene, *c.view, t, pixels), left);
         for (uint i = 0; i < count; ++i) {
             if (left[i] == 0) continue;
             c.tile->key[f->place[first + i]] = f->key[first + i];
@@ -258,7 +262,7 @@ static inline void draw_fragments(Canvas c, const MaskedTriangle* t, uint number
 }
 
 static inline void draw_masked(Canvas c, global const RasterRow* t, uint number) {
-    MaskedTriangle masked = fetch_masked_triangle(c.scene, c.view, number);
+    MaskedTriangle masked = fetch_masked_triangle(*c.scene, *c.view, number);
     Fragments fragments;
     fragments.count = 0;
     StripEdges edges = edges_of(t);
@@ -332,7 +336,7 @@ kernel void raster_triangles(
     tile.width = min(view.width - tile.x, (uint)TILE_WIDTH);
     tile.height = min(view.height - tile.y, (uint)TILE_HEIGHT);
     clear_tile(view, &tile);
-    Canvas canvas = {scene, view, &tile};
+    Canvas canvas = {&scene, &view, &tile};
     float sure_key = least_near_key(view);
     uint end = min(offsets[tile_number + 1], capacity);
 #if HAS_MASKS
