@@ -61,14 +61,19 @@ DeferredPath::DeferredPath(const PathContext& context)
 
 Radiance DeferredPath::light(const Sample& sample, Measured out, const AfterShading& then) {
     lighting_.set_ambient(context_.settings.ambient);
-    gbuffer_ = surfaces_.draw(sample, out);
     lights_ = sample.lights;
     const ClusterGrid grid = coarse_grid(context_, sample.camera, out.stats);
-    const LightingInput input{gbuffer_, sample.lights, grid, surfaces_.shadows(sample),
-                              sample.display};
-    const AfterShading after =
-        context_.with_environment(gbuffer_, out.timer, blended_ ? AfterShading() : then);
-    const Radiance radiance = lighting_.light(input, out.timer, after);
+    const StageTimer before = out.timer;
+    LightingInput input;
+    Radiance radiance;
+    do {
+        out.timer = before;  // without surfaces that lacked triangles
+        gbuffer_ = surfaces_.draw(sample, out);
+        input = {gbuffer_, sample.lights, grid, surfaces_.shadows(sample), sample.display};
+        const AfterShading after =
+            context_.with_environment(gbuffer_, out.timer, blended_ ? AfterShading() : then);
+        radiance = lighting_.light(input, out.timer, after);
+    } while (!surfaces_.is_whole(out.stats));
     set_counts(out.stats);
     out.stats.shaded_display = sample.display.has_value();
     if (context_.settings.want.shadow_counts && context_.plan.kernels.shadows) {
@@ -223,8 +228,8 @@ DeferredAllPath::DeferredAllPath(const PathContext& context)
 
 Radiance DeferredAllPath::light(const Sample& sample, Measured out, const AfterShading& then) {
     lighting_.set_ambient(context_.settings.ambient);
-    gbuffer_ = surfaces_.draw(sample, out);
     grid_ = coarse_grid(context_, sample.camera, out.stats);
+    gbuffer_ = surfaces_.draw_whole(sample, out);
     const Radiance radiance =
         lighting_.light({gbuffer_, sample.lights, grid_, surfaces_.shadows(sample)}, out.timer,
                         context_.with_environment(gbuffer_, out.timer, {}));

@@ -52,8 +52,8 @@ SurfacePass& ForwardPath::drawn_surfaces(const Camera& camera) {
     StageTimer timer;
     FrameStats stats;
     const LightRows no_rows;
-    gbuffer_ =
-        surfaces_->draw({camera, no_rows, {}, {0, context_.settings.height}, true}, {timer, stats});
+    gbuffer_ = surfaces_->draw_whole({camera, no_rows, {}, {0, context_.settings.height}, true},
+                                     {timer, stats});
     return *surfaces_;
 }
 

@@ -87,7 +87,8 @@ GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
                         settings.height,
                         context_.scene.scene().revision,
                         sample.needed != nullptr};
-    if (!settings.no_reuse && !source.masked && source_ == source) return gbuffer_;
+    const bool is_kept = is_checked_ && !settings.no_reuse && !source.masked;
+    if (is_kept && source_ == source) return gbuffer_;
     source_.reset();  // until it is made
     if (resolve_ && source.masked && !mask_) mask_.emplace(context_.gpu, context_.tuning);
     const std::uint64_t version = gbuffer_.version + 1;
@@ -99,6 +100,21 @@ GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
     gbuffer_.version = version;
     source_ = source;
     return gbuffer_;
+}
+
+bool SurfacePass::is_whole(FrameStats& stats) {
+    if (is_checked_) return true;
+    is_checked_ = triangles_->fits();
+    stats.triangle_pairs = triangles_->pairs();
+    return is_checked_;
+}
+
+GBuffer SurfacePass::draw_whole(const Sample& sample, Measured out) {
+    GBuffer gbuffer;
+    do {
+        gbuffer = draw(sample, out);
+    } while (!is_whole(out.stats));
+    return gbuffer;
 }
 
 GBuffer SurfacePass::draw_planes(const Sample& sample, Measured out) {
@@ -144,8 +160,8 @@ GBuffer SurfacePass::draw_in_opencl(const Sample& sample, Measured out) {
     const SurfaceBuffers scene = context_.surfaces->at(draws);
     const DeviceArray<uint> ids =
         triangles_->enqueue(scene, draws, view, out.timer, open ? &*open : nullptr);
+    is_checked_ = false;
     out.stats.triangles = triangles_->triangles();
-    out.stats.triangle_pairs = triangles_->pairs();
     return resolve(ids, scene, view, sample, out);
 }
 

@@ -29,8 +29,16 @@ class SurfacePass {
     /// Draws the band's raster tile, unless it is there from the last call, and makes the band's
     /// G-buffer on the device, valid until the next call; lights are not read. Waits for OpenGL.
     /// Adds the stages geometry and gbuffer_bridge; resolve_surfaces goes to the timer. Does
-    /// nothing where the last call made the same, unless settings.no_reuse.
+    /// nothing where the last call made the same, unless settings.no_reuse. Where OpenCL draws,
+    /// triangles may be lacking: is_whole() tells.
     GBuffer draw(const Sample& sample, Measured out);
+
+    /// False where the last draw() lacks triangles, as there was no room to list them; the next call
+    /// has it. Waits for the device: asked when the caller has nothing more to enqueue.
+    bool is_whole(FrameStats& stats);
+
+    /// draw() until it is whole.
+    GBuffer draw_whole(const Sample& sample, Measured out);
 
     /// What casts shadows onto the last draw()'s surfaces, and where their rays end; empty without
     /// shadows.
@@ -77,6 +85,7 @@ class SurfacePass {
     DecodeGBuffer decode_;
     ShadowInput shadows_;
     std::optional<Source> source_;  // of gbuffer_
+    bool is_checked_ = true;        // gbuffer_ is whole
     GBuffer gbuffer_;
 };
 

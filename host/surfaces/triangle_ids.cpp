@@ -42,12 +42,21 @@ DeviceArray<uint> TriangleIds::enqueue(const SurfaceBuffers& scene, std::span<co
                                        const View& view, StageTimer& timer, const OpenTiles* open) {
     triangles_ = drawn_triangles(draws, scene_);
     bin_.close_tiles(closed_tiles(view, open));
-    TriangleLists lists;
+    return raster_.enqueue(scene, bin_.enqueue(scene, triangles_, view, timer), view, timer);
+}
+
+bool TriangleIds::fits() {
+    pairs_ = bin_.pairs();
+    return bin_.fits(pairs_);
+}
+
+DeviceArray<uint> TriangleIds::draw(const SurfaceBuffers& scene, std::span<const Draw> draws,
+                                    const View& view, StageTimer& timer, const OpenTiles* open) {
+    DeviceArray<uint> ids;
     do {
-        lists = bin_.enqueue(scene, triangles_, view, timer);
-        pairs_ = bin_.pairs();
-    } while (!bin_.fits(pairs_));
-    return raster_.enqueue(scene, lists, view, timer);
+        ids = enqueue(scene, draws, view, timer, open);
+    } while (!fits());
+    return ids;
 }
 
 }  // namespace kilolux

@@ -24,12 +24,20 @@ class TriangleIds {
                               const OpenTiles* open = nullptr) const;
 
     /// ids[view.height][view.stride], as ResolveSurfaces reads them. `scene`: of `draws`. Outside
-    /// the tiles of `open` pixels may lack surfaces. Waits for the number of pairs of triangle and
-    /// tile; valid until the next call.
+    /// the tiles of `open` pixels may lack surfaces. Enqueues only, with the room of the last call:
+    /// fits() says whether that was enough. Valid until the next call.
     DeviceArray<uint> enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
                               const View& view, StageTimer& timer, const OpenTiles* open = nullptr);
 
-    /// Of the last enqueue(): triangles, and pairs of triangle and tile.
+    /// False where the last enqueue()'s ids lack triangles, as there was no room to list them; the
+    /// next call has it. Blocks. Throws Error as BinTriangles::fits().
+    bool fits();
+
+    /// enqueue() until the lists have room. Blocks.
+    DeviceArray<uint> draw(const SurfaceBuffers& scene, std::span<const Draw> draws,
+                           const View& view, StageTimer& timer, const OpenTiles* open = nullptr);
+
+    /// Triangles of the last enqueue(); pairs of triangle and tile as of the last fits().
     std::uint64_t triangles() const { return triangles_; }
     std::uint64_t pairs() const { return pairs_; }
 

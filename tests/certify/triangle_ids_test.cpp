@@ -54,7 +54,7 @@ class Drawing {
         const View view = view_of(camera, width, height);
         StageTimer timer;
         const std::vector<uint> ids =
-            download(gpu_, ids_.enqueue(surfaces_.at(draws), draws, view, timer, open));
+            download(gpu_, ids_.draw(surfaces_.at(draws), draws, view, timer, open));
         std::vector<Shown> out;
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {

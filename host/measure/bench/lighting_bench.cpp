@@ -115,8 +115,8 @@ void LightingBench::set_drawing(const LightingRequest& request) {
 
 void LightingBench::draw(FrameStats& stats) {
     const LightRows no_rows;
-    gbuffer_ = drawing_->pass.draw({camera_, no_rows, lights_, {0, settings_.height}, true},
-                                   {timer_, stats});
+    gbuffer_ = drawing_->pass.draw_whole({camera_, no_rows, lights_, {0, settings_.height}, true},
+                                         {timer_, stats});
     gbuffer_.version = 0;  // so that every run bins its pixels
 }
 
