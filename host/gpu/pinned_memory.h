@@ -19,6 +19,12 @@ class PinnedMemory {
     /// At least `bytes`; what was there before is lost. Throws cl::Error when the driver refuses.
     std::byte* reserve(std::size_t bytes);
 
+    /// What reserve() returned last; null before.
+    template <typename T>
+    T* data() const {
+        return reinterpret_cast<T*>(mapping_);
+    }
+
  private:
     void release() noexcept;
 

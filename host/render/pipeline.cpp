@@ -49,7 +49,8 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings&
       sum_(gpu, tuning_),
       tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
       whole_light_(gpu, "bloom"),
-      reader_(gpu) {
+      reader_(gpu),
+      shown_(gpu) {
     make_optional_parts();
     make_background();
     make_reflections();

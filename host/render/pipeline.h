@@ -48,6 +48,7 @@ class Pipeline {
     Frame render(const Camera& camera, double time, const std::function<void()>& between,
                  DisplayMemory memory, int samples);
     PixelProbe probe(int x, int y);
+    DisplayMemory display_memory();
     Path& path() { return paths_.at(settings.renderer); }
 
     bool is_whole() const { return make_bands(settings.height, memory.band_rows).size() == 1; }
@@ -115,6 +116,8 @@ class Pipeline {
     Tonemap tonemap_;
     GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
     FrameReader reader_;
+    PinnedMemory shown_;            // display_memory() of a device with memory of its own
+    std::vector<uint> host_shown_;  // else
     StageTimer timer_;
     // Of the render() that runs.
     std::function<void()> between_;  // called before every sample of every band

@@ -145,6 +145,12 @@ void Pipeline::read_display(const DisplayTarget& display, Frame& frame) {
         gpu.queue.enqueueUnmapMemObject(display.pixels, mapped);
         return;
     }
+    if (!display_memory_.empty() && display_memory_.data() == shown_.data<uint>()) {
+        cl::Event event;
+        gpu.queue.enqueueReadBuffer(display.pixels, CL_FALSE, 0, display_memory_.size_bytes(),
+                                    display_memory_.data(), nullptr, &event);
+        return timer_.record(kReadBackStage, event);
+    }
     if (!display_memory_.empty()) {
         return reader_.read_display(display.pixels, display.view, display_memory_,
                                     display.view.stride, timer_);
@@ -153,6 +159,17 @@ void Pipeline::read_display(const DisplayTarget& display, Frame& frame) {
                                  frame.display.size() / sizeof(uint));
     reader_.read_display(display.pixels, display.view, pixels,
                          static_cast<std::size_t>(frame.width), timer_);
+}
+
+DisplayMemory Pipeline::display_memory() {
+    const std::size_t pixels =
+        display_stride(settings.width) * static_cast<std::size_t>(settings.height);
+    if (!gpu.info.is_cpu) {
+        shown_.reserve(pixels * sizeof(uint));
+        return {shown_.data<uint>(), pixels};
+    }
+    host_shown_.resize(pixels);
+    return host_shown_;
 }
 
 // A band's AOVs, and its surfaces for a view.
@@ -253,6 +270,10 @@ LitSurfaces Renderer::lit_surfaces() {
             },
             pipeline_->path());
     });
+}
+
+std::span<uint> Renderer::display_memory() {
+    return in_stage("display memory", [&] { return pipeline_->display_memory(); });
 }
 
 PixelProbe Renderer::probe(int x, int y) {

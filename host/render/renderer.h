@@ -74,6 +74,10 @@ class Renderer {
     /// bands, or of another view, is made whole.
     Frame render_to(std::span<uint> pixels, const Camera& camera, double time, int samples = 0);
 
+    /// Memory for render_to() that the device copies to at the full rate of its bus. Valid until it
+    /// is asked for again or change().
+    std::span<uint> display_memory();
+
     /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a
     /// float64 reference of the kernels starts from. Throws Error for the forward renderers, which
     /// keep no G-buffer, and for pictures made in bands.

@@ -33,8 +33,8 @@ class SurfacePass {
     /// triangles may be lacking: is_whole() tells.
     GBuffer draw(const Sample& sample, Measured out);
 
-    /// False where the last draw() lacks triangles, as there was no room to list them; the next call
-    /// has it. Waits for the device: asked when the caller has nothing more to enqueue.
+    /// False where the last draw() lacks triangles, as there was no room to list them; the next
+    /// call has it. Waits for the device: asked when the caller has nothing more to enqueue.
     bool is_whole(FrameStats& stats);
 
     /// draw() until it is whole.

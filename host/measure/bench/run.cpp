@@ -98,8 +98,7 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
     {
         Renderer renderer(scene_, settings, gl_);
         setup = frame_setup(settings, renderer.plan(), renderer.device());
-        std::vector<uint> picture(display_stride(settings.width) *
-                                  static_cast<std::size_t>(settings.height));
+        const std::span<uint> picture = renderer.display_memory();
         for (int i = 0; i < frames.warm_up + frames.measured; ++i) {
             Frame frame =
                 renderer.render_to(picture, camera_at(frames.motion, i), time_at(frames.motion, i));
