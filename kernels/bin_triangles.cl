@@ -23,6 +23,12 @@
 
 // Tiles of a box from which on its edges say which of them a triangle touches.
 #define FEW_TILES 4u
+// Slots are taken of so many tiles before any is filled: each waits for memory.
+#if GROUP == 1
+#define TILES_AT_ONCE 1u
+#else
+#define TILES_AT_ONCE 4u
+#endif
 
 // A triangle and the tiles that its pixels' box touches.
 typedef struct TileBox {
@@ -60,14 +66,20 @@ typedef struct TileWalk {
     bool some_closed;            // else nothing is read of `closed`
 } TileWalk;
 
-static inline void put_triangle(TileWalk walk, uint tile, uint number) {
-    if (walk.some_closed && walk.closed[tile] != 0) return;
+#define NO_SLOT 0xffffffffu
+
+// The triangle's place among those of the tile.
+static inline uint take_slot(TileWalk walk, uint tile) {
+    if (walk.some_closed && walk.closed[tile] != 0) return NO_SLOT;
 #if GROUP == 1
-    uint slot = walk.cursors[tile]++;
+    return walk.cursors[tile]++;
 #else
-    uint slot = atomic_inc(walk.cursors + tile);
+    return atomic_inc(walk.cursors + tile);
 #endif
-    if (!walk.fill) return;
+}
+
+static inline void fill_slot(TileWalk walk, uint tile, uint slot, uint number) {
+    if (!walk.fill || slot == NO_SLOT) return;
     uint place = walk.offsets[tile] + slot;
     if (place < walk.capacity) walk.lists[place] = number;
 }
@@ -111,9 +123,18 @@ static inline uint touched_columns(TileWalk walk, TileBox box, uint row) {
 static inline void walk_row(TileWalk walk, TileBox box, uint row) {
     bool few = interval_count(box.columns) * interval_count(box.rows) < FEW_TILES;
     uint columns = few ? box.columns : touched_columns(walk, box, row);
-    uint first = row * raster_tiles_x(walk.view);
-    for (uint column = interval_first(columns); column <= interval_last(columns); ++column) {
-        put_triangle(walk, first + column, box.number);
+    uint first = row * raster_tiles_x(walk.view) + interval_first(columns);
+    uint end = columns == EMPTY_INTERVAL ? first : first + interval_count(columns);
+    for (uint tile = first; tile < end; tile += TILES_AT_ONCE) {
+        uint slots[TILES_AT_ONCE];
+#pragma unroll
+        for (uint i = 0; i < TILES_AT_ONCE; ++i) {
+            slots[i] = tile + i < end ? take_slot(walk, tile + i) : NO_SLOT;
+        }
+#pragma unroll
+        for (uint i = 0; i < TILES_AT_ONCE; ++i) {
+            fill_slot(walk, tile + i, slots[i], box.number);
+        }
     }
 }
 

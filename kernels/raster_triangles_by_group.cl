@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles' triangles -> the triangle that each pixel shows, by a work-group a tile: each item fetches
 // a triangle, then all items test their pixels against all of them. For GPUs, with one lane.
+//
+// A batch is drawn in two passes. The first draws what floats are sure of; it calls nothing, so it
+// needs few registers. The second takes the triangles that alpha cuts, or whose edge passes a pixel
+// too closely. The order decides nothing: the nearest fragment wins, of equally near ones the first
+// triangle's.
 #ifndef GROUP
 #define GROUP 256
 #endif
@@ -93,13 +98,35 @@ static inline bool overlaps(uint interval, uint first, uint size) {
     return interval_first(interval) < first + size && interval_last(interval) >= first;
 }
 
-// Appends the item's triangle to the lists of the regions that its box touches.
-static inline void list_in_regions(const SharedTriangle* t, uchar item, local uint* counts,
-                                   local uchar (*lists)[GROUP]) {
+// A region's triangles of a batch, by the items that fetched them.
+typedef struct RegionList {
+    uchar first[GROUP];        // of the first pass
+    uint count;                // of them
+    uint second[GROUP / 32u];  // bits: of the second pass
+} RegionList;
+
+static inline void clear_list(local RegionList* list) {
+    list->count = 0u;
+    for (uint i = 0; i < GROUP / 32u; ++i) list->second[i] = 0u;
+}
+
+static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
+
+static inline void take_second(local RegionList* list, uint item) {
+    atomic_or(list->second + item / 32u, 1u << item % 32u);
+}
+
+// Puts the item's triangle into the lists of the regions that its box touches.
+static inline void list_in_regions(const SharedTriangle* t, uint item, local RegionList* lists) {
     for (uint region = 0; region < REGIONS; ++region) {
         if (!overlaps(t->columns, region % REGIONS_ACROSS * REGION_WIDTH, REGION_WIDTH)) continue;
         if (!overlaps(t->rows, region / REGIONS_ACROSS * REGION_HEIGHT, REGION_HEIGHT)) continue;
-        lists[region][atomic_inc(counts + region)] = item;
+        local RegionList* list = lists + region;
+        if (HAS_MASKS && (t->number & MASKED_TRIANGLE) != 0u) {
+            take_second(list, item);
+        } else {
+            list->first[atomic_inc(&list->count)] = (uchar)item;
+        }
     }
 }
 
@@ -124,24 +151,49 @@ __attribute__((noinline)) static bool shows_texel(SurfaceScene scene, View view,
 
 static inline float along(float3 e, float x, float y) { return fma(e.x, x, fma(e.y, y, -e.z)); }
 
-static inline void draw_pixel(SurfaceScene scene, View view, local const SharedTriangle* t,
-                              RasterPixel* p) {
-    if (!within(t->columns, p->tile_x) || !within(t->rows, p->tile_y)) return;
+// What a triangle is at a pixel.
+typedef struct RasterFragment {
+    float key;
+    bool wins;  // if it is covered
+    bool sure;  // that it is covered
+} RasterFragment;
+
+static inline RasterFragment fragment_at(local const SharedTriangle* t, uint number,
+                                         const RasterPixel* p) {
+    RasterFragment out = {0.0f, false, false};
+    if (!within(t->columns, p->tile_x) || !within(t->rows, p->tile_y)) return out;
     float least =
         min(along(t->edge[0], p->ray_x, p->ray_y),
             min(along(t->edge[1], p->ray_x, p->ray_y), along(t->edge[2], p->ray_x, p->ray_y)));
-    if (least < -1.0f) return;
-    float key = min(max(along(t->plane, p->ray_x, p->ray_y), t->farthest), t->nearest);
-    uint number = t->number & ~MASKED_TRIANGLE;
-    bool nearer = key > p->key || (key == p->key && p->id != 0u && number + 1u < p->id);
-    if (!nearer || !(key <= p->nearest)) return;
-    if (!(least > 1.0f) && !decide_exactly(scene, view, number, (float2)(p->ray_x, p->ray_y))) {
-        return;
+    if (least < -1.0f) return out;
+    out.sure = least > 1.0f;
+    out.key = min(max(along(t->plane, p->ray_x, p->ray_y), t->farthest), t->nearest);
+    bool nearer = out.key > p->key || (out.key == p->key && p->id != 0u && number + 1u < p->id);
+    out.wins = nearer && out.key <= p->nearest;
+    return out;
+}
+
+// The first pass. True where it cannot tell.
+static inline bool draw_sure(local const SharedTriangle* t, RasterPixel* p) {
+    RasterFragment f = fragment_at(t, t->number, p);
+    if (f.wins && f.sure) {
+        p->key = f.key;
+        p->id = t->number + 1u;
     }
+    return f.wins && !f.sure;
+}
+
+// The second pass.
+static inline void draw_asking(SurfaceScene scene, View view, local const SharedTriangle* t,
+                               RasterPixel* p) {
+    uint number = t->number & ~MASKED_TRIANGLE;
+    RasterFragment f = fragment_at(t, number, p);
+    if (!f.wins) return;
+    if (!f.sure && !decide_exactly(scene, view, number, (float2)(p->ray_x, p->ray_y))) return;
 #if HAS_MASKS
     if (t->number != number && !shows_texel(scene, view, number, p->x, p->y)) return;
 #endif
-    p->key = key;
+    p->key = f.key;
     p->id = number + 1u;
 }
 
@@ -158,8 +210,7 @@ kernel void raster_triangles(
     uint capacity,
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
     local SharedTriangle batch[GROUP];
-    local uchar listed[REGIONS][GROUP];  // items, whose triangles they are
-    local uint listed_count[REGIONS];
+    local RegionList region_lists[REGIONS];
     SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
                           indices,   materials,       textures, texels};
     uint tiles_x = raster_tiles_x(view);
@@ -170,24 +221,33 @@ kernel void raster_triangles(
 #pragma unroll
     for (uint i = 0; i < ROUNDS; ++i) pixels[i] = first_pixel(view, tile_x, tile_y, i);
     uint item = get_local_id(0);
-    uint region = item / REGION_ITEMS;
+    local RegionList* list = region_lists + item / REGION_ITEMS;
     uint end = min(offsets[tile + 1], capacity);
     for (uint first = offsets[tile]; first < end; first += GROUP) {
         uint mine = first + item;
-        if (item < REGIONS) listed_count[item] = 0u;
-        barrier(CLK_LOCAL_MEM_FENCE);  // 0 before any item adds to it
+        if (item < REGIONS) clear_list(region_lists + item);
+        barrier(CLK_LOCAL_MEM_FENCE);  // empty before any item adds to it
         if (mine < end) {
             uint number = lists[mine];
             SharedTriangle t =
                 shared_triangle(triangles + (number & ~MASKED_TRIANGLE), number, tile_x, tile_y);
             batch[item] = t;
-            list_in_regions(&t, (uchar)item, listed_count, listed);
+            list_in_regions(&t, item, region_lists);
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // all are there
-        for (uint j = 0; j < listed_count[region]; ++j) {
-            local const SharedTriangle* t = batch + listed[region][j];
+        for (uint j = 0; j < list->count; ++j) {
+            bool ask = false;
 #pragma unroll
-            for (uint i = 0; i < ROUNDS; ++i) draw_pixel(scene, view, t, pixels + i);
+            for (uint i = 0; i < ROUNDS; ++i) ask |= draw_sure(batch + list->first[j], pixels + i);
+            if (ask) take_second(list, list->first[j]);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);  // the second pass knows its triangles
+        for (uint word = 0; word < GROUP / 32u; ++word) {
+            for (uint left = list->second[word]; left != 0u; left &= left - 1u) {
+                local const SharedTriangle* t = batch + 32u * word + lowest_bit(left);
+#pragma unroll
+                for (uint i = 0; i < ROUNDS; ++i) draw_asking(scene, view, t, pixels + i);
+            }
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // all are drawn before the next come
     }

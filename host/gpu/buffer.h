@@ -117,6 +117,15 @@ void upload(const Gpu& gpu, const cl::Buffer& buffer, std::span<const T> values)
         gpu.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
 }
 
+/// The same without waiting: `values` must stay as they are until the event.
+template <typename T>
+cl::Event start_upload(const Gpu& gpu, const cl::Buffer& buffer, const std::vector<T>& values) {
+    cl::Event done;
+    gpu.queue.enqueueWriteBuffer(buffer, CL_FALSE, 0, values.size() * sizeof(T), values.data(),
+                                 nullptr, &done);
+    return done;
+}
+
 /// Reads `count` values from number `first` on; blocks until everything enqueued before is done.
 template <typename T>
 std::vector<T> download(const Gpu& gpu, const cl::Buffer& buffer, std::size_t count,

@@ -136,6 +136,10 @@ SurfaceScene::SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& sc
     upload_meshes();
 }
 
+SurfaceScene::~SurfaceScene() {
+    if (drawn_.read()) clWaitForEvents(1, &drawn_.read());
+}
+
 void SurfaceScene::upload_materials(const Tuning& tuning) {
     const TextureTable table(scene_, features_);
     std::vector<SurfaceMaterial> materials;
@@ -188,13 +192,13 @@ void SurfaceScene::refresh_vertices() {
 
 SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
     refresh_vertices();
-    std::vector<InstanceRow> rows;
-    rows.reserve(draws.size());
-    for (const Draw& draw : draws) rows.push_back(draw.row);
-    const std::vector<uint> blocks = instance_blocks(rows, drawn_triangles(draws, scene_));
-    rows.emplace_back().first_triangle = std::numeric_limits<uint>::max();
-    upload<InstanceRow>(gpu_, instances_.reserve(rows.size()), rows);
-    upload<uint>(gpu_, blocks_.reserve(blocks.size()), blocks);
+    if (drawn_.read()) drawn_.read.wait();
+    drawn_.rows.clear();
+    for (const Draw& draw : draws) drawn_.rows.push_back(draw.row);
+    drawn_.blocks = instance_blocks(drawn_.rows, drawn_triangles(draws, scene_));
+    drawn_.rows.emplace_back().first_triangle = std::numeric_limits<uint>::max();
+    start_upload(gpu_, instances_.reserve(drawn_.rows.size()), drawn_.rows);
+    drawn_.read = start_upload(gpu_, blocks_.reserve(drawn_.blocks.size()), drawn_.blocks);
     return {instances_.get(), blocks_.get(),    meshes_.get(),   vertices_.get(),
             indices_.get(),   materials_.get(), textures_.get(), texels_.get()};
 }

@@ -29,6 +29,9 @@ class SurfaceScene {
     /// as many. Throws Error when the device cannot hold it, or an image is too large.
     SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                  const SurfaceFeatures& features);
+    ~SurfaceScene();
+    SurfaceScene(const SurfaceScene&) = delete;
+    SurfaceScene& operator=(const SurfaceScene&) = delete;
 
     /// The scene with these instances, numbered as their rows say and ascending; vertices are
     /// uploaded anew where a mesh's revision says that they changed. Valid until the next call.
@@ -46,6 +49,13 @@ class SurfaceScene {
     SurfaceFeatures features_;
     std::vector<MeshRow> rows_;             // by mesh
     std::vector<std::uint32_t> revisions_;  // of the vertices on the device, by mesh
+    // What the device reads without being waited for.
+    struct Drawn {
+        std::vector<InstanceRow> rows;
+        std::vector<uint> blocks;
+        cl::Event read;  // both are read
+    };
+    Drawn drawn_;
     GrowingArray<InstanceRow> instances_;
     GrowingArray<uint> blocks_;
     GrowingArray<MeshRow> meshes_;
