@@ -281,7 +281,8 @@ kernel void bin_triangles_fill(
     local TileBox shared_boxes[GROUP];
     TileWalk walk = {view,     triangles, cursors, offsets,          lists,
                      capacity, true,      closed,  some_closed != 0u};
-    uint number = get_global_id(0);
+    // Neighbours are alike: a group takes triangles far apart, so that none has all large ones.
+    uint number = (uint)(get_local_id(0) * get_num_groups(0) + get_group_id(0));
     TileBox box = {number, EMPTY_INTERVAL, EMPTY_INTERVAL};
     if (number < triangle_count) box = load_box(boxes + 4 * (size_t)number);
     walk_group(walk, box, ends, shared_boxes);

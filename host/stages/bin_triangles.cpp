@@ -10,9 +10,13 @@ constexpr std::string_view kBinTrianglesStage = "bin_triangles";
 constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room for from the start
 constexpr std::size_t kBoxWords = 4;                       // of a triangle's box of tiles
 
+// Work-items that share their triangles' tiles: many, so that large triangles are shared by many.
+// 1: each has a chunk of its own.
+int bin_group(const Tuning& tuning) { return tuning.raster_group == 1 ? 1 : 256; }
+
 BuildOptions bin_options(const Tuning& tuning) {
     BuildOptions options;
-    options.define("GROUP", tuning.raster_group);
+    options.define("GROUP", bin_group(tuning));
     define_tiles(options, tuning);
     return options;
 }
@@ -45,7 +49,8 @@ void BinTriangles::close_tiles(std::span<const std::uint8_t> closed) {
 TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_count,
                                     const View& view, StageTimer& timer) {
     const auto lanes = static_cast<std::size_t>(gpu_.info.lane_width);
-    const bool by_group = tuning_.raster_group > 1;
+    const int group = bin_group(tuning_);
+    const bool by_group = group > 1;
     TriangleLists out;
     out.tile_count = raster_tile_count(view, tuning_);
     const std::size_t stride = round_up(out.tile_count, lanes);
@@ -59,10 +64,9 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
     const DeviceArray<uint> kept = kept_.reserve(chunks);
     const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
     const DeviceArray<uint> counts = lists_.counts(stride);
-    const WorkSize walk = by_group ? items(some, tuning_.raster_group) : groups(chunks, 1);
+    const WorkSize walk = by_group ? items(some, group) : groups(chunks, 1);
     if (by_group) {
-        clear_.enqueue(items(stride, tuning_.raster_group), timer, static_cast<uint>(stride),
-                       cursors);
+        clear_.enqueue(items(stride, group), timer, static_cast<uint>(stride), cursors);
     }
     set_up_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
                     scene.vertices, scene.indices, scene.materials, triangle_count, some_closed_,
