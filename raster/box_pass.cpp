@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "raster/gl_debug.h"

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "host/base/error.h"
-#include "host/base/log.h"
 #include "host/measure/bench/feature_cost.h"
 #include "host/measure/roofline/independent_limits.h"
 #include "host/render/kernel_choice.h"

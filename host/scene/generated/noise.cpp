@@ -2,7 +2,6 @@
 #include "host/scene/generated/noise.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace kilolux {
 namespace {

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "host/scene/gltf/mesh/skin.h"
-#include "host/scene/gltf/nodes.h"
 
 namespace kilolux {
 namespace {
