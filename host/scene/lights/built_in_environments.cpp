@@ -158,8 +158,7 @@ Environment studio_environment() { return painted_environment(512, studio_radian
 Environment sky_environment() {
     constexpr int kRows = 1024;        // the sun is three pixels wide
     constexpr int kMeasuredRows = 64;  // the sky without it is smooth
-    const auto above = [](const glm::dvec3& d) { return clear_sky(d); };
-    const glm::dvec3 measured = ground_illuminance(painted_environment(kMeasuredRows, above));
+    const glm::dvec3 measured = ground_illuminance(painted_environment(kMeasuredRows, clear_sky));
     const double scale = kSkyIlluminance / luminance(measured);
     const glm::dvec3 sun = kSunIlluminance * std::sin(kSunElevation) * kSunColor;
     const glm::dvec3 ground = kGroundAlbedo / std::numbers::pi * (scale * measured + sun);
