@@ -59,20 +59,21 @@ GlShader compile(const ShaderText& text) {
     return shader;
 }
 
-}  // namespace
-
-void define_optional(Defines& defines, const std::string& name,
-                     const std::optional<std::string>& value) {
-    defines.emplace_back("HAS_" + name, value ? "1" : "0");
-    if (value) defines.emplace_back(name, *value);
-}
-
+// An embedded shader with its includes and `defines`.
 ShaderText load_shader(GLenum stage, std::string_view path, const Defines& defines) {
     ShaderText text{stage, splice_source(path, true)};
     std::string lines;
     for (const auto& [name, value] : defines) lines += "#define " + name + " " + value + "\n";
     text.source.text.insert(text.source.text.find('\n') + 1, lines);
     return text;
+}
+
+}  // namespace
+
+void define_optional(Defines& defines, const std::string& name,
+                     const std::optional<std::string>& value) {
+    defines.emplace_back("HAS_" + name, value ? "1" : "0");
+    if (value) defines.emplace_back(name, *value);
 }
 
 GlProgram link_program(std::span<const ShaderText> stages) {

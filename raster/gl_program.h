@@ -26,9 +26,6 @@ using Defines = std::vector<std::pair<std::string, std::string>>;
 void define_optional(Defines& defines, const std::string& name,
                      const std::optional<std::string>& value);
 
-/// An embedded shader with its includes and `defines`.
-ShaderText load_shader(GLenum stage, std::string_view path, const Defines& defines = {});
-
 /// Compiles and links. Throws Error that starts with the file's name and holds the driver's log,
 /// its file numbers replaced by names.
 GlProgram link_program(std::span<const ShaderText> stages);

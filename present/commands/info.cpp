@@ -207,11 +207,7 @@ void run_check(const InfoOptions& options) {
         table.rows.push_back({check.name, check.measured, check.independent, check.ratio(),
                               std::string(agrees ? "agrees" : "differs")});
     }
-    if (options.json) {
-        write_json("-", table_json(table));
-    } else {
-        std::fputs(to_markdown(table).c_str(), stdout);
-    }
+    print_result(options.json, table_json(table), to_markdown(table));
     if (!failed.empty()) {
         throw ComparisonFailed(fmt::format(
             "limits differ from the independent ones by more than a factor of {}:{}; other work on "
