@@ -12,10 +12,16 @@ namespace kilolux {
 /// Jittered samples a pixel that a picture at rest gets, unless told otherwise.
 inline constexpr int kRestSamples = 16;
 
+inline RenderSettings window_settings() {
+    RenderSettings settings;
+    settings.samples = kRestSamples;
+    return settings;
+}
+
 /// What can be set in the window. All but the last group is kept from one run to the next.
 struct ViewState {
-    RenderSettings settings{.samples = kRestSamples};  // width, height, aovs: the window decides
-    Rig rig = Rig::automatic;                          // decides of settings' lights and ambient
+    RenderSettings settings = window_settings();  // width, height and aovs follow from the window
+    Rig rig = Rig::automatic;                     // decides of settings' lights and ambient
     bool lights_move = false;
     double light_speed = 1.0;  // seconds of the lights' time per second
     CameraMode camera_mode = CameraMode::fly;
