@@ -8,6 +8,10 @@
 #include "kernels/shared/light_transform.h"
 #include "kernels/shared/view.h"
 
+#ifndef HAS_LIGHT_PROFILES
+#define HAS_LIGHT_PROFILES 0
+#endif
+
 // Tiles [first, last] that the interval [lo, hi] in pixels touches, with a hundredth of a tile to
 // spare for rounding; an interval beside the screen gives first > last.
 static inline UV tile_interval(FV lo, FV hi, uint tile_size, uint tiles) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "raster/gl_debug.h"
@@ -14,12 +13,6 @@ namespace {
 
 constexpr GLsizei kEdgeVertices = 24;  // two an edge
 constexpr GLuint kAttributes = 3;
-
-glm::dmat4 world_from_view(const Camera& camera) {
-    glm::dmat4 m(camera.world_from_view);
-    m[3] = glm::dvec4(camera.position, 1.0);
-    return m;
-}
 
 GlTexture depth_texture(int width, int height) {
     GlTexture texture = make_texture(GL_TEXTURE_2D);
@@ -76,7 +69,7 @@ void BoxPass::draw(const Camera& camera, const BoxTarget& target) const {
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(program_.name());
     // In double, as everything that meets a camera.
-    const glm::dmat4 view = glm::inverse(world_from_view(camera)) * world_from_view(from_);
+    const glm::dmat4 view = glm::inverse(world_from_camera(camera)) * world_from_camera(from_);
     const glm::mat4 clip(clip_from_view(camera, target.width, target.height));
     const glm::mat4 view_from_box(view);
     glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(view_from_box));

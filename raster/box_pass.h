@@ -3,7 +3,6 @@
 
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "host/scene/camera.h"
 #include "raster/gl_object.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/forward_lights.h"
 
-#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>

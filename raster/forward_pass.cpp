@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/forward_pass.h"
 
-#include <algorithm>
 #include <initializer_list>
 #include <string>
 
@@ -11,20 +10,19 @@
 namespace kilolux {
 namespace {
 
-constexpr const char* kForward = "raster/shaders/forward.frag";
-constexpr const char* kDepth = "raster/shaders/depth.frag";
-
 LightAccess light_access(const ForwardFeatures& features) {
     return features.light_access.value_or(faster_light_access());
 }
 
-Defines defines_of(const ForwardFeatures& features) {
+ScenePass shaded_pass(const ForwardFeatures& features, bool blended) {
     const bool textures = light_access(features) == LightAccess::texture;
-    Defines defines = feature_macros(features);
-    defines.emplace_back("SHADING", std::to_string(features.shading));
-    defines.emplace_back("LIGHT_TEXTURES", textures ? "1" : "0");
-    defines.emplace_back("CLUSTERED", features.clustered ? "1" : "0");
-    return defines;
+    ScenePass pass{.fragment = "raster/shaders/forward.frag",
+                   .defines = feature_macros(features),
+                   .blended = blended};
+    pass.defines.emplace_back("SHADING", std::to_string(features.shading));
+    pass.defines.emplace_back("LIGHT_TEXTURES", textures ? "1" : "0");
+    pass.defines.emplace_back("CLUSTERED", features.clustered ? "1" : "0");
+    return pass;
 }
 
 TargetPlan radiance_plan() {
@@ -56,11 +54,11 @@ void load_radiance(const GBufferTargets& targets, std::span<const float> planes)
 ForwardPass::ForwardPass(const GpuScene& scene, const ForwardFeatures& features)
     : scene_(scene),
       draw_list_(scene.scene()),
-      blended_(scene, kForward, defines_of(features), ~0u, true),
+      blended_(scene, shaded_pass(features, true)),
       light_buffers_(light_access(features)) {
-    if (features.opaque) opaque_.emplace(scene, kForward, defines_of(features), ~0u);
+    if (features.opaque) opaque_.emplace(scene, shaded_pass(features, false));
     if (features.opaque && features.clustered) {
-        depth_.emplace(scene, kDepth, Defines{{"NO_SURFACE", "1"}}, coverage_features());
+        depth_.emplace(scene, coverage_pass("raster/shaders/depth.frag"));
     }
     check_gl_errors("forward pass");
 }

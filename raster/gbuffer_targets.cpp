@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 
 #include "host/base/error.h"
 #include "raster/gl_context.h"
@@ -14,118 +15,80 @@
 namespace kilolux {
 namespace {
 
-class Planner {
- public:
-    explicit Planner(uint layout) {
-        plan_.defines.emplace_back("GBUFFER_LAYOUT", std::to_string(layout));
-        plan_.reads.push_back({PLANE_DEPTH, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT, GL_FLOAT});
-    }
-
-    // Adds an attachment and returns its index.
-    GLenum attach(GLenum format) {
-        plan_.color_formats.push_back(format);
-        return static_cast<GLenum>(plan_.color_formats.size()) - 1;
-    }
-
-    // Adds an attachment that is one plane.
-    GLenum attach_plane(uint plane, GLenum internal_format, GLenum format, GLenum type) {
-        const GLenum attachment = attach(internal_format);
-        plan_.reads.push_back({plane, GL_COLOR_ATTACHMENT0 + attachment, format, type});
-        return attachment;
-    }
-
-    // A plane that is one component of an attachment: 0 red, 1 green, 2 blue.
-    void component(uint plane, GLenum attachment, std::size_t index, GLenum type) {
-        constexpr std::array<GLenum, 3> kComponents = {GL_RED, GL_GREEN, GL_BLUE};
-        plan_.reads.push_back(
-            {plane, GL_COLOR_ATTACHMENT0 + attachment, kComponents.at(index), type});
-    }
-
-    // A new attachment whose first components are three planes with ids in a row.
-    GLenum attach_vector(uint first_plane, GLenum internal_format, GLenum type) {
-        const GLenum attachment = attach(internal_format);
-        for (uint i = 0; i < 3; ++i) component(first_plane + i, attachment, i, type);
-        return attachment;
-    }
-
-    void define(const char* name) { plan_.defines.emplace_back(name, "1"); }
-
-    void define_location(const char* name, GLenum attachment) {
-        plan_.defines.emplace_back(name, std::to_string(attachment));
-    }
-
-    TargetPlan take() {
-        std::stable_sort(plan_.reads.begin(), plan_.reads.end(),
-                         [](const PlaneRead& a, const PlaneRead& b) { return a.plane < b.plane; });
-        return std::move(plan_);
-    }
-
- private:
-    TargetPlan plan_;
+// An attachment and the planes that it or its components are. The macro that tells geometry.frag
+// its index is for those that not every G-buffer has.
+struct Attachment {
+    GLenum internal_format = 0;
+    std::vector<PlaneRead> reads;
+    std::string_view location = {};
 };
 
-// The optional 8-bit planes, which all layouts but `full` share.
-void attach_optional(Planner& planner, const GBufferNeeds& needs) {
-    if (needs.material) {
-        planner.define_location(
-            "MATERIAL_LOCATION",
-            planner.attach_plane(PLANE_MATERIAL, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE));
-    }
-    if (needs.occlusion) {
-        planner.define_location(
-            "OCCLUSION_LOCATION",
-            planner.attach_plane(PLANE_OCCLUSION, GL_R8, GL_RED, GL_UNSIGNED_BYTE));
-    }
-    if (needs.specular) {
-        planner.define_location(
-            "SPECULAR_LOCATION",
-            planner.attach_plane(PLANE_SPECULAR, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE));
-    }
+// An attachment that is one plane.
+Attachment one_plane(uint id, GLenum internal_format, GLenum format, GLenum type,
+                     std::string_view location = {}) {
+    return {internal_format, {{id, 0, format, type}}, location};
 }
 
-void plan_packed(Planner& planner, const GBufferNeeds& needs) {
-    planner.attach_plane(PLANE_NORMAL, GL_RG16, GL_RG, GL_UNSIGNED_SHORT);
-    planner.attach_plane(PLANE_ALBEDO, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE);
-    attach_optional(planner, needs);
+// An attachment whose red, green and blue are three planes with ids in a row.
+Attachment three_planes(uint first, GLenum internal_format, GLenum type,
+                        std::string_view location = {}) {
+    return {
+        internal_format,
+        {{first, 0, GL_RED, type}, {first + 1, 0, GL_GREEN, type}, {first + 2, 0, GL_BLUE, type}},
+        location};
 }
 
-// World-space position and normal; albedo without the sRGB curve.
-void plan_half(Planner& planner, const GBufferNeeds& needs) {
-    planner.define("POSITION");
-    planner.attach_vector(PLANE_POSITION_X, GL_RGBA16F, GL_HALF_FLOAT);
-    planner.attach_vector(PLANE_NORMAL_X, GL_RGBA16F, GL_HALF_FLOAT);
-    planner.attach_plane(PLANE_ALBEDO, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
-    attach_optional(planner, needs);
-}
-
-void plan_oct_2x4(Planner& planner, const GBufferNeeds& needs) {
-    planner.define("POSITION");
-    planner.attach_plane(PLANE_ROW_0, GL_RGBA32F, GL_RGBA, GL_FLOAT);
-    planner.attach_plane(PLANE_ROW_1, GL_RGBA32F, GL_RGBA, GL_FLOAT);
-    attach_optional(planner, needs);
-}
+constexpr std::string_view kMaterialLocation = "MATERIAL_LOCATION";
+constexpr std::string_view kOcclusionLocation = "OCCLUSION_LOCATION";
+constexpr std::string_view kSpecularLocation = "SPECULAR_LOCATION";
+constexpr std::string_view kGrazingLocation = "GRAZING_LOCATION";
 
 // Only red, green and blue are used: reading alpha alone is not in OpenGL's core profile.
-void plan_full(Planner& planner, const GBufferNeeds& needs) {
-    planner.define("POSITION");
-    planner.attach_vector(PLANE_POSITION_X, GL_RGBA32F, GL_FLOAT);
-    planner.attach_vector(PLANE_NORMAL_X, GL_RGBA32F, GL_FLOAT);
-    planner.attach_vector(PLANE_ALBEDO_R, GL_RGBA32F, GL_FLOAT);
-    const GLenum parameters = planner.attach(GL_RGBA32F);
-    planner.component(PLANE_ROUGHNESS, parameters, 0, GL_FLOAT);
-    if (needs.material) planner.component(PLANE_METALLIC, parameters, 1, GL_FLOAT);
-    if (needs.occlusion) planner.component(PLANE_OCCLUSION_F, parameters, 2, GL_FLOAT);
+std::vector<Attachment> full_attachments(const GBufferNeeds& needs) {
+    Attachment parameters = one_plane(PLANE_ROUGHNESS, GL_RGBA32F, GL_RED, GL_FLOAT);
+    if (needs.material) parameters.reads.push_back({PLANE_METALLIC, 0, GL_GREEN, GL_FLOAT});
+    if (needs.occlusion) parameters.reads.push_back({PLANE_OCCLUSION_F, 0, GL_BLUE, GL_FLOAT});
+    std::vector<Attachment> out = {three_planes(PLANE_POSITION_X, GL_RGBA32F, GL_FLOAT),
+                                   three_planes(PLANE_NORMAL_X, GL_RGBA32F, GL_FLOAT),
+                                   three_planes(PLANE_ALBEDO_R, GL_RGBA32F, GL_FLOAT), parameters};
     if (needs.material) {
-        planner.define_location("MATERIAL_LOCATION",
-                                planner.attach_vector(PLANE_EMISSIVE_R, GL_RGBA32F, GL_FLOAT));
+        out.push_back(three_planes(PLANE_EMISSIVE_R, GL_RGBA32F, GL_FLOAT, kMaterialLocation));
     }
     if (needs.specular) {
-        planner.define_location("SPECULAR_LOCATION",
-                                planner.attach_vector(PLANE_SPECULAR_R, GL_RGBA32F, GL_FLOAT));
-        planner.define_location(
-            "GRAZING_LOCATION",
-            planner.attach_plane(PLANE_SPECULAR_F90, GL_R32F, GL_RED, GL_FLOAT));
+        out.push_back(three_planes(PLANE_SPECULAR_R, GL_RGBA32F, GL_FLOAT, kSpecularLocation));
+        out.push_back(one_plane(PLANE_SPECULAR_F90, GL_R32F, GL_RED, GL_FLOAT, kGrazingLocation));
     }
+    return out;
+}
+
+// What every G-buffer of the layout has.
+std::vector<Attachment> common_attachments(uint layout) {
+    if (layout == GBUFFER_HALF) {  // position and normal of the world; albedo without sRGB's curve
+        return {three_planes(PLANE_POSITION_X, GL_RGBA16F, GL_HALF_FLOAT),
+                three_planes(PLANE_NORMAL_X, GL_RGBA16F, GL_HALF_FLOAT),
+                one_plane(PLANE_ALBEDO, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE)};
+    }
+    if (layout == GBUFFER_OCT_2X4) {
+        return {one_plane(PLANE_ROW_0, GL_RGBA32F, GL_RGBA, GL_FLOAT),
+                one_plane(PLANE_ROW_1, GL_RGBA32F, GL_RGBA, GL_FLOAT)};
+    }
+    // normal-xy differs from packed in what the shader writes.
+    return {one_plane(PLANE_NORMAL, GL_RG16, GL_RG, GL_UNSIGNED_SHORT),
+            one_plane(PLANE_ALBEDO, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE)};
+}
+
+// All layouts but `full` have the same optional planes, of 8 bits a channel.
+std::vector<Attachment> attachments_of(const GBufferNeeds& needs) {
+    if (needs.layout == GBUFFER_FULL) return full_attachments(needs);
+    std::vector<Attachment> out = common_attachments(needs.layout);
+    const auto add = [&out](uint id, GLenum internal_format, GLenum format,
+                            std::string_view location) {
+        out.push_back(one_plane(id, internal_format, format, GL_UNSIGNED_BYTE, location));
+    };
+    if (needs.material) add(PLANE_MATERIAL, GL_SRGB8_ALPHA8, GL_RGBA, kMaterialLocation);
+    if (needs.occlusion) add(PLANE_OCCLUSION, GL_R8, GL_RED, kOcclusionLocation);
+    if (needs.specular) add(PLANE_SPECULAR, GL_RGBA8, GL_RGBA, kSpecularLocation);
+    return out;
 }
 
 GlTexture make_target(GLenum format, int width, int height) {
@@ -139,27 +102,35 @@ GlTexture make_target(GLenum format, int width, int height) {
 }  // namespace
 
 TargetPlan plan_targets(const GBufferNeeds& needs) {
-    Planner planner(needs.layout);
-    if (needs.specular) planner.define("HAS_SPECULAR");
-    if (needs.unlit) planner.define("HAS_UNLIT");
-    switch (needs.layout) {
-        case GBUFFER_FULL:
-            plan_full(planner, needs);
-            break;
-        case GBUFFER_HALF:
-            plan_half(planner, needs);
-            break;
-        case GBUFFER_OCT_2X4:
-            plan_oct_2x4(planner, needs);
-            break;
-        default:  // normal-xy differs in what the shader writes
-            plan_packed(planner, needs);
+    const std::vector<Attachment> attachments = attachments_of(needs);
+    TargetPlan plan;
+    plan.reads_position = needs.layout == GBUFFER_FULL || needs.layout == GBUFFER_HALF ||
+                          needs.layout == GBUFFER_OCT_2X4;
+    plan.defines = {{"GBUFFER_LAYOUT", std::to_string(needs.layout)},
+                    {"HAS_SPECULAR", needs.specular ? "1" : "0"},
+                    {"HAS_UNLIT", needs.unlit ? "1" : "0"}};
+    plan.reads = {{PLANE_DEPTH, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT, GL_FLOAT}};
+    for (const Attachment& attachment : attachments) {
+        const auto index = static_cast<GLenum>(plan.color_formats.size());
+        plan.color_formats.push_back(attachment.internal_format);
+        for (PlaneRead read : attachment.reads) {
+            read.source = GL_COLOR_ATTACHMENT0 + index;
+            plan.reads.push_back(read);
+        }
     }
-    return planner.take();
+    std::ranges::stable_sort(plan.reads, {}, &PlaneRead::plane);
+    for (const std::string_view location :
+         {kMaterialLocation, kOcclusionLocation, kSpecularLocation, kGrazingLocation}) {
+        const auto found = std::ranges::find(attachments, location, &Attachment::location);
+        std::optional<std::string> index;
+        if (found != attachments.end()) index = std::to_string(found - attachments.begin());
+        define_optional(plan.defines, std::string(location), index);
+    }
+    return plan;
 }
 
 TargetPlan plan_id_targets() {
-    return {{GL_R32UI}, {{0, GL_COLOR_ATTACHMENT0, GL_RED_INTEGER, GL_UNSIGNED_INT}}, {}};
+    return {{GL_R32UI}, {{0, GL_COLOR_ATTACHMENT0, GL_RED_INTEGER, GL_UNSIGNED_INT}}};
 }
 
 GBufferTargets::GBufferTargets(const TargetPlan& plan, int width, int height)

@@ -24,7 +24,8 @@ struct PlaneRead {
 struct TargetPlan {
     std::vector<GLenum> color_formats;  // of GL_COLOR_ATTACHMENT0, 1, ...
     std::vector<PlaneRead> reads;
-    Defines defines;  // for geometry.frag
+    Defines defines{};            // for geometry.frag
+    bool reads_position = false;  // geometry.frag does
 };
 
 /// What the geometry pass draws into for these needs. Depth is always DEPTH_COMPONENT32F.

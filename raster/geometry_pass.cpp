@@ -38,7 +38,10 @@ GeometryPass::GeometryPass(const GpuScene& scene, const GBufferNeeds& needs)
     : scene_(scene),
       needs_(needs),
       plan_(plan_targets(needs)),
-      programs_(scene, "raster/shaders/geometry.frag", plan_.defines, feature_mask(needs)),
+      programs_(scene, {"raster/shaders/geometry.frag",
+                        plan_.defines,
+                        {.position = plan_.reads_position},
+                        feature_mask(needs)}),
       draw_list_(scene.scene()) {
     programs_.for_each([&](GLuint program) {
         glProgramUniform1f(program, kEmissiveScaleInv, 1.0f / needs.emissive_scale);

@@ -178,44 +178,23 @@ GlContext GlContext::headless(std::string_view platform) {
 }
 
 GlContext::GlContext(void* display, void* context, std::string platform)
-    : display_(display),
-      context_(context),
-      platform_(std::move(platform)),
+    : platform_(std::move(platform)),
       vendor_(gl_string(GL_VENDOR)),
       renderer_(gl_string(GL_RENDERER)),
       version_(gl_string(GL_VERSION)),
-      messages_(record_gl_errors()) {}
+      messages_(record_gl_errors()),
+      context_(context, Deleter{display}) {}
 
-GlContext::GlContext(GlContext&& other) noexcept
-    : display_(std::exchange(other.display_, nullptr)),
-      context_(std::exchange(other.context_, nullptr)),
-      platform_(std::move(other.platform_)),
-      vendor_(std::move(other.vendor_)),
-      renderer_(std::move(other.renderer_)),
-      version_(std::move(other.version_)),
-      messages_(std::move(other.messages_)) {}
-
-GlContext& GlContext::operator=(GlContext&& other) noexcept {
-    std::swap(display_, other.display_);
-    std::swap(context_, other.context_);
-    std::swap(platform_, other.platform_);
-    std::swap(vendor_, other.vendor_);
-    std::swap(renderer_, other.renderer_);
-    std::swap(version_, other.version_);
-    std::swap(messages_, other.messages_);
-    return *this;
-}
-
-GlContext::~GlContext() {
-    if (context_ == nullptr) return;
-    if (eglGetCurrentContext() == context_) {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+void GlContext::Deleter::operator()(void* context) const {
+    if (eglGetCurrentContext() == context) {
+        eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
-    eglDestroyContext(display_, context_);
+    eglDestroyContext(display, context);
 }
 
 void GlContext::make_current() const {
-    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+    EGLDisplay display = context_.get_deleter().display;
+    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_.get())) {
         throw Error("EGL: " + platform_ + ": eglMakeCurrent: " + egl_error());
     }
 }

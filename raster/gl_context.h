@@ -17,12 +17,7 @@ class GlContext {
     /// the devices that are hardware, then the surfaceless platform, then the software devices.
     /// Throws Error that says what was tried, how each failed, and which packages to install.
     static GlContext headless(std::string_view platform = {});
-
-    GlContext(GlContext&& other) noexcept;
-    GlContext& operator=(GlContext&& other) noexcept;
-    GlContext(const GlContext&) = delete;
-    GlContext& operator=(const GlContext&) = delete;
-    ~GlContext();
+    GlContext(GlContext&&) = default;
 
     /// Throws Error when the driver refuses.
     void make_current() const;
@@ -33,12 +28,17 @@ class GlContext {
     const std::string& version() const { return version_; }
 
  private:
+    // Ends an EGLContext.
+    struct Deleter {
+        void* display;  // EGLDisplay, shared by the process: never terminated
+        void operator()(void* context) const;
+    };
+
     GlContext(void* display, void* context, std::string platform);
 
-    void* display_ = nullptr;  // EGLDisplay, shared by the process: never terminated
-    void* context_ = nullptr;  // EGLContext
     std::string platform_, vendor_, renderer_, version_;
-    std::unique_ptr<GlMessages> messages_;
+    std::unique_ptr<GlMessages> messages_;  // outlives the context
+    std::unique_ptr<void, Deleter> context_;
 };
 
 /// Whether EGL's library is there at all.

@@ -58,30 +58,20 @@ inline GlTexture make_texture(GLenum target) {
     glCreateTextures(target, 1, &name);
     return GlTexture(name);
 }
-inline GlSampler make_sampler() {
-    GLuint name = 0;
-    glCreateSamplers(1, &name);
-    return GlSampler(name);
-}
-inline GlBuffer make_buffer() {
-    GLuint name = 0;
-    glCreateBuffers(1, &name);
-    return GlBuffer(name);
-}
-inline GlFramebuffer make_framebuffer() {
-    GLuint name = 0;
-    glCreateFramebuffers(1, &name);
-    return GlFramebuffer(name);
-}
-inline GlVertexArray make_vertex_array() {
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    return GlVertexArray(name);
-}
 inline GlQuery make_query(GLenum target) {
     GLuint name = 0;
     glCreateQueries(target, 1, &name);
     return GlQuery(name);
 }
+template <typename Object, typename Create>
+Object made_by(Create create) {
+    GLuint name = 0;
+    create(1, &name);
+    return Object(name);
+}
+inline GlSampler make_sampler() { return made_by<GlSampler>(glCreateSamplers); }
+inline GlBuffer make_buffer() { return made_by<GlBuffer>(glCreateBuffers); }
+inline GlFramebuffer make_framebuffer() { return made_by<GlFramebuffer>(glCreateFramebuffers); }
+inline GlVertexArray make_vertex_array() { return made_by<GlVertexArray>(glCreateVertexArrays); }
 
 }  // namespace kilolux

@@ -28,22 +28,14 @@ std::string with_file_names(const std::string& log, const std::vector<std::strin
     return out;
 }
 
-std::string shader_log(GLuint shader) {
+// Of a shader or a program, by OpenGL's two functions for either.
+template <typename GetInteger, typename GetLog>
+std::string info_log(GLuint name, GetInteger get_integer, GetLog get_log) {
     GLint length = 0;
-    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    get_integer(name, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
     GLsizei written = 0;
-    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &written, log.data());
-    log.resize(static_cast<std::size_t>(written));
-    return log;
-}
-
-std::string program_log(GLuint program) {
-    GLint length = 0;
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-    GLsizei written = 0;
-    glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &written, log.data());
+    get_log(name, static_cast<GLsizei>(log.size()), &written, log.data());
     log.resize(static_cast<std::size_t>(written));
     return log;
 }
@@ -60,20 +52,28 @@ GlShader compile(const ShaderText& text) {
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_FALSE) {
-        throw Error(first_file(text) + ": does not compile: " +
-                    with_file_names(shader_log(shader.name()), text.source.files));
+        const std::string log = info_log(shader.name(), glGetShaderiv, glGetShaderInfoLog);
+        throw Error(first_file(text) +
+                    ": does not compile: " + with_file_names(log, text.source.files));
     }
     return shader;
 }
 
-}  // namespace
-
+// An embedded shader with its includes and `defines`.
 ShaderText load_shader(GLenum stage, std::string_view path, const Defines& defines) {
     ShaderText text{stage, splice_source(path, true)};
     std::string lines;
     for (const auto& [name, value] : defines) lines += "#define " + name + " " + value + "\n";
     text.source.text.insert(text.source.text.find('\n') + 1, lines);
     return text;
+}
+
+}  // namespace
+
+void define_optional(Defines& defines, const std::string& name,
+                     const std::optional<std::string>& value) {
+    defines.emplace_back("HAS_" + name, value ? "1" : "0");
+    if (value) defines.emplace_back(name, *value);
 }
 
 GlProgram link_program(std::span<const ShaderText> stages) {
@@ -89,7 +89,10 @@ GlProgram link_program(std::span<const ShaderText> stages) {
     for (const GlShader& shader : shaders) glDetachShader(program.name(), shader.name());
     GLint linked = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
-    if (linked == GL_FALSE) throw Error(names + ": do not link: " + program_log(program.name()));
+    if (linked == GL_FALSE) {
+        throw Error(names + ": do not link: " +
+                    info_log(program.name(), glGetProgramiv, glGetProgramInfoLog));
+    }
     return program;
 }
 

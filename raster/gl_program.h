@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,8 +22,9 @@ struct ShaderText {
 /// Preprocessor names and their values, put after the #version line.
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
-/// An embedded shader with its includes and `defines`.
-ShaderText load_shader(GLenum stage, std::string_view path, const Defines& defines = {});
+/// Adds a value that not every variant has: HAS_<name> is 1 with it and 0 without.
+void define_optional(Defines& defines, const std::string& name,
+                     const std::optional<std::string>& value);
 
 /// Compiles and links. Throws Error that starts with the file's name and holds the driver's log,
 /// its file numbers replaced by names.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raster/gpu_mesh.h"
+#include "raster/gpu_scene.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -75,9 +75,12 @@ VertexRows rows_of(const Mesh& mesh, uint features) {
 
 }  // namespace
 
-GpuMesh upload_mesh(const Mesh& mesh, uint features) {
+GpuMesh upload_mesh(const Mesh& mesh, int material, uint features) {
     GpuMesh out;
     out.index_count = static_cast<GLsizei>(mesh.indices.size());
+    out.material = material;
+    out.features = features;
+    out.revision = mesh.revision;
     if (mesh.positions.empty() || mesh.indices.empty()) return out;
     const VertexRows rows = rows_of(mesh, features);
     const std::vector<float> vertices = rows.interleaved(mesh.positions.size());

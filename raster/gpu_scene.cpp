@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "raster/gl_context.h"
-#include "raster/gpu_mesh.h"
 
 namespace kilolux {
 namespace {
@@ -51,10 +50,7 @@ GpuScene::GpuScene(const Scene& scene, float anisotropy, GpuSceneUse use)
         const int row = mesh.material < 0 ? static_cast<int>(row_count) - 1 : mesh.material;
         const uint features = used_features(mesh, material(row), use);
         textures_.upload(scene, material(row), features);
-        GpuMesh& uploaded = meshes_.emplace_back(upload_mesh(mesh, features));
-        uploaded.material = row;
-        uploaded.features = features;
-        uploaded.revision = mesh.revision;
+        meshes_.push_back(upload_mesh(mesh, row, features));
     }
     check_gl_errors("upload of scene '" + scene.name + "'");
 }
@@ -64,11 +60,7 @@ void GpuScene::refresh() {
         const Mesh& mesh = scene_.meshes[i];
         GpuMesh& old = meshes_[i];
         if (old.revision == mesh.revision) continue;
-        GpuMesh uploaded = upload_mesh(mesh, old.features);
-        uploaded.material = old.material;
-        uploaded.features = old.features;
-        uploaded.revision = mesh.revision;
-        old = std::move(uploaded);
+        old = upload_mesh(mesh, old.material, old.features);
     }
     check_gl_errors("new vertices of scene '" + scene_.name + "'");
 }

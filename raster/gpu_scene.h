@@ -21,6 +21,10 @@ struct GpuMesh {
     std::uint32_t revision = 0;  // of the vertices that were uploaded
 };
 
+/// Uploads the attributes of a mesh that `features` reads, interleaved, with its triangles.
+/// `material`: its row.
+GpuMesh upload_mesh(const Mesh& mesh, int material, uint features);
+
 /// What OpenGL draws of surfaces that do not blend.
 enum class GpuSceneUse {
     shaded,   // all that materials read: G-buffer planes, forward shading

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "host/scene/scene.h"
-#include "kernels/shared/types.h"
 #include "raster/gl_object.h"
 
 namespace kilolux {

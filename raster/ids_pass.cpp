@@ -8,8 +8,7 @@ namespace kilolux {
 
 IdsPass::IdsPass(const GpuScene& scene)
     : scene_(scene),
-      programs_(scene, "raster/shaders/ids.frag", {{"NO_SURFACE", "1"}, {"IDS", "1"}},
-                coverage_features()),
+      programs_(scene, coverage_pass("raster/shaders/ids.frag", true)),
       draw_list_(scene.scene()) {
     check_gl_errors("ids pass");
 }

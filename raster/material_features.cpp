@@ -58,17 +58,23 @@ uint coverage_features() {
     return kFeatureAlphaMask | kFeatureVertexColor | kBaseColor;
 }
 
-Defines feature_defines(uint features) {
+Defines feature_defines(uint features, const PassInputs& inputs) {
     Defines defines;
     bool texcoord[2] = {false, false};
     for (int use = 0; use < USE_COUNT; ++use) {
-        if ((features & (kFeatureTexture << use)) == 0) continue;
-        defines.emplace_back(kUvNames[static_cast<std::size_t>(use)], uv_expression(features, use));
-        texcoord[(features & (kFeatureTexcoord1 << use)) != 0 ? 1 : 0] = true;
+        std::optional<std::string> uv;
+        if ((features & (kFeatureTexture << use)) != 0) {
+            uv = uv_expression(features, use);
+            texcoord[(features & (kFeatureTexcoord1 << use)) != 0 ? 1 : 0] = true;
+        }
+        define_optional(defines, kUvNames[static_cast<std::size_t>(use)], uv);
     }
     const auto define = [&](bool wanted, const char* name) {
-        if (wanted) defines.emplace_back(name, "1");
+        defines.emplace_back(name, wanted ? "1" : "0");
     };
+    define(inputs.surface, "SURFACE");
+    define(inputs.position, "POSITION");
+    define(inputs.ids, "IDS");
     define(texcoord[0], "TEXCOORD0");
     define(texcoord[1], "TEXCOORD1");
     define((features & (kFeatureTexture << USE_NORMAL)) != 0, "TANGENT");

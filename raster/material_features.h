@@ -3,9 +3,7 @@
 
 #include "host/scene/material_row.h"
 #include "host/scene/scene.h"
-#include "kernels/shared/types.h"
 #include "raster/gl_program.h"
-#include "raster/shaders/draw_rows.h"
 
 namespace kilolux {
 
@@ -33,7 +31,14 @@ uint without_texture(uint features, int use);
 /// The bits that decide whether a fragment is kept at all: what a pass without colour looks at.
 uint coverage_features();
 
-/// The names that the shaders geometry.vert and material.glsl test, for these features.
-Defines feature_defines(uint features);
+/// What a pass reads of geometry.vert, whatever the material.
+struct PassInputs {
+    bool surface = true;  // normals, and what else materials read; else coverage alone
+    bool position = false;
+    bool ids = false;
+};
+
+/// All that the shaders geometry.vert and material.glsl ask.
+Defines feature_defines(uint features, const PassInputs& inputs);
 
 }  // namespace kilolux

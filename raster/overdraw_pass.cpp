@@ -8,13 +8,13 @@
 namespace kilolux {
 OverdrawPass::OverdrawPass(const GpuScene& scene)
     : scene_(scene),
-      programs_(scene, "raster/shaders/overdraw.frag", {{"NO_SURFACE", "1"}}, coverage_features()),
+      programs_(scene, coverage_pass("raster/shaders/overdraw.frag")),
       draw_list_(scene.scene()) {}
 
 std::vector<float> OverdrawPass::count(const Camera& camera, int width, int height,
                                        DrawOrder order) const {
     check_target_size(width, height);
-    const TargetPlan plan{{GL_R32F}, {}, {}};
+    const TargetPlan plan{{GL_R32F}, {}};
     const GBufferTargets targets(plan, width, height);
     const std::vector<Draw> draws = draw_list_.visible(camera, width, height, false, order);
     {

@@ -46,18 +46,19 @@ void draw_faces(const GpuMesh& mesh, const Material& material) {
 
 }  // namespace
 
-ScenePrograms::ScenePrograms(const GpuScene& scene, const std::string& fragment,
-                             const Defines& common, uint mask, bool blended)
-    : mask_(mask) {
+ScenePass coverage_pass(const std::string& fragment, bool ids) {
+    return {fragment, {}, {.surface = false, .ids = ids}, coverage_features()};
+}
+
+ScenePrograms::ScenePrograms(const GpuScene& scene, const ScenePass& pass) : mask_(pass.mask) {
     for (const GpuMesh& mesh : scene.meshes()) {
-        if ((scene.material(mesh.material).alpha_mode == AlphaMode::blend) != blended) continue;
+        const bool blends = scene.material(mesh.material).alpha_mode == AlphaMode::blend;
+        if (blends != pass.blended) continue;
         GlProgram& program = programs_[mesh.features & mask_];
         if (program) continue;
-        Defines defines = common;
-        for (auto& define : feature_defines(mesh.features & mask_)) {
-            defines.push_back(std::move(define));
-        }
-        program = load_program("raster/shaders/geometry.vert", fragment, defines);
+        Defines defines = feature_defines(mesh.features & mask_, pass.inputs);
+        defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+        program = load_program("raster/shaders/geometry.vert", pass.fragment, defines);
     }
 }
 

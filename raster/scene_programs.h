@@ -10,14 +10,23 @@
 
 namespace kilolux {
 
+/// How a pass draws a scene.
+struct ScenePass {
+    std::string fragment;  // file of the shader
+    Defines defines{};     // of every variant, beside feature_defines()
+    PassInputs inputs{};   // of that shader
+    uint mask = ~0u;       // features that it looks at
+    bool blended = false;  // the materials that blend, or those that do not
+};
+
+/// A pass that draws coverage alone.
+ScenePass coverage_pass(const std::string& fragment, bool ids = false);
+
 /// The variants of one fragment shader that a scene needs, by feature bits; all are compiled when
 /// this is made.
 class ScenePrograms {
  public:
-    /// `common`: defines of every variant. `mask`: features that this pass looks at. `blended`: for
-    /// the materials that blend, or for those that do not.
-    ScenePrograms(const GpuScene& scene, const std::string& fragment, const Defines& common,
-                  uint mask, bool blended = false);
+    ScenePrograms(const GpuScene& scene, const ScenePass& pass);
 
     std::size_t size() const { return programs_.size(); }
 

@@ -11,7 +11,7 @@ using F = SceneFeatures;
 constexpr SceneFeature kTable[] = {
     {"point-lights", &F::point_lights},
     {"spot-lights", &F::spot_lights, "HAS_SPOT_LIGHTS", true},
-    {"light-profiles", &F::light_profiles},
+    {"light-profiles", &F::light_profiles, "HAS_LIGHT_PROFILES"},
     {"directional-lights", &F::directional_lights, "HAS_DIRECTIONAL_LIGHTS", true},
     {"metallic", &F::metallic, "HAS_METALLIC", true},
     {"emissive", &F::emissive, nullptr, true},
@@ -48,10 +48,9 @@ std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatu
     if (features.light_d_min != LIGHT_D_MIN) {
         macros.emplace_back("LIGHT_D_MIN", literal(features.light_d_min));
     }
-    if (features.light_profiles) macros.emplace_back("HAS_LIGHT_PROFILES", "1");
-    if (features.drawn_ranges > 0.0f) {
-        macros.emplace_back("DRAWN_RANGES", literal(features.drawn_ranges));
-    }
+    const bool draws_ranges = features.drawn_ranges > 0.0f;
+    macros.emplace_back("HAS_DRAWN_RANGES", draws_ranges ? "1" : "0");
+    if (draws_ranges) macros.emplace_back("DRAWN_RANGES", literal(features.drawn_ranges));
     return macros;
 }
 

@@ -22,7 +22,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
+#if defined(__cplusplus)
 extern "C" {
 #endif
 
@@ -103,7 +103,7 @@ const char* kilolux_error(void);
 /* Of the library that is linked: "0.1.0". */
 const char* kilolux_version(void);
 
-#ifdef __cplusplus
+#if defined(__cplusplus)
 }
 #endif
 #endif

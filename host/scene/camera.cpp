@@ -50,6 +50,22 @@ Camera camera_of(const SceneCamera& source) {
     return camera;
 }
 
+glm::dmat4 world_from_camera(const Camera& camera) {
+    glm::dmat4 m(camera.world_from_view);
+    m[3] = glm::dvec4(camera.position, 1.0);
+    return m;
+}
+
+SceneCamera scene_camera_of(const Camera& camera, std::string name) {
+    return {.name = std::move(name),
+            .world_from_camera = world_from_camera(camera),
+            .orthographic = camera.orthographic,
+            .y_fov = camera.y_fov,
+            .y_extent = camera.y_extent,
+            .z_near = camera.z_near,
+            .z_far = camera.z_far};
+}
+
 Camera frame_box(const Box& box, double aspect) {
     constexpr double kYFov = glm::radians(45.0);
     constexpr double kFilled = 0.98;  // of the picture, by the box

@@ -88,10 +88,7 @@ void number_triangles(std::vector<Draw>& draws, const Scene& scene) {
 std::array<glm::dvec4, 8> corners_of(const Box& box, const glm::dmat4& view_from_box) {
     std::array<glm::dvec4, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
-        const glm::dvec3 corner((i & 1) != 0 ? box.max.x : box.min.x,
-                                (i & 2) != 0 ? box.max.y : box.min.y,
-                                (i & 4) != 0 ? box.max.z : box.min.z);
-        corners[i] = view_from_box * glm::dvec4(corner, 1.0);
+        corners[i] = view_from_box * glm::dvec4(box.corner(i), 1.0);
     }
     return corners;
 }

@@ -94,10 +94,6 @@ void LookAround::add_to_face(Hits& hits, int face, const glm::dvec3 (&corners)[3
     }
 }
 
-void LookAround::add(Hits& hits, const glm::dvec3 (&corners)[3]) {
-    for (int face = 0; face < 6; ++face) add_to_face(hits, face, corners);
-}
-
 LookAround::LookAround(const Scene& scene, const glm::dvec3& eye)
     : hits_(std::size_t{6} * kCells * kCells) {
     tbb::enumerable_thread_specific<Hits> found(hits_);
@@ -114,7 +110,7 @@ LookAround::LookAround(const Scene& scene, const glm::dvec3& eye)
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
                 const glm::dvec3 corners[3] = {corner(3 * i), corner(3 * i + (mirrored ? 2 : 1)),
                                                corner(3 * i + (mirrored ? 1 : 2))};
-                add(hits, corners);
+                for (int face = 0; face < 6; ++face) add_to_face(hits, face, corners);
             }
         };
         tbb::parallel_for(

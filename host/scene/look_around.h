@@ -44,7 +44,6 @@ class LookAround {
     using Hits = std::vector<Hit>;
 
     double share(float side) const;
-    static void add(Hits& hits, const glm::dvec3 (&corners)[3]);
     static void add_to_face(Hits& hits, int face, const glm::dvec3 (&corners)[3]);
 
     Hits hits_;  // [face][row][column]

@@ -142,6 +142,11 @@ struct Box {
     bool empty() const { return !(min.x <= max.x); }
     glm::dvec3 center() const { return 0.5 * (min + max); }
     glm::dvec3 size() const { return max - min; }
+    /// Corner 0 to 7: its bits 0, 1 and 2 choose `max` in x, y and z.
+    glm::dvec3 corner(std::size_t i) const {
+        return {(i & 1) != 0 ? max.x : min.x, (i & 2) != 0 ? max.y : min.y,
+                (i & 4) != 0 ? max.z : min.z};
+    }
     void add(const glm::dvec3& p) {
         min = glm::min(min, p);
         max = glm::max(max, p);

@@ -9,10 +9,10 @@
 //
 // The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
 // Switches: those of surface.h, FAST_RSQRT and NATIVE_MATH of types.h, EARLY_OUT,
-// and DRAWN_RANGES, defined where lights may have drawn ranges (light_transform.h): pi times the
-// radiance that such a light causes on a white surface at the least of them; HAS_LIGHT_PROFILES,
-// where lights may have photometric webs: then evaluate() takes them and the light's index, which
-// WITH_PROFILE adds to its arguments.
+// and HAS_DRAWN_RANGES, where lights may have drawn ranges (light_transform.h): then DRAWN_RANGES
+// is pi times the radiance that such a light causes on a white surface at the least of them;
+// HAS_LIGHT_PROFILES, where lights may have photometric webs: then evaluate() takes them and the
+// light's index, which WITH_PROFILE adds to its arguments.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
@@ -21,6 +21,9 @@
 #include "kernels/shared/surface.h"
 #include "kernels/shared/types.h"
 
+#ifndef HAS_DRAWN_RANGES
+#define HAS_DRAWN_RANGES 0
+#endif
 #ifndef HAS_LIGHT_PROFILES
 #define HAS_LIGHT_PROFILES 0
 #endif
@@ -112,7 +115,7 @@ SHARED_FN FV cone_of(FV3 v, FV inv_distance, ShadeLight light) {
     return cone * cone;
 }
 
-#ifdef DRAWN_RANGES
+#if HAS_DRAWN_RANGES
 // One over the probability that a light's drawn range covers a distance.
 SHARED_FN FV drawn_weight(ShadeLight light, FV d2) {
     float4 color = light.color_scale;
@@ -123,7 +126,7 @@ SHARED_FN FV drawn_weight(ShadeLight light, FV d2) {
 // What the falloff takes of a light's inverse square.
 SHARED_FN FV window_of(ShadeLight light, FV d2) {
     FV x = d2 * fv(light.position_inv_range2.w);
-#ifdef DRAWN_RANGES
+#if HAS_DRAWN_RANGES
     if (light.position_inv_range2.w < 0.0f) {
         return lane_select(x > fv(-1.0f), drawn_weight(light, d2), fv(0.0f));
     }

@@ -16,9 +16,13 @@
 #define PROFILE_EDGE 1e-6f
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+#define HAS_PROFILE_POINTER 1
 #define PROFILE_POINTER(type) global const type*
 #elif defined(__cplusplus)
+#define HAS_PROFILE_POINTER 1
 #define PROFILE_POINTER(type) const type*
+#else
+#define HAS_PROFILE_POINTER 0
 #endif
 
 #if defined(__cplusplus)
@@ -36,7 +40,7 @@ SHARED_STRUCT(AimedProfile) {
 };
 SHARED_ASSERT(aimed_profile_size, sizeof(AimedProfile) == 32);
 
-#ifdef PROFILE_POINTER
+#if HAS_PROFILE_POINTER
 SHARED_PLAIN_STRUCT(LightProfiles) {
     PROFILE_POINTER(AimedProfile) lights;  // [light_count]
     PROFILE_POINTER(float) tables;
@@ -59,9 +63,7 @@ SHARED_FN FV profile_value(LightProfiles from, UV i) {
     return values;
 #endif
 }
-#endif
-
-#ifndef PROFILE_POINTER
+#else
 struct LightProfiles {
     uint unused0;
 };

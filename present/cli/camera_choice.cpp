@@ -35,11 +35,8 @@ Camera start_camera(const CameraChoice& choice, const Scene& scene, double aspec
 glm::dvec2 depth_range(const Camera& camera, const Box& box) {
     glm::dvec2 range(std::numeric_limits<double>::infinity(),
                      -std::numeric_limits<double>::infinity());
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
-                           (corner & 2) != 0 ? box.max.y : box.min.y,
-                           (corner & 4) != 0 ? box.max.z : box.min.z);
-        const double depth = -glm::dot(camera.world_from_view[2], p - camera.position);
+    for (std::size_t i = 0; i < 8; ++i) {
+        const double depth = -glm::dot(camera.world_from_view[2], box.corner(i) - camera.position);
         range = {std::min(range.x, depth), std::max(range.y, depth)};
     }
     return range;

@@ -61,11 +61,9 @@ std::string sample_line(const SampleCounts& s) {
 
 }  // namespace
 
-std::string short_text(double value) { return fmt::format("{:.6g}", value); }
-
 std::string comparison_text(const Comparison& comparison) {
-    std::string value = short_text(comparison.value);
-    const std::string threshold = short_text(comparison.threshold);
+    std::string value = fmt::format("{:.6g}", comparison.value);
+    const std::string threshold = fmt::format("{:.6g}", comparison.threshold);
     if (value == threshold) value = text_of(comparison.value);  // just above shows as above
     return fmt::format("{} {} (threshold {})", comparison.metric, value, threshold);
 }

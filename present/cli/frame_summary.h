@@ -10,9 +10,6 @@
 
 namespace kilolux {
 
-/// At most six significant digits, for people: "60", "0.00123457".
-std::string short_text(double value);
-
 /// "rmse 0.0012 (threshold 0.01)"
 std::string comparison_text(const Comparison& comparison);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/option_builder.h"
 
-#include <utility>
-
 #include "host/base/text.h"
 
 namespace kilolux {

@@ -18,11 +18,8 @@ std::string place_in_view(const Box& box, const Camera& camera, double aspect) {
     std::array<bool, 4> beyond;
     beyond.fill(true);
     double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
-                           (corner & 2) != 0 ? box.max.y : box.min.y,
-                           (corner & 4) != 0 ? box.max.z : box.min.z);
-        const glm::dvec3 v = (p - camera.position) * camera.world_from_view;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3 v = (box.corner(i) - camera.position) * camera.world_from_view;
         const double edge = camera.orthographic ? half : -v.z * half;
         nearest = std::min(nearest, -v.z);
         farthest = std::max(farthest, -v.z);

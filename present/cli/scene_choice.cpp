@@ -125,7 +125,7 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings) {
 }
 
 Environment opened_environment(const std::string& name) {
-    const std::vector<std::string> built_in = {"studio", "sky"};
+    const std::vector<std::string>& built_in = built_in_environment_names();
     const std::filesystem::path file(name);
     const bool is_name = std::ranges::find(built_in, name) != built_in.end();
     if (is_name || std::filesystem::exists(file)) return environment_of(name);

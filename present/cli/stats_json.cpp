@@ -144,4 +144,9 @@ void write_json(const std::string& file, const Json& document, const FrameLog* f
     if (std::fflush(stdout) != 0) fail_to_print();
 }
 
+void print_result(bool json, const Json& document, const std::string& text) {
+    if (json) return write_json("-", document);
+    std::fputs(text.c_str(), stdout);
+}
+
 }  // namespace kilolux

@@ -56,4 +56,7 @@ nlohmann::ordered_json cost_json(const FeatureCost& cost);
 void write_json(const std::string& file, const nlohmann::ordered_json& document,
                 const FrameLog* frames = nullptr);
 
+/// A command's result on standard output: the document with --json, else the text.
+void print_result(bool json, const nlohmann::ordered_json& document, const std::string& text);
+
 }  // namespace kilolux

@@ -5,7 +5,6 @@
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
-#include "host/base/log.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
@@ -106,15 +105,14 @@ void put_table(const BenchOptions& options, const std::string& name, const Table
                const Json& context) {
     const Json document = {
         {"command", command_line()}, {"context", context}, {"rows", table_json(table)}};
-    if (options.json) {
-        write_json("-", document);
-    } else {
-        std::fputs(to_markdown(table).c_str(), stdout);
-    }
+    print_result(options.json, document, to_markdown(table));
     if (options.output.empty()) return;
-    const std::filesystem::path csv = options.output / (name + ".csv");
-    write_atomically(csv, to_csv(table));
     write_json((options.output / (name + ".json")).string(), document);
+    write_table(options.output / (name + ".csv"), table, context);
+}
+
+void write_table(const std::filesystem::path& csv, const Table& table, const Json& context) {
+    write_atomically(csv, to_csv(table));
     write_json(context_file(csv).string(), {{"command", command_line()}, {"context", context}});
 }
 

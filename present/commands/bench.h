@@ -94,6 +94,10 @@ void make_output_folder(const std::filesystem::path& folder);
 void put_table(const BenchOptions& options, const std::string& name, const Table& table,
                const nlohmann::ordered_json& context);
 
+/// A CSV file with its context beside it, as results_text() takes them.
+void write_table(const std::filesystem::path& csv, const Table& table,
+                 const nlohmann::ordered_json& context);
+
 /// The tables of CSV files that a bench wrote, in Markdown, each with the command and the context
 /// that it was measured with. Throws Error for a file that is none or that lacks its context.
 std::string results_text(const std::vector<std::string>& csv_files);

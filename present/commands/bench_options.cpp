@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
 #include "host/base/text.h"
 #include "present/cli/names.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <span>
 
@@ -212,13 +211,9 @@ void run_sweep(BenchOptions& asked) {
     document["limits"] = limits_json(run.limits());
     if (log) write_json(context_file(options.output / "bench.csv").string(), document);
     document["rows"] = table_json(bench_table(sweep.rows));
-    if (options.json) {
-        write_json("-", document);
-    } else {
-        const std::vector<BenchRow> shown = shown_rows(options, sweep);
-        std::fputs(to_markdown(bench_summary(shown)).c_str(), stdout);
-        std::fputs(("\n" + bench_legend(shown)).c_str(), stdout);
-    }
+    const std::vector<BenchRow> shown = shown_rows(options, sweep);
+    print_result(options.json, document,
+                 to_markdown(bench_summary(shown)) + "\n" + bench_legend(shown));
     if (!options.output.empty()) write_results(options, sweep, document);
     require_limits_hold(sweep.rows);
 }

@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "host/base/child_process.h"
-#include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "present/cli/scratch_folder.h"
 

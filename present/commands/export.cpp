@@ -34,16 +34,8 @@ std::string scene_file(const std::string&, const std::string& text) {
 
 // The camera of the picture, to become the scene's first: readers show that one.
 SceneCamera scene_camera(const Camera& camera, const RenderSettings& settings) {
-    SceneCamera out;
-    out.name = "kilolux";
-    out.world_from_camera = glm::dmat4(camera.world_from_view);
-    out.world_from_camera[3] = glm::dvec4(camera.position, 1.0);
-    out.orthographic = camera.orthographic;
-    out.y_fov = camera.y_fov;
-    out.y_extent = camera.y_extent;
+    SceneCamera out = scene_camera_of(camera, "kilolux");
     out.aspect = static_cast<double>(settings.width) / settings.height;
-    out.z_near = camera.z_near;
-    out.z_far = camera.z_far;
     return out;
 }
 

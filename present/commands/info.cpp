@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "host/base/error.h"
-#include "host/base/log.h"
 #include "host/measure/bench/feature_cost.h"
 #include "host/measure/roofline/independent_limits.h"
 #include "host/render/kernel_choice.h"
@@ -208,11 +207,7 @@ void run_check(const InfoOptions& options) {
         table.rows.push_back({check.name, check.measured, check.independent, check.ratio(),
                               std::string(agrees ? "agrees" : "differs")});
     }
-    if (options.json) {
-        write_json("-", table_json(table));
-    } else {
-        std::fputs(to_markdown(table).c_str(), stdout);
-    }
+    print_result(options.json, table_json(table), to_markdown(table));
     if (!failed.empty()) {
         throw ComparisonFailed(fmt::format(
             "limits differ from the independent ones by more than a factor of {}:{}; other work on "

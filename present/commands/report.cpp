@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
@@ -137,24 +136,17 @@ Json report_json(const Report& report) {
     return out;
 }
 
-// A table with its context, as `bench --table` takes it.
-void write_table(const fs::path& csv, const Table& table, const Report& report) {
-    write_atomically(csv, to_csv(table));
-    write_json(context_file(csv).string(),
-               {{"command", command_line()}, {"context", report.context}});
-}
-
 // shadows.csv.
 void write_shadow_errors(const fs::path& folder, const Report& report) {
     if (report.shadows.empty()) return;
-    write_table(folder / "shadows.csv", shadow_error_table(report.shadows), report);
+    write_table(folder / "shadows.csv", shadow_error_table(report.shadows), report.context);
 }
 
 // cut_offs.csv, and cut_offs.png: the ways with lights that lack a range, side by side.
 void write_cut_offs(const fs::path& folder, const Report& report, ReportRun& run) {
     const Table table = cut_off_table(report.rows);
     if (table.rows.empty()) return;
-    write_table(folder / "cut_offs.csv", table, report);
+    write_table(folder / "cut_offs.csv", table, report.context);
     write_canvas(folder / "cut_offs.png",
                  cut_off_sheet(report.rows, run.references().unbounded(), report.caption));
 }
@@ -232,11 +224,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     report.rows = measure(options, run, chosen_settings(options, scene));
     report.shadows = shadow_errors(options, view, run, report.rows);
     add_shadow_errors(report.rows, report.shadows);
-    if (options.json) {
-        write_json("-", report_json(report));
-    } else {
-        std::fputs(report_text(report).c_str(), stdout);
-    }
+    print_result(options.json, report_json(report), report_text(report));
     if (!options.output.empty()) write_report(options, report, run);
     choose_from_rows(shared, options.budget, view, report.rows);
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/suggest.h"
+#include "host/base/text.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "present/program.h"
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <optional>
 #include <string_view>
 
@@ -13,7 +12,7 @@
 #include "host/base/child_process.h"
 #include "host/base/descriptor.h"
 #include "host/base/error.h"
-#include "host/base/suggest.h"
+#include "host/base/text.h"
 
 namespace kilolux {
 

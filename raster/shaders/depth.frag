@@ -4,7 +4,7 @@
 #include "raster/shaders/material.glsl"
 
 void main() {
-#ifdef ALPHA_MASK
+#if ALPHA_MASK
     if (sample_base_color().a < material.emissive_cutoff.w) discard;
 #endif
 }

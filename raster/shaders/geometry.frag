@@ -1,7 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A fragment's material to the G-buffer. GBUFFER_LAYOUT names the layout; MATERIAL_LOCATION,
-// OCCLUSION_LOCATION and, with HAS_SPECULAR, SPECULAR_LOCATION are defined where the optional attachments exist (host: gbuffer_targets.cpp).
+// A fragment's material to the G-buffer. GBUFFER_LAYOUT names the layout. MATERIAL_LOCATION,
+// OCCLUSION_LOCATION, SPECULAR_LOCATION and GRAZING_LOCATION are those of the optional attachments,
+// where HAS_<name> is 1 (host: gbuffer_targets.cpp).
 #include "kernels/shared/gbuffer.h"
 #include "raster/shaders/material.glsl"
 
@@ -41,17 +42,17 @@ layout(location = 2) out vec4 out_albedo;    // linear; roughness
 layout(location = 0) out vec4 out_row_0;
 layout(location = 1) out vec4 out_row_1;
 #endif
-#ifdef MATERIAL_LOCATION
+#if HAS_MATERIAL_LOCATION
 layout(location = MATERIAL_LOCATION) out vec4 out_material;  // emissive, metallic
 #endif
-#ifdef OCCLUSION_LOCATION
+#if HAS_OCCLUSION_LOCATION
 layout(location = OCCLUSION_LOCATION) out float out_occlusion;
 #endif
-#ifdef SPECULAR_LOCATION
+#if HAS_SPECULAR_LOCATION
 layout(location = SPECULAR_LOCATION) out vec4 out_specular;
-#if GBUFFER_LAYOUT == GBUFFER_FULL
-layout(location = GRAZING_LOCATION) out float out_grazing;
 #endif
+#if HAS_GRAZING_LOCATION
+layout(location = GRAZING_LOCATION) out float out_grazing;
 #endif
 
 void main() {
@@ -78,22 +79,22 @@ void main() {
     out_row_0 = vec4(v_position, albedo_number(albedo));
     out_row_1 = vec4(octahedral.x, octahedral.y, s.roughness, s.metallic);
 #endif
-#ifdef MATERIAL_LOCATION
+#if HAS_MATERIAL_LOCATION
 #if GBUFFER_LAYOUT == GBUFFER_FULL
     out_material = vec4(s.emissive, 0.0);
 #else
     out_material = vec4(s.emissive * emissive_scale_inv, s.metallic);
 #endif
 #endif
-#ifdef SPECULAR_LOCATION
-#if GBUFFER_LAYOUT == GBUFFER_FULL
+#if HAS_SPECULAR_LOCATION
+#if HAS_GRAZING_LOCATION
     out_specular = vec4(s.specular.rgb, 0.0);
     out_grazing = s.specular.a;
 #else
     out_specular = vec4(sqrt(s.specular.rgb), s.specular.a);
 #endif
 #endif
-#ifdef OCCLUSION_LOCATION
+#if HAS_OCCLUSION_LOCATION
     out_occlusion = s.occlusion;
 #endif
 }

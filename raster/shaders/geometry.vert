@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A scene vertex to view and clip space. What a variant needs is defined by name:
-// TEXCOORD0, TEXCOORD1, VERTEX_COLOR, TANGENT, POSITION, NO_SURFACE (coverage alone), IDS.
+// A scene vertex to view and clip space. What a variant needs is 1, the rest 0: TEXCOORD0,
+// TEXCOORD1, VERTEX_COLOR, TANGENT, POSITION, SURFACE (0: coverage alone), IDS.
 
 layout(location = 0) uniform vec4 view_from_object[3];    // rows; w: offset
 // Rows; [0].w: -1 where the object is mirrored, else 1.
@@ -18,26 +18,26 @@ layout(location = 3) in vec2 texcoord0;
 layout(location = 4) in vec2 texcoord1;
 layout(location = 5) in vec4 color;
 
-#ifdef POSITION
+#if POSITION
 layout(location = 0) out vec3 v_position;  // view space [m]
 #endif
-#ifndef NO_SURFACE
+#if SURFACE
 layout(location = 1) out vec3 v_normal;  // view space, unit at the vertices
 #endif
-#ifdef TANGENT
+#if TANGENT
 layout(location = 2) out vec4 v_tangent;  // view space, unit at the vertices; w: handedness
 #endif
-#ifdef TEXCOORD0
+#if TEXCOORD0
 layout(location = 3) out vec2 v_texcoord0;
 #endif
-#ifdef TEXCOORD1
+#if TEXCOORD1
 layout(location = 4) out vec2 v_texcoord1;
 #endif
-#ifdef VERTEX_COLOR
+#if VERTEX_COLOR
 layout(location = 5) out vec4 v_color;
 #endif
 
-#ifdef IDS
+#if IDS
 layout(location = 6) flat out uint v_first_triangle;
 #endif
 
@@ -51,31 +51,31 @@ void main() {
     vec3 p_view = vec3(dot(view_from_object[0], p), dot(view_from_object[1], p),
                        dot(view_from_object[2], p));
     gl_Position = clip_from_view * vec4(p_view, 1.0);
-#ifdef IDS
+#if IDS
     v_first_triangle = first_triangle;
 #endif
-#ifdef POSITION
+#if POSITION
     v_position = p_view;
 #endif
-#ifndef NO_SURFACE
+#if SURFACE
     v_normal = unit_or_zero(vec3(dot(normal_from_object[0].xyz, normal),
                                  dot(normal_from_object[1].xyz, normal),
                                  dot(normal_from_object[2].xyz, normal)));
 #endif
-#ifdef TANGENT
+#if TANGENT
     v_tangent.xyz = unit_or_zero(vec3(dot(view_from_object[0].xyz, tangent.xyz),
                                       dot(view_from_object[1].xyz, tangent.xyz),
                                       dot(view_from_object[2].xyz, tangent.xyz)));
     // A mirror turns a right-handed basis into a left-handed one.
     v_tangent.w = tangent.w * normal_from_object[0].w;
 #endif
-#ifdef TEXCOORD0
+#if TEXCOORD0
     v_texcoord0 = texcoord0;
 #endif
-#ifdef TEXCOORD1
+#if TEXCOORD1
     v_texcoord1 = texcoord1;
 #endif
-#ifdef VERTEX_COLOR
+#if VERTEX_COLOR
     v_color = color;
 #endif
 }

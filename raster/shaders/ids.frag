@@ -7,7 +7,7 @@ layout(location = 6) flat in uint v_first_triangle;
 layout(location = 0) out uint out_id;  // 0 is background
 
 void main() {
-#ifdef ALPHA_MASK
+#if ALPHA_MASK
     if (sample_base_color().a < material.emissive_cutoff.w) discard;
 #endif
     out_id = v_first_triangle + uint(gl_PrimitiveID) + 1u;

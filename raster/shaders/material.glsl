@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a fragment's material is: factors times textures, as glTF 2.0 defines them. A variant has
-// the textures whose *_UV is defined, as an expression that gives the texture's coordinates.
+// the textures whose HAS_*_UV is 1; *_UV is an expression that gives the texture's coordinates.
 #include "raster/shaders/draw_rows.h"
 #include "raster/shaders/normalize.glsl"
 
@@ -15,29 +15,22 @@ layout(binding = USE_EMISSIVE) uniform sampler2D emissive_texture;
 layout(binding = USE_SPECULAR) uniform sampler2D specular_texture;
 layout(binding = USE_SPECULAR_COLOR) uniform sampler2D specular_color_texture;
 
-#ifndef HAS_SPECULAR
-#define HAS_SPECULAR 0
-#endif
-#ifndef HAS_UNLIT
-#define HAS_UNLIT 0
-#endif
-
-#ifdef POSITION
+#if POSITION
 layout(location = 0) in vec3 v_position;
 #endif
-#ifndef NO_SURFACE
+#if SURFACE
 layout(location = 1) in vec3 v_normal;
 #endif
-#ifdef TANGENT
+#if TANGENT
 layout(location = 2) in vec4 v_tangent;
 #endif
-#ifdef TEXCOORD0
+#if TEXCOORD0
 layout(location = 3) in vec2 v_texcoord0;
 #endif
-#ifdef TEXCOORD1
+#if TEXCOORD1
 layout(location = 4) in vec2 v_texcoord1;
 #endif
-#ifdef VERTEX_COLOR
+#if VERTEX_COLOR
 layout(location = 5) in vec4 v_color;
 #endif
 
@@ -58,10 +51,10 @@ vec2 transformed(int use, vec2 texcoord) {
 
 vec4 sample_base_color() {
     vec4 color = material.base_color;
-#ifdef BASE_COLOR_UV
+#if HAS_BASE_COLOR_UV
     color *= texture(base_color_texture, BASE_COLOR_UV);
 #endif
-#ifdef VERTEX_COLOR
+#if VERTEX_COLOR
     color *= v_color;
 #endif
     return color;
@@ -71,26 +64,26 @@ vec4 sample_base_color() {
 vec4 sample_specular() {
     vec3 f0 = material.specular.xyz;
     float weight = material.specular.w;
-#ifdef SPECULAR_COLOR_UV
+#if HAS_SPECULAR_COLOR_UV
     f0 *= texture(specular_color_texture, SPECULAR_COLOR_UV).rgb;
 #endif
-#ifdef SPECULAR_UV
+#if HAS_SPECULAR_UV
     weight *= texture(specular_texture, SPECULAR_UV).a;
 #endif
     return vec4(min(f0, vec3(1.0)) * weight, weight);
 }
 
-#ifndef NO_SURFACE
+#if SURFACE
 vec3 sample_normal() {
     vec3 n = v_normal;
-#ifdef NORMAL_UV
+#if HAS_NORMAL_UV
     // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
     vec3 m = texture(normal_texture, NORMAL_UV).xyz * 2.0 - 1.0;
     m.xy *= material.factors.z;
     vec3 bitangent = cross(v_normal, v_tangent.xyz) * v_tangent.w;
     n = m.x * v_tangent.xyz + m.y * bitangent + m.z * v_normal;
 #endif
-#ifdef DOUBLE_SIDED
+#if DOUBLE_SIDED
     n = gl_FrontFacing ? n : -n;
 #endif
     return unit_or_z(n);
@@ -105,20 +98,20 @@ MaterialSample sample_material() {
     s.metallic = material.factors.x;
     s.roughness = material.factors.y;
     s.occlusion = 1.0;
-#ifdef METALLIC_ROUGHNESS_UV
+#if HAS_METALLIC_ROUGHNESS_UV
     vec4 packed_maps = texture(metallic_roughness_texture, METALLIC_ROUGHNESS_UV);
     s.metallic *= packed_maps.b;
     s.roughness *= packed_maps.g;
 #endif
-#ifdef OCCLUSION_UV
-#ifdef OCCLUSION_SHARES_METALLIC_ROUGHNESS
+#if HAS_OCCLUSION_UV
+#if OCCLUSION_SHARES_METALLIC_ROUGHNESS
     float occlusion = packed_maps.r;
 #else
     float occlusion = texture(occlusion_texture, OCCLUSION_UV).r;
 #endif
     s.occlusion = 1.0 + material.factors.w * (occlusion - 1.0);
 #endif
-#ifdef EMISSIVE_UV
+#if HAS_EMISSIVE_UV
     s.emissive *= texture(emissive_texture, EMISSIVE_UV).rgb;
 #endif
 #if HAS_SPECULAR
@@ -127,14 +120,14 @@ MaterialSample sample_material() {
 #if HAS_UNLIT
     s.roughness = max(s.roughness, 1.0 / 255.0);  // 0 says unlit
 #endif
-#ifdef UNLIT
+#if UNLIT
     // KHR_materials_unlit: the base colour is what leaves the surface, whatever the lights.
     s.emissive = s.base_color.rgb;
     s.base_color.rgb = vec3(0.0);
     s.metallic = 0.0;
     s.roughness = 1.0 - float(HAS_UNLIT);
 #endif
-#ifdef ALPHA_MASK
+#if ALPHA_MASK
     if (s.base_color.a < material.emissive_cutoff.w) discard;
 #endif
     return s;

@@ -6,7 +6,7 @@
 layout(location = 0) out float out_count;
 
 void main() {
-#ifdef ALPHA_MASK
+#if ALPHA_MASK
     if (sample_base_color().a < material.emissive_cutoff.w) discard;
 #endif
     out_count = 1.0;

@@ -143,8 +143,9 @@ TEST(ScenePlan, ShaderVariantsHoldWhatTheirMaterialNeeds) {
         mesh.positions.resize(1);
         if (tangents) mesh.tangents.resize(1);
         std::vector<std::string> names;
-        for (const auto& define : feature_defines(features_of(mesh, material))) {
-            names.push_back(define.first);
+        const PassInputs none{.surface = false};
+        for (const auto& [name, value] : feature_defines(features_of(mesh, material), none)) {
+            if (value != "0") names.push_back(name);
         }
         return names;
     };
@@ -162,7 +163,8 @@ TEST(ScenePlan, ShaderVariantsHoldWhatTheirMaterialNeeds) {
     EXPECT_EQ(names_of(m, false), std::vector<std::string>{"UNLIT"});
     m = {};
     m.specular_color_texture.texture = 0;
-    EXPECT_EQ(names_of(m, false), (std::vector<std::string>{"SPECULAR_COLOR_UV", "TEXCOORD0"}));
+    EXPECT_EQ(names_of(m, false), (std::vector<std::string>{"HAS_SPECULAR_COLOR_UV",
+                                                            "SPECULAR_COLOR_UV", "TEXCOORD0"}));
 }
 
 TEST(ScenePlan, RefusesToForceWhatCostsNothingWhereItIsAbsent) {

@@ -2,7 +2,6 @@
 #include "host/scene/export/parts.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace kilolux {

@@ -117,23 +117,29 @@ class Writer {
         return mesh_of;
     }
 
+    // An element that refers to a file: in the buffer of a .glb, else beside the .gltf.
+    Json added_file(const std::string& element, const std::string& file, const char* mime_type,
+                    Bytes bytes) {
+        Json out = Json::object();
+        if (!element.empty()) out["name"] = element;
+        if (binary_) {
+            out["bufferView"] = buffer_.add_bytes(bytes);
+            out["mimeType"] = mime_type;
+        } else {
+            out["uri"] = percent_encoded(file);
+            out_.files.push_back({file, std::move(bytes)});
+        }
+        return out;
+    }
+
     void add_images() {
         std::vector<Bytes> encoded(scene_.images.size());
         parallel_each(encoded.size(),
                       [&](std::size_t i) { encoded[i] = encode_png(scene_.images[i]); });
         Json images = Json::array();
         for (std::size_t i = 0; i < encoded.size(); ++i) {
-            Json image = Json::object();
-            if (!scene_.images[i].name.empty()) image["name"] = scene_.images[i].name;
-            if (binary_) {
-                image["bufferView"] = buffer_.add_bytes(encoded[i]);
-                image["mimeType"] = "image/png";
-            } else {
-                const std::string name = fmt::format("{}_{}.png", stem_, i);
-                image["uri"] = percent_encoded(name);
-                out_.files.push_back({name, std::move(encoded[i])});
-            }
-            images.push_back(std::move(image));
+            images.push_back(added_file(scene_.images[i].name, fmt::format("{}_{}.png", stem_, i),
+                                        "image/png", std::move(encoded[i])));
         }
         add_array(root_, "images", std::move(images));
     }
@@ -159,18 +165,9 @@ class Writer {
         extensions_.insert("EXT_lights_ies");
         for (std::size_t i = 0; i < scene_.webs.size(); ++i) {
             const PhotometricWeb& web = scene_.webs[i];
-            Json light = Json::object();
-            if (!web.name.empty()) light["name"] = web.name;
-            const Bytes text(web.text.begin(), web.text.end());
-            if (binary_) {
-                light["bufferView"] = buffer_.add_bytes(text);
-                light["mimeType"] = "application/x-ies-lm-63";
-            } else {
-                const std::string name = fmt::format("{}_{}.ies", stem_, i);
-                light["uri"] = percent_encoded(name);
-                out_.files.push_back({name, text});
-            }
-            root_["extensions"]["EXT_lights_ies"]["lights"].push_back(std::move(light));
+            root_["extensions"]["EXT_lights_ies"]["lights"].push_back(
+                added_file(web.name, fmt::format("{}_{}.ies", stem_, i), "application/x-ies-lm-63",
+                           Bytes(web.text.begin(), web.text.end())));
         }
     }
 

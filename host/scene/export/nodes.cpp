@@ -97,13 +97,22 @@ Json cone_json(const SceneLight& light) {
     return {{"innerConeAngle", inner}, {"outerConeAngle", outer}};
 }
 
-Json light_json(const SceneLight& light) {
+double brightest(const SceneLight& light) {
+    return std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+}
+
+// Relative to the brightest channel; left out where it is white.
+void add_color(Json& out, const SceneLight& light) {
     const glm::dvec3 color(light.intensity);
-    const double intensity = std::max({color.x, color.y, color.z});
-    Json out{{"type", type_name(light.type)}, {"intensity", intensity}};
-    if (intensity > 0.0 && color != glm::dvec3(intensity)) {
-        out["color"] = {color.x / intensity, color.y / intensity, color.z / intensity};
+    const double most = brightest(light);
+    if (most > 0.0 && color != glm::dvec3(most)) {
+        out["color"] = {color.x / most, color.y / most, color.z / most};
     }
+}
+
+Json light_json(const SceneLight& light) {
+    Json out{{"type", type_name(light.type)}, {"intensity", brightest(light)}};
+    add_color(out, light);
     if (light.type == LightType::spot) out["spot"] = cone_json(light);
     if (light.type != LightType::directional && light.range > 0.0f && std::isfinite(light.range)) {
         out["range"] = light.range;
@@ -137,12 +146,9 @@ void add_light(ExportedNodes& out, const SceneLight& light) {
 // EXT_lights_ies: the web's vertical angle 0 is along the node's -Z, its horizontal one along +X.
 void add_profile_light(ExportedNodes& out, const SceneLight& light, const Scene& scene) {
     const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
-    const glm::dvec3 color(light.intensity);
-    const double most = std::max({color.x, color.y, color.z});
-    Json use{{"light", profile.web}, {"multiplier", most / scene.webs[profile.web].peak}};
-    if (most > 0.0 && color != glm::dvec3(most)) {
-        use["color"] = {color.x / most, color.y / most, color.z / most};
-    }
+    Json use{{"light", profile.web},
+             {"multiplier", brightest(light) / scene.webs[profile.web].peak}};
+    add_color(use, light);
     const glm::dvec3 z = -glm::normalize(light.direction);
     const glm::dvec3 y = glm::cross(z, profile.side);
     const glm::dmat3 axes{profile.side, profile.mirrored ? -y : y, z};

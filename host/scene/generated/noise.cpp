@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/generated/noise.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace kilolux {
 namespace {
 
@@ -81,11 +78,6 @@ double fractal_noise(glm::dvec2 p, int period, int octaves, std::uint32_t seed) 
         cells *= 2;
     }
     return sum;
-}
-
-double smooth_step(double low, double high, double x) {
-    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
 }
 
 }  // namespace kilolux

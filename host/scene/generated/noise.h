@@ -17,7 +17,4 @@ double gradient_noise(glm::dvec2 p, glm::ivec2 period, std::uint32_t seed);
 /// 1]; `p` in [0, 1) covers one period with `period` lattice cells of the first octave.
 double fractal_noise(glm::dvec2 p, int period, int octaves, std::uint32_t seed);
 
-/// 0 below `low`, 1 above `high`, smooth between.
-double smooth_step(double low, double high, double x);
-
 }  // namespace kilolux

@@ -42,13 +42,7 @@ MeshBuilder ball(double radius, int segments) {
 
 SceneCamera camera_from_to(const char* name, const glm::dvec3& from, const glm::dvec3& to,
                            double y_fov_deg) {
-    const Camera camera = look_at(from, to, {0, 1, 0}, glm::radians(y_fov_deg));
-    SceneCamera out;
-    out.name = name;
-    out.world_from_camera = glm::dmat4(camera.world_from_view);
-    out.world_from_camera[3] = glm::dvec4(from, 1.0);
-    out.y_fov = camera.y_fov;
-    return out;
+    return scene_camera_of(look_at(from, to, {0, 1, 0}, glm::radians(y_fov_deg)), name);
 }
 
 Scene make_plain(std::uint64_t seed) {

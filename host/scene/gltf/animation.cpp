@@ -2,9 +2,7 @@
 #include "host/scene/gltf/nodes.h"
 
 #include <algorithm>
-#include <set>
 
-#include "host/base/log.h"
 #include "host/scene/gltf/mesh/accessor.h"
 
 namespace kilolux {

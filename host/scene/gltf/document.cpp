@@ -208,6 +208,14 @@ void GltfDocument::leave_out(const std::string& what) const {
     warn(base.file + ": " + what);
 }
 
+FileBytes read_source(const GltfDocument& document, const std::string& uri, int view,
+                      const std::string& where) {
+    if (uri.empty()) return {{}, document.views[static_cast<std::size_t>(view)]};
+    FileBytes out{read_uri(document.base, uri, where), {}};
+    out.bytes = out.owned;
+    return out;
+}
+
 std::string element_name(const char* array, std::size_t element) {
     return fmt::format("{}[{}]", array, element);
 }

@@ -73,6 +73,16 @@ struct GltfDocument {
     }
 };
 
+/// Bytes that a part of a file refers to.
+struct FileBytes {
+    Bytes owned;  // of a uri
+    std::span<const unsigned char> bytes;
+};
+
+/// What a uri names, or what a buffer view holds where that is empty. Throws as read_uri() does.
+FileBytes read_source(const GltfDocument& document, const std::string& uri, int view,
+                      const std::string& where);
+
 /// "accessors[7]".
 std::string element_name(const char* array, std::size_t element);
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "host/base/log.h"
-
 namespace kilolux {
 namespace {
 

@@ -22,14 +22,8 @@ std::string read_text(const GltfDocument& document, const tinygltf::Value& light
     if (view >= 0 && !light.Has("mimeType")) {
         document.fail(where, "has a bufferView but no mimeType");
     }
-    Bytes owned;
-    std::span<const unsigned char> bytes;
-    if (view >= 0) {
-        bytes = document.views[static_cast<std::size_t>(view)];
-    } else {
-        owned = read_uri(document.base, uri, where);
-        bytes = owned;
-    }
+    const FileBytes file = read_source(document, uri, view, where);
+    const auto bytes = file.bytes;
     if (bytes.size() > kMostTextBytes) {
         document.fail(where, "the IES file has {} bytes, at most {} are read", bytes.size(),
                       kMostTextBytes);

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "host/scene/gltf/mesh/skin.h"
-#include "host/scene/gltf/nodes.h"
 
 namespace kilolux {
 namespace {
@@ -107,10 +106,8 @@ double line_width_m(const GltfDocument& document, const ShapePlan& plan,
     for (const Placement& placement : plan.placements) {
         const Box& own = boxes[placement.shape];
         if (own.empty()) continue;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::bvec3 upper((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
-            const glm::dvec4 p(glm::mix(own.min, own.max, upper), 1.0);
-            box.add(glm::dvec3(placement.world_from_object * p));
+        for (std::size_t i = 0; i < 8; ++i) {
+            box.add(glm::dvec3(placement.world_from_object * glm::dvec4(own.corner(i), 1.0)));
         }
     }
     const double diagonal = box.empty() ? 0.0 : glm::length(box.size());

@@ -1,35 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/lights/built_in_environments.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace kilolux {
 namespace {
-
-using Radiance = std::function<glm::dvec3(const glm::dvec3& direction)>;
-
-Environment painted(int height, const Radiance& radiance) {
-    Environment out{2 * height, height, {}};
-    const auto width = static_cast<std::size_t>(out.width);
-    out.rows.resize(width * static_cast<std::size_t>(height));
-    tbb::parallel_for(0, height, [&](int y) {
-        for (int x = 0; x < out.width; ++x) {
-            const std::size_t place = static_cast<std::size_t>(y) * width;
-            out.rows[place + static_cast<std::size_t>(x)] = radiance(out.direction(x, y));
-        }
-    });
-    return out;
-}
-
-double smoothstep(double from, double to, double v) {
-    const double t = std::clamp((v - from) / (to - from), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
 
 // A rectangle of light that faces the middle.
 struct SoftBox {
@@ -48,8 +25,8 @@ double seen(const SoftBox& box, const glm::dvec3& d) {
     if (depth <= 0.0) return 0.0;
     const double across = std::abs(glm::dot(d, right)) / depth;
     const double along = std::abs(glm::dot(d, glm::cross(right, forward))) / depth;
-    return smoothstep(box.half_size.x + kEdge, box.half_size.x, across) *
-           smoothstep(box.half_size.y + kEdge, box.half_size.y, along);
+    return glm::smoothstep(box.half_size.x + kEdge, box.half_size.x, across) *
+           glm::smoothstep(box.half_size.y + kEdge, box.half_size.y, along);
 }
 
 glm::dvec3 studio_radiance(const glm::dvec3& d) {
@@ -58,9 +35,9 @@ glm::dvec3 studio_radiance(const glm::dvec3& d) {
                                     {{0.45, 0.7, -1.2}, {0.75, 0.15}, {3.2, 3.3, 3.5}},
                                     {{0.0, 1.0, 0.0}, {0.6, 0.4}, {1.2, 1.2, 1.2}}};
     // Walls, lighter towards the ceiling, and a floor that throws light back.
-    const double height = smoothstep(-0.35, 0.9, d.y);
+    const double height = glm::smoothstep(-0.35, 0.9, d.y);
     glm::dvec3 out = glm::dvec3(0.10, 0.10, 0.11) + height * glm::dvec3(0.14);
-    out += smoothstep(-0.2, -0.9, d.y) * glm::dvec3(0.10, 0.095, 0.09);
+    out += glm::smoothstep(-0.2, -0.9, d.y) * glm::dvec3(0.10, 0.095, 0.09);
     for (const SoftBox& box : boxes) out += seen(box, d) * box.radiance;
     return out;
 }
@@ -165,8 +142,7 @@ void add_sun(Environment& sky) {
                 inside += glm::dot(d, towards_sun()) > cos_radius ? 1 : 0;
             }
             const double share = static_cast<double>(inside) / (kParts * kParts);
-            const auto place = static_cast<std::size_t>(y) * static_cast<std::size_t>(sky.width);
-            covered.emplace_back(place + static_cast<std::size_t>(x), share);
+            covered.emplace_back(sky.place(x, y), share);
             solid_angle += share * sky.solid_angle(y);
         }
     }
@@ -177,21 +153,20 @@ void add_sun(Environment& sky) {
 
 }  // namespace
 
-Environment studio_environment() { return painted(512, studio_radiance); }
+Environment studio_environment() { return painted_environment(512, studio_radiance); }
 
 Environment sky_environment() {
     constexpr int kRows = 1024;        // the sun is three pixels wide
     constexpr int kMeasuredRows = 64;  // the sky without it is smooth
-    const auto above = [](const glm::dvec3& d) { return clear_sky(d); };
-    const glm::dvec3 measured = ground_illuminance(painted(kMeasuredRows, above));
+    const glm::dvec3 measured = ground_illuminance(painted_environment(kMeasuredRows, clear_sky));
     const double scale = kSkyIlluminance / luminance(measured);
     const glm::dvec3 sun = kSunIlluminance * std::sin(kSunElevation) * kSunColor;
     const glm::dvec3 ground = kGroundAlbedo / std::numbers::pi * (scale * measured + sun);
-    Environment out = painted(kRows, [&](const glm::dvec3& d) {
+    Environment out = painted_environment(kRows, [&](const glm::dvec3& d) {
         if (d.y >= 0.0) return scale * clear_sky(d);
         // Haze: the horizon's sky turns into ground within three degrees.
         const glm::dvec3 horizon = scale * clear_sky(glm::normalize(glm::dvec3(d.x, 0.0, d.z)));
-        return glm::mix(horizon, ground, smoothstep(0.0, -0.05, d.y));
+        return glm::mix(horizon, ground, glm::smoothstep(0.0, -0.05, d.y));
     });
     add_sun(out);
     return out;

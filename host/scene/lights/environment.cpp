@@ -4,6 +4,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -118,9 +119,19 @@ double Environment::solid_angle(int y) const {
 }
 
 glm::dvec3 Environment::light(int x, int y) const {
-    const auto place =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-    return solid_angle(y) * glm::dvec3(rows[place]);
+    return solid_angle(y) * glm::dvec3(rows[place(x, y)]);
+}
+
+Environment painted_environment(
+    int height, const std::function<glm::dvec3(const glm::dvec3& direction)>& radiance) {
+    Environment out{2 * height, height, {}};
+    out.rows.resize(out.place(0, height));
+    tbb::parallel_for(0, height, [&](int y) {
+        for (int x = 0; x < out.width; ++x) {
+            out.rows[out.place(x, y)] = glm::vec3(radiance(out.direction(x, y)));
+        }
+    });
+    return out;
 }
 
 Environment read_environment(const std::filesystem::path& file) {
@@ -135,7 +146,7 @@ Environment read_environment(const std::filesystem::path& file) {
                         "{}x{} in {}",
                         file.string(), out.width, out.height, image.nchannels()));
     }
-    out.rows.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+    out.rows.resize(out.place(0, out.height));
     OIIO::ROI roi = image.roi();
     roi.chend = roi.chbegin + 3;
     if (!image.get_pixels(roi, OIIO::TypeDesc::FLOAT, out.rows.data())) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "host/scene/scene.h"
@@ -17,6 +18,12 @@ struct Environment {
     int height = 0;               // [pixel]
     std::vector<glm::vec3> rows;  // width * height, finite and >= 0
 
+    /// Where a pixel is in `rows`.
+    std::size_t place(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+
     /// Unit direction towards a pixel's centre.
     glm::dvec3 direction(int x, int y) const;
 
@@ -26,6 +33,11 @@ struct Environment {
     /// Radiance times solid angle of a pixel: illuminance of a surface that faces it [lx].
     glm::dvec3 light(int x, int y) const;
 };
+
+/// An environment of `height` rows by the radiance that comes from each unit direction. Runs on all
+/// cores.
+Environment painted_environment(
+    int height, const std::function<glm::dvec3(const glm::dvec3& direction)>& radiance);
 
 /// Of linear Rec. 709 light, in its unit.
 double luminance(const glm::dvec3& light);

@@ -2,7 +2,6 @@
 #include "host/scene/lights/light_region.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "kernels/shared/light.h"
 

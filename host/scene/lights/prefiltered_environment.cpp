@@ -88,8 +88,8 @@ class Lobe {
 };
 
 // The environment's mean, weighted by the lobe about `axis`.
-glm::vec3 mean_around(const Environment& e, const std::vector<Texel>& texels, const Lobe& lobe,
-                      const glm::dvec3& axis) {
+glm::dvec3 mean_around(const Environment& e, const std::vector<Texel>& texels, const Lobe& lobe,
+                       const glm::dvec3& axis) {
     const double from_top = std::acos(std::clamp(axis.y, -1.0, 1.0));
     const auto row = [&](double angle) {
         return static_cast<int>(std::floor(angle / std::numbers::pi * e.height));
@@ -109,9 +109,7 @@ glm::vec3 mean_around(const Environment& e, const std::vector<Texel>& texels, co
     double weights = 0.0;
     for (int y = first; y <= last; ++y) {
         for (int i = middle - half; i < middle + half + (all ? e.width % 2 : 1); ++i) {
-            const auto x = static_cast<std::size_t>((i % e.width + e.width) % e.width);
-            const std::size_t place =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(e.width) + x;
+            const std::size_t place = e.place((i % e.width + e.width) % e.width, y);
             const double cos_angle = glm::dot(axis, texels[place].direction);
             if (cos_angle <= least) continue;
             const double weight = lobe.weight(cos_angle) * texels[place].solid_angle;
@@ -125,19 +123,11 @@ glm::vec3 mean_around(const Environment& e, const std::vector<Texel>& texels, co
 Environment filtered(const Environment& environment, const LevelPlan& plan) {
     const Environment source = shrunk(environment, plan.source_width);
     if (plan.roughness == 0.0) return source;
-    Environment out{plan.width, plan.width / 2, {}};
-    const auto width = static_cast<std::size_t>(plan.width);
-    out.rows.resize(width * static_cast<std::size_t>(out.height));
     const std::vector<Texel> texels = texels_of(source);
     const Lobe lobe(plan.roughness);
-    tbb::parallel_for(0, out.height, [&](int y) {
-        for (int x = 0; x < out.width; ++x) {
-            const std::size_t row = static_cast<std::size_t>(y) * width;
-            out.rows[row + static_cast<std::size_t>(x)] =
-                mean_around(source, texels, lobe, out.direction(x, y));
-        }
+    return painted_environment(plan.width / 2, [&](const glm::dvec3& direction) {
+        return mean_around(source, texels, lobe, direction);
     });
-    return out;
 }
 
 void append(PrefilteredEnvironment& to, const Environment& level) {

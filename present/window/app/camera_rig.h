@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <optional>
 
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"

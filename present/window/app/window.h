@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "present/window/app/input.h"
 #include "raster/gl_debug.h"

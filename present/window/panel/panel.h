@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "host/measure/reference/frame_error.h"
 #include "host/measure/roofline/device_limits.h"

@@ -54,7 +54,7 @@ Texel blend(const Texel& a, const Texel& b, double t) {
 
 // 1 within `joint` of the joint's middle, 0 on the stone; distances in shares of the texture.
 double joint_share(double edge, double joint, double bevel) {
-    return 1.0 - smooth_step(joint, joint + bevel, edge);
+    return 1.0 - glm::smoothstep(joint, joint + bevel, edge);
 }
 
 Texel octagon_or_dot(double u, double v, std::uint32_t seed) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The texels of a specular-glossiness material, converted one by one.
-#include <cmath>
 
 #include "host/base/srgb.h"
 #include "host/scene/gltf/material/image.h"

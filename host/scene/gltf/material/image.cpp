@@ -34,31 +34,20 @@ constexpr std::array kMagics = {
     Magic{"P6"sv, 0, "pnm"},          Magic{"P5"sv, 0, "pnm"},
 };
 
-// An image of the file, still encoded.
-struct EncodedImage {
-    Bytes owned;
-    std::span<const unsigned char> bytes;
-};
-
 std::string name_of(const GltfDocument& document, int image) {
     const auto index = static_cast<std::size_t>(image);
     const std::string& uri = document.model.images[index].uri;
     return element_name("images", index) + (uri.empty() ? "" : " '" + shown_uri(uri) + "'");
 }
 
-EncodedImage read_encoded(const GltfDocument& document, int image) {
+FileBytes read_encoded(const GltfDocument& document, int image) {
     const auto index = static_cast<std::size_t>(image);
     const tinygltf::Image& source = document.model.images[index];
-    EncodedImage out;
-    if (!source.uri.empty()) {
-        out.owned = read_uri(document.base, source.uri, element_name("images", index));
-        out.bytes = out.owned;
-    } else if (source.bufferView >= 0) {
-        out.bytes = document.views[static_cast<std::size_t>(source.bufferView)];
-    } else {
-        document.fail(element_name("images", index), "has neither a uri nor a bufferView");
+    const std::string where = element_name("images", index);
+    if (source.uri.empty() && source.bufferView < 0) {
+        document.fail(where, "has neither a uri nor a bufferView");
     }
-    return out;
+    return read_source(document, source.uri, source.bufferView, where);
 }
 
 // OpenImageIO's name of the format by the bytes, as file names and MIME types may be wrong. A TGA
@@ -133,7 +122,7 @@ void undo_associated_alpha(std::vector<std::uint8_t>& rgba) {
 Image decode(const GltfDocument& document, int index) {
     const std::string name = name_of(document, index);
     const tinygltf::Image& source = document.model.images[static_cast<std::size_t>(index)];
-    const EncodedImage encoded = read_encoded(document, index);
+    const FileBytes encoded = read_encoded(document, index);
     const std::string format = format_of(encoded.bytes, source.uri);
     if (format == "png") check_png(encoded.bytes, document.base.file + ": " + name);
     auto input = format.empty() ? nullptr : OIIO::ImageInput::create(format);
