@@ -12,6 +12,7 @@ RenderSettings scene_settings(const Gpu& gpu, int width, int height) {
     settings.lights.count = 0;
     settings.kernels.lanes = gpu.info.lane_width;
     settings.device = gpu.info.name;
+    settings.opened = std::make_shared<const Gpu>(gpu);
     settings.geometry = Geometry::compute;  // on devices without OpenGL, too
     return settings;
 }

@@ -24,8 +24,15 @@ StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& setti
 }
 
 Gpu open_device(const RenderSettings& settings) {
-    const cl::Device device = choose_device(settings.device);
-    return Gpu(device, choose_tuning(describe(device), settings.kernels).lanes);
+    return device_for(settings,
+                      settings.opened ? *settings.opened : Gpu(choose_device(settings.device)));
+}
+
+Gpu device_for(const RenderSettings& settings, const Gpu& opened) {
+    Gpu gpu = opened;
+    gpu.info = describe(gpu.device);  // KILOLUX_DEVICE_KIND may have changed
+    gpu.info.lane_width = choose_tuning(gpu.info, settings.kernels).lanes;
+    return gpu;
 }
 
 }  // namespace kilolux

@@ -13,4 +13,7 @@ StoredTuning choose_tuning(const DeviceInfo& device, const KernelSettings& setti
 /// The device of the settings with the lane width of choose_tuning().
 Gpu open_device(const RenderSettings& settings);
 
+/// The same of an open device.
+Gpu device_for(const RenderSettings& settings, const Gpu& opened);
+
 }  // namespace kilolux

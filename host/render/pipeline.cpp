@@ -29,18 +29,20 @@ ScenePlan plan_of(const Scene& scene, const RenderSettings& settings) {
 
 // Throws when its pictures cannot fit, before anything large is uploaded.
 const Scene& checked(const Scene& scene, const RenderSettings& settings) {
-    plan_memory(scene, settings, plan_of(scene, settings),
-                describe(choose_device(settings.device)));
+    const cl::Device device =
+        settings.opened ? settings.opened->device : choose_device(settings.device);
+    plan_memory(scene, settings, plan_of(scene, settings), describe(device));
     return scene;
 }
 
 }  // namespace
 
-Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings)
+Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings,
+                   Gpu opened)
     : scene(std::move(the_scene)),
       settings(the_settings),
       plan(plan_of(scene->scene(), settings)),
-      gpu(open_device(settings)),
+      gpu(std::move(opened)),
       memory(limit_buffers(gpu, plan_memory(scene->scene(), settings, plan, gpu.info))),
       tuning_(choose_tuning(describe(gpu.device), settings.kernels).tuning),
       lights_(gpu, tuning_, scene->scene(), settings),
@@ -129,17 +131,20 @@ void Pipeline::take(const RenderSettings& next) {
 void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,
                       const std::shared_ptr<RenderScene>& scene, const RenderSettings& settings) {
     if (pipeline && pipeline->is_built_for(settings)) {
-        pipeline->take(settings);
-    } else {
-        pipeline = std::make_unique<Pipeline>(scene, settings);
+        return pipeline->take(settings);
     }
+    // The programs that both need are built.
+    const bool same_device = pipeline && pipeline->settings.device == settings.device &&
+                             pipeline->settings.opened == settings.opened;
+    pipeline = std::make_unique<Pipeline>(
+        scene, settings, same_device ? device_for(settings, pipeline->gpu) : open_device(settings));
 }
 
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
     : pipeline_(in_stage("renderer", [&] {
           return std::make_unique<Pipeline>(
               std::make_shared<RenderScene>(checked(scene, settings), gl == GlSource::headless),
-              settings);
+              settings, open_device(settings));
       })) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;

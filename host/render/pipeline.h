@@ -35,8 +35,9 @@ void add_times(StageTimer& timer, FrameStats& stats);
 /// A renderer's stages, built for one device and scene plan.
 class Pipeline {
  public:
-    /// Throws Error as Renderer does.
-    Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings);
+    /// `opened`: see open_device(). Throws Error as Renderer does.
+    Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings& the_settings,
+             Gpu opened);
     ~Pipeline();
     Pipeline(const Pipeline&) = delete;
     Pipeline& operator=(const Pipeline&) = delete;

@@ -77,6 +77,8 @@ struct AutoSamples {
 inline constexpr float kSampleErrorFloor = 0.1f;  // of the light that shows as white
 inline constexpr int kLeastAutoSamples = 8;
 
+struct Gpu;
+
 /// Everything that decides a picture, beside scene, camera and time: the command line's shared
 /// options.
 struct RenderSettings {
@@ -117,6 +119,8 @@ struct RenderSettings {
         0;               // that a renderer may take in all; 0: most of what is available
     int band_rows = 0;   // made at once at most, a multiple of FINE_TILE; 0: what memory allows
     std::string device;  // name, part of it, or index; empty: the best
+    // That device, open: renderers that share it build a program once. None: each opens its own.
+    std::shared_ptr<const Gpu> opened;
     bool operator==(const RenderSettings&) const = default;
 };
 

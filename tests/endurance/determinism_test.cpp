@@ -26,6 +26,7 @@ std::uint64_t hash_of(const Frame& frame) {
 RenderSettings usual() {
     RenderSettings settings = small_settings(90, 70, 500);
     settings.bloom = 0.2f;
+    settings.opened = nullptr;  // each renderer builds its own
     return settings;
 }
 

@@ -41,6 +41,7 @@ void start_opencl() { choose_device(""); }
 
 RenderSettings faulty_settings() {
     RenderSettings settings = small_settings(64, 48, 200);
+    settings.opened = nullptr;  // each renderer makes all calls
     settings.bloom = 0.2f;
     settings.want.aovs = {"depth", "light-count"};
     settings.want.counts = true;

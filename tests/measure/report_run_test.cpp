@@ -24,7 +24,7 @@ double work_of(const Scene& scene, const ReportRow& row) {
     return plan.gbuffer_bytes_per_pixel + sizeof(ShadeLight) * std::max(row.speed.k, 0.0);
 }
 
-// The settings that the tests check; each builds its kernels several times.
+// The settings that the tests check; each builds kernels.
 bool is_looked_at(const ReportSetting& setting) {
     const std::set<std::string> names = {
         "default",      "gbuffer full",  "gbuffer half",      "gbuffer normal-xy",

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "host/render/renderer.h"
@@ -12,7 +14,14 @@
 
 namespace kilolux {
 
-/// Settings of a small picture. KILOLUX_TEST_DEVICE chooses the device as --device does.
+/// The device of this name, open as long as the process lives.
+inline std::shared_ptr<const Gpu> opened_device(const std::string& name) {
+    static const auto gpu = std::make_shared<const Gpu>(choose_device(name));
+    return gpu;
+}
+
+/// Settings of a small picture, on one device for all of a program's cases. KILOLUX_TEST_DEVICE
+/// chooses it as --device does.
 inline RenderSettings small_settings(int width = 96, int height = 54, std::uint64_t lights = 300) {
     RenderSettings settings;
     settings.width = width;
@@ -20,6 +29,7 @@ inline RenderSettings small_settings(int width = 96, int height = 54, std::uint6
     settings.lights.count = lights;
     const char* device = std::getenv("KILOLUX_TEST_DEVICE");
     settings.device = device != nullptr ? device : "";
+    settings.opened = opened_device(settings.device);
     return settings;
 }
 

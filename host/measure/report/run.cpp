@@ -69,13 +69,6 @@ std::vector<ReportRow*> front(std::vector<ReportRow>& rows, Compared compared, R
     return out;
 }
 
-// What is timed stands for frames in which everything moves.
-RenderSettings whole_frames(const ReportSetting& setting) {
-    RenderSettings out = setting.settings;
-    out.no_reuse = true;
-    return out;
-}
-
 // A ray in double takes as long as about ten evaluations.
 ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& settings) {
     if (settings.shadows != Shadows::off) limits.evaluations /= 10.0;
@@ -102,6 +95,7 @@ struct ReportRun::Timing {
 ReportRun::ReportRun(const ReportView& view, const RenderSettings& base,
                      const ErrorSizeLimits& limits)
     : view_(view),
+      opened_(base.opened ? base.opened : std::make_shared<const Gpu>(choose_device(base.device))),
       error_size_(kilolux::error_size({base.width, base.height},
                                       base.lights.count + view.scene.lights.size(),
                                       affordable(limits, base))),
@@ -116,7 +110,16 @@ RenderSettings ReportRun::at_error_size(RenderSettings settings) const {
     settings.width = error_size_[0];
     settings.height = error_size_[1];
     settings.bloom = 0.0f;  // changes the display only
+    settings.opened = opened_;
     return settings;
+}
+
+// What is timed stands for frames in which everything moves.
+RenderSettings ReportRun::whole_frames(const ReportSetting& setting) const {
+    RenderSettings out = setting.settings;
+    out.no_reuse = true;
+    out.opened = opened_;
+    return out;
 }
 
 std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& settings,
@@ -306,6 +309,7 @@ ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) cons
 void ReportRun::count(ReportRow& row, const Timing& timing) {
     on_step_();
     RenderSettings settings = row.setting.settings;
+    settings.opened = opened_;
     if (timing.scaled) settings = at_error_size(settings);
     RenderSettings counted = settings;
     counted.want.counts = true;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,7 +83,7 @@ class ReportRun {
     ReportReferences& references() { return references_; }
     /// Size of the comparison [pixel].
     std::array<int, 2> error_size() const { return error_size_; }
-    /// The settings of the comparison: at that size and without bloom.
+    /// The settings of the comparison: at that size and without bloom, on the device of the report.
     RenderSettings at_error_size(RenderSettings settings) const;
 
  private:
@@ -90,6 +91,7 @@ class ReportRun {
     struct Timing;
 
     Frame picture_of(Renderer& renderer, const ReportSetting& setting);
+    RenderSettings whole_frames(const ReportSetting& setting) const;
     ReportRow compare(const ReportSetting& setting, Timing& timing);
     double expected_ms(const RenderSettings& whole, double compared_ms);
     std::optional<ToldError> told_error(const ReportRow& row, Renderer& renderer);
@@ -100,6 +102,7 @@ class ReportRun {
     ReportSpeed speed_of(const ReportRow& row, const Timing& timing) const;
 
     ReportView view_;
+    std::shared_ptr<const Gpu> opened_;  // of all settings: most of their programs are the same
     std::array<int, 2> error_size_;
     ReportReferences references_;
     std::function<void()> on_step_ = [] {};

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+# Included by ctest: adds its entries for PROGRAM, a Google Test program, from LIST, a file made anew when PROGRAM is
+# newer. An entry is the cases whose full names begin alike: with what the regular expression ENTRY matches. What
+# follows the name's PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry.
+cmake_minimum_required(VERSION 3.22)
+
+if(NOT EXISTS ${PROGRAM})
+  add_test(${PROGRAM}_NOT_BUILT ${PROGRAM}_NOT_BUILT)
+  return()
+endif()
+
+# The full names of the program's cases.
+function(kilolux_cases program out)
+  execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE " *#[^\n]*" "" lines "${lines}")  # what parameters print as
+  string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+  set(cases "")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^  (.+)")
+      list(APPEND cases "${suite}${CMAKE_MATCH_1}")
+    elseif(line MATCHES "\\.$")
+      set(suite "${line}")
+    endif()
+  endforeach()
+  set(${out} "${cases}" PARENT_SCOPE)
+endfunction()
+
+# The filters of the entries that hold them.
+function(kilolux_filters cases entry out)
+  set(filters "")
+  foreach(case IN LISTS cases)
+    string(REGEX MATCH "${entry}" start "${case}")
+    if(start STREQUAL case)
+      list(APPEND filters "${case}")
+    elseif(start)
+      list(APPEND filters "${start}*")
+    else()
+      message(FATAL_ERROR "${case}: in no entry '${entry}'")
+    endif()
+  endforeach()
+  list(REMOVE_DUPLICATES filters)
+  set(${out} "${filters}" PARENT_SCOPE)
+endfunction()
+
+# An entry is skipped when all of its cases are. Google Test lists those that were skipped last, unless one failed.
+set(skipped "\\[  PASSED  \\] 0 tests\\.\n+(\\[  SKIPPED \\][^\n]*\n+)+$")
+
+if(NOT EXISTS ${LIST} OR ${PROGRAM} IS_NEWER_THAN ${LIST} OR ${CMAKE_CURRENT_LIST_FILE} IS_NEWER_THAN ${LIST})
+  kilolux_cases(${PROGRAM} cases)
+  kilolux_filters("${cases}" "${ENTRY}" filters)
+  set(text "")
+  foreach(filter IN LISTS filters)
+    string(APPEND text "add_test([==[${PREFIX}${filter}]==] [==[${PROGRAM}]==] --gtest_filter=${filter})\n"
+      "set_tests_properties([==[${PREFIX}${filter}]==] PROPERTIES SKIP_REGULAR_EXPRESSION [==[${skipped}]==]")
+    foreach(word IN LISTS PROPERTIES)
+      string(APPEND text " [==[${word}]==]")
+    endforeach()
+    string(APPEND text ")\n")
+  endforeach()
+  file(WRITE ${LIST} "${text}")
+endif()
+include(${LIST})
