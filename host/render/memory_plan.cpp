@@ -10,7 +10,6 @@
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/surface_planes.h"
-#include "raster/forward_pass.h"
 
 namespace kilolux {
 namespace {
