@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <span>
 #include <sstream>
 
 #include "host/base/embedded.h"

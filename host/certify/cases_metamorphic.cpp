@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "host/certify/cases.h"
-#include "host/certify/synthetic/probe.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "host/certify/cases.h"
-#include "host/certify/lighting_case.h"
 #include "host/certify/scene_case.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "host/render/renderer.h"

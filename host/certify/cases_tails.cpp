@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include "host/certify/cases.h"
 #include "host/certify/scene_case.h"
 #include "host/certify/tail_scenarios.h"

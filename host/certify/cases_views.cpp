@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Orthographic, off-centre and infinite cameras, and pictures of odd sizes.
 #include <algorithm>
-#include <array>
-#include <bit>
 
 #include "host/certify/cases.h"
 #include "host/certify/scene_case.h"

@@ -7,7 +7,6 @@
 
 #include "host/certify/findings.h"
 #include "host/certify/synthetic/host_lists.h"
-#include "host/certify/synthetic/random.h"
 #include "host/certify/synthetic/synthetic.h"
 #include "host/measure/reference/reference.h"
 

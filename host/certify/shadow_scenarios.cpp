@@ -46,7 +46,9 @@ bool is_edge_at(const ShadowCaster& caster, const ShadowPoint& point, const glm:
     for (int i = 0; i < 26; ++i) {
         const int code = i < 13 ? i : i + 1;
         const glm::dvec3 way(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1);
-        if (caster.sees_moved(point, distance * way, light) != seen) return true;
+        ShadowPoint moved = point;
+        moved.position += distance * way;
+        if (caster.sees(moved, light) != seen) return true;
     }
     return false;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "host/render/settings.h"
 #include "host/scene/camera.h"

@@ -24,10 +24,9 @@ std::vector<TailScenario> tail_scenarios();
 /// decoded surfaces. Values are of a pixel's colour.
 struct TailAgreement {
     int values = 0;
-    double largest_error = 0.0;  // of |picture - reference| / E, E as in ReferencePicture::scale
-    int below = 0;               // values whose bound is less than their error, by over 1e-5 E
-    int lossy = 0;               // values that err by more than 1e-4 E
-    double looseness = 0.0;      // median of bound / error over these
+    double largest_error = 0.0;     // of |picture - reference| / E, E as in ReferencePicture::scale
+    int below = 0;                  // values whose bound is less than their error, by over 1e-5 E
+    std::vector<double> looseness;  // bound / error of the values that err by more than 1e-4 E
 };
 
 /// `settings` with Tails::exact, bounded or tree; the AOV error-bound is asked for.

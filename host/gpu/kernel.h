@@ -50,30 +50,25 @@ class Kernel {
     void enqueue(const WorkSize& size, StageTimer& timer, const Arguments&... arguments) {
         in_stage(stage_, [&] {
             cl_uint index = 0;
-            (set_next(index, arguments), ...);
+            (set(index, arguments), ...);
             timer.record(stage_, launch(size));
         });
     }
 
  private:
     template <typename T>
-    void set_next(cl_uint& index, const T& value) {
-        set(index++, value);
-    }
-    template <typename T>
-    void set_next(cl_uint& index, const std::optional<T>& value) {
-        if (value) set(index++, *value);
-    }
-
-    template <typename T>
-    void set(cl_uint index, const T& value) {
+    void set(cl_uint& index, const T& value) {
         static_assert(std::is_same_v<T, uint> || std::is_same_v<T, float> || std::is_class_v<T>,
                       "bool, size_t and int have other sizes or signs on the device");
-        kernel_.setArg(index, value);
+        kernel_.setArg(index++, value);
     }
     template <typename T>
-    void set(cl_uint index, const DeviceArray<T>& array) {
-        kernel_.setArg(index, array.buffer());
+    void set(cl_uint& index, const DeviceArray<T>& array) {
+        kernel_.setArg(index++, array.buffer());
+    }
+    template <typename T>
+    void set(cl_uint& index, const std::optional<T>& value) {
+        if (value) set(index, *value);
     }
 
     cl::Event launch(const WorkSize& size);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/program.h"
 
-#include <map>
-
 #include "host/base/log.h"
 #include "host/base/source.h"
 
@@ -54,13 +52,18 @@ BuildOptions& BuildOptions::flag(std::string_view text) {
 
 cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options) {
     const std::string file = "kernels/" + std::string(stem) + ".cl";
+    return build_text(gpu, file, splice_source(file, false).text, options);
+}
+
+cl::Program build_text(const Gpu& gpu, const std::string& name, std::string_view text,
+                       const BuildOptions& options) {
     const std::string all_options =
         "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) +
         (options.text().empty() ? "" : " ") + options.text();
-    const std::string text = std::string(kKernelPrologue) + splice_source(file, false).text;
-    return gpu.programs->find(all_options + "\n" + text, [&] {
-        detail("building " + file + " " + all_options);
-        return build(gpu, file, text, all_options);
+    const std::string source = std::string(kKernelPrologue) + std::string(text);
+    return gpu.programs->find(all_options + "\n" + source, [&] {
+        detail("building " + name + " " + all_options);
+        return build(gpu, name, source, all_options);
     });
 }
 

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "host/base/error.h"
 #include "host/gpu/device.h"
 
 namespace kilolux {
@@ -57,6 +57,10 @@ class ProgramCache {
 /// Throws Error with file, device, options and the compiler's log.
 cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options = {});
 
+/// The same of a text without includes, which `name` names in messages.
+cl::Program build_text(const Gpu& gpu, const std::string& name, std::string_view text,
+                       const BuildOptions& options);
+
 /// Rounds a global size up to whole work-groups.
 constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {
     return (value + multiple - 1) / multiple * multiple;
@@ -66,15 +70,6 @@ constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {
 std::string cl_error_name(int code);
 
 /// Runs `body`, turning cl::Error into Error("<stage>: <call> failed with <name>").
-template <typename Body>
-auto in_stage(std::string_view stage, Body&& body);
-
-}  // namespace kilolux
-
-#include "host/base/error.h"
-
-namespace kilolux {
-
 template <typename Body>
 auto in_stage(std::string_view stage, Body&& body) {
     try {

@@ -7,10 +7,8 @@
 #include <chrono>
 #include <cstring>
 
-#include "host/gpu/pinned_memory.h"
 #include "host/gpu/program.h"
 #include "raster/gl_debug.h"
-#include "raster/gl_object.h"
 
 namespace kilolux {
 namespace {
@@ -31,22 +29,7 @@ void wait_for(GLsync fence) {
 
 }  // namespace
 
-// The pixel buffer, its mapping, and the device's buffer over or beside it.
-struct GBufferBridge::Staging {
-    explicit Staging(const Gpu& gpu) : pinned(gpu) {}
-    GlBuffer pixels;
-    void* mapping = nullptr;
-    std::size_t bytes = 0;
-    cl::Buffer device;
-    PinnedMemory pinned;  // of a GPU, as large as the pixel buffer
-};
-
 void GBufferBridge::DeleteFence::operator()(GLsync fence) const { glDeleteSync(fence); }
-
-GBufferBridge::GBufferBridge(const Gpu& gpu) : gpu_(gpu) {}
-GBufferBridge::~GBufferBridge() = default;
-GBufferBridge::GBufferBridge(GBufferBridge&&) noexcept = default;
-GBufferBridge& GBufferBridge::operator=(GBufferBridge&&) noexcept = default;
 
 void GBufferBridge::make_staging(std::size_t bytes) {
     staging_ = nullptr;  // before the new one is there: both might not fit

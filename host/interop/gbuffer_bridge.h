@@ -8,7 +8,9 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
+#include "host/gpu/pinned_memory.h"
 #include "raster/gbuffer_targets.h"
+#include "raster/gl_object.h"
 
 namespace kilolux {
 
@@ -19,10 +21,7 @@ namespace kilolux {
 /// uploaded, a plane while OpenGL reads the next.
 class GBufferBridge {
  public:
-    explicit GBufferBridge(const Gpu& gpu);
-    ~GBufferBridge();
-    GBufferBridge(GBufferBridge&&) noexcept;
-    GBufferBridge& operator=(GBufferBridge&&) noexcept;
+    explicit GBufferBridge(const Gpu& gpu) : gpu_(gpu) {}
 
     /// The planes of what was drawn to `targets`, on the device. Waits for OpenGL to finish, not
     /// for OpenCL. Valid until the next call; the queue must be done with the last result before
@@ -38,7 +37,15 @@ class GBufferBridge {
     double last_ms() const { return last_ms_; }
 
  private:
-    struct Staging;
+    // The pixel buffer, its mapping, and the device's buffer over or beside it.
+    struct Staging {
+        explicit Staging(const Gpu& gpu) : pinned(gpu) {}
+        GlBuffer pixels;
+        void* mapping = nullptr;
+        std::size_t bytes = 0;
+        cl::Buffer device;
+        PinnedMemory pinned;  // of a GPU, as large as the pixel buffer
+    };
     struct DeleteFence {
         using pointer = GLsync;
         void operator()(GLsync fence) const;

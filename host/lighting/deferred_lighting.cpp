@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/deferred_lighting.h"
 
-#include <cstring>
-
 namespace kilolux {
 namespace {
 
@@ -51,17 +49,14 @@ Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer,
 
 DeferredLighting::Visibility DeferredLighting::visibility_of(const LightingInput& input) const {
     const ShadowInput& shadows = input.shadows;
-    return {input.gbuffer.version, input.lights.version,
-            input.lights.seed,     input.grid,
-            shadows.rays,          ambient_,
+    return {{input.gbuffer.version, input.lights.version, input.lights.seed, input.grid},
+            shadows.rays,
+            ambient_,
             shadows.seed};
 }
 
 bool DeferredLighting::keeps(const Visibility& wanted) const {
-    if (!kept_ || wanted.gbuffer == 0 || wanted.lights == 0) return false;
-    if (wanted.gbuffer != kept_->gbuffer || wanted.lights != kept_->lights) return false;
-    if (wanted.ranges != kept_->ranges) return false;
-    if (std::memcmp(&wanted.grid, &kept_->grid, sizeof wanted.grid) != 0) return false;
+    if (!kept_ || !wanted.lists.matches(kept_->lists)) return false;
     return !draw_ || (wanted.rays == kept_->rays && wanted.seed == kept_->seed &&
                       wanted.ambient == kept_->ambient);
 }

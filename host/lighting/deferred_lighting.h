@@ -69,9 +69,7 @@ class DeferredLighting {
  private:
     // What the visibility of a frame is of.
     struct Visibility {
-        std::uint64_t gbuffer = 0, lights = 0;  // versions
-        uint ranges = 0;                        // seed of drawn ones
-        ClusterGrid grid{};
+        ListSource lists;
         float rays = 0.0f, ambient = 0.0f;  // of sampled shadows
         uint seed = 0;
     };

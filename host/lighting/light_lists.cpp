@@ -18,8 +18,8 @@ LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
                              const ClusterGrid& grid, StageTimer& timer,
                              const std::function<void(const ListedLights&)>& then) {
-    const Source source{gbuffer.version, input.version, input.seed, grid};
-    if (keeps(source)) {
+    const ListSource source{gbuffer.version, input.version, input.seed, grid};
+    if (kept_ && source.matches(kept_of_)) {
         if (then) then(*kept_);
         gpu_.queue.finish();
         return *kept_;
@@ -48,11 +48,9 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
     }
 }
 
-bool LightLists::keeps(const Source& wanted) const {
-    return kept_ && wanted.gbuffer != 0 && wanted.lights != 0 &&
-           wanted.gbuffer == kept_of_.gbuffer && wanted.lights == kept_of_.lights &&
-           wanted.seed == kept_of_.seed &&
-           std::memcmp(&wanted.grid, &kept_of_.grid, sizeof wanted.grid) == 0;
+bool ListSource::matches(const ListSource& other) const {
+    return gbuffer != 0 && lights != 0 && gbuffer == other.gbuffer && lights == other.lights &&
+           seed == other.seed && std::memcmp(&grid, &other.grid, sizeof grid) == 0;
 }
 
 bool LightLists::is_complete(const ListedLights& lists) const {

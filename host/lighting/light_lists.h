@@ -28,6 +28,16 @@ struct ListedLights {
     }
 };
 
+/// What lists are of.
+struct ListSource {
+    std::uint64_t gbuffer = 0, lights = 0;  // versions; 0: not known
+    uint seed = 0;                          // of drawn ranges
+    ClusterGrid grid{};
+
+    /// Whether both are known and the same.
+    bool matches(const ListSource& other) const;
+};
+
 /// The lists that light one pixel, on the host.
 struct PixelLists {
     uint coarse_count = 0;                // lights in its coarse cluster's list
@@ -69,13 +79,6 @@ class LightLists {
     HostCoarseLists download_coarse(const ListedLights& lists) const;
 
  private:
-    // What lists are of.
-    struct Source {
-        std::uint64_t gbuffer = 0, lights = 0;  // versions
-        uint seed = 0;                          // of drawn ranges
-        ClusterGrid grid{};
-    };
-    bool keeps(const Source& wanted) const;
     ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                          StageTimer& timer);
     ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
@@ -96,7 +99,7 @@ class LightLists {
     std::uint64_t binned_version_ = 0;
     ClusterGrid binned_grid_{};
     ActiveClusters active_;
-    Source kept_of_;
+    ListSource kept_of_;
     std::optional<ListedLights> kept_;
 };
 

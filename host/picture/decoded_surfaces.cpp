@@ -3,22 +3,10 @@
 
 #include <cmath>
 
-#include <algorithm>
-
 #include "host/base/error.h"
 
 namespace kilolux {
 namespace {
-
-// The value of a decoded plane at a pixel.
-float value_at(const DecodedSurfaces& s, std::size_t plane, std::size_t pixel) {
-    return s.planes[plane * s.view.stride * s.view.height + pixel];
-}
-
-glm::dvec3 vector_at(const DecodedSurfaces& s, std::size_t plane, std::size_t pixel) {
-    return {value_at(s, plane, pixel), value_at(s, plane + 1, pixel),
-            value_at(s, plane + 2, pixel)};
-}
 
 // Fills `n` values a pixel from `components(pixel in the planes, output)`.
 template <typename T, typename Components>
@@ -36,7 +24,7 @@ Layer plane_layer(std::string_view name, std::vector<std::string> channels,
     Layer layer{std::string(name), std::move(channels)};
     const std::size_t n = layer.channels.size();
     fill(layer.values, n, s.view, [&](std::size_t pixel, float* out) {
-        for (std::size_t c = 0; c < n; ++c) out[c] = value_at(s, first_plane + c, pixel);
+        for (std::size_t c = 0; c < n; ++c) out[c] = s.at(first_plane + c, pixel);
     });
     return layer;
 }
@@ -46,8 +34,8 @@ Layer world_layer(std::string_view name, std::vector<std::string> channels,
     Layer layer{std::string(name), std::move(channels)};
     const bool position = name == "position";
     fill(layer.values, 3, s.view, [&](std::size_t pixel, float* out) {
-        const glm::dvec3 v = vector_at(s, position ? SURFACE_POSITION : SURFACE_NORMAL, pixel);
-        const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
+        const glm::dvec3 v = s.vector(position ? SURFACE_POSITION : SURFACE_NORMAL, pixel);
+        const bool drawn = s.is_drawn(pixel);
         const glm::dvec3 world =
             camera.world_from_view * v + (position ? camera.position : glm::dvec3(0.0));
         for (int c = 0; c < 3; ++c) out[c] = drawn ? static_cast<float>(world[c]) : 0.0f;
@@ -78,8 +66,7 @@ Layer visibility_layer(const DecodedSurfaces& s) {
     if (s.seen.empty()) throw UsageError("aov visibility: no shadows were cast");
     Layer layer{"visibility", {"visibility"}};
     fill(layer.values, 1, s.view, [&](std::size_t pixel, float* out) {
-        const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
-        *out = drawn ? static_cast<float>(1.0 - hidden_share(s, pixel)) : 0.0f;
+        *out = s.is_drawn(pixel) ? static_cast<float>(1.0 - hidden_share(s, pixel)) : 0.0f;
     });
     return layer;
 }
@@ -88,8 +75,7 @@ Layer error_layer(const DecodedSurfaces& s) {
     if (s.variance.empty()) throw UsageError("aov error-standard: nothing was sampled");
     Layer layer{"error-standard", {"error.standard"}};
     fill(layer.values, 1, s.view, [&](std::size_t pixel, float* out) {
-        const bool drawn = value_at(s, SURFACE_DEPTH, pixel) != 0.0f;
-        *out = drawn ? std::sqrt(s.variance[pixel]) : 0.0f;
+        *out = s.is_drawn(pixel) ? std::sqrt(s.variance[pixel]) : 0.0f;
     });
     return layer;
 }
@@ -120,7 +106,7 @@ double hidden_share(const DecodedSurfaces& s, std::size_t i) {
 }
 
 std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixel) {
-    const float z = value_at(s, SURFACE_DEPTH, pixel);
+    const float z = s.at(SURFACE_DEPTH, pixel);
     if (z == 0.0f) return std::nullopt;
     const uint x = static_cast<uint>(pixel % s.view.stride) / s.grid.tile_width;
     const uint row = static_cast<uint>(pixel / s.view.stride) + s.view.first_row;

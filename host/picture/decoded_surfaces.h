@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -40,6 +39,15 @@ struct DecodedSurfaces {
     ClusterGrid grid{};
     bool specular = false;  // whether there are planes of the dielectrics' reflectance
     bool unlit = false;     // whether a roughness of 0 means an unlit surface
+
+    /// Of a plane, and of three from `plane` on, at an index within it.
+    float at(std::size_t plane, std::size_t pixel) const {
+        return planes[plane * view.stride * view.height + pixel];
+    }
+    glm::dvec3 vector(std::size_t plane, std::size_t pixel) const {
+        return {at(plane, pixel), at(plane + 1, pixel), at(plane + 2, pixel)};
+    }
+    bool is_drawn(std::size_t pixel) const { return at(SURFACE_DEPTH, pixel) != 0.0f; }
 };
 
 /// What was shaded with what, on the host.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -35,7 +36,11 @@ inline constexpr const char* kLaunchStage = "launch";
 inline constexpr const char* kEnqueueStage = "enqueue";
 
 /// Adds to the stage's time, or appends the stage.
-void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms);
+inline void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms) {
+    auto found = std::ranges::find(stages, name, &StageTime::name);
+    if (found == stages.end()) found = stages.insert(found, {std::string(name)});
+    found->ms += ms;
+}
 
 /// Samples of a picture whose tiles take as many as they need.
 struct SampleCounts {

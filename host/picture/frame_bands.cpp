@@ -58,14 +58,13 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
         return;
     }
     const auto rows = static_cast<std::size_t>(height);
-    place_planes(whole.planes, band.planes, band.view, rows);
-    place_planes(whole.evaluated, band.evaluated, band.view, rows);
-    place_planes(whole.covering, band.covering, band.view, rows);
-    place_planes(whole.facing, band.facing, band.view, rows);
-    place_planes(whole.seen, band.seen, band.view, rows);
-    place_planes(whole.variance, band.variance, band.view, rows);
-    place_planes(whole.bound, band.bound, band.view, rows);
-    place_planes(whole.taken, band.taken, band.view, rows);
+    using S = DecodedSurfaces;
+    for (const auto values : {&S::planes, &S::variance, &S::bound}) {
+        place_planes(whole.*values, band.*values, band.view, rows);
+    }
+    for (const auto counts : {&S::evaluated, &S::covering, &S::facing, &S::seen, &S::taken}) {
+        place_planes(whole.*counts, band.*counts, band.view, rows);
+    }
     whole.view = band.view;
     whole.view.first_row = 0;
     whole.view.height = static_cast<uint>(height);
@@ -82,16 +81,14 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.useful_evaluations_per_pixel =
         mean_of(whole.useful_evaluations_per_pixel, above, band.useful_evaluations_per_pixel, here);
     std::copy_n(band.grid, 3, whole.grid);
-    whole.coarse_pairs += band.coarse_pairs;
-    whole.active_clusters += band.active_clusters;
-    whole.refine_tests += band.refine_tests;
-    whole.triangles += band.triangles;
-    whole.triangle_pairs += band.triangle_pairs;
-    whole.seen_triangles += band.seen_triangles;
-    whole.texels += band.texels;
-    whole.refined_pairs += band.refined_pairs;
-    whole.drawn_pixels += band.drawn_pixels;
-    whole.evaluations += band.evaluations;
+    using S = FrameStats;
+    for (const auto count : {&S::coarse_pairs, &S::active_clusters, &S::refine_tests,
+                             &S::refined_pairs, &S::drawn_pixels, &S::evaluations}) {
+        whole.*count += band.*count;
+    }
+    for (const auto count : {&S::triangles, &S::triangle_pairs, &S::seen_triangles, &S::texels}) {
+        whole.*count += band.*count;
+    }
     whole.shadows = whole.shadows + band.shadows;
     add_samples(whole.samples, band.samples);
     whole.shaded_display = band.shaded_display;

@@ -3,46 +3,56 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
+
+#include "host/picture/frame.h"
 
 namespace kilolux {
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 64;
+// Rows go to all cores: memory that is written for the first time is slow on one.
 
-// Calls each(y) for every row: memory that is written for the first time is slow on one core.
-template <typename Each>
-void for_each_row(std::size_t rows, const Each& each) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows, kRowsAtOnce),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t y = range.begin(); y < range.end(); ++y) each(y);
-                      });
+void put_display(const std::byte* codes, const View& view, uint* pixels, std::size_t stride) {
+    tbb::parallel_for(std::size_t{0}, std::size_t{view.height}, [&](std::size_t y) {
+        std::memcpy(pixels + y * stride, codes + sizeof(uint) * y * view.stride,
+                    sizeof(uint) * view.width);
+    });
 }
 
-// The entry of a list whose `member` is `key`, or one that is free.
-template <typename Entry, typename Key>
-Entry& entry_of(std::list<Entry>& entries, Key* Entry::*member, Key* key, const Gpu& gpu) {
-    Entry* free = nullptr;
-    for (Entry& entry : entries) {
-        if (entry.*member == key) return entry;
-        if (entry.*member == nullptr) free = &entry;
-    }
-    Entry& out = free != nullptr ? *free : entries.emplace_back(gpu);
-    out.*member = key;
-    return out;
+void put_light(const std::byte* light, const View& view, std::vector<float>& rgb) {
+    const auto* planes = reinterpret_cast<const float*>(light);
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    float* first = &rgb[std::size_t{3} * view.width * view.first_row];
+    tbb::parallel_for(std::size_t{0}, std::size_t{view.height}, [&](std::size_t y) {
+        const float* row = planes + y * view.stride;
+        float* out = first + 3 * y * view.width;
+        for (std::size_t x = 0; x < view.width; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) *out++ = row[c * plane + x];
+        }
+    });
 }
 
 }  // namespace
 
-void FrameReader::stage(Staged& staged, const cl::Buffer& buffer, const View& view,
-                        std::size_t bytes, StageTimer& timer) {
+// What is read into a place, which forgets what was read into it before.
+FrameReader::Staged& FrameReader::staged_for(const void* place) {
+    auto found = std::ranges::find(staged_, place, &Staged::place);
+    if (found == staged_.end())
+        found = std::ranges::find_if(staged_, [](const Staged& s) { return !s.place; });
+    Staged& out = found != staged_.end() ? *found : staged_.emplace_back(gpu_);
+    out.place = place;
+    return out;
+}
+
+const std::byte* FrameReader::read(Staged& staged, const cl::Buffer& buffer, std::size_t bytes,
+                                   StageTimer& timer) {
     std::byte* to = staged.pinned.reserve(bytes);
-    staged.view = view;
-    staged.source = to;
     cl::Event event;
     gpu_.queue.enqueueReadBuffer(buffer, CL_FALSE, 0, bytes, to, nullptr, &event);
     timer.record(kReadBackStage, event);
+    return to;
 }
 
 void FrameReader::read_display(const cl::Buffer& display, const View& view, std::span<uint> pixels,
@@ -57,52 +67,28 @@ void FrameReader::read_display(const cl::Buffer& display, const View& view, std:
         timer.record(kReadBackStage, event);
         return;
     }
-    Display& out = entry_of(displays_, &Display::pixels, first, gpu_);
-    out.stride = to_stride;
-    stage(out, display, view, sizeof(uint) * view.stride * view.height, timer);
+    Staged& out = staged_for(first);
+    const std::byte* codes = read(out, display, sizeof(uint) * view.stride * view.height, timer);
+    out.put = [=] { put_display(codes, view, first, to_stride); };
 }
 
 void FrameReader::read_light(const Radiance& radiance, std::vector<float>& rgb, StageTimer& timer) {
-    const View& view = radiance.view;
-    Light& out = entry_of(lights_, &Light::rgb, &rgb, gpu_);
-    stage(out, radiance.planes, view, 3 * sizeof(float) * view.stride * view.height, timer);
-}
-
-void FrameReader::place(const Display& display) {
-    const View& view = display.view;
-    for_each_row(view.height, [&](std::size_t y) {
-        std::memcpy(display.pixels + y * display.stride,
-                    display.source + sizeof(uint) * y * view.stride, sizeof(uint) * view.width);
-    });
-}
-
-void FrameReader::place(const Light& light) {
-    const View& view = light.view;
-    const auto* planes = reinterpret_cast<const float*>(light.source);
-    const std::size_t plane = std::size_t{view.stride} * view.height;
-    float* first = &(*light.rgb)[std::size_t{3} * view.width * view.first_row];
-    for_each_row(view.height, [&](std::size_t y) {
-        const float* row = planes + y * view.stride;
-        float* out = first + 3 * y * view.width;
-        for (std::size_t x = 0; x < view.width; ++x) {
-            for (std::size_t c = 0; c < 3; ++c) *out++ = row[c * plane + x];
-        }
-    });
+    const View view = radiance.view;
+    Staged& out = staged_for(&rgb);
+    const std::byte* light =
+        read(out, radiance.planes, 3 * sizeof(float) * view.stride * view.height, timer);
+    out.put = [=, &rgb] { put_light(light, view, rgb); };
 }
 
 void FrameReader::reset() {
-    for (Light& light : lights_) light.rgb = nullptr;
-    for (Display& display : displays_) display.pixels = nullptr;
+    for (Staged& staged : staged_) staged.place = nullptr;
 }
 
 double FrameReader::finish() {
     gpu_.queue.finish();
     const auto start = std::chrono::steady_clock::now();
-    for (const Light& light : lights_) {
-        if (light.rgb) place(light);
-    }
-    for (const Display& display : displays_) {
-        if (display.pixels) place(display);
+    for (const Staged& staged : staged_) {
+        if (staged.place) staged.put();
     }
     reset();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)

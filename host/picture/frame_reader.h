@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <functional>
 #include <list>
 #include <span>
 #include <vector>
@@ -10,7 +11,6 @@
 #include "host/gpu/flow.h"
 #include "host/gpu/pinned_memory.h"
 #include "host/gpu/stage_timer.h"
-#include "host/picture/frame.h"
 
 namespace kilolux {
 
@@ -37,31 +37,20 @@ class FrameReader {
     double finish();
 
  private:
-    // Where a band's planes are staged, and where they go.
+    // A band's planes on their way, and what puts them into their place.
     struct Staged {
         explicit Staged(const Gpu& gpu) : pinned(gpu) {}
         PinnedMemory pinned;
-        const std::byte* source = nullptr;
-        View view{};
-    };
-    struct Display : Staged {
-        using Staged::Staged;
-        uint* pixels = nullptr;  // of the band; null: nothing was read
-        std::size_t stride = 0;
-    };
-    struct Light : Staged {
-        using Staged::Staged;
-        std::vector<float>* rgb = nullptr;  // null: nothing was read
+        const void* place = nullptr;  // null: nothing was read
+        std::function<void()> put;
     };
 
-    void stage(Staged& staged, const cl::Buffer& buffer, const View& view, std::size_t bytes,
-               StageTimer& timer);
-    static void place(const Display& display);
-    static void place(const Light& light);
+    Staged& staged_for(const void* place);
+    const std::byte* read(Staged& staged, const cl::Buffer& buffer, std::size_t bytes,
+                          StageTimer& timer);
 
     Gpu gpu_;
-    std::list<Light> lights_;
-    std::list<Display> displays_;
+    std::list<Staged> staged_;
 };
 
 /// Waits for a queue when an exception leaves its scope: memory that the queue still writes must

@@ -30,7 +30,6 @@ struct PixelProbe {
     bool unlit = false;     // whether a roughness of 0 means an unlit surface
     ClusterGrid grid{};
     uint tile_x = 0, tile_y = 0, slice = 0;  // its coarse cluster
-    uint fine_slice = 0;                     // of its active cluster
     uint coarse_count = 0;                   // lights in the coarse cluster's list
     std::optional<ActiveCluster> active;     // view space; none unless the renderer has them
     bool has_list = false;                   // else the renderer evaluates every light

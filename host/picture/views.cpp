@@ -13,25 +13,10 @@
 namespace kilolux {
 namespace {
 
-// Reads planes at a pixel (x, y) of the picture.
-class PixelReader {
- public:
-    explicit PixelReader(const ViewInput& input) : input_(input) {}
-
-    std::size_t index(uint x, uint y) const {
-        return std::size_t{y} * input_.pixels.view.stride + x;
-    }
-    float at(uint plane, uint x, uint y) const {
-        const View& view = input_.pixels.view;
-        return input_.pixels.planes[std::size_t{plane} * view.stride * view.height + index(x, y)];
-    }
-    glm::dvec3 vector(uint plane, uint x, uint y) const {
-        return {at(plane, x, y), at(plane + 1, x, y), at(plane + 2, x, y)};
-    }
-    bool drawn(uint x, uint y) const { return at(SURFACE_DEPTH, x, y) != 0.0f; }
-
- private:
-    const ViewInput& input_;
+// A pixel of the picture, and its index in the planes.
+struct Pixel {
+    uint x, y;
+    std::size_t index;
 };
 
 std::uint8_t code_of(double v) {
@@ -40,38 +25,40 @@ std::uint8_t code_of(double v) {
 
 DisplayColor color_of(const glm::dvec3& v) { return {code_of(v.x), code_of(v.y), code_of(v.z)}; }
 
-using Paint = std::function<DisplayColor(uint x, uint y)>;
-using Magnitude = std::function<double(uint x, uint y)>;
+using Paint = std::function<DisplayColor(const Pixel& pixel)>;
+using Magnitude = std::function<double(const Pixel& pixel)>;
+
+// Calls each(pixel) where something is drawn.
+template <typename Each>
+void for_each_drawn(const DecodedSurfaces& surfaces, const Each& each) {
+    const View& view = surfaces.view;
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.width; ++x) {
+            const Pixel pixel{x, y, std::size_t{y} * view.stride + x};
+            if (surfaces.is_drawn(pixel.index)) each(pixel);
+        }
+    }
+}
 
 // Paints what is drawn; the background stays black.
 Canvas painted(const ViewInput& input, const Paint& paint) {
     const View& view = input.pixels.view;
-    const PixelReader read(input);
     Canvas canvas = make_canvas(static_cast<int>(view.width), static_cast<int>(view.height));
-    for (uint y = 0; y < view.height; ++y) {
-        for (uint x = 0; x < view.width; ++x) {
-            if (!read.drawn(x, y)) continue;
-            canvas.set(static_cast<int>(x), static_cast<int>(y), paint(x, y));
-        }
-    }
+    for_each_drawn(input.pixels, [&](const Pixel& p) {
+        canvas.set(static_cast<int>(p.x), static_cast<int>(p.y), paint(p));
+    });
     return canvas;
 }
 
 double largest(const ViewInput& input, const Magnitude& magnitude) {
-    const View& view = input.pixels.view;
-    const PixelReader read(input);
     double out = 0.0;
-    for (uint y = 0; y < view.height; ++y) {
-        for (uint x = 0; x < view.width; ++x) {
-            if (read.drawn(x, y)) out = std::max(out, magnitude(x, y));
-        }
-    }
+    for_each_drawn(input.pixels, [&](const Pixel& p) { out = std::max(out, magnitude(p)); });
     return out;
 }
 
 Canvas heat_map(const ViewInput& input, const HeatScale& scale, const Magnitude& magnitude) {
     Canvas canvas = painted(
-        input, [&](uint x, uint y) { return heat_color(position_on(scale, magnitude(x, y))); });
+        input, [&](const Pixel& p) { return heat_color(position_on(scale, magnitude(p))); });
     draw_legend(canvas, scale);
     return canvas;
 }
@@ -82,65 +69,61 @@ Canvas count_map(const ViewInput& input, std::string_view unit, const Magnitude&
 }
 
 // Colours by number, darker where the surface turns away from the eye, so that shapes are seen.
-Canvas id_map(const ViewInput& input, const std::function<uint(uint x, uint y)>& id) {
-    const PixelReader read(input);
-    return painted(input, [&](uint x, uint y) {
-        DisplayColor color = id_color(id(x, y));
-        const double facing = 0.5 + 0.5 * std::abs(read.at(SURFACE_NORMAL + 2, x, y));
+Canvas id_map(const ViewInput& input, const std::function<uint(const Pixel& pixel)>& id) {
+    return painted(input, [&](const Pixel& p) {
+        DisplayColor color = id_color(id(p));
+        const double facing = 0.5 + 0.5 * std::abs(input.pixels.at(SURFACE_NORMAL + 2, p.index));
         for (std::uint8_t& c : color) c = code_of(c / 255.0 * facing);
         return color;
     });
 }
 
 Canvas albedo(const ViewInput& input) {
-    const PixelReader read(input);
-    return painted(input, [&](uint x, uint y) {
-        const glm::dvec3 v = read.vector(SURFACE_ALBEDO, x, y);
+    return painted(input, [&](const Pixel& p) {
+        const glm::dvec3 v = input.pixels.vector(SURFACE_ALBEDO, p.index);
         return color_of({linear_to_srgb(v.x), linear_to_srgb(v.y), linear_to_srgb(v.z)});
     });
 }
 
 // World space: right, up and towards +Z are red, green and blue.
 Canvas normal(const ViewInput& input) {
-    const PixelReader read(input);
-    return painted(input, [&](uint x, uint y) {
-        const glm::dvec3 n = input.camera.world_from_view * read.vector(SURFACE_NORMAL, x, y);
+    return painted(input, [&](const Pixel& p) {
+        const glm::dvec3 n =
+            input.camera.world_from_view * input.pixels.vector(SURFACE_NORMAL, p.index);
         return color_of(0.5 * n + 0.5);
     });
 }
 
 // World space: from one corner of the scene's box to the other.
 Canvas position(const ViewInput& input) {
-    const PixelReader read(input);
     const glm::dvec3 size = glm::max(input.box.size(), glm::dvec3(1e-9));
-    return painted(input, [&](uint x, uint y) {
-        const glm::dvec3 view = read.vector(SURFACE_POSITION, x, y);
+    return painted(input, [&](const Pixel& p) {
+        const glm::dvec3 view = input.pixels.vector(SURFACE_POSITION, p.index);
         const glm::dvec3 world = input.camera.world_from_view * view + input.camera.position;
         return color_of((world - input.box.min) / size);
     });
 }
 
 Canvas depth(const ViewInput& input) {
-    const PixelReader read(input);
-    const auto z = [&](uint x, uint y) { return std::abs(double{read.at(SURFACE_DEPTH, x, y)}); };
+    const auto z = [&](const Pixel& p) {
+        return std::abs(double{input.pixels.at(SURFACE_DEPTH, p.index)});
+    };
     const double farthest = std::max(largest(input, z), 1e-9);
     // The least is farthest less the largest distance from it.
     const double nearest =
-        farthest - largest(input, [&](uint x, uint y) { return farthest - z(x, y); });
+        farthest - largest(input, [&](const Pixel& p) { return farthest - z(p); });
     const double low = std::max(nearest, farthest * 1e-6);
     return heat_map(input, {low, std::max(farthest, low * 1.001), true, "M"}, z);
 }
 
 Canvas roughness(const ViewInput& input) {
-    const PixelReader read(input);
     return heat_map(input, {0.0, 1.0, false, "ROUGHNESS"},
-                    [&](uint x, uint y) { return read.at(SURFACE_ROUGHNESS, x, y); });
+                    [&](const Pixel& p) { return input.pixels.at(SURFACE_ROUGHNESS, p.index); });
 }
 
 Canvas lights(const ViewInput& input) {
-    const PixelReader read(input);
     return count_map(input, "LIGHTS",
-                     [&](uint x, uint y) { return input.pixels.evaluated[read.index(x, y)]; });
+                     [&](const Pixel& p) { return input.pixels.evaluated[p.index]; });
 }
 
 Canvas false_positives(const ViewInput& input) {
@@ -148,9 +131,8 @@ Canvas false_positives(const ViewInput& input) {
     if (pixels.covering.empty()) {
         throw UsageError("--show false-positives: shows the lists of --renderer deferred only");
     }
-    const PixelReader read(input);
-    return count_map(input, "LIGHTS IN VAIN", [&](uint x, uint y) {
-        const std::size_t i = read.index(x, y);
+    return count_map(input, "LIGHTS IN VAIN", [&](const Pixel& p) {
+        const std::size_t i = p.index;
         return pixels.evaluated[i] - pixels.covering[i];
     });
 }
@@ -161,47 +143,43 @@ Canvas shadows(const ViewInput& input) {
     if (pixels.seen.empty()) {
         throw UsageError("--show shadows: needs --shadows exact and --renderer deferred");
     }
-    const PixelReader read(input);
     return heat_map(input, {0.0, 1.0, false, "SHARE HIDDEN"},
-                    [&](uint x, uint y) { return hidden_share(pixels, read.index(x, y)); });
+                    [&](const Pixel& p) { return hidden_share(pixels, p.index); });
 }
 
 Canvas clusters(const ViewInput& input) {
-    const PixelReader read(input);
-    return id_map(input, [&](uint x, uint y) {
-        return coarse_cluster_at(input.pixels, read.index(x, y)).value_or(0);
+    return id_map(input, [&](const Pixel& p) {
+        return coarse_cluster_at(input.pixels, p.index).value_or(0);
     });
 }
 
 Canvas slices(const ViewInput& input) {
-    const PixelReader read(input);
-    return id_map(input, [&](uint x, uint y) {
-        return slice_of_depth(input.pixels.grid, read.at(SURFACE_DEPTH, x, y));
+    return id_map(input, [&](const Pixel& p) {
+        return slice_of_depth(input.pixels.grid, input.pixels.at(SURFACE_DEPTH, p.index));
     });
 }
 
 Canvas active(const ViewInput& input) {
-    const PixelReader read(input);
     const ClusterGrid& grid = input.pixels.grid;
     const uint tiles_x = (input.pixels.view.width + FINE_TILE - 1) / FINE_TILE;
-    return id_map(input, [&](uint x, uint y) {
-        const uint tile = y / FINE_TILE * tiles_x + x / FINE_TILE;
-        const uint slice = fine_slice_of_depth(grid, read.at(SURFACE_DEPTH, x, y));
+    return id_map(input, [&](const Pixel& p) {
+        const uint tile = p.y / FINE_TILE * tiles_x + p.x / FINE_TILE;
+        const uint slice = fine_slice_of_depth(grid, input.pixels.at(SURFACE_DEPTH, p.index));
         return tile * (grid.slices << grid.fine_slice_bits) + slice;
     });
 }
 
 Canvas overdraw(const ViewInput& input) {
-    return count_map(input, "FRAGMENTS", [&](uint x, uint y) {
-        return input.overdraw[std::size_t{y} * input.pixels.view.width + x];
+    return count_map(input, "FRAGMENTS", [&](const Pixel& p) {
+        return input.overdraw[std::size_t{p.y} * input.pixels.view.width + p.x];
     });
 }
 
 // The largest channel's difference, over six decades below the picture's largest; where there is
 // none at all, a scale to 1.
 Canvas difference(const ViewInput& input) {
-    const auto magnitude = [&](uint x, uint y) {
-        const std::size_t i = 3 * (std::size_t{y} * input.pixels.view.width + x);
+    const auto magnitude = [&](const Pixel& p) {
+        const std::size_t i = 3 * (std::size_t{p.y} * input.pixels.view.width + p.x);
         double out = 0.0;
         for (std::size_t c = i; c < i + 3; ++c) {
             out = std::max(out, std::abs(double{input.radiance[c]} - input.reference[c]));

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/light_order.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <thread>
 #include <tuple>
 
 #include "host/base/light_cells.h"
 
 namespace kilolux {
 namespace {
-
-constexpr std::size_t kSerialCount = 1 << 15;  // fewer places are sorted before a thread starts
 
 struct Place {
     int range_exponent = std::numeric_limits<int>::max();
@@ -35,30 +33,6 @@ Place place_of(const SceneLight& light, std::uint32_t number) {
     return {std::ilogb(light.range), light_order_key(cell(p.x), cell(p.y), cell(p.z)), number};
 }
 
-// Calls each(0) ... each(parts - 1), in a thread each.
-template <typename Each>
-void for_each_part(std::size_t parts, const Each& each) {
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 1; i < parts; ++i) workers.emplace_back(each, i);
-    each(0);
-}
-
-// Parts by themselves, then neighbours merged, two by two.
-void sort_places(std::vector<Place>& places) {
-    const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t wanted = std::clamp(places.size() / kSerialCount, std::size_t{1}, cores);
-    std::size_t parts = std::bit_floor(wanted);
-    const auto begin_of = [&](std::size_t part) {
-        return places.begin() + static_cast<std::ptrdiff_t>(places.size() * part / parts);
-    };
-    for_each_part(parts, [&](std::size_t i) { std::sort(begin_of(i), begin_of(i + 1)); });
-    for (; parts > 1; parts /= 2) {
-        for_each_part(parts / 2, [&](std::size_t i) {
-            std::inplace_merge(begin_of(2 * i), begin_of(2 * i + 1), begin_of(2 * i + 2));
-        });
-    }
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> order_by_place(std::span<const SceneLight> lights) {
@@ -66,7 +40,7 @@ std::vector<std::uint32_t> order_by_place(std::span<const SceneLight> lights) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         places[i] = place_of(lights[i], static_cast<std::uint32_t>(i));
     }
-    sort_places(places);
+    tbb::parallel_sort(places);
     std::vector<std::uint32_t> order(lights.size());
     std::transform(places.begin(), places.end(), order.begin(),
                    [](const Place& place) { return place.light; });

@@ -27,21 +27,6 @@ bool has_direction(const glm::dvec3& direction) {
     return is_finite(direction) && glm::length(direction) > 1e-12;
 }
 
-// One light that is no number would spread over all pixels of its lists, and through filters over
-// the picture: it is left out and counted. Asked here in double, as kernels may be built to assume
-// that there are none (-cl-finite-math-only, OpenCL C 5.8.4).
-bool is_usable_at(const SceneLight& light, const glm::dvec3& relative) {
-    if (!gives_light(light.intensity)) return false;
-    if (light.type == LightType::directional) return has_direction(light.direction);
-    const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;
-    const bool ranged = std::isfinite(light.range) && light.range > 0.0f;
-    const bool aimed = light.profile < 0 || has_direction(light.direction);
-    if (light.type == LightType::point) return placed && ranged && aimed;
-    const bool cone = std::isfinite(light.inner_cone) && std::isfinite(light.outer_cone) &&
-                      light.outer_cone > 0.0f;
-    return placed && ranged && cone && has_direction(light.direction);
-}
-
 Light row_of(const SceneLight& light, const glm::dvec3& relative) {
     const glm::vec3 p(relative);
     // A point light's cone is everything: axis 0 and cosine -1 make the cone term exactly 1.
@@ -60,8 +45,20 @@ Light row_of(const SceneLight& light, const glm::dvec3& relative) {
 
 }  // namespace
 
+// One light that is no number would spread over all pixels of its lists, and through filters over
+// the picture: it is left out and counted. Asked here in double, as kernels may be built to assume
+// that there are none (-cl-finite-math-only, OpenCL C 5.8.4).
 bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
-    return is_usable_at(light, light.position - camera_position);
+    if (!gives_light(light.intensity)) return false;
+    if (light.type == LightType::directional) return has_direction(light.direction);
+    const glm::dvec3 relative = light.position - camera_position;
+    const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;
+    const bool ranged = std::isfinite(light.range) && light.range > 0.0f;
+    const bool aimed = light.profile < 0 || has_direction(light.direction);
+    if (light.type == LightType::point) return placed && ranged && aimed;
+    const bool cone = std::isfinite(light.inner_cone) && std::isfinite(light.outer_cone) &&
+                      light.outer_cone > 0.0f;
+    return placed && ranged && cone && has_direction(light.direction);
 }
 
 WorldLight world_light(const SceneLight& light) {
@@ -90,13 +87,12 @@ LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& 
     LightRows rows;
     rows.local.reserve(lights.size());
     for (const SceneLight& light : lights) {
-        const glm::dvec3 relative = light.position - camera_position;
-        if (!is_usable_at(light, relative)) {
+        if (!is_usable(light, camera_position)) {
             ++rows.rejected;
         } else if (light.type == LightType::directional) {
             rows.directional.push_back(directional_row(light));
         } else {
-            rows.local.push_back(row_of(light, relative));
+            rows.local.push_back(row_of(light, light.position - camera_position));
             rows.has_spot = rows.has_spot || light.type == LightType::spot;
         }
     }

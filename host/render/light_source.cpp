@@ -4,11 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "host/render/light_order.h"
-#include "host/scene/lights/light_ranges.h"
 #include "host/scene/lights/rig.h"
 #include "kernels/shared/hash.h"
 

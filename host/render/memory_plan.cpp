@@ -11,7 +11,6 @@
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/raster_row.h"
 #include "kernels/shared/surface_planes.h"
-#include "raster/forward_pass.h"
 
 namespace kilolux {
 namespace {

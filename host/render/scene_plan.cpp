@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "host/base/error.h"
+#include "host/base/text.h"
 #include "host/scene/lights/light_region.h"
 #include "host/scene/lights/light_tree.h"
-#include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
 namespace {
@@ -42,33 +42,11 @@ bool has_gloss(const Material& m) {
            (m.metallic > 0.0f || m.roughness < 1.0f || m.metallic_roughness_texture.present());
 }
 
-int shading_of(Shading choice, const std::vector<Material>& materials) {
-    switch (choice) {
-        case Shading::lambert:
-            return SHADING_LAMBERT;
-        case Shading::blinn_phong:
-            return SHADING_BLINN_PHONG;
-        case Shading::pbr:
-            return SHADING_PBR;
-        case Shading::automatic:
-            break;
-    }
-    return std::any_of(materials.begin(), materials.end(), has_gloss) ? SHADING_PBR
-                                                                      : SHADING_LAMBERT;
-}
-
-const char* shading_name(int shading) {
-    constexpr const char* kNames[] = {"lambert", "blinn-phong", "pbr"};
-    return kNames[shading];
-}
-
 void check_forced(const std::vector<std::string>& names) {
     const std::vector<std::string>& known = forceable_features();
     for (const std::string& name : names) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        std::string list;
-        for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
-        throw Error("scene plan: '" + name + "' cannot be forced; these can: " + list);
+        if (std::ranges::count(known, name) > 0) continue;
+        throw Error("scene plan: '" + name + "' cannot be forced; these can: " + joined(known));
     }
 }
 
@@ -122,8 +100,7 @@ void check_tails(const RenderSettings& settings) {
 }
 
 bool is_forced(const RenderSettings& settings, std::string_view name) {
-    const std::vector<std::string>& forced = settings.force_features;
-    return std::find(forced.begin(), forced.end(), name) != forced.end();
+    return std::ranges::count(settings.force_features, name) > 0;
 }
 
 SceneFeatures features_of(const Scene& scene, const std::vector<Material>& materials) {
@@ -150,7 +127,8 @@ SceneFeatures features_of(const Scene& scene, const std::vector<Material>& mater
 int shading_of(const RenderSettings& settings, const std::vector<Material>& materials) {
     if (is_forced(settings, "pbr")) return SHADING_PBR;
     if (is_forced(settings, "blinn-phong")) return SHADING_BLINN_PHONG;
-    return shading_of(settings.shading, materials);
+    if (settings.shading != Shading::automatic) return model_of(settings.shading);
+    return std::ranges::any_of(materials, has_gloss) ? SHADING_PBR : SHADING_LAMBERT;
 }
 
 // What the pictures need of what the scene has, and what is forced.
@@ -226,7 +204,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     plan.gbuffer.emissive_scale = emission > 0.0f ? emission : 1.0f;
     plan.gbuffer_bytes_per_pixel =
         static_cast<int>(make_gbuffer_layout(plan.gbuffer, 16, 1).bytes_per_pixel);
-    plan.features.emplace_back(shading_name(shading));
+    plan.features.emplace_back(kShadingNames[shading]);
     for (const SceneFeature& feature : scene_feature_table()) {
         if (feature.name.empty()) continue;
         (features.*feature.member ? plan.features : plan.left_out).emplace_back(feature.name);

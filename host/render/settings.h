@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "host/scene/lights/light_generator.h"
 #include "host/scene/lights/light_ranges.h"
 #include "host/scene/lights/prefiltered_environment.h"
+#include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/gbuffer.h"
 
 namespace kilolux {
@@ -36,6 +36,15 @@ constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::pl
 enum class Shadows { off, exact, sampled };
 
 enum class Shading { automatic, lambert, blinn_phong, pbr };
+
+/// SHADING_* of what is not automatic, and back.
+constexpr int model_of(Shading shading) { return static_cast<int>(shading) - 1; }
+constexpr Shading shading_of_model(int model) { return static_cast<Shading>(model + 1); }
+static_assert(model_of(Shading::lambert) == SHADING_LAMBERT &&
+              model_of(Shading::blinn_phong) == SHADING_BLINN_PHONG &&
+              model_of(Shading::pbr) == SHADING_PBR);
+inline constexpr const char* kShadingNames[] = {"lambert", "blinn-phong", "pbr"};  // by SHADING_*
+
 enum class ToneCurve { none, neutral, aces, agx };
 
 /// The coarse grid asked for; tile edges are rounded up to multiples of 16 pixels.

@@ -245,7 +245,6 @@ PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, i
     out.tile_x = static_cast<uint>(x) / grid.tile_width;
     out.tile_y = static_cast<uint>(y) / grid.tile_height;
     out.slice = slice_of_depth(grid, z);
-    out.fine_slice = fine_slice_of_depth(grid, z);
     return out;
 }
 

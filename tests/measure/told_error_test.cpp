@@ -116,7 +116,7 @@ TEST(ToldError, StandsInAReportBesideTheError) {
     EXPECT_EQ(standards, std::set<std::string>{"tails stochastic 4"});
     EXPECT_EQ(measured.rows.front().cut_off, 0.25) << "of lights whose file gives no range";
     std::set<std::string> stems;
-    for (const ReportPlot& plot : report_plots(measured.rows, "here")) stems.insert(plot.stem);
+    for (const NamedPlot& plot : report_plots(measured.rows, "here")) stems.insert(plot.stem);
     EXPECT_TRUE(stems.contains("time_against_bound"));
     EXPECT_TRUE(stems.contains("time_against_standard_error"));
     EXPECT_TRUE(stems.contains("time_against_cut_off"));

@@ -3,10 +3,12 @@
 // error.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/base/error.h"
 #include "host/certify/tail_scenarios.h"
+#include "host/measure/metrics/statistics.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -102,11 +104,12 @@ TailAgreement check_bound(Shading shading, double budget) {
 TEST(Tails, ABoundIsNeverBelowTheError) {
     for (const double budget : {0.3, 0.05, 0.004}) {
         for (const Shading shading : {Shading::lambert, Shading::blinn_phong, Shading::pbr}) {
-            const TailAgreement found = check_bound(shading, budget);
+            TailAgreement found = check_bound(shading, budget);
             EXPECT_EQ(found.below, 0) << budget;
-            EXPECT_GT(found.lossy, 500) << budget;
+            ASSERT_GT(found.looseness.size(), 500u) << budget;
             if (shading != Shading::lambert) continue;
-            EXPECT_LE(found.looseness, 4.0) << budget;
+            std::ranges::sort(found.looseness);
+            EXPECT_LE(quantile(found.looseness, 0.5), 4.0) << budget;
         }
     }
 }

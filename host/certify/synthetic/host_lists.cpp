@@ -2,7 +2,6 @@
 #include "host/certify/synthetic/host_lists.h"
 
 #include <algorithm>
-#include <string>
 
 namespace kilolux {
 

@@ -89,8 +89,6 @@ void set_limits(CullingMeasurement& m, const KernelFeatures& features, const Dev
     m.bytes_limit_ms = stage_limit(work, limits).ms;
 }
 
-double culling_ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
-
 }  // namespace
 
 CullingMeasurement measure_culling(const Scene& scene, const RenderSettings& settings,
@@ -127,16 +125,15 @@ Table culling_table(const std::vector<CullingMeasurement>& measurements) {
          {"prepare [ms]", [](const M& m) { return m.prepare_ms.median; }},
          {"cull [ms]", [](const M& m) { return m.cull_ms.median; }},
          {"limit [ms]", &M::limit_ms},
-         {"ratio", [](const M& m) { return culling_ratio(m.limit_ms, m.cull_ms.median); }},
+         {"ratio", [](const M& m) { return ratio_of(m.limit_ms, m.cull_ms.median); }},
          {"bandwidth limit [ms]", &M::bytes_limit_ms},
-         {"GB/s", [](const M& m) { return culling_ratio(1e-6 * m.bytes, m.cull_ms.median); }},
+         {"GB/s", [](const M& m) { return ratio_of(1e-6 * m.bytes, m.cull_ms.median); }},
          {"brute force [ms]", [](const M& m) { return m.brute_force_ms.median; }},
          {"speed-up",
-          [](const M& m) { return culling_ratio(m.brute_force_ms.median, m.cull_ms.median); }},
+          [](const M& m) { return ratio_of(m.brute_force_ms.median, m.cull_ms.median); }},
          {"ns/light",
-          [](const M& m) { return culling_ratio(1e6 * m.cull_ms.median, double(m.lights)); }},
-         {"ns/pair",
-          [](const M& m) { return culling_ratio(1e6 * m.cull_ms.median, double(m.pairs)); }},
+          [](const M& m) { return ratio_of(1e6 * m.cull_ms.median, double(m.lights)); }},
+         {"ns/pair", [](const M& m) { return ratio_of(1e6 * m.cull_ms.median, double(m.pairs)); }},
          {"brute force pairs", &M::brute_force_pairs},
          {"not in brute force", &M::foreign_pairs}},
         measurements);

@@ -7,7 +7,6 @@
 #include "host/base/hash.h"
 #include "host/render/grid_request.h"
 #include "host/render/kernel_choice.h"
-#include "host/render/light_source.h"
 #include "host/render/surface_pass.h"
 #include "host/stages/tonemap.h"
 

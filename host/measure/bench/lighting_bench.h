@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "host/gpu/stage_timer.h"
 #include "host/gpu/tuning_store.h"

@@ -69,12 +69,6 @@ void move_into_place(const fs::path& from, const fs::path& to) {
     throw Error(fmt::format("plot: cannot write '{}': {}", to.string(), failure.message()));
 }
 
-fs::path with_extension(const fs::path& stem, const char* extension) {
-    fs::path out = stem;
-    out += extension;
-    return out;
-}
-
 }  // namespace
 
 std::vector<PlotPoint>& series_of(Plot& plot, const std::string& name, PlotStyle style) {
@@ -83,7 +77,7 @@ std::vector<PlotPoint>& series_of(Plot& plot, const std::string& name, PlotStyle
     return found->points;
 }
 
-PlotFiles write_plot(const Plot& plot, const fs::path& stem) {
+void write_plot(const Plot& plot, const fs::path& stem) {
     const Plot ready = drawable(plot);
     if (ready.series.empty()) {
         throw Error(fmt::format("plot '{}': no point to draw in {} series", stem.string(),
@@ -95,14 +89,9 @@ PlotFiles write_plot(const Plot& plot, const fs::path& stem) {
     write_atomically(work.path() / (name + ".dat"), plot_data(ready));
     write_atomically(work.path() / (name + ".gnuplot"), plot_script(ready, name));
     run_gnuplot(work.path(), name + ".gnuplot", stem);
-    PlotFiles out{.script = with_extension(stem, ".gnuplot"),
-                  .data = with_extension(stem, ".dat"),
-                  .png = with_extension(stem, ".png"),
-                  .svg = with_extension(stem, ".svg")};
-    for (const fs::path& file : {out.script, out.data, out.png, out.svg}) {
-        move_into_place(work.path() / file.filename(), file);
+    for (const char* extension : {".gnuplot", ".dat", ".png", ".svg"}) {
+        move_into_place(work.path() / (name + extension), parent / (name + extension));
     }
-    return out;
 }
 
 }  // namespace kilolux

@@ -35,24 +35,23 @@ struct Plot {
     bool pareto_front = false;  // draws the Pareto set of all points, x as cost and y as error
 };
 
+/// A plot and its files' name without an extension.
+struct NamedPlot {
+    std::string stem;
+    Plot plot;
+};
+
 /// The points of the plot's series of that name, which is added if it is new.
 std::vector<PlotPoint>& series_of(Plot& plot, const std::string& name,
                                   PlotStyle style = PlotStyle::lines_and_points);
 
-/// Files of a written plot.
-struct PlotFiles {
-    std::filesystem::path script;  // STEM.gnuplot, draws the pictures again from the data
-    std::filesystem::path data;    // STEM.dat
-    std::filesystem::path png;     // STEM.png
-    std::filesystem::path svg;     // STEM.svg
-};
-
-/// Writes a plot's data and gnuplot script and runs gnuplot, without a shell.
+/// Writes STEM.dat and STEM.gnuplot, which draws the pictures again from the data, and runs
+/// gnuplot, without a shell, which makes STEM.png and STEM.svg.
 ///
 /// `stem`: path without an extension, in a folder that exists. Points that are not finite, or not
 /// above 0 on a logarithmic axis, are left out. The four files appear together or not at all.
 /// Throws Error when no point is left, when a file cannot be written, when gnuplot is missing
 /// (package gnuplot-nox) or fails, with its message.
-PlotFiles write_plot(const Plot& plot, const std::filesystem::path& stem);
+void write_plot(const Plot& plot, const std::filesystem::path& stem);
 
 }  // namespace kilolux

@@ -9,12 +9,6 @@
 
 namespace kilolux {
 
-/// A plot with the stem of its files.
-struct NamedPlot {
-    std::string stem;
-    Plot plot;
-};
-
 /// Frame and shading time against lights, grid, work-group height, lanes and pixels, and the
 /// speed-up over deferred-all against lights where that was measured. An axis with one value makes
 /// no plot; what else varies becomes curves.

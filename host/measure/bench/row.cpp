@@ -86,12 +86,6 @@ constexpr CsvColumn kColumns[] = {
 };
 constexpr std::size_t kShadowColumns = 2;
 
-std::vector<std::string> columns() {
-    std::vector<std::string> names;
-    for (const CsvColumn& column : kColumns) names.emplace_back(column.name);
-    return names;
-}
-
 BenchRow row_of(const std::vector<std::string>& fields) {
     BenchRow row;
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -120,13 +114,9 @@ bool BenchRow::beats_limit() const {
 }
 
 Table bench_table(const std::vector<BenchRow>& rows) {
-    Table table;
-    table.columns = columns();
-    for (const BenchRow& row : rows) {
-        std::vector<Cell>& cells = table.rows.emplace_back();
-        for (const CsvColumn& column : kColumns) cells.push_back(column.cell(row));
-    }
-    return table;
+    std::vector<Column<BenchRow>> columns;
+    for (const CsvColumn& column : kColumns) columns.push_back({column.name, column.cell});
+    return make_table(columns, rows);
 }
 
 Table bench_summary(const std::vector<BenchRow>& rows) {
@@ -174,7 +164,7 @@ std::string bench_legend(const std::vector<BenchRow>& rows) {
 }
 
 bool is_bench_table(const TextTable& csv) {
-    std::vector<std::string> all = columns();
+    std::vector<std::string> all = bench_table({}).columns;
     if (csv.columns == all) return true;
     all.resize(all.size() - kShadowColumns);
     return csv.columns == all;

@@ -10,6 +10,7 @@
 #include "host/measure/bench/sweep.h"
 #include "host/measure/bench/table.h"
 #include "host/measure/metrics/statistics.h"
+#include "host/measure/roofline/stage_report.h"
 
 namespace kilolux {
 
@@ -22,33 +23,22 @@ struct PictureError {
 };
 
 /// One stage of one point of a sweep, the time outside of the stages, or the whole frame.
-struct BenchRow {
+struct BenchRow : StageEffort {
     SweepPoint point;
     std::string stage;  // a stage of FrameStats, kOtherStage or kFrameStage
     Statistics ms;
-    double limit_ms = 0.0;     // by the device's measured limits; 0: no model
-    std::string bound;         // what limits it; empty: no model
-    double evaluations = 0.0;  // see StageReport
-    double shafts = 0.0;       // likewise
-    double saved_rays = 0.0;
-    double bytes = 0.0;
     double k = 0.0;         // lights evaluated a drawn pixel
     double useful_k = 0.0;  // k*: of those in range
     PictureError error;
 
-    double ratio() const { return ms.median > 0.0 ? limit_ms / ms.median : 0.0; }
-    double giga_evaluations_per_s() const { return giga_rate(evaluations); }
-    double gigabytes_per_s() const { return giga_rate(bytes); }
+    double ratio() const { return ratio_of(limit_ms, ms.median); }
+    double giga_evaluations_per_s() const { return ratio_of(1e-6 * evaluations, ms.median); }
+    double gigabytes_per_s() const { return ratio_of(1e-6 * bytes, ms.median); }
     double useful_share() const { return k > 0.0 ? useful_k / k : 1.0; }
 
     /// Whether the stage was faster than its limit by more than the noise: the limit or the model
     /// is wrong. False for fewer than 10 frames, as their noise is unknown.
     bool beats_limit() const;
-
- private:
-    double giga_rate(double amount) const {
-        return ms.median > 0.0 ? 1e-6 * amount / ms.median : 0.0;
-    }
 };
 
 /// The stage name of the row that ends every point: the frame as the host's clock sees it.

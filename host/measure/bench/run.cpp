@@ -2,13 +2,11 @@
 #include "host/measure/bench/run.h"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include "host/measure/metrics/metrics.h"
-#include "host/measure/roofline/stage_report.h"
 
 namespace kilolux {
 namespace {
@@ -23,12 +21,7 @@ BenchRow stage_row(BenchRow row, const StageReport& report, const std::vector<Fr
     }
     row.stage = report.stage;
     row.ms = statistics(times_ms);
-    row.limit_ms = report.limit_ms;
-    row.bound = report.bound;
-    row.bytes = report.bytes;
-    row.evaluations = report.evaluations;
-    row.shafts = report.shafts;
-    row.saved_rays = report.saved_rays;
+    static_cast<StageEffort&>(row) = report;
     return row;
 }
 
@@ -122,19 +115,19 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
 
 std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<FrameStats> frames,
                                         const FrameSetup& setup) {
-    const Coverage& covered = coverage(point);
+    const FrameStats& covered = coverage(point);
     FrameStats stats = frames.back();
     const auto local = static_cast<double>(stats.lights_used - stats.directional_lights);
     if (stats.drawn_pixels == 0) stats.drawn_pixels = covered.drawn_pixels;
     if (point.renderer == RendererKind::deferred_all) stats.evaluations_per_pixel = local;
-    stats.useful_evaluations_per_pixel = covered.useful_k;
+    stats.useful_evaluations_per_pixel = covered.useful_evaluations_per_pixel;
     stats.shadows = covered.shadows;
     stats.seen_triangles = covered.seen_triangles;
     stats.texels = covered.texels;
     BenchRow row;
     row.point = point;
     row.k = stats.evaluations_per_pixel;
-    row.useful_k = covered.useful_k;
+    row.useful_k = covered.useful_evaluations_per_pixel;
     row.error = error_of(point);
     std::vector<BenchRow> rows;
     for (const StageReport& report : stage_reports(stats, limits(), setup)) {
@@ -188,15 +181,13 @@ Frame BenchRun::render(const RenderSettings& settings) {
     return frame;
 }
 
-const BenchRun::Coverage& BenchRun::coverage(const SweepPoint& point) {
+const FrameStats& BenchRun::coverage(const SweepPoint& point) {
     const auto [found, is_new] = coverages_.try_emplace(key_of(point));
     if (!is_new) return found->second;
     RenderSettings settings = settings_at(base_, point);
     settings.renderer = RendererKind::deferred;
     settings.want.counts = settings.want.shadow_counts = true;
-    const FrameStats stats = render(settings).stats;
-    found->second = {stats.useful_evaluations_per_pixel, stats.drawn_pixels, stats.shadows,
-                     stats.seen_triangles, stats.texels};
+    found->second = render(settings).stats;
     return found->second;
 }
 

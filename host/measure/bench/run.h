@@ -65,13 +65,6 @@ class BenchRun {
     const DeviceLimits& limits() const { return watch_.limits(); }
 
  private:
-    // What does not depend on the renderer.
-    struct Coverage {
-        double useful_k = 0.0;
-        std::uint64_t drawn_pixels = 0;
-        ShadowCounts shadows{};
-        std::uint64_t seen_triangles = 0, texels = 0;
-    };
     using SceneKey = std::tuple<std::array<int, 2>, std::uint64_t, uint>;
 
     Camera camera_at(BenchMotion motion, int i) const;
@@ -79,7 +72,7 @@ class BenchRun {
     static SceneKey key_of(const SweepPoint& point);
     SweepPoint error_point(SweepPoint point) const;
     Frame render(const RenderSettings& settings);
-    const Coverage& coverage(const SweepPoint& point);
+    const FrameStats& coverage(const SweepPoint& point);
     const RgbImage& reference(const SweepPoint& point);
     PictureError error_of(const SweepPoint& point);
     std::vector<BenchRow> rows_of(const SweepPoint& point, std::vector<FrameStats> frames,
@@ -94,7 +87,7 @@ class BenchRun {
     std::function<void()> on_frame_ = [] {};
     std::vector<std::pair<SweepPoint, double>> frame_ms_;
     std::array<std::uint32_t, 3> grid_{};
-    std::map<SceneKey, Coverage> coverages_;
+    std::map<SceneKey, FrameStats> coverages_;  // for counts that no renderer changes
     std::map<SceneKey, RgbImage> references_;
 };
 

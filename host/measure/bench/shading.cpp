@@ -13,14 +13,10 @@
 #include "host/render/kernel_choice.h"
 #include "host/scene/camera.h"
 #include "host/stages/shade.h"
-#include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
 namespace {
 
-// By SHADING_*.
-constexpr const char* kShadingModels[] = {"lambert", "blinn-phong", "pbr"};
-static_assert(SHADING_LAMBERT == 0 && SHADING_BLINN_PHONG == 1 && SHADING_PBR == 2);
 constexpr float kNearest = 2.0f, kFarthest = 20.0f;  // of the pixels [m]
 constexpr float kRange = 100.0f;                     // of the lights [m]
 
@@ -92,14 +88,14 @@ std::vector<Variant> make_variants(const Gpu& gpu, const RenderSettings& setting
     const DeviceInfo device = describe(gpu.device);
     const Tuning tuning = choose_tuning(device, settings.kernels).tuning;
     std::vector<Variant> variants;
-    for (int model = 0; model < static_cast<int>(std::size(kShadingModels)); ++model) {
+    for (int model = 0; model < static_cast<int>(std::size(kShadingNames)); ++model) {
         for (const int lanes : lane_widths(device)) {
             KernelFeatures features;
             features.shading = model;
             ShadeAll shade(gpu.with_lanes(lanes), tuning, features);
             shade.set_ambient(settings.ambient);
             ShadingMeasurement measurement;
-            measurement.model = kShadingModels[model];
+            measurement.model = kShadingNames[model];
             measurement.lanes = lanes;
             variants.push_back({measurement, features, std::move(shade), {}});
         }
@@ -141,13 +137,11 @@ void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) 
     m.instruction_ms = 1e3 * work.instructions.total / (0.5 * limits.fma_flops);
 }
 
-double ratio(double a, double b) { return b > 0.0 ? a / b : 0.0; }
-
 }  // namespace
 
 int shading_variants(const RenderSettings& settings) {
     const DeviceInfo device = describe(choose_device(settings.device));
-    return static_cast<int>(std::size(kShadingModels) * lane_widths(device).size());
+    return static_cast<int>(std::size(kShadingNames) * lane_widths(device).size());
 }
 
 std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, DeviceLimits limits,
@@ -164,7 +158,7 @@ std::vector<ShadingMeasurement> measure_shading(const RenderSettings& settings, 
             ShadingMeasurement& m = variant.measurement;
             set_limits(variant, gbuffer.view, limits);
             if (m.lanes == 1) one_lane_ms = m.ms.min;
-            m.speed_up = ratio(one_lane_ms, m.ms.min);
+            m.speed_up = ratio_of(one_lane_ms, m.ms.min);
             out.push_back(m);
         }
         return out;
@@ -180,11 +174,11 @@ Table shading_table(const std::vector<ShadingMeasurement>& measurements) {
          {"median [ms]", [](const M& m) { return m.ms.median; }},
          {"least [ms]", [](const M& m) { return m.ms.min; }},
          {"limit [ms]", &M::limit_ms},
-         {"ratio", [](const M& m) { return ratio(m.limit_ms, m.ms.min); }},
+         {"ratio", [](const M& m) { return ratio_of(m.limit_ms, m.ms.min); }},
          {"bound", &M::bound},
-         {"instruction ratio", [](const M& m) { return ratio(m.instruction_ms, m.ms.min); }},
-         {"Geval/s", [](const M& m) { return ratio(1e-6 * m.evaluations, m.ms.min); }},
-         {"GB/s", [](const M& m) { return ratio(1e-6 * m.bytes, m.ms.min); }},
+         {"instruction ratio", [](const M& m) { return ratio_of(m.instruction_ms, m.ms.min); }},
+         {"Geval/s", [](const M& m) { return ratio_of(1e-6 * m.evaluations, m.ms.min); }},
+         {"GB/s", [](const M& m) { return ratio_of(1e-6 * m.bytes, m.ms.min); }},
          {"times one lane", &M::speed_up}},
         measurements);
 }

@@ -84,8 +84,7 @@ struct Search {
 
     bool was_tried(const StoredTuning& tuning) const {
         return tuning == result.start ||
-               std::any_of(result.trials.begin(), result.trials.end(),
-                           [&](const TuningTrial& t) { return t.tuning == tuning; });
+               std::ranges::count(result.trials, tuning, &TuningTrial::tuning) > 0;
     }
 
     bool beats(double ms) const { return ms < (1.0 - kTuningGain) * result.best_ms; }
@@ -138,6 +137,16 @@ TuningResult descend(const StoredTuning& start, const DeviceInfo& device,
     return std::move(search.result);
 }
 
+// Measures the request's frame with other tunings.
+MeasureTuning frames_of(LightingBench& bench, LightingRequest request, const OnTrial& on_trial) {
+    return [&bench, request, &on_trial](const StoredTuning& tuning) mutable {
+        request.tuning = tuning;
+        const LightingRun run = bench.run(request);
+        if (on_trial) on_trial(tuning, run.ms);
+        return TuningMeasurement{run.ms, run.picture};
+    };
+}
+
 // Where OpenGL cannot draw, its time is infinite.
 double ids_ms(LightingBench& bench, LightingRequest request) {
     request.drawn_by = Geometry::ids;
@@ -154,42 +163,28 @@ double ids_ms(LightingBench& bench, LightingRequest request) {
 
 }  // namespace
 
-bool TuningResult::same_pictures() const {
-    return std::all_of(trials.begin(), trials.end(),
-                       [](const TuningTrial& t) { return t.same_picture; });
-}
-
 TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
                   const MeasureTuning& measure) {
     return descend(start, device, dimensions_of(device), measure);
 }
 
-TuningResult tune(LightingBench& bench, int runs,
-                  const std::function<void(const StoredTuning&, double ms)>& on_trial) {
+TuningResult tune(LightingBench& bench, int runs, const OnTrial& on_trial) {
     LightingRequest request = bench.request();
     request.runs = runs;
-    return tune(built_in_tuning(bench.device()), bench.device(), [&](const StoredTuning& tuning) {
-        request.tuning = tuning;
-        const LightingRun run = bench.run(request);
-        if (on_trial) on_trial(tuning, run.ms);
-        return TuningMeasurement{run.ms, run.picture};
-    });
+    return tune(built_in_tuning(bench.device()), bench.device(),
+                frames_of(bench, request, on_trial));
 }
 
 GeometryTuning tune_geometry(LightingBench& bench, const StoredTuning& start, int runs,
-                             const std::function<void(const StoredTuning&, double ms)>& on_trial) {
+                             const OnTrial& on_trial) {
     LightingRequest request = bench.request();
     request.runs = runs;
     request.geometry = true;
     request.drawn_by = Geometry::compute;
     const DeviceInfo& device = bench.device();
     GeometryTuning out;
-    out.raster = descend(start, device, raster_dimensions_of(device), [&](const StoredTuning& t) {
-        request.tuning = t;
-        const LightingRun run = bench.run(request);
-        if (on_trial) on_trial(t, run.ms);
-        return TuningMeasurement{run.ms, run.picture};
-    });
+    out.raster =
+        descend(start, device, raster_dimensions_of(device), frames_of(bench, request, on_trial));
     request.tuning = out.raster.best;
     out.ids_ms = ids_ms(bench, request);
     out.raster.best.tuning.geometry = out.raster.best_ms < (1.0 - kTuningGain) * out.ids_ms ? 1 : 0;

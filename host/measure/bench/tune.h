@@ -37,9 +37,6 @@ struct TuningResult {
     double start_ms = 0.0;
     double best_ms = 0.0;
     std::vector<TuningTrial> trials;  // in the order of measurement, without the start
-
-    /// True if every alternative that ran gave the start's picture, bit for bit.
-    bool same_pictures() const;
 };
 
 /// An improvement of less than this share of the time is noise.
@@ -51,10 +48,11 @@ inline constexpr double kTuningGain = kCostResolution;
 TuningResult tune(const StoredTuning& start, const DeviceInfo& device,
                   const MeasureTuning& measure);
 
-/// The same on a bench's frame from the built-in table, each time the least of `runs`. `on_trial`
-/// is called after every measurement and may throw to stop.
-TuningResult tune(LightingBench& bench, int runs,
-                  const std::function<void(const StoredTuning&, double ms)>& on_trial = {});
+/// Called after every measurement; it may throw to stop.
+using OnTrial = std::function<void(const StoredTuning&, double ms)>;
+
+/// The same on a bench's frame from the built-in table, each time the least of `runs`.
+TuningResult tune(LightingBench& bench, int runs, const OnTrial& on_trial = {});
 
 /// How triangles are drawn best in OpenCL, and what OpenGL takes instead.
 struct GeometryTuning {
@@ -64,8 +62,7 @@ struct GeometryTuning {
 };
 
 /// Times whole frames, surfaces included, of a scene without surfaces that blend.
-GeometryTuning tune_geometry(
-    LightingBench& bench, const StoredTuning& start, int runs,
-    const std::function<void(const StoredTuning&, double ms)>& on_trial = {});
+GeometryTuning tune_geometry(LightingBench& bench, const StoredTuning& start, int runs,
+                             const OnTrial& on_trial = {});
 
 }  // namespace kilolux

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "host/base/error.h"
-#include "host/measure/roofline/stage_report.h"
+#include "host/measure/metrics/statistics.h"
 
 namespace kilolux {
 namespace {
@@ -28,15 +28,10 @@ void set_report(VisibilityMeasurement& out, const LightingRun& run, const Lighti
                 const LightingBench& bench, const DeviceLimits& limits) {
     const FrameSetup setup = frame_setup(bench.settings(), request.plan, bench.device());
     for (const StageReport& report : stage_reports(run.stats, limits, setup)) {
-        if (report.stage != kVisibilityStage) continue;
-        out.limit_ms = report.limit_ms;
-        out.bound = report.bound;
-        out.saved_rays = report.saved_rays;
+        if (report.stage == kVisibilityStage) static_cast<StageEffort&>(out) = report;
     }
     out.counts = run.stats.shadows;
 }
-
-double quotient(double a, double b) { return b > 0.0 ? a / b : 0.0; }
 
 }  // namespace
 
@@ -65,7 +60,7 @@ std::vector<VisibilityMeasurement> measure_visibility(LightingBench& bench,
             on_run();
         }
     }
-    out[1].times = quotient(out[1].ms, out[0].ms);
+    out[1].times = ratio_of(out[1].ms, out[0].ms);
     return out;
 }
 
@@ -73,7 +68,7 @@ Table visibility_table(const std::vector<VisibilityMeasurement>& measurements) {
     using M = VisibilityMeasurement;
     const auto each_ray = [](std::uint64_t ShadowCounts::*count) {
         return [count](const M& m) {
-            return quotient(static_cast<double>(m.counts.*count),
+            return ratio_of(static_cast<double>(m.counts.*count),
                             static_cast<double>(m.counts.rays));
         };
     };
@@ -82,7 +77,7 @@ Table visibility_table(const std::vector<VisibilityMeasurement>& measurements) {
          {"least [ms]", &M::ms},
          {"times shafts", &M::times},
          {"limit [ms]", &M::limit_ms},
-         {"ratio", [](const M& m) { return quotient(m.limit_ms, m.ms); }},
+         {"ratio", [](const M& m) { return ratio_of(m.limit_ms, m.ms); }},
          {"bound", &M::bound},
          {"rays", [](const M& m) { return m.counts.rays; }},
          {"rays saved", &M::saved_rays},
@@ -92,7 +87,7 @@ Table visibility_table(const std::vector<VisibilityMeasurement>& measurements) {
          {"triangles a ray", each_ray(&ShadowCounts::triangles)},
          {"tests a ray", each_ray(&ShadowCounts::points)},
          {"Grays/s",
-          [](const M& m) { return quotient(1e-6 * static_cast<double>(m.counts.rays), m.ms); }}},
+          [](const M& m) { return ratio_of(1e-6 * static_cast<double>(m.counts.rays), m.ms); }}},
         measurements);
 }
 

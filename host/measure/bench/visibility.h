@@ -7,18 +7,15 @@
 
 #include "host/measure/bench/lighting_bench.h"
 #include "host/measure/bench/table.h"
-#include "host/measure/roofline/device_limits.h"
+#include "host/measure/roofline/stage_report.h"
 
 namespace kilolux {
 
 /// One way to find out which pixels see which lights of their lists: cast_shadows alone.
-struct VisibilityMeasurement {
-    std::string walks;        // "shafts", or "bundles of 16 rays"
-    double ms = 0.0;          // least
-    double times = 1.0;       // of the time of shafts
-    double limit_ms = 0.0;    // of its work at the device's rates
-    std::string bound;        // what limits it
-    double saved_rays = 0.0;  // pairs of a pixel and a listed light that need none
+struct VisibilityMeasurement : StageEffort {
+    std::string walks;   // "shafts", or "bundles of 16 rays"
+    double ms = 0.0;     // least
+    double times = 1.0;  // of the time of shafts
     ShadowCounts counts{};
 };
 

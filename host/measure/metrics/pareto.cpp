@@ -20,35 +20,25 @@ bool beats(const CostAndError& p, const CostAndError& q, double cost, double err
     return less(p.cost, q.cost, cost) || less(p.error, q.error, error);
 }
 
-// Indices of the points that no other beats. `cost(i, j)`: the resolution of two points' costs.
-template <class Cost>
-std::vector<std::size_t> unbeaten(std::span<const CostAndError> points, const Cost& cost,
-                                  double error) {
+}  // namespace
+
+std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
+                                    std::span<const double> noises) {
+    const auto is_beaten_by = [&](std::size_t i, std::size_t j) {
+        if (noises.empty()) return beats(points[j], points[i], 0.0, 0.0);
+        const double cost = std::max(kCostResolution, noises[i] + noises[j]);
+        return beats(points[j], points[i], cost, kErrorResolution);
+    };
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < points.size(); ++i) {
         bool beaten = !measured(points[i]);
         for (std::size_t j = 0; j < points.size() && !beaten; ++j) {
-            beaten = measured(points[j]) && beats(points[j], points[i], cost(i, j), error);
+            beaten = measured(points[j]) && is_beaten_by(i, j);
         }
         if (!beaten) out.push_back(i);
     }
     std::ranges::stable_sort(out, {}, [&](std::size_t i) { return points[i].cost; });
     return out;
-}
-
-}  // namespace
-
-std::vector<std::size_t> pareto_set(std::span<const CostAndError> points) {
-    return unbeaten(
-        points, [](std::size_t, std::size_t) { return 0.0; }, 0.0);
-}
-
-std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
-                                    std::span<const double> noises) {
-    const auto cost = [&](std::size_t i, std::size_t j) {
-        return std::max(kCostResolution, noises[i] + noises[j]);
-    };
-    return unbeaten(points, cost, kErrorResolution);
 }
 
 }  // namespace kilolux

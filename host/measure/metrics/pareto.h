@@ -17,15 +17,13 @@ struct CostAndError {
 ///
 /// Ascending by cost, then by index. Of equal points all are in the set or none; points with a NaN
 /// are not.
-std::vector<std::size_t> pareto_set(std::span<const CostAndError> points);
-
-/// The same for measured costs: differences below the resolution count as equal.
 ///
-/// The resolution of costs is kCostResolution or the sum of the two points' `noises` (relative, one
-/// per point), whichever is larger; that of errors is kErrorResolution. Of two settings that take
-/// the same time, the more exact one is in the set.
+/// `noises`: of measured costs (relative, one per point); none: exact ones. Differences below the
+/// resolution count as equal: of costs kCostResolution or the sum of the two points' noises,
+/// whichever is larger, of errors kErrorResolution. Of two settings that take the same time, the
+/// more exact one is in the set.
 std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
-                                    std::span<const double> noises);
+                                    std::span<const double> noises = {});
 
 inline constexpr double kCostResolution = 0.03;   // relative; bench --tune's, too
 inline constexpr double kErrorResolution = 0.06;  // relative: 0.5 dB of PSNR

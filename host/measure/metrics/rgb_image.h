@@ -20,8 +20,9 @@ struct RgbImage {
 };
 
 /// Luminance of linear Rec. 709 light (ITU-R BT.709-6, item 3.2).
-inline double luminance(const double* rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+template <typename Value>
+double luminance(const Value* rgb) {
+    return 0.2126 * double{rgb[0]} + 0.7152 * double{rgb[1]} + 0.0722 * double{rgb[2]};
 }
 
 /// A black picture.

@@ -29,13 +29,12 @@ SurfaceSamples surface_samples(const DecodedSurfaces& decoded) {
     const View& view = decoded.view;
     SurfaceSamples out =
         make_surface_samples(static_cast<int>(view.width), static_cast<int>(view.height));
-    const std::size_t plane = std::size_t{view.stride} * view.height;
     for (std::size_t y = 0; y < view.height; ++y) {
         for (std::size_t x = 0; x < view.width; ++x) {
             const std::size_t pixel = y * view.stride + x;
-            out.pixels[y * view.width + x] = surface_sample(
-                [&](std::size_t i) { return double{decoded.planes[i * plane + pixel]}; },
-                decoded.specular, decoded.unlit);
+            out.pixels[y * view.width + x] =
+                surface_sample([&](std::size_t plane) { return double{decoded.at(plane, pixel)}; },
+                               decoded.specular, decoded.unlit);
         }
     }
     return out;

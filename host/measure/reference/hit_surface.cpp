@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/reference/hit_surface.h"
 
-#include <algorithm>
+#include <functional>
 
 namespace kilolux {
 namespace {
@@ -24,15 +24,15 @@ glm::dvec3 corner_normal(const BvhTriangle& triangle) {
     return glm::cross(b - a, c - a);
 }
 
-// A vertex attribute at the hit; `weights` may also be their derivatives.
-template <class Result, class Attribute>
+// A vertex attribute at the hit, mapped at the corners; `weights` may also be their derivatives.
+template <class Result, class Attribute, class Map = std::identity>
 Result interpolated(const SurfaceHit& hit, const std::vector<Attribute>& values,
-                    const std::array<double, 3>& weights) {
+                    const std::array<double, 3>& weights, const Map& map = {}) {
     const Mesh& mesh = mesh_of(hit);
     const std::size_t first = 3 * static_cast<std::size_t>(hit.triangle.triangle);
     Result sum(0.0);
     for (std::size_t i = 0; i < 3; ++i) {
-        sum += weights[i] * Result(values[mesh.indices[first + i]]);
+        sum += weights[i] * Result(map(values[mesh.indices[first + i]]));
     }
     return sum;
 }
@@ -92,14 +92,9 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
 template <class Attribute>
 glm::dvec3 interpolated_direction(const SurfaceHit& hit, const std::vector<Attribute>& values,
                                   const glm::dmat3& world_from_object) {
-    const Mesh& mesh = mesh_of(hit);
-    const std::size_t first = 3 * static_cast<std::size_t>(hit.triangle.triangle);
-    glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3 object(values[mesh.indices[first + i]]);
-        sum += hit.hit.weights[i] * unit_or_zero(world_from_object * object);
-    }
-    return sum;
+    return interpolated<glm::dvec3>(hit, values, hit.hit.weights, [&](const Attribute& object) {
+        return unit_or_zero(world_from_object * glm::dvec3(object));
+    });
 }
 
 // The cofactor matrix is the inverse transpose without the division by the determinant, so it also

@@ -9,7 +9,6 @@
 
 #include "host/measure/metrics/compensated_sum.h"
 #include "host/measure/reference/reference_brdf.h"
-#include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {
 namespace {
@@ -74,32 +73,13 @@ glm::dvec3 direction_to_eye(const glm::dvec3& position, bool orthographic) {
     return -position / distance;
 }
 
-// Which lights a pixel sees.
-class Visibility {
- public:
-    Visibility(const SurfaceSample& surface, const ShadowCaster* shadows) : shadows_(shadows) {
-        if (shadows != nullptr) point_ = shadows->point_at(surface.position);
-    }
-    bool sees(const ReferenceLight& light) const {
-        return !point_ || shadows_->sees(*point_, light.position);
-    }
-    bool sees(const ReferenceDirectionalLight& light) const {
-        return !point_ || shadows_->sees_direction(*point_, light.to_light);
-    }
-
- private:
-    const ShadowCaster* shadows_;
-    std::optional<ShadowPoint> point_;
-};
-
 // Adds light that arrives with `irradiance` on a surface that faces it and sees it.
-template <typename Light>
+template <typename Sees>
 void add_incident(Pixel& pixel, const SurfaceSample& surface, const glm::dvec3& to_light,
-                  const glm::dvec3& irradiance, const ReferenceOptions& options,
-                  const Visibility& visibility, const Light& light) {
+                  const glm::dvec3& irradiance, const ReferenceOptions& options, const Sees& sees) {
     pixel.scale.add(glm::abs(irradiance));
     const double n_dot_l = glm::dot(surface.normal, to_light);
-    if (!(n_dot_l > 0.0) || !visibility.sees(light)) return;
+    if (!(n_dot_l > 0.0) || !sees()) return;
     const glm::dvec3 to_eye = direction_to_eye(surface.position, options.orthographic);
     const glm::dvec3 brdf = reference_brdf(surface, to_eye, to_light, options.shading);
     pixel.radiance.add(brdf * irradiance * n_dot_l);
@@ -111,9 +91,12 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
     pixel.radiance.add(surface.emissive);
     if (surface.kind != SurfaceKind::lit) return pixel;
     pixel.radiance.add(options.ambient * surface.occlusion * surface.albedo);
-    const Visibility visibility(surface, options.shadows);
+    std::optional<ShadowPoint> point;  // none: it sees every light
+    if (options.shadows != nullptr) point = options.shadows->point_at(surface.position);
     for (const ReferenceDirectionalLight& light : lights.directional) {
-        add_incident(pixel, surface, light.to_light, light.illuminance, options, visibility, light);
+        add_incident(pixel, surface, light.to_light, light.illuminance, options, [&] {
+            return !point || options.shadows->sees_direction(*point, light.to_light);
+        });
     }
     for (const ReferenceLight& light : lights.lights) {
         const Incidence in = incidence(light, surface.position, options);
@@ -121,7 +104,7 @@ Pixel shade(const SurfaceSample& surface, const ReferenceLights& lights,
         ++pixel.lights;
         pixel.reaching += in.reaches;
         add_incident(pixel, surface, in.to_light, light.intensity * in.attenuation, options,
-                     visibility, light);
+                     [&] { return !point || options.shadows->sees(*point, light.position); });
     }
     return pixel;
 }
@@ -131,14 +114,6 @@ void store(RgbImage& image, std::size_t i, const glm::dvec3& value) {
 }
 
 }  // namespace
-
-Shading shading_of(const KernelFeatures& kernels) {
-    // Shading has `automatic` before the models.
-    static_assert(static_cast<int>(Shading::lambert) == SHADING_LAMBERT + 1 &&
-                  static_cast<int>(Shading::blinn_phong) == SHADING_BLINN_PHONG + 1 &&
-                  static_cast<int>(Shading::pbr) == SHADING_PBR + 1);
-    return static_cast<Shading>(kernels.shading + 1);
-}
 
 ReferencePicture shade_reference(const SurfaceSamples& surfaces, const ReferenceLights& lights,
                                  const ReferenceOptions& options) {

@@ -19,7 +19,9 @@ namespace kilolux {
 inline constexpr double kReachMargin = 1e-5;
 
 /// What the kernels compute, as a setting that is not automatic.
-Shading shading_of(const KernelFeatures& kernels);
+inline Shading shading_of(const KernelFeatures& kernels) {
+    return shading_of_model(kernels.shading);
+}
 
 /// The model of a reference picture.
 struct ReferenceOptions {

@@ -67,11 +67,4 @@ bool ShadowCaster::sees_direction(const ShadowPoint& from, const glm::dvec3& to_
     return is_free(from, length_ * (camera_.world_from_view * to_light), 1.0);
 }
 
-bool ShadowCaster::sees_moved(const ShadowPoint& from, const glm::dvec3& offset,
-                              const glm::dvec3& p_view) const {
-    ShadowPoint moved = from;
-    moved.position += offset;
-    return sees(moved, p_view);
-}
-
 }  // namespace kilolux

@@ -35,10 +35,6 @@ class ShadowCaster {
     /// The same for light from a direction, in view space.
     bool sees_direction(const ShadowPoint& from, const glm::dvec3& to_light) const;
 
-    /// sees() from a point moved by `offset` [m] in the world.
-    bool sees_moved(const ShadowPoint& from, const glm::dvec3& offset,
-                    const glm::dvec3& p_view) const;
-
  private:
     bool is_free(const ShadowPoint& from, const glm::dvec3& way, double end) const;
     bool hides(const Ray& ray, const RayHit& hit) const;

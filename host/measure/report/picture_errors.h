@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "host/measure/metrics/flip.h"
 #include "host/measure/metrics/metrics.h"
 #include "host/measure/reference/reference.h"
 #include "host/picture/frame.h"

@@ -3,8 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "host/measure/reference/decoded_samples.h"
 #include "host/render/light_rows.h"
 #include "host/render/light_source.h"

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "host/measure/metrics/pareto.h"
-#include "host/render/renderer.h"
 
 namespace kilolux {
 namespace {
@@ -35,8 +34,7 @@ std::vector<ReportStage> stages_of(const std::vector<StageTime>& times, double s
 // Relative half width of the notch.
 double noise_of(std::vector<double> times) {
     std::ranges::sort(times);
-    const double median = quantile(times, 0.5);
-    return median > 0.0 ? notch(times) / median : 0.0;
+    return ratio_of(notch(times), quantile(times, 0.5));
 }
 
 double shading_ms(const ReportSpeed& speed) {
@@ -328,8 +326,7 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
     const double scale = timing.scaled ? pixels(row.setting.settings) / pixels(settings) : 1.0;
     const double evaluations =
         scale * row.speed.k * static_cast<double>(found->second.drawn_pixels);
-    const double ms = shading_ms(row.speed);
-    row.speed.evaluations_per_s = ms > 0.0 ? 1e3 * evaluations / ms : 0.0;
+    row.speed.evaluations_per_s = ratio_of(1e3 * evaluations, shading_ms(row.speed));
 }
 
 double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels) {

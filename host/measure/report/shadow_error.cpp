@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kNormalQuantile = 1.959964;  // of the normal distribution: 95 % within
 
-double pixel_luminance(const float* rgb) {
-    return 0.2126 * static_cast<double>(rgb[0]) + 0.7152 * static_cast<double>(rgb[1]) +
-           0.0722 * static_cast<double>(rgb[2]);
-}
-
 // Whether a picture differs from the exact one by more than what rounds in taking hidden lights
 // away from `whole`, the pixel without shadows: 16 units in its last place.
 bool differs_from(const float* exact, const float* picture, const float* whole) {
@@ -94,29 +89,29 @@ class SampledSums {
         const float* x = &picture.radiance[3 * i];
         const float* r = &of_.exact.radiance[3 * i];
         const double told = std::pow(double{picture.aovs[0].values[i]}, 2.0);
-        const double off = pixel_luminance(x) - pixel_luminance(r);
+        const double off = luminance(x) - luminance(r);
         ++added_;
         for (int c = 0; c < 3; ++c) squares_ += std::pow(double{x[c]} - double{r[c]}, 2.0);
         result_.variance += off * off;
         result_.told_variance += told;
-        half.sum[i] += pixel_luminance(x);
+        half.sum[i] += luminance(x);
         half.told[i] += told;
         noisy_[i].differs =
             noisy_[i].differs || told > 0.0 || differs_from(r, x, &of_.whole.radiance[3 * i]);
-        noisy_[i].within += is_within(pixel_luminance(x), told, pixel_luminance(r)) ? 1 : 0;
+        noisy_[i].within += is_within(luminance(x), told, luminance(r)) ? 1 : 0;
     }
 
     // Each takes the luminance without shadows over the rays away and adds its square, times what
     // its probability lacks of 1, to the variance: kernels/device/shadow_draw.h.
     double hidden_draws(const HalfOfPictures& half, std::size_t i) const {
-        const double each = pixel_luminance(&of_.whole.radiance[3 * i]) / result_.rays;
+        const double each = luminance(&of_.whole.radiance[3 * i]) / result_.rays;
         return each > 0.0 ? half.told[i] / (each * each) : 0.0;
     }
 
     bool is_mean_within(const HalfOfPictures& half, std::size_t i) const {
         const double n = half.seeds;
         return is_within(half.sum[i] / n, half.told[i] / (n * n),
-                         pixel_luminance(&of_.exact.radiance[3 * i]));
+                         luminance(&of_.exact.radiance[3 * i]));
     }
 
     const TruePictures& of_;

@@ -306,8 +306,8 @@ std::string report_notes(const std::vector<Row>& rows) {
         has_sampled(rows) ? "exact RMSE, in 95 %: of sampled shadows, see below.\n" : "");
 }
 
-std::vector<ReportPlot> report_plots(const std::vector<Row>& rows, const std::string& caption) {
-    std::vector<ReportPlot> out;
+std::vector<NamedPlot> report_plots(const std::vector<Row>& rows, const std::string& caption) {
+    std::vector<NamedPlot> out;
     for (const PlotKind& kind : kPlots) {
         Plot plot = error_plot(rows, caption, kind.error);
         if (plot.series.empty()) continue;

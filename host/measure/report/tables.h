@@ -23,17 +23,10 @@ Table cut_off_table(const std::vector<ReportRow>& rows);
 /// Explains the summary's columns and says at which sizes they were measured; some lines.
 std::string report_notes(const std::vector<ReportRow>& rows);
 
-/// A plot and its file's name without an extension.
-struct ReportPlot {
-    std::string stem;
-    Plot plot;
-};
-
 /// Frame time against RMSE, with the Pareto front: against R2 for the settings that keep the
 /// lights' ranges; against R3 for the cut-offs. Where rows have them, also against the bounds and
 /// the standard errors that their pictures tell, and against the cut-off. `caption`: what was
 /// measured.
-std::vector<ReportPlot> report_plots(const std::vector<ReportRow>& rows,
-                                     const std::string& caption);
+std::vector<NamedPlot> report_plots(const std::vector<ReportRow>& rows, const std::string& caption);
 
 }  // namespace kilolux

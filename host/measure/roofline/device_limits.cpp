@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
@@ -65,6 +64,27 @@ bool raise(double& limit, double measured) {
     return better;
 }
 
+// Raises the arithmetic limits until they converge: no rate rises three times in a row, or three
+// seconds have passed. A single measurement on a busy machine may be too low by a factor of 1.9.
+void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
+    constexpr int kQuietRounds = 3;
+    constexpr std::chrono::seconds kBudget(3);
+    const auto start = std::chrono::steady_clock::now();
+    int quiet = 0;
+    while (quiet < kQuietRounds && std::chrono::steady_clock::now() - start < kBudget) {
+        quiet = raise_arithmetic_limits(limits, kernels) ? 0 : quiet + 1;
+    }
+}
+
+// Warns where the user's cache folder cannot be written.
+void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits) {
+    try {
+        write_device_cache(device, kKind, values_of(limits));
+    } catch (const Error& error) {
+        warn(fmt::format("{}; the device's limits will be measured again", error.what()));
+    }
+}
+
 }  // namespace
 
 std::span<const LimitField> limit_fields() { return kFields; }
@@ -82,16 +102,6 @@ bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
     rose |= raise(limits.divisions_per_s, rate("division_rate", kFmaChains));
     rose |= raise(limits.texels_per_s, kernels.texels_per_s());
     return rose;
-}
-
-void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
-    constexpr int kQuietRounds = 3;
-    constexpr std::chrono::seconds kBudget(3);
-    const auto start = std::chrono::steady_clock::now();
-    int quiet = 0;
-    while (quiet < kQuietRounds && std::chrono::steady_clock::now() - start < kBudget) {
-        quiet = raise_arithmetic_limits(limits, kernels) ? 0 : quiet + 1;
-    }
 }
 
 DeviceLimits measure_device_limits(const Gpu& gpu) {
@@ -135,14 +145,6 @@ DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again) {
     const DeviceLimits limits = measure_device_limits(gpu);
     keep_device_limits(info, limits);
     return limits;
-}
-
-void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits) {
-    try {
-        write_device_cache(device, kKind, values_of(limits));
-    } catch (const Error& error) {
-        warn(fmt::format("{}; the device's limits will be measured again", error.what()));
-    }
 }
 
 LimitWatch::LimitWatch(const cl::Device& device)

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <thread>
 #if defined(__x86_64__)
 #include <immintrin.h>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host/base/gbuffer_layout.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/light.h"
@@ -47,64 +48,56 @@ StageWork move_work(const StageCounts& c) {
 StageWork bin_triangles_work(const StageCounts& c) {
     constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * 3 * sizeof(float);
     constexpr double kBox = 4 * sizeof(uint);
-    StageWork work;
-    work.bytes_read = kTriangle * c.triangles + kBox * c.seen_triangles;
-    work.bytes_written =
-        (sizeof(RasterRow) + kBox) * c.seen_triangles + sizeof(uint) * c.triangle_pairs;
     // Three vertices: differences 6, rows 12, reciprocal 9, pixel 4. Their extremes 12, to whole
     // pixels 12, outside of the view 28, the determinant 17 and its bound 20. One that is set up:
     // three edges of 35 with a division each, the plane 15, to tiles 6. A pair is counted (1) and
     // placed (3).
-    work.instructions = c.triangles * InstructionCounts{182.0} +
-                        c.seen_triangles * InstructionCounts{126.0, 0.0, 0.0, 3.0} +
-                        c.triangle_pairs * InstructionCounts{4.0};
-    work.launches = 3 + kPrefixSumLaunches;
-    return work;
+    return {.bytes_read = kTriangle * c.triangles + kBox * c.seen_triangles,
+            .bytes_written =
+                (sizeof(RasterRow) + kBox) * c.seen_triangles + sizeof(uint) * c.triangle_pairs,
+            .instructions = c.triangles * InstructionCounts{182.0} +
+                            c.seen_triangles * InstructionCounts{126.0, 0.0, 0.0, 3.0} +
+                            c.triangle_pairs * InstructionCounts{4.0},
+            .launches = 3 + kPrefixSumLaunches};
 }
 
 // Every pixel is covered once at least; what lies behind, and alpha's samples, are left out.
 StageWork raster_triangles_work(const StageCounts& c) {
-    StageWork work;
-    work.bytes_read = (sizeof(uint) + sizeof(RasterRow)) * c.triangle_pairs;
-    work.bytes_written = sizeof(uint) * c.pixels;
     // A pixel: edges 3, their least 2, two comparisons, key 3, nearer 1, taken 2, stored 2.
-    work.instructions = c.drawn_pixels * InstructionCounts{15.0};
-    work.launches = 1;
-    return work;
+    return {.bytes_read = (sizeof(uint) + sizeof(RasterRow)) * c.triangle_pairs,
+            .bytes_written = sizeof(uint) * c.pixels,
+            .instructions = c.drawn_pixels * InstructionCounts{15.0},
+            .launches = 1};
 }
 
 // A triangle is set up once, however many pixels show it.
 StageWork resolve_work(const StageCounts& c) {
     constexpr double kVertex = (3 + 3) * sizeof(float);  // further attributes are left out
     constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * kVertex;
-    StageWork work;
-    work.bytes_read = sizeof(uint) * c.pixels + kTriangle * c.seen_triangles;
-    work.bytes_written = c.gbuffer_bytes_per_pixel * c.pixels;
     // Ray 2, weights 22 and a division, depth 2, its buffer value 3 and 2 divisions, normal 6, its
     // unit vector 9 with a root and a division, octahedral 18 and a division, packing 8.
-    work.instructions = c.drawn_pixels * InstructionCounts{70.0, 0.0, 1.0, 5.0};
     // A triangle: differences from the eye 18, rows 27, edges and their sum 4 * 15. A texel's
     // channel is taken out 1, converted 1 and mixed 1.5; two channels. Where texels lie is left
     // out: textures of one size share it.
-    work.instructions = work.instructions + c.seen_triangles * InstructionCounts{105.0} +
-                        c.texels * InstructionCounts{7.0};
-    work.texels = c.texels;
-    work.launches = 1;
-    return work;
+    return {.bytes_read = sizeof(uint) * c.pixels + kTriangle * c.seen_triangles,
+            .bytes_written = c.gbuffer_bytes_per_pixel * c.pixels,
+            .instructions = c.drawn_pixels * InstructionCounts{70.0, 0.0, 1.0, 5.0} +
+                            c.seen_triangles * InstructionCounts{105.0} +
+                            c.texels * InstructionCounts{7.0},
+            .texels = c.texels,
+            .launches = 1};
 }
 
 StageWork prepare_work(const StageCounts& c) {
-    StageWork work;
     const double directional = c.directional_lights * sizeof(DirectionalLight);
-    work.bytes_read = c.lights * sizeof(Light) + directional;
-    work.bytes_written =
-        c.lights * (sizeof(ShadeLight) + kBoundBytes + sizeof(LightExtent)) + directional;
+    constexpr double kPrepared = sizeof(ShadeLight) + kBoundBytes + sizeof(LightExtent);
     // Rotations 18, 1/range^2 2, radius 6, ends in depth 4, pixel intervals 2 * 12, tile intervals
     // 2 * 19, slices 10, behind the camera 2; and 9 divisions.
-    work.instructions = c.lights * InstructionCounts{113.0, 0.0, 0.0, 9.0} +
-                        c.directional_lights * InstructionCounts{9.0};
-    work.launches = (c.lights > 0.0 ? 1 : 0) + (c.directional_lights > 0.0 ? 1 : 0);
-    return work;
+    return {.bytes_read = c.lights * sizeof(Light) + directional,
+            .bytes_written = c.lights * kPrepared + directional,
+            .instructions = c.lights * InstructionCounts{113.0, 0.0, 0.0, 9.0} +
+                            c.directional_lights * InstructionCounts{9.0},
+            .launches = (c.lights > 0.0 ? 1 : 0) + (c.directional_lights > 0.0 ? 1 : 0)};
 }
 
 StageWork build_work(const StageCounts& c) {
@@ -132,16 +125,8 @@ StageWork cull_work(const StageCounts& c) {
 
 // Of a pixel's stored position; 0 where it follows from the depth.
 double position_bytes(uint gbuffer) {
-    switch (gbuffer) {
-        case GBUFFER_FULL:
-            return 12.0;
-        case GBUFFER_HALF:
-            return 6.0;
-        case GBUFFER_OCT_2X4:
-            return 16.0;
-        default:
-            return 0.0;
-    }
+    return 3.0 * plane_element_bytes(gbuffer, PLANE_POSITION_X) +
+           plane_element_bytes(gbuffer, PLANE_ROW_0);
 }
 
 StageWork bin_work(const StageCounts& c) {
@@ -260,29 +245,26 @@ StageWork shade_work(const StageCounts& c) {
 
 StageWork origins_work(const StageCounts& c) {
     constexpr double kOriginBytes = 4 * sizeof(float);
-    StageWork work;
-    work.bytes_read = sizeof(uint) * c.pixels + sizeof(float) * c.drawn_pixels;
-    work.bytes_written = kOriginBytes * c.drawn_pixels;
     // Pixel centre 2, depth 2 and a division, position 3, to shadow space 9, to the eye 3; its side
     // of the plane 5, turned 3, height 6, size 6, move 1, moved 3, kept 6; octahedron 9 and a
     // division, codes 6. Planes of triangles are those of many pixels.
-    work.instructions = c.drawn_pixels * InstructionCounts{66.0, 0.0, 0.0, 2.0};
-    work.launches = 1;
-    return work;
+    return {.bytes_read = sizeof(uint) * c.pixels + sizeof(float) * c.drawn_pixels,
+            .bytes_written = kOriginBytes * c.drawn_pixels,
+            .instructions = c.drawn_pixels * InstructionCounts{66.0, 0.0, 0.0, 2.0},
+            .launches = 1};
 }
 
 // Each light of a pixel's list alone, its luminance, and the comparison with a random number.
 StageWork draw_work(const StageCounts& c) {
     StageCounts lights = c;
     lights.drawn_pixels = 0.0;
-    StageWork work;
-    work.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.drawn_pixels;
-    work.bytes_written = kWordBytes * c.shadow_words;
     // Decoding is left out. Times albedo 3, luminance 3, product 1, comparison 2.
-    work.instructions = shading_instructions(lights) + listed_pairs(c) * InstructionCounts{9.0} +
-                        c.drawn_pixels * c.directional_lights * directional_instructions(c.kernels);
-    work.launches = 2;
-    return work;
+    return {
+        .bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.drawn_pixels,
+        .bytes_written = kWordBytes * c.shadow_words,
+        .instructions = shading_instructions(lights) + listed_pairs(c) * InstructionCounts{9.0} +
+                        c.drawn_pixels * c.directional_lights * directional_instructions(c.kernels),
+        .launches = 2};
 }
 
 // A walk's nodes and triangles come from near caches.
@@ -325,15 +307,13 @@ StageWork background_work(const StageCounts& c) {
 // writes a quarter of it, up reads that quarter and the level and writes the level.
 StageWork bloom_work(const StageCounts& c) {
     constexpr double kLevels = 1.0 + 0.25;
-    StageWork work;
-    work.bytes_read = kLevels * (1.0 + 0.25 + 1.0) * kRadianceBytes * c.pixels;
-    work.bytes_written = kLevels * (0.25 + 1.0) * kRadianceBytes * c.pixels;
     // A channel of a coarse pixel: 4 rows of 4 bounded taps 3 and filter 4, their filter 4; of a
     // fine one: 2 rows 2, wide 2, mix 2.
-    work.instructions =
-        kLevels * 3.0 * c.pixels * (0.25 * InstructionCounts{68.0} + InstructionCounts{8.0});
-    work.launches = 4;
-    return work;
+    const InstructionCounts channel = 0.25 * InstructionCounts{68.0} + InstructionCounts{8.0};
+    return {.bytes_read = kLevels * (1.0 + 0.25 + 1.0) * kRadianceBytes * c.pixels,
+            .bytes_written = kLevels * (0.25 + 1.0) * kRadianceBytes * c.pixels,
+            .instructions = kLevels * 3.0 * c.pixels * channel,
+            .launches = 4};
 }
 
 StageWork tonemap_work(const StageCounts& c) {

@@ -8,11 +8,10 @@
 
 namespace kilolux {
 
-/// A stage's row of a table: its time, the lower bound of it, and its work.
-struct StageReport {
-    std::string stage;
-    double ms = 0.0;
-    double limit_ms = 0.0;  // 0: no model
+/// What a stage did in a frame, and the least time of that.
+struct StageEffort {
+    double limit_ms = 0.0;  // by the device's measured limits; 0: no model
+    std::string bound;      // what limits it, as bound_name() says; empty: no model
     double bytes = 0.0;     // that it must at least move
     // Of shading: lights evaluated in full at a pixel; of refine_lights: lights against boxes.
     // Of cast_shadows: rays.
@@ -21,7 +20,12 @@ struct StageReport {
     // need no ray, since the light is behind the surface, out of range or not drawn.
     double shafts = 0.0;
     double saved_rays = 0.0;
-    std::string bound;  // as bound_name() says; empty: no model
+};
+
+/// A stage's row of a table.
+struct StageReport : StageEffort {
+    std::string stage;
+    double ms = 0.0;
 };
 
 /// How well a frame's device stages do, as two factors: how near the kernels are to the device's
