@@ -48,7 +48,7 @@ Tuning default_tuning(const DeviceInfo& device) {
     tuning.tile_group = 64;
     tuning.light_group = 64;
     tuning.raster_group = 256;
-    tuning.raster_tile_width = 16;
+    tuning.raster_tile_width = 32;
     tuning.raster_tile_height = 16;
     tuning.shadow_group = 64;
     return tuning;

@@ -43,10 +43,12 @@ struct Tuning {
     int refine_group = 1;      // work-items that share a tile's lists
     int prefix_group = 1;      // work-items of a block of the prefix sum
     int prefix_per_item = 16384;
-    int tile_group = 1;          // work-items that share a tile's pixels
-    int light_group = 1;         // work-items of prepare_lights, build_clusters and other maps
-    int raster_group = 1;        // work-items that share a tile's triangles
-    int raster_tile_width = 64;  // of triangles' tiles, powers of two of at least 16 [pixel]
+    int tile_group = 1;    // work-items that share a tile's pixels
+    int light_group = 1;   // work-items of prepare_lights, build_clusters and other maps
+    int raster_group = 1;  // work-items that share a tile's triangles
+    // Of triangles' tiles, powers of two of at least 16 [pixel]. With raster_group the width is
+    // that of large pictures.
+    int raster_tile_width = 64;
     int raster_tile_height = 64;
     int geometry = 0;      // what --geometry auto is: 0 OpenGL's ids, 1 OpenCL's
     int shadow_group = 1;  // work-items that share a cluster's shadows: 1, or 32..256; 0: none do

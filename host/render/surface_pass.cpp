@@ -22,6 +22,20 @@ std::optional<OpenTiles> open_tiles(const Sample& sample, int first_row) {
 // A GPU's work-items resolve one pixel each: lanes of one work-item would wait for each other.
 Gpu resolving(const Gpu& gpu) { return gpu.info.is_cpu ? gpu : gpu.with_lanes(1); }
 
+// Work-groups take a tile each, and the slowest tile keeps all others waiting: a picture that has
+// few tiles for every unit of the device gets smaller ones.
+Tuning raster_tuning(const PathContext& context) {
+    constexpr std::int64_t kTilesOfUnit = 64;
+    Tuning out = context.tuning;
+    const std::int64_t pixels = std::int64_t{context.settings.width} * context.settings.height;
+    const auto tiles = [&] { return pixels / (out.raster_tile_width * out.raster_tile_height); };
+    while (out.raster_group > 1 && out.raster_tile_width > FINE_TILE &&
+           tiles() < kTilesOfUnit * context.gpu.info.compute_units) {
+        out.raster_tile_width /= 2;
+    }
+    return out;
+}
+
 // Triangles that some pixel shows. What lies right of the picture in a row says nothing.
 std::uint64_t count_seen_triangles(std::span<const uint> ids, const View& view) {
     std::vector<bool> seen(1);
@@ -64,7 +78,7 @@ SurfacePass::SurfacePass(const PathContext& context)
             std::make_shared<SurfaceScene>(context.gpu, context.tuning, scene, features);
     }
     if (context.draws_in_opencl()) {
-        triangles_.emplace(gpu, context.tuning, scene, features);
+        triangles_.emplace(gpu, raster_tuning(context), scene, features);
     } else {
         if (context.settings.geometry == Geometry::compute) {
             note("geometry  OpenGL draws: some of the scene's surfaces blend");
