@@ -133,8 +133,9 @@ void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,
     if (pipeline && pipeline->is_built_for(settings)) {
         return pipeline->take(settings);
     }
-    // The programs that both need are built.
-    const bool same_device = pipeline && pipeline->settings.device == settings.device &&
+    // The programs that both need are built; but a device that failed is opened anew.
+    const bool same_device = pipeline && pipeline->is_sound_ &&
+                             pipeline->settings.device == settings.device &&
                              pipeline->settings.opened == settings.opened;
     pipeline = std::make_unique<Pipeline>(
         scene, settings, same_device ? device_for(settings, pipeline->gpu) : open_device(settings));

@@ -120,6 +120,7 @@ class Pipeline {
     PinnedMemory shown_;            // display_memory() of a device with memory of its own
     std::vector<uint> host_shown_;  // else
     StageTimer timer_;
+    bool is_sound_ = true;  // no render() has failed
     // Of the render() that runs.
     std::function<void()> between_;  // called before every sample of every band
     DisplayMemory display_memory_;

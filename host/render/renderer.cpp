@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "host/picture/frame_bands.h"
 #include "host/picture/views.h"
@@ -24,6 +25,7 @@ Frame Pipeline::render(const Camera& camera, double time, const std::function<vo
                        DisplayMemory display_memory, int samples) {
     display_memory_ = display_memory;
     between_ = between ? between : [] {};
+    const bool was_sound = std::exchange(is_sound_, false);  // until this one has not failed
     refine(camera, time, samples);
     Frame frame;
     const QueueDrain drain(gpu.queue);
@@ -36,6 +38,7 @@ Frame Pipeline::render(const Camera& camera, double time, const std::function<vo
     if (settings.want.view != ViewKind::lit) show_view(time, frame);
     if (!settings.want.radiance) frame.radiance.clear();
     keep_refined(camera, time);
+    is_sound_ = was_sound;
     return frame;
 }
 

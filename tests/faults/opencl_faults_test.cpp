@@ -94,6 +94,32 @@ TEST(OpenClFaults, EveryCallOfAFrameMayFail) {
     }
 }
 
+// A context may be dead once a call has failed.
+TEST(OpenClFaults, OtherSettingsOpenADeviceThatFailedAnew) {
+    start_opencl();
+    const FaultLayer layer;
+    ASSERT_TRUE(layer.loaded());
+    const Scene scene = make_generated_scene("plain");
+    const Camera camera = first_camera(scene);
+    RenderSettings lambert = faulty_settings(), pbr = faulty_settings();
+    lambert.shading = Shading::lambert;
+    pbr.shading = Shading::pbr;
+    layer.arm(0, 0);
+    Renderer renderer(scene, lambert);
+    const Frame right = renderer.render(camera, 0.0);
+    const cl::Context first = renderer.gpu().context;
+    renderer.change(pbr);
+    EXPECT_EQ(renderer.gpu().context(), first());
+    layer.arm(3, CL_OUT_OF_RESOURCES);
+    Frame frame;
+    EXPECT_NE(error_of_frame(renderer, camera, frame), "");
+    layer.arm(0, 0);
+    renderer.change(lambert);
+    EXPECT_NE(renderer.gpu().context(), first());
+    EXPECT_EQ(error_of_frame(renderer, camera, frame), "");
+    EXPECT_EQ(frame.radiance, right.radiance);
+}
+
 TEST(OpenClFaults, EveryCallOfTheStartMayFail) {
     start_opencl();
     const FaultLayer layer;
