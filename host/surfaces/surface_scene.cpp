@@ -197,7 +197,7 @@ SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {
     for (const Draw& draw : draws) drawn_.rows.push_back(draw.row);
     drawn_.blocks = instance_blocks(drawn_.rows, drawn_triangles(draws, scene_));
     drawn_.rows.emplace_back().first_triangle = std::numeric_limits<uint>::max();
-    start_upload(gpu_, instances_.reserve(drawn_.rows.size()), drawn_.rows);
+    drawn_.read = start_upload(gpu_, instances_.reserve(drawn_.rows.size()), drawn_.rows);
     drawn_.read = start_upload(gpu_, blocks_.reserve(drawn_.blocks.size()), drawn_.blocks);
     return {instances_.get(), blocks_.get(),    meshes_.get(),   vertices_.get(),
             indices_.get(),   materials_.get(), textures_.get(), texels_.get()};
