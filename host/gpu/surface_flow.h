@@ -80,8 +80,8 @@ struct ShadowWords {
 /// instances, as kernels/device/raster_tile.h has them.
 struct TriangleLists {
     DeviceArray<RasterRow> triangles;  // by number; those of the lists
-    DeviceArray<uint> offsets;  // [tile_count + 1]
-    DeviceArray<uint> lists;    // [capacity]
+    DeviceArray<uint> offsets;         // [tile_count + 1]
+    DeviceArray<uint> lists;           // [capacity]
     uint capacity = 0;
     uint tile_count = 0;
 };
