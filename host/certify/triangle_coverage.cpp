@@ -38,8 +38,7 @@ std::vector<int> triangle_coverage(const Gpu& gpu, const Scene& scene, const Cam
         draw.row.first_triangle = 0;
         const std::span<const Draw> one(&draw, 1);
         StageTimer timer;
-        const std::vector<uint> drawn =
-            download(gpu, ids.draw(surfaces.at(one), one, view, timer));
+        const std::vector<uint> drawn = download(gpu, ids.draw(surfaces.at(one), one, view, timer));
         for (std::size_t i = 0; i < counts.size(); ++i) {
             const std::size_t row = i / static_cast<std::size_t>(width);
             const std::size_t column = i % static_cast<std::size_t>(width);
