@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kFrameSeconds = 1.0 / 60.0;
 constexpr double kIdleSeconds = 0.25;  // signals are looked for that often
+constexpr double kBusySeconds = 0.1;   // while a thread works; what it ends wakes the loop
 constexpr double kKeepSeconds = 0.5;   // a change has to last until it is written
 constexpr std::chrono::milliseconds kStopPatience(200);
 constexpr int kSmallestKept = 64;  // [pixel] of the window's edges, from run to run
@@ -101,7 +102,7 @@ double ViewSession::wait_seconds() {
     if (is_resting()) return kIdleSeconds;
     const bool steers = camera_motion().any();
     if (steers || state_.lights_move || is_moving() || frames_to_draw_ > 0) return kFrameSeconds;
-    return kIdleSeconds;
+    return is_busy() ? kBusySeconds : kIdleSeconds;
 }
 
 void ViewSession::wait() {
@@ -118,7 +119,7 @@ void ViewSession::wait() {
     }
     clock_ += frame_seconds_;
     // After a long wait: a key that ended it has been held for one frame at most.
-    if (seconds == kIdleSeconds) frame_seconds_ = std::min(frame_seconds_, kFrameSeconds);
+    if (seconds > kFrameSeconds) frame_seconds_ = std::min(frame_seconds_, kFrameSeconds);
     if (woken_.exchange(false)) redraw_soon();
     fade_notice();
 }

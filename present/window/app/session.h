@@ -98,6 +98,7 @@ class ViewSession {
     PictureRequest wanted(double scale) const;  // of the picture's edges
     bool is_moving() const;
     bool is_resting() const;
+    bool is_busy() const;
     bool renders_always() const;
     bool refines() const;
     Settled settled() const;

@@ -55,15 +55,18 @@ bool ViewSession::is_moving() const {
     return std::chrono::duration<double>(Clock::now() - last_change_).count() < kRestSeconds;
 }
 
+// Whether a task or a picture is under way; where pictures never end, they do not count.
+bool ViewSession::is_busy() const {
+    return limits_.valid() || probing_.valid() || freezing_.valid() || measuring_.valid() ||
+           relighting_.valid() || !saving_.empty() || (!renders_always() && !pending_.empty());
+}
+
 // Whether the last picture is what the window wants, in full size, and no task is left.
 Settled ViewSession::settled() const {
     if (state_.lights_move) return Settled::never;
-    const bool busy = limits_.valid() || probing_.valid() || freezing_.valid() ||
-                      measuring_.valid() || relighting_.valid() || !saving_.empty() ||
-                      (!renders_always() && !pending_.empty());
     const bool shown =
         drawn_ && !is_moving() && same_request(*drawn_, wanted()) && has_all_samples(*drawn_);
-    return shown && !busy ? Settled::yes : Settled::not_yet;
+    return shown && !is_busy() ? Settled::yes : Settled::not_yet;
 }
 
 // In the framebuffer, from its lower left.
