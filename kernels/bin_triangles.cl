@@ -18,6 +18,7 @@
 #endif
 #include "kernels/device/chunk_starts.h"
 #include "kernels/device/raster_set_up.h"
+#include "kernels/device/raster_span.h"
 #include "kernels/device/raster_tile.h"
 #include "kernels/device/scan_group.h"
 
@@ -84,47 +85,29 @@ static inline void fill_slot(TileWalk walk, uint tile, uint slot, uint number) {
     if (place < walk.capacity) walk.lists[place] = number;
 }
 
-// Columns of pixels.
-typedef struct Span {
-    float first, last;
-} Span;
-
-// The part of a span in which one edge's function can be positive on the rays from y0 to y1. The
-// function errs by less than 1, the quotient by less than 1/32 of a pixel.
-static inline Span cut_span(View view, global const float* edge, float y0, float y1, Span span) {
-    float step = edge[0] * view.ray.x;
-    float start = fma(edge[0], fma(0.5f, view.ray.x, view.ray.y),
-                      fmax(edge[1] * y0, edge[1] * y1) - edge[2]) +
-                  2.0f;
-    float zero = -start / step;
-    if (step > 0.0f) {
-        span.first = fmax(span.first, zero - 0.03125f);
-    } else if (step < 0.0f) {
-        span.last = fmin(span.last, zero + 0.03125f);
-    } else if (start < 0.0f) {
-        span.last = -1.0f;
+// The columns of tiles that hold all pixels that the triangle covers, in VW rows of tiles.
+static inline void touched_columns(TileWalk walk, TileBox box, uint first_row, uint* columns) {
+    if (interval_count(box.columns) * interval_count(box.rows) < FEW_TILES) {
+        for (uint i = 0; i < VW; ++i) columns[i] = box.columns;
+        return;
     }
-    return span;
+    UV y = (lane_numbers + first_row) * TILE_HEIGHT;
+    RowSpans s = {fv((float)(interval_first(box.columns) * TILE_WIDTH)),
+                  fv((float)(interval_last(box.columns) * TILE_WIDTH + TILE_WIDTH - 1u))};
+    s = touched_spans(walk.view, walk.triangles + (box.number & ~MASKED_TRIANGLE),
+                      fma(0.5f, walk.view.ray.x, walk.view.ray.y), rays_y(walk.view, y),
+                      rays_y(walk.view, y + (TILE_HEIGHT - 1u)), s);
+    MASK none = ~lane_mask(s.first <= s.last);
+    UV first = lane_to_uint(lane_select(none, fv(0.0f), s.first)) / TILE_WIDTH;
+    UV last = lane_to_uint(lane_select(none, fv(0.0f), s.last)) / TILE_WIDTH;
+    lane_store(select(first | last << 16, (UV)(EMPTY_INTERVAL), none), columns);
 }
 
-// The columns of tiles in a row of them that hold all pixels that the triangle covers.
-static inline uint touched_columns(TileWalk walk, TileBox box, uint row) {
-    global const RasterRow* triangle = walk.triangles + (box.number & ~MASKED_TRIANGLE);
-    float y0 = ray_y(walk.view, row * TILE_HEIGHT);
-    float y1 = ray_y(walk.view, row * TILE_HEIGHT + TILE_HEIGHT - 1u);
-    Span span = {(float)(interval_first(box.columns) * TILE_WIDTH),
-                 (float)(interval_last(box.columns) * TILE_WIDTH + TILE_WIDTH - 1u)};
-    for (uint i = 0; i < 3; ++i) span = cut_span(walk.view, triangle->edge + 3 * i, y0, y1, span);
-    if (!(span.first <= span.last)) return EMPTY_INTERVAL;
-    return interval_of((uint)span.first / TILE_WIDTH, (uint)span.last / TILE_WIDTH);
-}
-
-// One row of a box of tiles.
-static inline void walk_row(TileWalk walk, TileBox box, uint row) {
-    bool few = interval_count(box.columns) * interval_count(box.rows) < FEW_TILES;
-    uint columns = few ? box.columns : touched_columns(walk, box, row);
+// Some columns of a row of tiles.
+static inline void walk_columns(TileWalk walk, uint number, uint row, uint columns) {
+    if (columns == EMPTY_INTERVAL) return;
     uint first = row * raster_tiles_x(walk.view) + interval_first(columns);
-    uint end = columns == EMPTY_INTERVAL ? first : first + interval_count(columns);
+    uint end = first + interval_count(columns);
     for (uint tile = first; tile < end; tile += TILES_AT_ONCE) {
         uint slots[TILES_AT_ONCE];
 #pragma unroll
@@ -132,16 +115,18 @@ static inline void walk_row(TileWalk walk, TileBox box, uint row) {
             slots[i] = tile + i < end ? take_slot(walk, tile + i) : NO_SLOT;
         }
 #pragma unroll
-        for (uint i = 0; i < TILES_AT_ONCE; ++i) {
-            fill_slot(walk, tile + i, slots[i], box.number);
-        }
+        for (uint i = 0; i < TILES_AT_ONCE; ++i) fill_slot(walk, tile + i, slots[i], number);
     }
 }
 
 #if GROUP == 1
 static inline void walk_box(TileWalk walk, TileBox box) {
-    for (uint row = interval_first(box.rows); row <= interval_last(box.rows); ++row) {
-        walk_row(walk, box, row);
+    uint last = interval_last(box.rows);
+    for (uint row = interval_first(box.rows); row <= last; row += VW) {
+        uint columns[VW];
+        touched_columns(walk, box, row, columns);
+        uint rows = min(last + 1u - row, (uint)VW);
+        for (uint i = 0; i < rows; ++i) walk_columns(walk, box.number, row + i, columns[i]);
     }
 }
 
@@ -187,7 +172,10 @@ static inline void walk_group(TileWalk walk, TileBox mine, local ulong* ends,
         }
         TileBox box = boxes[first];
         uint before = first == 0u ? 0u : (uint)ends[first - 1u];
-        walk_row(walk, box, interval_first(box.rows) + i - before);
+        uint row = interval_first(box.rows) + i - before;
+        uint columns;
+        touched_columns(walk, box, row, &columns);
+        walk_columns(walk, box.number, row, columns);
     }
 }
 #endif

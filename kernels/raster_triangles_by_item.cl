@@ -6,8 +6,8 @@
 // few pixels wide. The tile keeps its pixels column by column within the rows of a strip, so a
 // strip that begins at any column is one vector in memory.
 #include "kernels/device/prefetch.h"
+#include "kernels/device/raster_span.h"
 #include "kernels/device/raster_tile.h"
-#include "kernels/device/raster_triangle.h"
 #if HAS_MASKS
 #include "kernels/device/alpha_mask.h"
 #endif
@@ -23,10 +23,14 @@
 #define STRIP_COLUMNS VW
 #endif
 #define TILE_STRIPS (TILE_HEIGHT / STRIP_ROWS)
+#define STRIP_ROW_LANES ((TILE_STRIPS + VW - 1) / VW * VW)
 // Strips begin where a triangle does: the last may end past the tile.
 #define STRIP_STRIDE ((TILE_WIDTH + STRIP_COLUMNS) * STRIP_ROWS)
 #define strip_lanes_x (lane_numbers / STRIP_ROWS)
 #define strip_lanes_y (lane_numbers % STRIP_ROWS)
+
+// Strips of a box from which on its edges say which of them a triangle touches.
+#define FEW_STRIPS 4
 
 // Triangles' rows are asked for so many triangles ahead.
 #define ROWS_AHEAD 8
@@ -37,6 +41,8 @@ typedef struct Tile {
     uint id[TILE_STRIPS * STRIP_STRIDE];
     float ray_x[STRIP_STRIDE];
     float ray_y[TILE_STRIPS][VW];
+    float top[STRIP_ROW_LANES];  // ray_y of a row of strips' first row, and of its last
+    float bottom[STRIP_ROW_LANES];
     uint x, y;           // of its first pixel, in the planes
     uint width, height;  // of its pixels in the picture
 } Tile;
@@ -70,6 +76,10 @@ static inline void clear_tile(View view, Tile* tile) {
             lane_store((UV)(0u), tile->id + place_of(s));
         }
     }
+    for (s.y = 0; s.y < STRIP_ROW_LANES; ++s.y) {
+        tile->top[s.y] = ray_y(view, tile->y + s.y * STRIP_ROWS);
+        tile->bottom[s.y] = ray_y(view, tile->y + s.y * STRIP_ROWS + STRIP_ROWS - 1u);
+    }
 }
 
 // The strips of a tile that a triangle's box touches.
@@ -85,6 +95,27 @@ static inline StripBox strip_box(const Tile* tile, global const RasterRow* t) {
     out.y0 = (max(interval_first(t->rows), tile->y) - tile->y) / STRIP_ROWS;
     out.y1 = min(interval_last(t->rows) - tile->y, tile->height - 1u) / STRIP_ROWS;
     return out;
+}
+
+// Columns of the tile in each row of strips that a triangle touches; first > last: none.
+typedef struct StripSpans {
+    int first[STRIP_ROW_LANES];
+    int last[STRIP_ROW_LANES];
+} StripSpans;
+
+static inline void find_spans(View view, const Tile* tile, global const RasterRow* t, StripBox box,
+                              StripSpans* out) {
+    RowSpans whole = {fv((float)box.x0), fv((float)box.x1)};
+    uint strips = ((box.x1 - box.x0) / STRIP_COLUMNS + 1u) * (box.y1 - box.y0 + 1u);
+    for (uint y = box.y0 / VW * VW; y <= box.y1; y += VW) {
+        RowSpans s = whole;
+        if (strips >= FEW_STRIPS) {
+            s = touched_spans(view, t, tile->ray_x[0], lane_load(tile->top + y),
+                              lane_load(tile->bottom + y), s);
+        }
+        lane_store(lane_to_int(min(s.first, fv((float)TILE_WIDTH))), out->first + y);
+        lane_store(lane_to_int(max(s.last, fv(-1.0f))), out->last + y);
+    }
 }
 
 // A triangle's affine functions along a row of strips: x times the ray's x, and the rest.
@@ -166,21 +197,6 @@ static inline void store_strip(Tile* tile, Strip s, MASK wins, FV key, uint numb
     *ids = select(*ids, (UV)(number + 1u), wins);
 }
 
-// Triangles that neither alpha nor the near plane cuts.
-static inline void draw_whole(Canvas c, global const RasterRow* t, uint number) {
-    StripEdges edges = edges_of(t);
-    StripBox box = strip_box(c.tile, t);
-    Strip s;
-    for (s.y = box.y0; s.y <= box.y1; ++s.y) {
-        begin_strips(c.tile, s.y, t, &edges);
-        for (s.x = box.x0; s.x <= box.x1; s.x += STRIP_COLUMNS) {
-            FV key = keys_of(c.tile, &edges, s);
-            MASK nearer = lane_mask(key > lane_load(c.tile->key + place_of(s)));
-            store_strip(c.tile, s, covered(c, number, &edges, s) & nearer, key, number);
-        }
-    }
-}
-
 // The pixels of a strip that a triangle wins whose turn comes in any order, and which the near
 // plane may cut.
 static inline MASK wins_cut(Canvas c, uint number, const StripEdges* edges, Strip s, FV key) {
@@ -193,16 +209,29 @@ static inline MASK wins_cut(Canvas c, uint number, const StripEdges* edges, Stri
     return covered(c, number, edges, s) & (lane_mask(key > old) | first) & behind_near;
 }
 
-// Triangles that the near plane cuts.
-static inline void draw_cut(Canvas c, global const RasterRow* t, uint number) {
+// The pixels of a strip that a triangle wins that the near plane does not cut, in its turn.
+static inline MASK wins_whole(Canvas c, uint number, const StripEdges* edges, Strip s, FV key) {
+    MASK nearer = lane_mask(key > lane_load(c.tile->key + place_of(s)));
+    return covered(c, number, edges, s) & nearer;
+}
+
+// Triangles that alpha does not cut. `is_cut`, by the near plane, is a constant of each call: it
+// chooses a loop.
+static inline void draw_opaque(Canvas c, global const RasterRow* t, uint number, bool is_cut) {
     StripEdges edges = edges_of(t);
     StripBox box = strip_box(c.tile, t);
+    StripSpans spans;
+    find_spans(*c.view, c.tile, t, box, &spans);
     Strip s;
     for (s.y = box.y0; s.y <= box.y1; ++s.y) {
         begin_strips(c.tile, s.y, t, &edges);
-        for (s.x = box.x0; s.x <= box.x1; s.x += STRIP_COLUMNS) {
+        int last = spans.last[s.y];
+        for (int x = spans.first[s.y]; x <= last; x += STRIP_COLUMNS) {
+            s.x = (uint)x;
             FV key = keys_of(c.tile, &edges, s);
-            store_strip(c.tile, s, wins_cut(c, number, &edges, s, key), key, number);
+            MASK wins = is_cut ? wins_cut(c, number, &edges, s, key)
+                               : wins_whole(c, number, &edges, s, key);
+            store_strip(c.tile, s, wins, key, number);
         }
     }
 }
@@ -267,10 +296,14 @@ static inline void draw_masked(Canvas c, global const RasterRow* t, uint number)
     fragments.count = 0;
     StripEdges edges = edges_of(t);
     StripBox box = strip_box(c.tile, t);
+    StripSpans spans;
+    find_spans(*c.view, c.tile, t, box, &spans);
     Strip s;
     for (s.y = box.y0; s.y <= box.y1; ++s.y) {
         begin_strips(c.tile, s.y, t, &edges);
-        for (s.x = box.x0; s.x <= box.x1; s.x += STRIP_COLUMNS) {
+        int last = spans.last[s.y];
+        for (int x = spans.first[s.y]; x <= last; x += STRIP_COLUMNS) {
+            s.x = (uint)x;
             FV key = keys_of(c.tile, &edges, s);
             MASK wins = wins_cut(c, number, &edges, s, key);
             if (!lane_any(wins)) continue;
@@ -358,9 +391,9 @@ kernel void raster_triangles(
 #endif
         global const RasterRow* t = triangles + number;
         if (t->nearest < sure_key) {
-            draw_whole(canvas, t, number);
+            draw_opaque(canvas, t, number, false);
         } else {
-            draw_cut(canvas, t, number);
+            draw_opaque(canvas, t, number, true);
         }
     }
 #if HAS_MASKS

@@ -2,6 +2,7 @@
 // Triangles -> affine functions of a pixel's ray, VW at once: see raster_triangle.h.
 #ifndef KILOLUX_DEVICE_RASTER_SET_UP_H
 #define KILOLUX_DEVICE_RASTER_SET_UP_H
+#include "kernels/device/longest_edge.h"
 #include "kernels/device/raster_triangle.h"
 
 // Triangles as the eye sees them.
@@ -69,8 +70,6 @@ static inline ViewTriangles view_triangles(SurfaceScene scene, UV numbers, MASK 
     return out;
 }
 
-static inline FV sum_of_magnitudes(FV3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
-
 // The largest |x| and |y| of the rays of the planes' pixels.
 static inline float2 ray_span(View view) {
     float2 left_top = (float2)(view.ray.y, fma((float)view.first_row, view.ray.z, view.ray.w));
@@ -132,22 +131,6 @@ typedef struct Facing {
     MASK unsure;
 } Facing;
 
-// The triangles' vertices turned so that the longest edge is opposite to the first: the shorter two
-// lose least in their product.
-static inline void turn_from_longest(FV3* v) {
-    FV opposite[3];
-    for (uint i = 0; i < 3; ++i) {
-        opposite[i] = sum_of_magnitudes(sub3(v[(i + 2) % 3], v[(i + 1) % 3]));
-    }
-    MASK second = lane_mask(opposite[1] > opposite[0]) & lane_mask(opposite[1] >= opposite[2]);
-    MASK third = lane_mask(opposite[2] > opposite[0]) & lane_mask(opposite[2] > opposite[1]);
-    FV3 turned[3];
-    for (uint i = 0; i < 3; ++i) {
-        turned[i] = select3(second, v[(i + 1) % 3], select3(third, v[(i + 2) % 3], v[i]));
-    }
-    for (uint i = 0; i < 3; ++i) v[i] = turned[i];
-}
-
 // `seen`: turned.
 static inline Facing facing_of(const FV3* seen) {
     Facing out;
@@ -155,9 +138,9 @@ static inline Facing facing_of(const FV3* seen) {
     FV3 b = sub3(seen[2], seen[0]);
     out.normal = cross3(a, b);
     out.determinant = dot3(out.normal, seen[0]);
-    FV size0 = sum_of_magnitudes(seen[0]);
-    FV products = sum_of_magnitudes(a) * sum_of_magnitudes(b) * size0;
-    FV size = size0 * sum_of_magnitudes(seen[1]) * sum_of_magnitudes(seen[2]);
+    FV size0 = size3(seen[0]);
+    FV products = size3(a) * size3(b) * size0;
+    FV size = size0 * size3(seen[1]) * size3(seen[2]);
     FV unit = max(fma(size, fv(CUT_SHARE), products * SURE_SHARE), fv(1e-36f));
     out.unsure = lane_mask(!(fabs(out.determinant) > unit));
     out.sign = lane_select(lane_mask(out.determinant < fv(0.0f)), fv(-1.0f), fv(1.0f));
@@ -213,7 +196,7 @@ static inline RasterTriangles affine_functions(View view, const FV3* v, const FV
     RasterTriangles out;
     float2 span = ray_span(view);
     FV size[3];
-    for (uint i = 0; i < 3; ++i) size[i] = sum_of_magnitudes(seen[i]);
+    for (uint i = 0; i < 3; ++i) size[i] = size3(seen[i]);
     VertexKeys keys = vertex_keys(view, v);
     out.edge[0] = scale3(sure_edge(seen[1], seen[2], size[1] * size[2], span), facing.sign);
     out.edge[1] = scale3(sure_edge(seen[2], seen[0], size[2] * size[0], span), facing.sign);

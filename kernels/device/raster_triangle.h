@@ -28,9 +28,12 @@ static inline FV3 seen_vertex(View view, FV3 v) {
     return v;
 }
 
-// The y of the rays of a row of the planes; the x of those of VW columns.
+// The y of the rays of a row of the planes, and of VW rows; the x of those of VW columns.
 static inline float ray_y(View view, uint y) {
     return fma((float)(y + view.first_row) + 0.5f, view.ray.z, view.ray.w);
+}
+static inline FV rays_y(View view, UV y) {
+    return fma(lane_to_float(y + view.first_row) + 0.5f, fv(view.ray.z), fv(view.ray.w));
 }
 static inline FV ray_x(View view, UV x) {
     return fma(lane_to_float(x) + 0.5f, fv(view.ray.x), fv(view.ray.y));

@@ -21,6 +21,7 @@
 // walk found it.
 #ifndef KILOLUX_DEVICE_SHADOW_TRIANGLE_H
 #define KILOLUX_DEVICE_SHADOW_TRIANGLE_H
+#include "kernels/device/longest_edge.h"
 #include "kernels/device/shadow_space.h"
 #include "kernels/device/twofold.h"
 
@@ -49,8 +50,6 @@ typedef struct ShadowTriangles {
     FV unit[3];  // of the edges
     LaneBoxes box;
 } ShadowTriangles;
-
-static inline FV size3(FV3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
 
 static inline FV3 splat3(float3 v) { return fv3(fv(v.x), fv(v.y), fv(v.z)); }
 
@@ -94,20 +93,6 @@ static inline ShadowForm scale_form(ShadowForm f, FV by) {
     return f;
 }
 
-// The triangles' corners turned so that the longest edge is opposite to the first: the shorter two
-// lose least in their product.
-static inline void turn_corners(FV3* v) {
-    FV opposite[3];
-    for (uint i = 0; i < 3; ++i) opposite[i] = size3(sub3(v[(i + 2) % 3], v[(i + 1) % 3]));
-    MASK second = lane_mask(opposite[1] > opposite[0]) & lane_mask(opposite[1] >= opposite[2]);
-    MASK third = lane_mask(opposite[2] > opposite[0]) & lane_mask(opposite[2] > opposite[1]);
-    FV3 turned[3];
-    for (uint i = 0; i < 3; ++i) {
-        turned[i] = select3(second, v[(i + 1) % 3], select3(third, v[(i + 2) % 3], v[i]));
-    }
-    for (uint i = 0; i < 3; ++i) v[i] = turned[i];
-}
-
 // The triangles' planes and how high the light is above them.
 typedef struct ShadowPlanes {
     FV3 normal;    // (v1 - v0) x (v2 - v0), v turned
@@ -120,7 +105,7 @@ typedef struct ShadowPlanes {
 // `v`: corners in shadow space.
 static inline ShadowPlanes shadow_planes(const FV3* v, ShadowLight light) {
     FV3 t[3] = {v[0], v[1], v[2]};
-    turn_corners(t);
+    turn_from_longest(t);
     FV3 a = sub3(t[1], t[0]);
     FV3 b = sub3(t[2], t[0]);
     FV products = products3(a, b);
