@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/program.h"
 
+#include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/base/source.h"
 
@@ -62,6 +63,7 @@ cl::Program build_text(const Gpu& gpu, const std::string& name, std::string_view
         (options.text().empty() ? "" : " ") + options.text();
     const std::string source = std::string(kKernelPrologue) + std::string(text);
     return gpu.programs->find(all_options + "\n" + source, [&] {
+        check_interrupt();
         detail("building " + name + " " + all_options);
         return build(gpu, name, source, all_options);
     });

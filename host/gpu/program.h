@@ -54,7 +54,8 @@ class ProgramCache {
 
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
 /// Copies of a Gpu share programs: the same text and options are built once.
-/// Throws Error with file, device, options and the compiler's log.
+/// Throws Error with file, device, options and the compiler's log; Interrupted, before it builds,
+/// once a signal has asked for the end.
 cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options = {});
 
 /// The same of a text without includes, which `name` names in messages.
