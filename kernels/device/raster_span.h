@@ -12,7 +12,7 @@ typedef struct RowSpans {
 // The part in which one edge's function, `start` at column 0 and `step` more at each next, can be
 // positive. The quotient errs by less than 1/32 of a pixel.
 static inline RowSpans cut_spans(RowSpans s, float step, FV start) {
-    if (fabs(step) < 1e-12f) {  // less than anything across all columns
+    if (fabs(step) < 1e-12f) {  // constant within the error
         s.last = lane_select(lane_mask(start < fv(0.0f)), fv(-1.0f), s.last);
         return s;
     }
