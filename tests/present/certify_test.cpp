@@ -118,7 +118,7 @@ TEST_F(Certify, ACrashFailsItsCaseAndTheRestGoesOn) {
     const TemporaryFolder folder;
     const std::string file = (folder / "result.json").string();
     const ChildResult result =
-        run_child({"/usr/bin/prlimit", "--cpu=1", program_file(), "certify", "--case", "5,29",
+        run_child({"/usr/bin/prlimit", "--cpu=2", program_file(), "certify", "--case", "5,29",
                    "--lanes", "1", "--isolate", "-o", file});
     EXPECT_EQ(result.code, 3) << result.err;
     EXPECT_TRUE(contains(result.err, "5 spheres-at-the-camera")) << result.err;

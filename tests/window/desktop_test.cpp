@@ -121,7 +121,9 @@ TEST(Desktop, KeepsItsSettingsWhenTheDisplayIsLost) {
                text_of_file(file).find("\"lights_move\": true") != std::string::npos;
     });
     desktop.reset();
-    EXPECT_EQ(program.result().code, 1);
+    const ChildResult result = program.result();
+    EXPECT_EQ(result.code, 1) << "signal " << result.signal;
+    EXPECT_EQ(result.err, "kilolux: window: the display was closed\n");
     EXPECT_NE(text_of_file(file).find("\"lights_move\": true"), std::string::npos);
 }
 

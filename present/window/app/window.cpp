@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
+#include "present/window/app/display_loss.h"
 
 namespace kilolux {
 namespace {
@@ -40,7 +41,10 @@ void set_hints(bool visible) {
 }  // namespace
 
 WindowSystem::WindowSystem() {
-    if (glfwInit() == GLFW_TRUE) return;
+    if (glfwInit() == GLFW_TRUE) {
+        end_when_display_is_lost();
+        return;
+    }
     const char* x11 = std::getenv("DISPLAY");
     const char* wayland = std::getenv("WAYLAND_DISPLAY");
     const bool named = (x11 != nullptr && *x11 != '\0') || (wayland != nullptr && *wayland != '\0');
