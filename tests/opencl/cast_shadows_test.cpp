@@ -114,11 +114,11 @@ CastFrame cast_frame(int lanes, int group) {
     features.shading = SHADING_LAMBERT;
     features.spot_lights = features.directional_lights = features.shadows = true;
     ViewShape shape;
-    shape.width = 17;  // into a second tile both ways
+    shape.width = 33;
     shape.height = 17;
     const View view = make_view(shape);
     LightMix mix;
-    mix.count = 70;  // into a second block
+    mix.count = 70;
     mix.range_max = 30;
     mix.spots = 0.3;
     const ClusterGrid grid = make_cluster_grid({2, 2, 1, 1.0f, 30.0f}, view.width, view.height);
