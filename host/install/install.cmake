@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake --install: the OpenCL half as Kilolux::kilolux and by pkg-config, and the program if there is one.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # The rooms of the OpenCL half in one archive.
@@ -39,4 +38,5 @@ endforeach()
 
 if(KILOLUX_PROGRAM)
   install(TARGETS kilolux RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS kilolux_images_module LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/kilolux)
 endif()

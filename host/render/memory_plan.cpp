@@ -9,6 +9,7 @@
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/light_drift.h"
 #include "kernels/shared/raster_row.h"
 #include "kernels/shared/surface_planes.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/image/display_picture.h"
 
-#include <OpenImageIO/color.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -31,52 +28,6 @@ float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
 FV3 tone_mapped(FV3 c, ToneCurve curve) {
     c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
     return tone_curve_of(static_cast<int>(curve), c);
-}
-
-// `name` if the list has it; else throws UsageError with the list.
-std::string checked(const char* option, const std::string& name,
-                    const std::vector<std::string>& known) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return name;
-    throw UsageError(std::string(option) + ": the configuration in $OCIO has no '" + name +
-                     "'; it has " + joined(known) + did_you_mean(name, known));
-}
-
-std::string input_space(const OIIO::ColorConfig& config, const std::string& wanted) {
-    const std::vector<std::string> spaces = config.getColorSpaceNames();
-    if (!wanted.empty()) return checked("--ocio-input", wanted, spaces);
-    // Names in the configurations of ACES (studio, CG, older), Blender, The Foundry and Sony.
-    for (const char* name : {"Linear Rec.709 (sRGB)", "Utility - Linear - sRGB", "lin_srgb",
-                             "Linear Rec.709", "lin_rec709", "linear", "lnf"}) {
-        if (std::find(spaces.begin(), spaces.end(), name) != spaces.end()) return name;
-    }
-    const char* role = config.getColorSpaceNameByRole("scene_linear");
-    if (role != nullptr) return role;
-    throw UsageError(
-        "--ocio-input: the configuration in $OCIO has no linear Rec. 709 space by name "
-        "and no role scene_linear; it has " +
-        joined(spaces));
-}
-
-void apply_ocio(std::vector<float>& rgb, const Frame& frame, const OcioOptions& options) {
-    OIIO::ColorConfig config(ocio_config());
-    const auto fail = [](const std::string& reason) {
-        throw Error("OpenColorIO, " + std::string(ocio_config()) + ": " + reason);
-    };
-    if (config.has_error() || config.getNumDisplays() == 0) fail(config.geterror());
-    const std::string display = options.display.empty() ? config.getDefaultDisplayName()
-                                                        : checked("--ocio-display", options.display,
-                                                                  config.getDisplayNames());
-    const std::string view =
-        options.view.empty() ? config.getDefaultViewName(display)
-                             : checked("--ocio-view", options.view, config.getViewNames(display));
-    OIIO::ImageBuf image(OIIO::ImageSpec(frame.width, frame.height, 3, OIIO::TypeDesc::FLOAT),
-                         rgb.data());
-    if (!OIIO::ImageBufAlgo::ociodisplay(image, image, display, view,
-                                         input_space(config, options.input), "", false, "", "",
-                                         &config)) {
-        fail(image.geterror());
-    }
-    for (float& v : rgb) v = std::fmin(std::fmax(v, 0.0f), 1.0f);
 }
 
 }  // namespace
@@ -118,7 +69,8 @@ std::vector<float> display_colours(const Frame& frame, const RenderSettings& set
     for (float& v : rgb) v *= gain;
     if (uses_ocio(ocio)) {
         for (float& v : rgb) v = displayable(v);
-        apply_ocio(rgb, frame, ocio);
+        apply_ocio(rgb, frame.width, ocio_config(), ocio);
+        for (float& v : rgb) v = std::fmin(std::fmax(v, 0.0f), 1.0f);
         return rgb;
     }
     for (std::size_t i = 0; i < rgb.size(); i += 3) {

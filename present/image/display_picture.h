@@ -5,18 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "host/images/images.h"
 #include "host/picture/frame.h"
 #include "host/render/settings.h"
 
 namespace kilolux {
-
-/// Which transform of the configuration in $OCIO makes the display picture.
-struct OcioOptions {
-    std::string display;  // empty: the configuration's default
-    std::string view;     // empty: the display's default; "none": OpenColorIO stays out
-    std::string input;    // colour space of the radiance; empty: a linear Rec. 709 one by its usual
-                          // names, else the role scene_linear
-};
 
 /// Whether $OCIO is set and the options do not say "none". Throws UsageError for options that need
 /// $OCIO where it is not set.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures to and from files, through OpenImageIO.
+// Pictures to and from files.
 #pragma once
 
 #include <filesystem>

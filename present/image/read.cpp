@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "host/base/error.h"
+#include "host/images/images.h"
 #include "present/image/image_file.h"
 
 namespace kilolux {
 namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
-    throw Error(file.string() + ": cannot read the image: " + reason);
-}
-
-std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) {
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored
-    auto in = OIIO::ImageInput::open(file.string(), &config);
-    if (!in) fail(file, OIIO::geterror());
-    return in;
-}
 
 // Codes of integer formats as the nearest float of code / largest, whatever the reader's
 // arithmetic.
@@ -29,45 +15,47 @@ void snap_to_codes(std::vector<float>& values, float largest) {
     for (float& value : values) value = std::round(value * largest) / largest;
 }
 
+bool is_code(const ImageChannel& channel) {
+    return channel.type == SampleType::uint8 || channel.type == SampleType::uint16;
+}
+
 }  // namespace
 
 FloatImage read_image(const std::filesystem::path& file) {
     const auto in = open_image(file);
-    const OIIO::ImageSpec& spec = in->spec();
-    FloatImage image{spec.width, spec.height, {}, {}};
-    const auto is_id = [&spec](int c) { return spec.channelformat(c) == OIIO::TypeDesc::UINT32; };
+    const ImageLayout& layout = in->layout();
+    const int count = static_cast<int>(layout.channels.size());
+    FloatImage image{layout.width, layout.height, {}, {}};
+    const auto channel = [&layout](int c) { return layout.channels[static_cast<std::size_t>(c)]; };
+    const auto is_id = [&](int c) { return channel(c).type == SampleType::uint32; };
     std::size_t floats = 0;
-    for (int c = 0; c < spec.nchannels; ++c) floats += is_id(c) ? 0 : 1;
-    image.values.resize(spec.image_pixels() * floats);
-    const auto read = [&](int begin, int end, OIIO::TypeDesc type, void* out, std::size_t count) {
-        const auto stride = static_cast<OIIO::stride_t>(count * type.size());
-        if (!in->read_image(0, 0, begin, end, type, out, stride)) fail(file, in->geterror());
-    };
-    for (int begin = 0, end = 0; begin < spec.nchannels; begin = end) {
+    for (int c = 0; c < count; ++c) floats += is_id(c) ? 0 : 1;
+    image.values.resize(layout.pixels() * floats);
+    for (int begin = 0, end = 0; begin < count; begin = end) {
         // Channels of floats are read in runs, ids one by one.
         end = begin + 1;
-        while (!is_id(begin) && end < spec.nchannels && !is_id(end)) ++end;
-        const std::vector<std::string> names(spec.channelnames.begin() + begin,
-                                             spec.channelnames.begin() + end);
+        while (!is_id(begin) && end < count && !is_id(end)) ++end;
         if (is_id(begin)) {
-            Layer layer{names[0], names};
-            layer.ids.resize(spec.image_pixels() * names.size());
-            read(begin, end, OIIO::TypeDesc::UINT32, layer.ids.data(), names.size());
+            Layer layer{channel(begin).name, {channel(begin).name}};
+            layer.ids.resize(layout.pixels());
+            in->read(begin, end, SampleType::uint32, layer.ids.data(), sizeof layer.ids[0]);
             image.ids.push_back(std::move(layer));
         } else {
             float* first = image.values.data() + image.channels.size();
-            read(begin, end, OIIO::TypeDesc::FLOAT, first, floats);
-            image.channels.insert(image.channels.end(), names.begin(), names.end());
+            in->read(begin, end, SampleType::float32, first, floats * sizeof(float));
+            for (int c = begin; c < end; ++c) image.channels.push_back(channel(c).name);
         }
     }
-    if (spec.format == OIIO::TypeDesc::UINT8) snap_to_codes(image.values, 255.0f);
-    if (spec.format == OIIO::TypeDesc::UINT16) snap_to_codes(image.values, 65535.0f);
+    const auto& channels = layout.channels;
+    if (!channels.empty() && std::all_of(channels.begin(), channels.end(), is_code)) {
+        snap_to_codes(image.values, channel(0).type == SampleType::uint8 ? 255.0f : 65535.0f);
+    }
     return image;
 }
 
 std::pair<int, int> image_size(const std::filesystem::path& file) {
     const auto in = open_image(file);
-    return {in->spec().width, in->spec().height};
+    return {in->layout().width, in->layout().height};
 }
 
 std::vector<float> colour_of(const FloatImage& image) {

@@ -36,4 +36,5 @@ execute_process(COMMAND ${Python3_EXECUTABLE} -c "import os, sysconfig; print(os
 set(KILOLUX_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${python_packages} CACHE STRING
   "Where the Python module is installed, below the prefix")
 install(TARGETS kilolux_python LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
+install(TARGETS kilolux_images_module LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
 install(FILES ${python_files} DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)

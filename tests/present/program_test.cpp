@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -302,6 +303,36 @@ TEST(Program, RendersWithoutOpenGL) {
         EXPECT_TRUE(std::filesystem::exists(picture)) << geometry;
         std::filesystem::remove(picture);
     }
+}
+
+// OpenImageIO brings 260 libraries, which take longer to load than these commands do.
+TEST(Program, LoadsOpenImageIoForImagesAlone) {
+    const TemporaryFolder folder;
+    const std::string picture = (folder / "picture.png").string();
+    const auto loads_it = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"/usr/bin/env", "LD_DEBUG=files", program_file()});
+        const ChildResult result = run_child(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return result.err.find("libOpenImageIO") != std::string::npos;
+    };
+    EXPECT_FALSE(loads_it({"--help"}));
+    EXPECT_FALSE(loads_it({"info", "grid"}));
+    EXPECT_TRUE(loads_it(
+        {"render", "grid", "--resolution", "64,36", "--lights", "50", "--quiet", "-o", picture}));
+}
+
+TEST(Program, SaysThatTheLibraryOfImagesIsMissing) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "libkilolux_images.so") << "hidden";
+    const std::string picture = (folder / "picture.png").string();
+    const ChildResult result = run_child(
+        {"/usr/bin/env", "LD_LIBRARY_PATH=" + folder.path().string(), program_file(), "render",
+         "grid", "--resolution", "64,36", "--lights", "50", "--quiet", "-o", picture});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_NE(result.err.find("cannot load the library of images: "), std::string::npos);
+    EXPECT_NE(result.err.find("libkilolux_images.so"), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(picture));
 }
 
 }  // namespace

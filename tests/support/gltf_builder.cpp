@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/gltf_builder.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <stdlib.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <stdexcept>
 
 #include "host/base/error.h"
+#include "host/images/images.h"
 
 namespace kilolux {
 namespace {
@@ -239,17 +238,13 @@ std::string load_error(const GltfBuilder& builder) {
 }
 
 Blob encode_image(const std::string& format, int width, int channels, const Blob& pixels) {
-    const int height = static_cast<int>(pixels.size()) / (width * channels);
-    Blob out;
-    OIIO::Filesystem::IOVecOutput writer(out);
-    auto output = OIIO::ImageOutput::create(format);
-    OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (!output || !output->set_ioproxy(&writer) || !output->open("image." + format, spec) ||
-        !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close()) {
-        throw std::runtime_error("cannot encode " + format + ": " + OIIO::geterror());
+    const auto row = static_cast<std::size_t>(width * channels);
+    ImageLayout layout{width, static_cast<int>(pixels.size() / row), {}};
+    const char* const names[] = {"R", "G", "B", "A"};
+    for (int c = 0; c < channels; ++c) {
+        layout.channels.push_back({channels == 1 ? "Y" : names[c], SampleType::uint8});
     }
-    return out;
+    return encode_pixels("image", format, layout, pixels, static_cast<std::size_t>(channels));
 }
 
 std::vector<glm::dvec3> world_positions(const Scene& scene, std::size_t instance) {

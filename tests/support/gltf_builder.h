@@ -85,7 +85,7 @@ Scene load(const GltfBuilder& builder, const LoadOptions& options = {});
 std::string load_error(const GltfBuilder& builder);
 std::string load_error(const std::filesystem::path& file, const LoadOptions& options = {});
 
-/// 8-bit pixels encoded by OpenImageIO ("png", "jpeg", "targa", ...).
+/// 8-bit pixels as the bytes of a file ("png", "jpeg", "targa", ...).
 Blob encode_image(const std::string& format, int width, int channels, const Blob& pixels);
 
 /// Positions of an instance's vertices in the world.

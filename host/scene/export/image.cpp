@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
-#include "host/base/error.h"
+#include "host/images/images.h"
 #include "host/scene/export/parts.h"
 
 namespace kilolux {
@@ -18,23 +15,11 @@ bool is_opaque(const Image& image) {
 }  // namespace
 
 std::vector<unsigned char> encode_png(const Image& image) {
-    const auto fail = [&image](const std::string& reason) {
-        throw Error("image '" + image.name + "': cannot encode as PNG: " + reason);
-    };
-    const auto out = OIIO::ImageOutput::create("png");
-    if (!out) fail(OIIO::geterror());
-    OIIO::ImageSpec spec(image.width, image.height, is_opaque(image) ? 3 : 4,
-                         OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("png:compressionLevel", 6);
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    if (!out->set_ioproxy(&memory)) fail("the writer cannot write into memory");
-    if (!out->open("memory.png", spec) ||
-        !out->write_image(OIIO::TypeDesc::UINT8, image.rgba.data(), 4) || !out->close()) {
-        fail(out->geterror());
-    }
-    return bytes;
+    ImageLayout layout{image.width, image.height, {}};
+    for (const char* name : {"R", "G", "B"}) layout.channels.push_back({name, SampleType::uint8});
+    if (!is_opaque(image)) layout.channels.push_back({"A", SampleType::uint8});
+    layout.attributes.emplace_back("png:compressionLevel", 6);
+    return encode_pixels("image '" + image.name + "'", "png", layout, image.rgba, 4);
 }
 
 }  // namespace kilolux

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/lights/environment.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 
@@ -12,6 +10,7 @@
 #include <queue>
 
 #include "host/base/error.h"
+#include "host/images/images.h"
 
 namespace kilolux {
 namespace {
@@ -135,23 +134,17 @@ Environment painted_environment(
 }
 
 Environment read_environment(const std::filesystem::path& file) {
-    OIIO::ImageBuf image(file.string());
-    if (!image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-        throw Error(fmt::format("{}: {}", file.string(), image.geterror()));
-    }
-    Environment out{image.spec().width, image.spec().height, {}};
-    if (out.width != 2 * out.height || image.nchannels() < 3) {
+    const auto in = open_image(file);
+    const ImageLayout& image = in->layout();
+    Environment out{image.width, image.height, {}};
+    if (out.width != 2 * out.height || image.channels.size() < 3) {
         throw Error(
             fmt::format("{}: an environment is twice as wide as high, in 3 channels, not "
                         "{}x{} in {}",
-                        file.string(), out.width, out.height, image.nchannels()));
+                        file.string(), out.width, out.height, image.channels.size()));
     }
     out.rows.resize(out.place(0, out.height));
-    OIIO::ROI roi = image.roi();
-    roi.chend = roi.chbegin + 3;
-    if (!image.get_pixels(roi, OIIO::TypeDesc::FLOAT, out.rows.data())) {
-        throw Error(fmt::format("{}: {}", file.string(), image.geterror()));
-    }
+    in->read(0, 3, SampleType::float32, out.rows.data(), sizeof(glm::vec3));
     for (std::size_t i = 0; i < out.rows.size(); ++i) {
         const glm::vec3& c = out.rows[i];
         const float worst = std::min({c.x, c.y, c.z});

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/gltf/material/image.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <mutex>
 
+#include "host/base/error.h"
+#include "host/images/images.h"
 #include "host/scene/gltf/parallel.h"
 
 namespace kilolux {
@@ -72,21 +71,19 @@ std::string reason(std::string text) {
 }
 
 // Throws where the image is too large for a texture, for its bytes or for the memory left.
-void check_size(const GltfDocument& document, const std::string& name, const OIIO::ImageSpec& spec,
+void check_size(const GltfDocument& document, const std::string& name, const ImageLayout& image,
                 std::size_t encoded_bytes) {
-    if (spec.width < 1 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide) {
-        document.fail(name, "is {}x{} pixels, must be from 1x1 to {}x{}", spec.width, spec.height,
+    if (image.width < 1 || image.height < 1 || image.width > kMaxSide || image.height > kMaxSide) {
+        document.fail(name, "is {}x{} pixels, must be from 1x1 to {}x{}", image.width, image.height,
                       kMaxSide, kMaxSide);
     }
-    if (spec.nchannels < 1 || spec.nchannels > 16 || spec.depth > 1) {
-        document.fail(name, "has {} channels and depth {}, which no texture has", spec.nchannels,
-                      spec.depth);
+    if (image.channels.empty() || image.channels.size() > 16) {
+        document.fail(name, "has {} channels, which no texture has", image.channels.size());
     }
-    const std::uint64_t bytes =
-        4 * static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+    const std::uint64_t bytes = 4 * std::uint64_t{image.pixels()};
     if (bytes > std::max(kFreeBytes, kMaxExpansion * encoded_bytes)) {
-        document.fail(name, "claims {}x{} pixels in {} bytes, which no image holds", spec.width,
-                      spec.height, encoded_bytes);
+        document.fail(name, "claims {}x{} pixels in {} bytes, which no image holds", image.width,
+                      image.height, encoded_bytes);
     }
     document.budget->charge_memory(bytes, document.base.file + ": " + name);
 }
@@ -125,30 +122,26 @@ Image decode(const GltfDocument& document, int index) {
     const FileBytes encoded = read_encoded(document, index);
     const std::string format = format_of(encoded.bytes, source.uri);
     if (format == "png") check_png(encoded.bytes, document.base.file + ": " + name);
-    auto input = format.empty() ? nullptr : OIIO::ImageInput::create(format);
-    if (!input) {
-        const std::string ignored = OIIO::geterror();
-        document.fail(name, "is of no image format that can be read");
-    }
-    OIIO::Filesystem::IOMemReader reader(OIIO::cspan<unsigned char>(
-        encoded.bytes.data(), static_cast<std::ptrdiff_t>(encoded.bytes.size())));
-    OIIO::ImageSpec wanted;
-    wanted.attribute("oiio:UnassociatedAlpha", 1);
-    OIIO::ImageSpec spec;
-    if (!input->set_ioproxy(&reader) || !input->open("image." + format, spec, wanted)) {
-        document.fail(name, "{}", reason(input->geterror()));
-    }
-    check_size(document, name, spec, encoded.bytes.size());
-    const auto channels = static_cast<std::size_t>(std::min(spec.nchannels, 4));
-    std::vector<std::uint8_t> pixels(channels * static_cast<std::size_t>(spec.width) *
-                                     static_cast<std::size_t>(spec.height));
-    if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::UINT8,
-                           pixels.data())) {
-        document.fail(name, "{}", reason(input->geterror()));
-    }
-    Image out{source.name, spec.width, spec.height, {}};
+    const auto of_codec = [&](auto call) {
+        try {
+            return call();
+        } catch (const Error& e) {
+            document.fail(name, "{}", reason(e.what()));
+        }
+    };
+    const auto reader =
+        of_codec([&] { return format.empty() ? nullptr : open_encoded(format, encoded.bytes); });
+    if (!reader) document.fail(name, "is of no image format that can be read");
+    const ImageLayout& layout = reader->layout();
+    check_size(document, name, layout, encoded.bytes.size());
+    const std::size_t channels = std::min<std::size_t>(layout.channels.size(), 4);
+    std::vector<std::uint8_t> pixels(channels * layout.pixels());
+    of_codec([&] {
+        reader->read(0, static_cast<int>(channels), SampleType::uint8, pixels.data(), channels);
+    });
+    Image out{source.name, layout.width, layout.height, {}};
     out.rgba = channels == 4 ? std::move(pixels) : to_rgba(pixels, channels);
-    if (spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0) undo_associated_alpha(out.rgba);
+    if (layout.associated_alpha) undo_associated_alpha(out.rgba);
     return out;
 }
 

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Image files, through OpenImageIO. To load its 260 libraries takes longer than most commands do,
+// so what calls it is a library of ours, libkilolux_images.so, which the first image loads.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace kilolux {
+
+enum class SampleType { uint8, uint16, uint32, half, float32 };
+
+/// [byte]
+constexpr std::size_t size_of(SampleType type) {
+    if (type == SampleType::uint8) return 1;
+    return type == SampleType::uint16 || type == SampleType::half ? 2 : 4;
+}
+
+struct ImageChannel {
+    std::string name;
+    SampleType type;
+};
+
+using ImageAttribute = std::variant<int, std::string, glm::mat4, std::vector<float>>;
+
+/// What a file says beside its pixels.
+struct ImageLayout {
+    int width = 0;                       // [pixel]
+    int height = 0;                      // [pixel]
+    std::vector<ImageChannel> channels;  // in the order of a pixel's samples
+    // By OpenImageIO's names. A file that is read leaves them empty.
+    std::vector<std::pair<std::string, ImageAttribute>> attributes{};
+    bool associated_alpha = false;  // of a file that is read: its colours are multiplied by alpha
+
+    std::size_t pixels() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    /// [byte], of the samples of one pixel side by side.
+    std::size_t pixel_bytes() const;
+};
+
+/// A file's bytes in `format` ("png", "jpeg", "openexr", ...: OpenImageIO's names), alpha not
+/// associated where the format leaves the choice. `pixels`: rows from the top, `pixel_stride` bytes
+/// from a pixel to the next, samples in the channels' types. Throws Error "<name>: cannot encode:
+/// <OpenImageIO's reason>".
+std::vector<unsigned char> encode_pixels(const std::string& name, const std::string& format,
+                                         const ImageLayout& layout,
+                                         std::span<const unsigned char> pixels,
+                                         std::size_t pixel_stride);
+
+/// An image whose header is read.
+class ImageReader {
+ public:
+    virtual ~ImageReader() = default;
+
+    virtual const ImageLayout& layout() const = 0;
+
+    /// Reads the channels [begin, end) of all pixels, converted to `type` (integers to 0..1 and
+    /// back), to `out`, `stride` bytes from a pixel to the next. Throws Error.
+    virtual void read(int begin, int end, SampleType type, void* out, std::size_t stride) = 0;
+};
+
+/// Colours as stored. Throws Error "<file>: cannot read the image: <OpenImageIO's reason>".
+std::unique_ptr<ImageReader> open_image(const std::filesystem::path& file);
+
+/// An image in memory, which must outlive the reader; null if there is no reader of `format`.
+/// Throws Error with OpenImageIO's reason alone, as does the reader.
+std::unique_ptr<ImageReader> open_encoded(const std::string& format,
+                                          std::span<const unsigned char> bytes);
+
+/// Which transform of a configuration of OpenColorIO makes the display picture.
+struct OcioOptions {
+    std::string display;  // empty: the configuration's default
+    std::string view;     // empty: the display's default; "none": OpenColorIO stays out
+    std::string input;    // colour space of the radiance; empty: a linear Rec. 709 one by its usual
+                          // names, else the role scene_linear
+};
+
+/// Linear RGB to the display's, in place; 3 * width values a row. Throws Error with OpenColorIO's
+/// reason, UsageError for displays, views and spaces that the configuration file lacks.
+void apply_ocio(std::span<float> rgb, int width, const std::string& configuration,
+                const OcioOptions& options);
+
+}  // namespace kilolux

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/images/library.h"
+
+#include "host/images/module/parts.h"
+
+namespace kilolux::oiio {
+
+OIIO::TypeDesc type_of(SampleType type) {
+    switch (type) {
+        case SampleType::uint8:
+            return OIIO::TypeDesc::UINT8;
+        case SampleType::uint16:
+            return OIIO::TypeDesc::UINT16;
+        case SampleType::uint32:
+            return OIIO::TypeDesc::UINT32;
+        case SampleType::half:
+            return OIIO::TypeDesc::HALF;
+        case SampleType::float32:
+            break;
+    }
+    return OIIO::TypeDesc::FLOAT;
+}
+
+}  // namespace kilolux::oiio
+
+const kilolux::ImageLibrary kilolux_images{kilolux::oiio::encode_pixels, kilolux::oiio::open_image,
+                                           kilolux::oiio::open_encoded, kilolux::oiio::apply_ocio};
