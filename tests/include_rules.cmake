@@ -29,7 +29,7 @@ set(allowed_present/image ${measured} host/images host/measure/metrics present/i
 set(allowed_present/video kernels/shared host/base host/picture present/video)
 set(allowed_present/cli ${allowed_host/certify} present/image present/video present/cli)
 set(allowed_present/window ${allowed_host/certify} present/image present/cli present/window)
-set(allowed_present/commands ${allowed_host/certify} present)
+set(allowed_present/commands ${allowed_host/certify} host/images present)
 set(allowed_present/python ${allowed_present/commands})
 set(allowed_present ${allowed_present/commands})
 get_cmake_property(variables VARIABLES)

@@ -26,6 +26,8 @@ const ImageLibrary& library() {
 
 }  // namespace
 
+void load_image_library() { library(); }
+
 std::size_t ImageLayout::pixel_bytes() const {
     std::size_t bytes = 0;
     for (const ImageChannel& channel : channels) bytes += size_of(channel.type);

@@ -46,6 +46,10 @@ struct ImageLayout {
     std::size_t pixel_bytes() const;
 };
 
+/// Loads OpenImageIO now: a command that ends with an image fails before its work where it cannot.
+/// Throws Error.
+void load_image_library();
+
 /// A file's bytes in `format` ("png", "jpeg", "openexr", ...: OpenImageIO's names), alpha not
 /// associated where the format leaves the choice. `pixels`: rows from the top, `pixel_stride` bytes
 /// from a pixel to the next, samples in the channels' types. Throws Error "<name>: cannot encode:

@@ -28,11 +28,10 @@ ScenePlan plan_of(const Scene& scene, const RenderSettings& settings) {
 }
 
 // Throws when its pictures cannot fit, before anything large is uploaded.
-const Scene& checked(const Scene& scene, const RenderSettings& settings) {
+void check_memory(const Scene& scene, const RenderSettings& settings) {
     const cl::Device device =
         settings.opened ? settings.opened->device : choose_device(settings.device);
     plan_memory(scene, settings, plan_of(scene, settings), describe(device));
-    return scene;
 }
 
 }  // namespace
@@ -141,11 +140,17 @@ void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,
         scene, settings, same_device ? device_for(settings, pipeline->gpu) : open_device(settings));
 }
 
+std::shared_ptr<RenderScene> shared_scene(const Scene& scene, GlSource gl) {
+    return std::make_shared<RenderScene>(scene, gl == GlSource::headless);
+}
+
 Renderer::Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl)
+    : Renderer(shared_scene(scene, gl), settings) {}
+Renderer::Renderer(std::shared_ptr<RenderScene> scene, const RenderSettings& settings)
     : pipeline_(in_stage("renderer", [&] {
-          return std::make_unique<Pipeline>(
-              std::make_shared<RenderScene>(checked(scene, settings), gl == GlSource::headless),
-              settings, open_device(settings));
+          check_memory(scene->scene(), settings);
+          scene->make_current();
+          return std::make_unique<Pipeline>(std::move(scene), settings, open_device(settings));
       })) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;

@@ -19,6 +19,7 @@
 namespace kilolux {
 
 class Pipeline;
+class RenderScene;
 
 /// What list_devices() says of every OpenCL device, in the order that `--device INDEX` counts.
 std::vector<DeviceInfo> list_devices();
@@ -28,6 +29,10 @@ enum class GlSource {
     headless,  // the renderer makes its own
     current,   // the caller's, current now and at every render()
 };
+
+/// What OpenGL has of a scene, for renderers that share it: a context, meshes and textures, made
+/// when first needed. The scene must outlive it.
+std::shared_ptr<RenderScene> shared_scene(const Scene& scene, GlSource gl = GlSource::headless);
 
 /// Pixels from a row of a display picture to the next, as render_to() writes them.
 std::size_t display_stride(int width);
@@ -39,6 +44,8 @@ class Renderer {
     /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error
     /// when a device, GL or a build fails.
     Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl = GlSource::headless);
+    /// The same, of a scene that other renderers may use, too, one at a time.
+    Renderer(std::shared_ptr<RenderScene> scene, const RenderSettings& settings);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;

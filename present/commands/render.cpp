@@ -235,9 +235,9 @@ void check_files(const RenderOptions& options, const Tasks& tasks, const Task& f
     if (is_video(out.output)) {
         check_can_write_video(out.output);
     } else {
-        check_can_write(first.file);
+        check_can_write_image(first.file);
     }
-    if (!out.difference.empty()) check_can_write(first.difference);
+    if (!out.difference.empty()) check_can_write_image(first.difference);
     if (!out.stats.empty() && out.stats != "-") check_can_write(out.stats);
     if (out.reference.empty()) return;
     for (std::size_t i = 0; i < tasks.size(); ++i) {

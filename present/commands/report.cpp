@@ -7,6 +7,7 @@
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/images/images.h"
 #include "host/measure/bench/plot.h"
 #include "host/measure/report/error_sheets.h"
 #include "host/measure/report/run.h"
@@ -208,6 +209,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     apply_axes(command, options);
     begin_command(options.shared);
     make_output_folder(options.output);
+    if (!options.output.empty()) load_image_library();
     SharedOptions& shared = options.shared;
     measure_swarm(shared);
     const Scene scene = open_scene(shared);

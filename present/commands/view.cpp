@@ -79,7 +79,7 @@ void check_files(const ViewOptions& options) {
         throw UsageError("--screenshot: " + options.screenshot +
                          ": a window is display-referred: PNG, JPEG or TIFF");
     }
-    check_can_write(options.screenshot);
+    check_can_write_image(options.screenshot);
 }
 
 void run_view(ViewOptions& options, const CLI::App& command) {

@@ -243,6 +243,11 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
     return encode(file, layout, {bytes, frame.radiance.size() * sizeof(float)}, 3 * sizeof(float));
 }
 
+void check_can_write_image(const std::filesystem::path& file) {
+    check_can_write(file);
+    load_image_library();
+}
+
 void write_image(const std::filesystem::path& file, const Frame& frame, const ImageNotes& notes,
                  const ImageOptions& options) {
     write_atomically(file, encode_image(file, frame, notes, options));

@@ -54,6 +54,9 @@ struct ImageOptions {
 std::vector<unsigned char> encode_image(const std::filesystem::path& file, const Frame& frame,
                                         const ImageNotes& notes, const ImageOptions& options);
 
+/// Throws Error where the file cannot be written or images cannot be encoded; writes nothing.
+void check_can_write_image(const std::filesystem::path& file);
+
 /// encode_image() into a file, whole or not at all.
 void write_image(const std::filesystem::path& file, const Frame& frame,
                  const ImageNotes& notes = {}, const ImageOptions& options = {});

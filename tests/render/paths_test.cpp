@@ -56,6 +56,25 @@ Scene with_glass() {
     return scene;
 }
 
+TEST(Paths, RenderersThatShareASceneRenderInTurn) {
+    const Scene scene = with_glass();
+    const std::shared_ptr<RenderScene> shared = shared_scene(scene);
+    const Camera camera = first_camera(scene);
+    std::vector<RenderSettings> settings(3, small_settings());
+    settings[0].geometry = Geometry::ids;
+    settings[1].geometry = Geometry::planes;
+    settings[2].renderer = RendererKind::forward_plus;
+    std::vector<Renderer> renderers;
+    for (const RenderSettings& s : settings) renderers.emplace_back(shared, s);
+    for (int frame = 0; frame < 2; ++frame) {
+        for (std::size_t i = 0; i < settings.size(); ++i) {
+            expect_same_bits(renderers[i].render(camera, 0.0), render_once(scene, settings[i]));
+        }
+    }
+    renderers.erase(renderers.begin());
+    expect_same_bits(renderers[0].render(camera, 0.0), render_once(scene, settings[1]));
+}
+
 TEST(Paths, DeferredIsDeferredAllBitForBit) {
     const Scene scenes[] = {make_generated_scene("grid"), make_generated_scene("plain"),
                             grid_with_every_light()};

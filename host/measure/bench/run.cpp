@@ -63,7 +63,7 @@ BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera
       base_(std::move(base)),
       camera_(camera),
       time_(time),
-      gl_(gl),
+      opened_(shared_scene(scene, gl)),
       watch_(choose_device(base_.device)) {
     base_.want.aovs.clear();
 }
@@ -89,7 +89,7 @@ std::vector<BenchRow> BenchRun::measure(const SweepPoint& point, const BenchFram
     std::vector<FrameStats> measured;
     FrameSetup setup;
     {
-        Renderer renderer(scene_, settings, gl_);
+        Renderer renderer(opened_, settings);
         setup = frame_setup(settings, renderer.plan(), renderer.device());
         const std::span<uint> picture = renderer.display_memory();
         for (int i = 0; i < frames.warm_up + frames.measured; ++i) {
@@ -176,7 +176,7 @@ SweepPoint BenchRun::error_point(SweepPoint point) const {
 
 // A frame that is not timed.
 Frame BenchRun::render(const RenderSettings& settings) {
-    Frame frame = Renderer(scene_, settings, gl_).render(camera_, time_);
+    Frame frame = Renderer(opened_, settings).render(camera_, time_);
     on_frame_();
     return frame;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -82,7 +83,7 @@ class BenchRun {
     RenderSettings base_;
     Camera camera_;
     double time_;
-    GlSource gl_;
+    std::shared_ptr<RenderScene> opened_;  // by all renderers of the run
     LimitWatch watch_;
     std::function<void()> on_frame_ = [] {};
     std::vector<std::pair<SweepPoint, double>> frame_ms_;

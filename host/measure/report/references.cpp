@@ -70,7 +70,7 @@ const ComparedReference& ReportReferences::kernels(const RenderSettings& setting
     RenderSettings exact = decoded;
     exact.kernels = {};
     exact.shadows = Shadows::off;  // only surfaces and lights are read
-    Renderer renderer(view_.scene, exact);
+    Renderer renderer(view_.opened, exact);
     renderer.render(view_.camera, view_.time);
     found->second = compared_reference(
         shade_reference(renderer.lit_surfaces(), options_of(decoded, true)), asked_);

@@ -3,12 +3,14 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/measure/report/picture_errors.h"
 #include "host/picture/decoded_surfaces.h"
+#include "host/render/renderer.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
 
@@ -18,7 +20,8 @@ namespace kilolux {
 struct ReportView {
     const Scene& scene;
     Camera camera;
-    double time = 0.0;  // [s]
+    double time = 0.0;                                          // [s]
+    std::shared_ptr<RenderScene> opened = shared_scene(scene);  // by all renderers of the report
 };
 
 /// The float64 pictures that a report's settings are compared with; each is made once.

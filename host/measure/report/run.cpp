@@ -128,7 +128,7 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
         rows.push_back(compare(settings[i], timings[i]));
         on_progress_();
     }
-    if (!timings.front().scaled) standard_.emplace(view_.scene, whole_frames(settings.front()));
+    if (!timings.front().scaled) standard_.emplace(view_.opened, whole_frames(settings.front()));
     for (int round = 0; round < kRounds; ++round) {
         for (std::size_t i = 0; i < settings.size(); ++i) {
             if (i == 0 || time_only_(rows[i])) {
@@ -192,7 +192,7 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     row.setting = setting;
     row.cut_off = cut_off_of(view_.scene, settings);
     const ComparedReference& kernels = references_.kernels(settings);
-    Renderer renderer(view_.scene, settings);
+    Renderer renderer(view_.opened, settings);
     const Frame frame = picture_of(renderer, setting);
     if (settings.renderer == RendererKind::deferred) {
         row.missed_lights = missed_lights(renderer.lit_surfaces().surfaces, kernels.picture);
@@ -227,7 +227,7 @@ double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms) {
     larger.width *= kLargerSide;
     larger.height *= kLargerSide;
     if (proportional <= kSlowFrameMs || pixels(larger) >= pixels(whole)) return proportional;
-    Renderer renderer(view_.scene, larger);
+    Renderer renderer(view_.opened, larger);
     on_step_();
     renderer.render(view_.camera, view_.time);  // makes what later frames keep
     on_step_();
@@ -269,7 +269,7 @@ void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& fra
     const int measured =
         std::clamp((frames.measured + kRounds - 1) / kRounds, 1, std::max(1, affordable));
     std::optional<Renderer> other;
-    if (standard || !standard_) other.emplace(view_.scene, whole_frames(setting));
+    if (standard || !standard_) other.emplace(view_.opened, whole_frames(setting));
     Renderer& renderer = other ? *other : *standard_;
     for (int i = 0; i < std::min(frames.warm_up, affordable); ++i) {
         on_step_();
@@ -314,12 +314,12 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
     counted.renderer = RendererKind::deferred;
     const auto [found, is_new] = coverages_.try_emplace(coverage_key(counted));
     if (is_new) {
-        found->second = Renderer(view_.scene, counted).render(view_.camera, view_.time).stats;
+        found->second = Renderer(view_.opened, counted).render(view_.camera, view_.time).stats;
     }
     FrameStats stats = timing.stats;
     if (is_forward(settings.renderer)) {
         counted.renderer = settings.renderer;
-        stats = Renderer(view_.scene, counted).render(view_.camera, view_.time).stats;
+        stats = Renderer(view_.opened, counted).render(view_.camera, view_.time).stats;
     }
     row.speed.k = stats.evaluations_per_pixel;
     row.speed.useful_k = found->second.useful_evaluations_per_pixel;

@@ -143,11 +143,11 @@ std::vector<SampledShadowError> measure_shadow_error(const ReportView& view,
                                                      const std::function<void()>& on_step) {
     const auto picture = [&](Shadows shadows) {
         on_step();
-        return Renderer(view.scene, one_sample(settings, shadows)).render(view.camera, view.time);
+        return Renderer(view.opened, one_sample(settings, shadows)).render(view.camera, view.time);
     };
     const TruePictures truth{picture(Shadows::off), picture(Shadows::exact)};
     RenderSettings sampled = one_sample(settings, Shadows::sampled);
-    Renderer renderer(view.scene, sampled);
+    Renderer renderer(view.opened, sampled);
     std::vector<SampledShadowError> out;
     for (const int rays : plan.rays) {
         SampledSums sums(truth, rays);

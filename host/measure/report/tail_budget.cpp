@@ -27,7 +27,7 @@ TailChoice tails_within(const ReportView& view, const RenderSettings& asked, dou
     bounded.want = {};
     bounded.want.display = false;
     bounded.want.aovs = {"error-bound"};
-    Renderer renderer(view.scene, bounded);
+    Renderer renderer(view.opened, bounded);
     for (int log2 = -2; log2 >= kLeastBudgetLog2; --log2) {
         step();
         bounded.range_budget = std::ldexp(1.0, log2);
