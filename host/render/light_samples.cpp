@@ -88,17 +88,18 @@ void Pipeline::light_samples(const Sample& band, Measured out, const AfterShadin
         std::visit([&](auto& path) { path.light(band, out, then); }, path());
         return;
     }
+    if (!sum_) sum_.emplace(gpu, tuning_);
     const auto add = [&](int i) {
-        sum_.add(light_sample(band, static_cast<uint>(i), nullptr, out), timer_);
+        sum_->add(light_sample(band, static_cast<uint>(i), nullptr, out), timer_);
         add_times(timer_, out.stats);  // lists of the next sample may be made twice
     };
-    if (summed_ == 0) sum_.clear();
+    if (summed_ == 0) sum_->clear();
     if (refining_ > 0) {
         for (int i = summed_; i < refining_; ++i) add(i);
     } else {
         for (int i = settings.samples - 1; i >= 0; --i) add(i);
     }
-    then(sum_.mean(timer_));
+    then(sum_->mean(timer_));
 }
 
 // Samples until the tiles' errors are small enough. Counts are those of sample 0, the first; AOVs

@@ -47,7 +47,6 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> the_scene, const RenderSettings&
       lights_(gpu, tuning_, scene->scene(), settings),
       context_{settings,       plan,          gpu,          tuning_,      *scene,
                surface_scene_, shadow_scene_, &background_, &reflections_},
-      sum_(gpu, tuning_),
       tonemap_(gpu, tuning_, static_cast<int>(settings.tone_curve)),
       whole_light_(gpu, "bloom"),
       reader_(gpu),

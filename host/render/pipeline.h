@@ -111,7 +111,7 @@ class Pipeline {
     std::map<RendererKind, Path> paths_;   // made when first asked for
     std::unique_ptr<Pipeline> reference_;  // for the view of differences from it
     std::optional<OverdrawPass> overdraw_;
-    SumSamples sum_;
+    std::optional<SumSamples> sum_;               // of more samples than one
     std::optional<AdaptiveSamples> until_error_;  // made when first asked for
     std::optional<Bloom> bloom_;                  // none at a share of 0
     Tonemap tonemap_;

@@ -62,10 +62,7 @@ SurfaceFeatures path_surfaces(const PathContext& context) {
                             chosen_anisotropy(context.settings, context.gpu.info));
 }
 
-SurfacePass::SurfacePass(const PathContext& context)
-    : context_(context),
-      bridge_(context.gpu),
-      decode_(context.gpu, context.tuning, context.plan.kernels) {
+SurfacePass::SurfacePass(const PathContext& context) : context_(context), bridge_(context.gpu) {
     if (!context.resolves()) {
         planes_.emplace(context.meshes(), context.plan.gbuffer);
         return;
@@ -228,6 +225,11 @@ ShadowInput SurfacePass::shadows(const Sample& sample) const {
     return out;
 }
 
+DecodeGBuffer& SurfacePass::decoder() {
+    if (!decode_) decode_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
+    return *decode_;
+}
+
 DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& grid) {
     StageTimer untimed;
     const View& view = gbuffer.view;
@@ -236,15 +238,17 @@ DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& g
     out.grid = grid;
     out.specular = context_.plan.gbuffer.specular;
     out.unlit = context_.plan.gbuffer.unlit;
-    out.planes = download<float>(context_.gpu, decode_.enqueue(gbuffer, untimed),
-                                 std::size_t{decode_.plane_count()} * view.stride * view.height);
+    DecodeGBuffer& decode = decoder();
+    out.planes = download<float>(context_.gpu, decode.enqueue(gbuffer, untimed),
+                                 std::size_t{decode.plane_count()} * view.stride * view.height);
     return out;
 }
 
 PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, int x, int y) {
     StageTimer untimed;
     const View& view = gbuffer.view;
-    const cl::Buffer planes = decode_.enqueue(gbuffer, untimed);
+    DecodeGBuffer& decode = decoder();
+    const cl::Buffer planes = decode.enqueue(gbuffer, untimed);
     const std::size_t plane = std::size_t{view.stride} * view.height;
     const std::size_t pixel =
         static_cast<std::size_t>(y) * view.stride + static_cast<std::size_t>(x);
@@ -252,7 +256,7 @@ PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, i
     out.grid = grid;
     out.specular = context_.plan.gbuffer.specular;
     out.unlit = context_.plan.gbuffer.unlit;
-    for (std::size_t i = 0; i < decode_.plane_count(); ++i) {
+    for (std::size_t i = 0; i < decode.plane_count(); ++i) {
         out.surface[i] = download<float>(context_.gpu, planes, 1, i * plane + pixel).front();
     }
     const float z = out.surface[SURFACE_DEPTH];

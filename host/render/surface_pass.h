@@ -63,6 +63,7 @@ class SurfacePass {
         bool masked;             // some tiles are background though surfaces cover them
         bool operator==(const Source&) const = default;
     };
+    DecodeGBuffer& decoder();
     GBuffer draw_planes(const Sample& sample, Measured out);
     GBuffer draw_ids(const Sample& sample, Measured out);
     GBuffer draw_in_opencl(const Sample& sample, Measured out);
@@ -81,8 +82,8 @@ class SurfacePass {
     std::optional<CountTexels> texels_;       // of the same, made when first asked for
     std::optional<ShadowOrigins> origins_;    // with shadows
     std::optional<MaskTiles> mask_;           // made when first asked for
+    std::optional<DecodeGBuffer> decode_;     // the same
     GBufferBridge bridge_;
-    DecodeGBuffer decode_;
     ShadowInput shadows_;
     std::optional<Source> source_;  // of gbuffer_
     bool is_checked_ = true;        // gbuffer_ is whole
