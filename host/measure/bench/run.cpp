@@ -66,6 +66,7 @@ BenchRun::BenchRun(const Scene& scene, RenderSettings base, const Camera& camera
       opened_(shared_scene(scene, gl)),
       watch_(choose_device(base_.device)) {
     base_.want.aovs.clear();
+    if (!base_.opened) base_.opened = std::make_shared<const Gpu>(choose_device(base_.device));
 }
 
 // Frame i's camera: to the right by a millionth of the scene's size a frame, far less than a pixel.
