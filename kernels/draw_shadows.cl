@@ -74,8 +74,7 @@ kernel void draw_shadows(
 #endif
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint light = lists[clusters[i].list_begin + j];
-            LightSum one =
-                evaluate(zero_sum(), p, LIGHT_AT(lights, light) WITH_PROFILE(profiles, light));
+            LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), profiles, light);
             FV alone = light_alone(draw, one);
             put_bits(bits, directional_count + j, mine & draws_light(draw, alone, light), words);
         }

@@ -95,7 +95,7 @@ kernel void tail_variance(
             float4 at = light.position_inv_range2;
             if (at.w > 0.0f) continue;
             FV3 v = fv3(fv(at.x) - p.position.x, fv(at.y) - p.position.y, fv(at.z) - p.position.z);
-            LightSum one = evaluate(zero_sum(), p, light WITH_PROFILE(profiles, index));
+            LightSum one = EVALUATE(zero_sum(), p, light, profiles, index);
             FV alone = light_alone(draw, one);
             FV missed = fv(1.0f) - fv(1.0f) / drawn_weight(light, dot3(v, v));
             FV share = seen_share(draw, bits, directional_count + j, alone);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/forward_lights.h"
 
+#include <fmt/format.h>
 #include <array>
 #include <string>
 #include <vector>
@@ -42,9 +43,10 @@ LightArray::LightArray(GLenum format, std::size_t texel_bytes, const char* name)
 void LightArray::refill(std::span<const std::byte> bytes, LightAccess access) {
     const std::size_t texels = bytes.size() / texel_bytes_;
     if (access == LightAccess::texture && texels > most_texels()) {
-        throw Error("forward renderer: " + std::string(name_) + " need " + std::to_string(texels) +
-                    " texels of a buffer texture; OpenGL has at most " +
-                    std::to_string(most_texels()) + " here");
+        throw Error(
+            fmt::format("forward renderer: {} need {} texels of a buffer texture; OpenGL "
+                        "has at most {} here",
+                        name_, texels, most_texels()));
     }
     refill_buffer(buffer_, bytes);
     if (access == LightAccess::texture) {

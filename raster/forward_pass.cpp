@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/forward_pass.h"
 
+#include <fmt/format.h>
 #include <initializer_list>
 #include <string>
 
@@ -19,7 +20,7 @@ ScenePass shaded_pass(const ForwardFeatures& features, bool blended) {
     ScenePass pass{.fragment = "raster/shaders/forward.frag",
                    .defines = feature_macros(features),
                    .blended = blended};
-    pass.defines.emplace_back("SHADING", std::to_string(features.shading));
+    pass.defines.emplace_back("SHADING", fmt::to_string(features.shading));
     pass.defines.emplace_back("LIGHT_TEXTURES", textures ? "1" : "0");
     pass.defines.emplace_back("CLUSTERED", features.clustered ? "1" : "0");
     return pass;

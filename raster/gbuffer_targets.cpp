@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/gbuffer_targets.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -106,7 +107,7 @@ TargetPlan plan_targets(const GBufferNeeds& needs) {
     TargetPlan plan;
     plan.reads_position = needs.layout == GBUFFER_FULL || needs.layout == GBUFFER_HALF ||
                           needs.layout == GBUFFER_OCT_2X4;
-    plan.defines = {{"GBUFFER_LAYOUT", std::to_string(needs.layout)},
+    plan.defines = {{"GBUFFER_LAYOUT", fmt::to_string(needs.layout)},
                     {"HAS_SPECULAR", needs.specular ? "1" : "0"},
                     {"HAS_UNLIT", needs.unlit ? "1" : "0"}};
     plan.reads = {{PLANE_DEPTH, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT, GL_FLOAT}};
@@ -123,7 +124,7 @@ TargetPlan plan_targets(const GBufferNeeds& needs) {
          {kMaterialLocation, kOcclusionLocation, kSpecularLocation, kGrazingLocation}) {
         const auto found = std::ranges::find(attachments, location, &Attachment::location);
         std::optional<std::string> index;
-        if (found != attachments.end()) index = std::to_string(found - attachments.begin());
+        if (found != attachments.end()) index = fmt::to_string(found - attachments.begin());
         define_optional(plan.defines, std::string(location), index);
     }
     return plan;
@@ -152,11 +153,10 @@ GBufferTargets::GBufferTargets(const TargetPlan& plan, int width, int height)
     glNamedFramebufferDrawBuffers(target, static_cast<GLsizei>(draw_buffers.size()),
                                   draw_buffers.data());
     const GLenum status = glCheckNamedFramebufferStatus(target, GL_FRAMEBUFFER);
-    const std::string what =
-        "G-buffer of " + std::to_string(width) + "x" + std::to_string(height) + " pixels";
+    const std::string what = fmt::format("G-buffer of {}x{} pixels", width, height);
     check_gl_errors(what);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
-        throw Error(what + ": framebuffer status is " + std::to_string(status));
+        throw Error(fmt::format("{}: framebuffer status is {}", what, status));
     }
 }
 
@@ -181,8 +181,8 @@ void check_target_size(int width, int height) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
     const int largest = std::min({viewport[0], viewport[1], texture});
     if (width >= 1 && height >= 1 && width <= largest && height <= largest) return;
-    throw Error("resolution " + std::to_string(width) + "x" + std::to_string(height) +
-                " pixels: this OpenGL draws 1 to " + std::to_string(largest) + " a side");
+    throw Error(fmt::format("resolution {}x{} pixels: this OpenGL draws 1 to {} a side", width,
+                            height, largest));
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cstdlib>
@@ -41,7 +42,7 @@ std::string egl_error() {
         case EGL_BAD_CONFIG:
             return "EGL_BAD_CONFIG";
         default:
-            return "EGL error " + std::to_string(error);
+            return fmt::format("EGL error {}", error);
     }
 }
 
@@ -67,7 +68,7 @@ std::vector<Candidate> device_candidates(const char* client_extensions) {
     if (!eglQueryDevicesEXT(count, devices.data(), &count)) return out;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
-        out.push_back({"device:" + std::to_string(i), EGL_PLATFORM_DEVICE_EXT, devices[i],
+        out.push_back({fmt::format("device:{}", i), EGL_PLATFORM_DEVICE_EXT, devices[i],
                        has_word(extensions, "EGL_MESA_device_software")});
     }
     return out;

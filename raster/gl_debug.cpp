@@ -2,6 +2,7 @@
 #include "raster/gl_debug.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include "host/base/error.h"
 
@@ -40,7 +41,7 @@ std::string error_name(GLenum error) {
         case GL_OUT_OF_MEMORY:
             return "GL_OUT_OF_MEMORY";
         default:
-            return "GL error " + std::to_string(error);
+            return fmt::format("GL error {}", error);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/gpu_textures.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <bit>
 #include <string>
@@ -59,9 +60,8 @@ GlTexture upload_image(const Image& image, bool srgb) {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (image.width > largest || image.height > largest) {
-        throw Error("image '" + image.name + "': " + std::to_string(image.width) + "x" +
-                    std::to_string(image.height) + " pixels, this OpenGL takes at most " +
-                    std::to_string(largest) + " a side");
+        throw Error(fmt::format("image '{}': {}x{} pixels, this OpenGL takes at most {} a side",
+                                image.name, image.width, image.height, largest));
     }
     const auto longest = static_cast<unsigned>(std::max(image.width, image.height));
     GlTexture texture = make_texture(GL_TEXTURE_2D);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/material_features.h"
 
+#include <fmt/format.h>
 #include <array>
 
 namespace kilolux {
@@ -20,7 +21,7 @@ std::string uv_expression(uint features, int use) {
     std::string texcoord =
         (features & (kFeatureTexcoord1 << use)) != 0 ? "v_texcoord1" : "v_texcoord0";
     if ((features & (kFeatureTransform << use)) == 0) return texcoord;
-    return "transformed(" + std::to_string(use) + ", " + texcoord + ")";
+    return fmt::format("transformed({}, {})", use, texcoord);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/interop/gbuffer_bridge.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -42,8 +43,8 @@ void GBufferBridge::make_staging(std::size_t bytes) {
         glMapNamedBufferRange(staging->pixels.name(), 0, static_cast<GLsizeiptr>(bytes), kAccess);
     check_gl_errors(kGbufferBridgeStage);
     if (!staging->mapping)
-        throw Error("gbuffer_bridge: OpenGL cannot map a pixel buffer of " +
-                    std::to_string(bytes >> 20) + " MiB");
+        throw Error(
+            fmt::format("gbuffer_bridge: OpenGL cannot map a pixel buffer of {} MiB", bytes >> 20));
     staging->bytes = bytes;
     const cl_mem_flags flags =
         gpu_.info.is_cpu ? CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR : CL_MEM_READ_ONLY;

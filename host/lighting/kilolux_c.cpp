@@ -77,14 +77,14 @@ WorldLight row_of(const kilolux_light& light, std::size_t i) {
     return world_light(point_pair(p[0], p[1], p[2]), row);
 }
 
-DirectionalLight row_of(const kilolux_sun& sun, std::size_t i) {
+DirectionalLight row_of(const kilolux_directional_light& light, std::size_t i) {
     const auto refuse = [i](const char* what) {
-        throw Error("kilolux_set_lights: sun " + std::to_string(i) + ": " + what);
+        throw Error("kilolux_set_lights: directional light " + std::to_string(i) + ": " + what);
     };
-    if (!is_unit(sun.to_light)) refuse("to_light is no unit vector");
-    if (!is_finite(sun.illuminance)) refuse("its illuminance is not finite");
-    return {{sun.to_light[0], sun.to_light[1], sun.to_light[2], 0},
-            {sun.illuminance[0], sun.illuminance[1], sun.illuminance[2], 0}};
+    if (!is_unit(light.to_light)) refuse("to_light is no unit vector");
+    if (!is_finite(light.illuminance)) refuse("its illuminance is not finite");
+    return {{light.to_light[0], light.to_light[1], light.to_light[2], 0},
+            {light.illuminance[0], light.illuminance[1], light.illuminance[2], 0}};
 }
 
 ViewMatrices matrices_of(const kilolux_frame& f) {
@@ -132,12 +132,13 @@ struct kilolux_lighting {
           repack(gpu, tuning, source_format(formats)),
           move(gpu, tuning),
           pack(gpu, tuning, checked<RadianceFormat>(formats.radiance, 2, "radiance")),
-          suns(gpu, "suns") {
+          directional_lights(gpu, "directional_lights") {
         features.shading = checked<int>(formats.shading, 2, "shading");
         lighting.emplace(gpu, tuning, features);
     }
 
-    void set_lights(std::span<const kilolux_light> lights, std::span<const kilolux_sun> given) {
+    void set_lights(std::span<const kilolux_light> lights,
+                    std::span<const kilolux_directional_light> given) {
         std::vector<WorldLight> rows;
         KernelFeatures needed = features;
         needed.point_lights = needed.spot_lights = false;
@@ -148,7 +149,8 @@ struct kilolux_lighting {
         needed.directional_lights = !given.empty();
         needed.light_index_bits = rows.size() > 65536 ? 32 : 16;
         std::vector<DirectionalLight> parallel;
-        for (const kilolux_sun& sun : given) parallel.push_back(row_of(sun, parallel.size()));
+        for (const kilolux_directional_light& light : given)
+            parallel.push_back(row_of(light, parallel.size()));
         if (needed != features) {
             std::optional<DeferredLighting> next(std::in_place, gpu, tuning, needed);
             lighting = std::move(next);
@@ -156,7 +158,7 @@ struct kilolux_lighting {
         }
         std::ranges::copy(rows, move.stage(rows.size()).begin());
         move.upload();
-        upload<DirectionalLight>(gpu, suns.reserve(parallel.size()), parallel);
+        upload<DirectionalLight>(gpu, directional_lights.reserve(parallel.size()), parallel);
     }
 
     void light(const kilolux_frame& f) {
@@ -172,8 +174,8 @@ struct kilolux_lighting {
         const ClusterGrid grid = make_cluster_grid(request, f.width, f.height);
         lighting->set_ambient(f.ambient);
         lighting->light({gbuffer,
-                         {moved, static_cast<uint>(moved.count()), suns.get(),
-                          static_cast<uint>(suns.get().count())},
+                         {moved, static_cast<uint>(moved.count()), directional_lights.get(),
+                          static_cast<uint>(directional_lights.get().count())},
                          grid},
                         timer, [&](const Radiance& radiance) {
                             pack.enqueue(radiance, memory_of(f.radiance), f.radiance_pitch, timer);
@@ -186,7 +188,7 @@ struct kilolux_lighting {
     RepackGBuffer repack;
     MoveLights move;
     PackRadiance pack;
-    GrowingArray<DirectionalLight> suns;
+    GrowingArray<DirectionalLight> directional_lights;
     std::optional<DeferredLighting> lighting;
 };
 
@@ -206,12 +208,12 @@ int kilolux_create(cl_context context, cl_command_queue queue, const kilolux_for
 void kilolux_destroy(kilolux_lighting* lighting) { delete lighting; }
 
 int kilolux_set_lights(kilolux_lighting* lighting, const kilolux_light* lights, size_t count,
-                       const kilolux_sun* suns, size_t sun_count) {
+                       const kilolux_directional_light* directional, size_t directional_count) {
     return guarded([&] {
         if (lighting == nullptr || (lights == nullptr && count > 0) ||
-            (suns == nullptr && sun_count > 0))
+            (directional == nullptr && directional_count > 0))
             throw Error("kilolux_set_lights: an argument is NULL");
-        lighting->set_lights({lights, count}, {suns, sun_count});
+        lighting->set_lights({lights, count}, {directional, directional_count});
     });
 }
 

@@ -58,10 +58,10 @@ typedef struct kilolux_light {
 } kilolux_light;
 
 /* Parallel light. */
-typedef struct kilolux_sun {
+typedef struct kilolux_directional_light {
     float to_light[3];    /* unit vector of the world */
     float illuminance[3]; /* linear Rec. 709 [lx] */
-} kilolux_sun;
+} kilolux_directional_light;
 
 /* One frame to light. All buffers: [height][pitch] pixels, rows from the top, elements aligned to
  * their size. */
@@ -90,7 +90,7 @@ void kilolux_destroy(kilolux_lighting* lighting); /* NULL: nothing */
 /* The lights from now on; copied, and kept on the device. Compiles when the kinds of lights or the
  * size of their indices (65536) change. */
 int kilolux_set_lights(kilolux_lighting* lighting, const kilolux_light* lights, size_t count,
-                       const kilolux_sun* suns, size_t sun_count);
+                       const kilolux_directional_light* directional, size_t directional_count);
 
 /* Moves the lights relative to the camera on the device, makes the lists, shades. Reads what the
  * queue wrote before; for other queues' work, clEnqueueBarrierWithWaitList() first. Blocks once,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/picture/view_canvas.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,9 +25,8 @@ constexpr DisplayColor kPaper = {0, 0, 0};
 constexpr DisplayColor kInk = {255, 255, 255};
 
 std::string number_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, value > 0.0 && value < 0.01 ? "%.1e" : "%.3g", value);
-    std::string out = text;
+    const bool small = value > 0.0 && value < 0.01;
+    std::string out = small ? fmt::format("{:.1e}", value) : fmt::format("{:.3g}", value);
     for (char& c : out) c = c == 'e' ? 'E' : c;
     return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/memory_plan.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 
 #include "host/base/error.h"
@@ -167,8 +168,8 @@ bool needs_whole_tiles(const Scene& scene, const RenderSettings& settings) {
 }
 
 std::string picture_text(const RenderSettings& settings) {
-    return std::to_string(settings.width) + "x" + std::to_string(settings.height) +
-           " pixels with " + std::to_string(settings.lights.count) + " generated lights";
+    return fmt::format("{}x{} pixels with {} generated lights", settings.width, settings.height,
+                       settings.lights.count);
 }
 
 int multiple_of_tile(Bytes rows) { return static_cast<int>(rows / FINE_TILE * FINE_TILE); }
@@ -204,8 +205,8 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
 void check_light_memory(const RenderSettings& settings) {
     const Bytes need = kProgram + settings.lights.count * kLight;
     if (need <= limit_of(settings)) return;
-    throw Error("memory: " + std::to_string(settings.lights.count) + " lights need at least " +
-                mebibytes(need) + "; " + limit_text(settings));
+    throw Error(fmt::format("memory: {} lights need at least {}; {}", settings.lights.count,
+                            mebibytes(need), limit_text(settings)));
 }
 
 }  // namespace kilolux

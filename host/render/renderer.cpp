@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/renderer.h"
 
+#include <fmt/format.h>
 #include <chrono>
 #include <cstring>
 #include <utility>
@@ -211,8 +212,9 @@ void Pipeline::show_view(double time, Frame& frame) {
 
 void Pipeline::require_whole(const char* what) const {
     if (is_whole()) return;
-    throw Error(std::string(what) + ": the picture is made in bands of " +
-                std::to_string(memory.band_rows) + " rows; it needs the whole (--max-memory)");
+    throw Error(fmt::format(
+        "{}: the picture is made in bands of {} rows; it needs the whole (--max-memory)", what,
+        memory.band_rows));
 }
 
 PixelProbe Pipeline::probe(int x, int y) {

@@ -2,6 +2,7 @@
 #include "host/surfaces/shadow_hierarchy.h"
 
 #include <embree3/rtcore.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -82,8 +83,8 @@ void set_child(ShadowNode& node, std::size_t i, const float* low, const float* h
 uint flatten(const BuiltNode& from, std::span<const CasterBox> boxes, int level,
              std::vector<ShadowNode>& nodes) {
     if (level >= SHADOW_LEVELS) {
-        throw Error("shadows: the hierarchy of triangles has more than " +
-                    std::to_string(SHADOW_LEVELS) + " levels");
+        throw Error(fmt::format("shadows: the hierarchy of triangles has more than {} levels",
+                                SHADOW_LEVELS));
     }
     const std::size_t place = nodes.size();
     nodes.push_back(empty_node());
@@ -130,9 +131,9 @@ const BuiltNode* build(RTCDevice device, RTCBVH bvh, std::vector<RTCBuildPrimiti
     arguments.createLeaf = make_leaf;
     const auto* root = static_cast<const BuiltNode*>(rtcBuildBVH(&arguments));
     if (root == nullptr) {
-        throw Error("shadows: building the hierarchy of " + std::to_string(primitives.size()) +
-                    " triangles failed (Embree error " +
-                    std::to_string(static_cast<int>(rtcGetDeviceError(device))) + ")");
+        throw Error(
+            fmt::format("shadows: building the hierarchy of {} triangles failed (Embree error {})",
+                        primitives.size(), static_cast<int>(rtcGetDeviceError(device))));
     }
     return root;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/surfaces/shadow_scene.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -142,8 +143,8 @@ void ShadowScene::build() {
     revision_ = scene_.revision;
     const std::uint64_t count = caster_count(scene_);
     if (count > SHADOW_NUMBER) {
-        throw Error("shadows: scene '" + scene_.name + "' has " + std::to_string(count) +
-                    " triangles; at most " + std::to_string(SHADOW_NUMBER) + " can cast shadows");
+        throw Error(fmt::format("shadows: scene '{}' has {} triangles; at most {} can cast shadows",
+                                scene_.name, count, SHADOW_NUMBER));
     }
     anchor_ = anchor_of(scene_);
     Casters all;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/surfaces/texture_table.h"
 
+#include <fmt/format.h>
 #include <string>
 
 #include "host/base/error.h"
@@ -33,9 +34,8 @@ uint filter_of(const Sampler& sampler) {
 void check_size(const Image& image) {
     constexpr int kLargest = 1 << (TEXTURE_LEVELS - 1);
     if (image.width <= kLargest && image.height <= kLargest) return;
-    throw Error("image '" + image.name + "': " + std::to_string(image.width) + "x" +
-                std::to_string(image.height) + " pixels; textures have at most " +
-                std::to_string(kLargest) + " a side");
+    throw Error(fmt::format("image '{}': {}x{} pixels; textures have at most {} a side", image.name,
+                            image.width, image.height, kLargest));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/surfaces/vertex_rows.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
@@ -82,8 +83,9 @@ void append_vertices(const Mesh& mesh, const MeshRow& row, std::vector<float>& o
 
 uint checked_count(std::size_t count, const Scene& scene) {
     if (count <= std::numeric_limits<uint>::max()) return static_cast<uint>(count);
-    throw Error("scene '" + scene.name + "': " + std::to_string(count) +
-                " numbers of vertices, triangles or texels; kernels address 4294967295");
+    throw Error(fmt::format(
+        "scene '{}': {} numbers of vertices, triangles or texels; kernels address 4294967295",
+        scene.name, count));
 }
 
 }  // namespace kilolux

@@ -177,10 +177,10 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
             sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
             ADD_SAMPLED(set, first + i, light, sum.block,
-                        evaluate(zero_sum(), p, set.staged[i] WITH_PROFILE(set.profiles, light)))
+                        EVALUATE(zero_sum(), p, set.staged[i], set.profiles, light))
 #else
             ADD_SEEN(sum.block, sees_entry(set, first + i, light),
-                     evaluate(sum.block, p, set.staged[i] WITH_PROFILE(set.profiles, light)))
+                     EVALUATE(sum.block, p, set.staged[i], set.profiles, light))
 #endif
         }
     }
@@ -190,13 +190,11 @@ static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, L
         uint light = light_of_entry(list, i);
         sum = enter_block(sum, light);
 #if SAMPLED_SHADOWS
-        ADD_SAMPLED(
-            set, i, light, sum.block,
-            evaluate(zero_sum(), p, LIGHT_AT(set.lights, light) WITH_PROFILE(set.profiles, light)))
+        ADD_SAMPLED(set, i, light, sum.block,
+                    EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.profiles, light))
 #else
-        ADD_SEEN(
-            sum.block, sees_entry(set, i, light),
-            evaluate(sum.block, p, LIGHT_AT(set.lights, light) WITH_PROFILE(set.profiles, light)))
+        ADD_SEEN(sum.block, sees_entry(set, i, light),
+                 EVALUATE(sum.block, p, LIGHT_AT(set.lights, light), set.profiles, light))
 #endif
     }
 #endif

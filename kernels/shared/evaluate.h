@@ -12,7 +12,7 @@
 // and HAS_DRAWN_RANGES, where lights may have drawn ranges (light_transform.h): then DRAWN_RANGES
 // is pi times the radiance that such a light causes on a white surface at the least of them;
 // HAS_LIGHT_PROFILES, where lights may have photometric webs: then evaluate() takes them and the
-// light's index, which WITH_PROFILE adds to its arguments.
+// light's index. EVALUATE names them always, and leaves them out where there are none.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
@@ -29,11 +29,9 @@
 #endif
 #if HAS_LIGHT_PROFILES
 #include "kernels/shared/light_profile.h"
-#define WITH_PROFILE(profiles, index) , profiles, index
-#define PROFILE_PARAMETERS , LightProfiles profiles, uint index
+#define EVALUATE(sum, p, light, profiles, index) evaluate(sum, p, light, profiles, index)
 #else
-#define WITH_PROFILE(profiles, index)
-#define PROFILE_PARAMETERS
+#define EVALUATE(sum, p, light, profiles, index) evaluate(sum, p, light)
 #endif
 
 // Leave a light whose window is 0 in all lanes before its costly part: pays for all but lambert,
@@ -135,7 +133,12 @@ SHARED_FN FV window_of(ShadeLight light, FV d2) {
 }
 
 // Adds a point or spot light.
-SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light PROFILE_PARAMETERS) {
+#if HAS_LIGHT_PROFILES
+SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light, LightProfiles profiles,
+                            uint index) {
+#else
+SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
+#endif
     FV3 v = fv3(fv(light.position_inv_range2.x) - p.position.x,
                 fv(light.position_inv_range2.y) - p.position.y,
                 fv(light.position_inv_range2.z) - p.position.z);
@@ -172,8 +175,8 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light PROFI
 #endif
     return add_blinn_phong(sum, p, v, distance, lit, light.color_scale);
 #else
-    sum.diffuse = add_scaled(sum.diffuse, lit, light.color_scale);
-    return sum;
+sum.diffuse = add_scaled(sum.diffuse, lit, light.color_scale);
+return sum;
 #endif
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/commands/certificate.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ SharedOptions options_of(const Picture& picture, const cl::Device& device) {
     s.shadows = picture.shadows;
     s.geometry = Geometry::compute;
     const std::vector<cl::Device> devices = all_devices();
-    s.device = std::to_string(std::ranges::find(devices, device) - devices.begin());
+    s.device = fmt::to_string(std::ranges::find(devices, device) - devices.begin());
     measure_swarm(options);
     return options;
 }

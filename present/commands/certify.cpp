@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/commands/certify.h"
 
+#include <fmt/format.h>
 #include <cstdio>
 #include <optional>
 #include <set>
@@ -183,8 +184,8 @@ void require_all_passed(const Certificate& made) {
     }
     std::string text;
     if (!failed.empty()) {
-        text = std::to_string(failed.size()) + " of " + std::to_string(made.rows.size()) +
-               " hard cases failed: " + joined(failed);
+        text = fmt::format("{} of {} hard cases failed: {}", failed.size(), made.rows.size(),
+                           joined(failed));
     }
     for (const auto& [name, part] : made.parts.items()) {
         if (!part.at("passed").get<bool>()) text += (text.empty() ? "" : "; ") + name + " failed";

@@ -25,7 +25,7 @@ struct Outcome {
 Outcome run(const std::string& device, std::vector<std::string> more) {
     const ScratchFolder scratch;
     const fs::path file = scratch.file("result.json");
-    std::vector<std::string> words = {"timeout", "--foreground", std::to_string(kIsolatedSeconds),
+    std::vector<std::string> words = {"timeout", "--foreground", fmt::to_string(kIsolatedSeconds),
                                       fs::read_symlink("/proc/self/exe").string(), "certify"};
     words.insert(words.end(), more.begin(), more.end());
     words.insert(words.end(), {"--quiet", "-o", file.string()});
@@ -48,7 +48,7 @@ Outcome run(const std::string& device, std::vector<std::string> more) {
 void add_case(HardCaseRow& row, const std::string& device, int lanes) {
     row.lanes.push_back(lanes);
     const Outcome outcome =
-        run(device, {"--case", std::string(row.hard_case.label), "--lanes", std::to_string(lanes)});
+        run(device, {"--case", std::string(row.hard_case.label), "--lanes", fmt::to_string(lanes)});
     if (!outcome.error.empty()) {
         row.error = fmt::format("{} lanes: {}", lanes, outcome.error);
         return;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <optional>
@@ -63,8 +64,8 @@ void add_mesh(Scene& scene, const MeshArrays& arrays, std::optional<int> materia
     Mesh mesh = mesh_of(arrays);
     const int known = static_cast<int>(scene.materials.size());
     if (material && (*material < 0 || *material >= known)) {
-        throw Error("mesh '" + mesh.name + "': material " + std::to_string(*material) +
-                    " is none of the scene's " + std::to_string(known));
+        throw Error(fmt::format("mesh '{}': material {} is none of the scene's {}", mesh.name,
+                                *material, known));
     }
     mesh.material = material.value_or(-1);
     scene.instances.push_back(

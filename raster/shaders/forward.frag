@@ -114,7 +114,7 @@ LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
         uint light = i;
 #endif
         sum = enter_block(sum, light);
-        sum.block = evaluate(sum.block, p, light_at(light) WITH_PROFILE(profiles, light));
+        sum.block = EVALUATE(sum.block, p, light_at(light), profiles, light);
     }
     return finish_sum(sum);
 }

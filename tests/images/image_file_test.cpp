@@ -8,6 +8,9 @@
 #include <cstring>
 #include <limits>
 
+#include "host/base/atomic_write.h"
+#include "host/images/images.h"
+#include "host/scene/lights/environment.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -285,6 +288,20 @@ TEST(ImageFile, ATruncatedExrIsAnErrorAndNotAPicture) {
     const std::string half(reinterpret_cast<const char*>(bytes.data()), bytes.size() / 2);
     write_text(folder / "a.exr", half);
     EXPECT_THROW(read_image(folder / "a.exr"), Error);
+}
+
+// An environment's light is what its file stores, whatever its alpha.
+TEST(ImageFile, AlphaDarkensNoEnvironment) {
+    const TemporaryFolder folder;
+    const std::vector<unsigned char> half(std::size_t{4} * 4 * 2, 128);
+    ImageLayout layout{4, 2, {}};
+    for (const char* name : {"R", "G", "B", "A"}) {
+        layout.channels.push_back({name, SampleType::uint8});
+    }
+    write_atomically(folder / "a.png", encode_pixels("a.png", "png", layout, half, 4));
+    for (const glm::vec3& light : read_environment(folder / "a.png").rows) {
+        EXPECT_NEAR(light.x, 128.0f / 255.0f, 1e-6f);
+    }
 }
 
 TEST(ImageFile, ColourOfGreyAndUnnamedChannels) {

@@ -53,15 +53,15 @@ static kilolux_frame plane_frame(cl_context context) {
 /* What no call may take; nothing of it reaches the device. */
 static void expect_refusals(kilolux_lighting* lighting, const kilolux_frame* good) {
     kilolux_light light = {{0, 0, 0}, 1.0f, {1, 1, 1}, 1, {0, 0, 0}, 0.9f, 0.8f};
-    kilolux_sun sun = {{0, 0, 2}, {1, 1, 1}};
+    kilolux_directional_light directional = {{0, 0, 2}, {1, 1, 1}};
     kilolux_frame frame = *good;
     expect(kilolux_set_lights(NULL, NULL, 0, NULL, 0) == 1, "no handle", 0);
     expect(kilolux_set_lights(lighting, NULL, 3, NULL, 0) == 1, "no lights", 0);
     expect(strcmp(kilolux_error(), "kilolux_set_lights: an argument is NULL") == 0, "message", 0);
     expect(kilolux_set_lights(lighting, &light, 1, NULL, 0) == 1, "a spot without an axis", 0);
     expect(strstr(kilolux_error(), "light 0: its axis is no unit vector") != NULL, "message", 0);
-    expect(kilolux_set_lights(lighting, NULL, 0, &sun, 1) == 1, "a long direction", 0);
-    expect(strstr(kilolux_error(), "sun 0: to_light is no unit vector") != NULL, "message", 0);
+    expect(kilolux_set_lights(lighting, NULL, 0, &directional, 1) == 1, "a long direction", 0);
+    expect(strstr(kilolux_error(), "directional light 0: to_light is no unit vector") != NULL, "message", 0);
     expect(kilolux_light_frame(NULL, good) == 1, "no handle", 0);
     expect(kilolux_light_frame(lighting, NULL) == 1, "no frame", 0);
     frame.normal = NULL;
@@ -86,7 +86,7 @@ int main(void) {
     cl_command_queue queue;
     kilolux_formats formats = {0};
     kilolux_light lights[2] = {{{1e6, 0.0, -1.0}, 4.0f, {2.0f, 1.0f, 0.5f}, 0, {0, 0, 0}, 0, 0}};
-    kilolux_sun sun = {{0, 0, 1}, {0, 0, 1}};
+    kilolux_directional_light directional = {{0, 0, 1}, {0, 0, 1}};
     kilolux_lighting* lighting = NULL;
     kilolux_frame frame;
     float pixels[PIXELS][4];
@@ -126,10 +126,10 @@ int main(void) {
     expect(pixels[0][0] == 0.0f && pixels[0][3] == 1.0f, "background", pixels[0][0]);
     expect(pixels[1][0] > 0.0f && pixels[1][0] < 0.5f * middle[0], "corner", pixels[1][0]);
 
-    expect(kilolux_set_lights(lighting, NULL, 0, &sun, 1) == 0, "a sun", 0);
-    expect(kilolux_light_frame(lighting, &frame) == 0, "light by the sun", 0);
+    expect(kilolux_set_lights(lighting, NULL, 0, &directional, 1) == 0, "a directional light", 0);
+    expect(kilolux_light_frame(lighting, &frame) == 0, "light by it", 0);
     clEnqueueReadBuffer(queue, frame.radiance, CL_TRUE, 0, sizeof(pixels), pixels, 0, NULL, NULL);
-    expect(fabs(middle[2] * 3.14159265358979 - 1.0) < 0.003, "sun", middle[2]);
+    expect(fabs(middle[2] * 3.14159265358979 - 1.0) < 0.003, "its light", middle[2]);
     expect(middle[0] == 0.0f, "no red", middle[0]);
 
     frame.nearest = 5.0f; /* behind all pixels: slower, but the same */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/bench/visibility.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -45,7 +46,7 @@ std::vector<VisibilityMeasurement> measure_visibility(LightingBench& bench,
     const std::array requests = {request, bundled(request)};
     std::vector<VisibilityMeasurement> out(2);
     out[0].walks = "shafts";
-    out[1].walks = "bundles of " + std::to_string(request.tuning.lanes) + " rays";
+    out[1].walks = fmt::format("bundles of {} rays", request.tuning.lanes);
     for (VisibilityMeasurement& m : out) m.ms = std::numeric_limits<double>::infinity();
     std::uint64_t picture = 0;
     for (int i = 0; i < runs; ++i) {

@@ -30,7 +30,7 @@ std::string camera_options(const CameraRig& rig, const SharedOptions& first, con
     const bool stays = rig.is_unmoved() && camera.position == start.position &&
                        camera.world_from_view == start.world_from_view;
     if (stays && first.camera.index) {
-        out = " --camera-index " + std::to_string(*first.camera.index);
+        out = fmt::format(" --camera-index {}", *first.camera.index);
     }
     if (stays && first.camera.framed) out += " --camera-index auto";
     if (stays && first.camera.fit != Fit::height) out += " --fit " + name_of(first.camera.fit);

@@ -99,7 +99,7 @@ void Panel::camera(const CameraRig& rig) const {
         std::vector<std::string> names = {"-"};
         for (std::size_t i = 0; i < facts.scene.cameras.size(); ++i) {
             const std::string& name = facts.scene.cameras[i].name;
-            names.push_back(std::to_string(i) + (name.empty() ? "" : " " + name));
+            names.push_back(fmt::format("{}{}{}", i, name.empty() ? "" : " ", name));
         }
         int chosen = 0;
         if (ui.choice("Go to", chosen, names) && chosen > 0) actions.scene_camera = chosen - 1;

@@ -115,7 +115,7 @@ void error_table(const FrameError& error) {
 
 std::string lights_text(const FrameStats& s) {
     std::string out = short_count(s.lights_used) + " used";
-    if (s.lights_rejected > 0) out += ", " + std::to_string(s.lights_rejected) + " rejected";
+    if (s.lights_rejected > 0) out += fmt::format(", {} rejected", s.lights_rejected);
     return out;
 }
 
@@ -153,7 +153,7 @@ void fact_line(const char* name, const std::string& value) {
 
 std::string short_count(std::uint64_t value) {
     const auto number = static_cast<double>(value);
-    if (value < 10'000) return std::to_string(value);
+    if (value < 10'000) return fmt::to_string(value);
     return value < 1'000'000 ? fixed(1e-3 * number, 1) + " k" : fixed(1e-6 * number, 2) + " M";
 }
 

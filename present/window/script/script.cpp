@@ -52,7 +52,7 @@ std::vector<ScriptStep> read_script(const std::filesystem::path& file) {
     std::vector<ScriptStep> steps;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
-        ScriptStep step{file.string() + ":" + std::to_string(number), {}};
+        ScriptStep step{fmt::format("{}:{}", file.string(), number), {}};
         std::istringstream words(line);
         for (std::string word; words >> word;) step.words.push_back(word);
         if (step.words.empty() || step.words[0][0] == '#') continue;

@@ -256,8 +256,8 @@ bool ScriptPlayer::reach(const std::string& widget) {
     if (place != nullptr && place->visible) return true;
     if (++tries_ > kMaxTries) {
         const WidgetPlace& found = place_of(widget);
-        throw Error(place_ + ": '" + widget + "' does not come into sight; it is at " +
-                    std::to_string(static_cast<int>(found.middle_y())));
+        throw Error(fmt::format("{}: '{}' does not come into sight; it is at {:.0f}", place_,
+                                widget, found.middle_y()));
     }
     if (place == nullptr) return false;
     const double height = stage_.window.size()[1];
