@@ -77,6 +77,14 @@ std::vector<std::string> embedded_paths(std::string_view prefix) {
     return paths;
 }
 
+std::string kernel_path(std::string_view stem) {
+    std::string name = "/";
+    name.append(stem).append(".cl");
+    for (const std::string& path : embedded_paths("kernels/"))
+        if (path.ends_with(name)) return path;
+    throw Error("kernels" + name + ": no such embedded source");
+}
+
 SplicedSource splice_source(std::string_view path, bool glsl) {
     SplicedSource out;
     splice(out, path, glsl);

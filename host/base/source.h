@@ -7,13 +7,17 @@
 
 namespace kilolux {
 
-/// Text of an embedded source file by its path from the root ("kernels/shade.cl",
+/// Text of an embedded source file by its path from the root ("kernels/shading/shade.cl",
 /// "raster/shaders/geometry.vert"). With KILOLUX_SOURCE_DIR set it is read from that folder
 /// instead, for development; that is said on stderr. Throws Error when there is no such file.
 std::string embedded_text(std::string_view path);
 
 /// Paths of all embedded files that start with `prefix`.
 std::vector<std::string> embedded_paths(std::string_view prefix);
+
+/// Path of the kernel file `stem`.cl, in whichever folder of kernels/ it lies: stems are unique.
+/// Throws Error when there is no such file.
+std::string kernel_path(std::string_view stem);
 
 /// A source with its #include "..." lines replaced by the files' texts, each once, and #line so
 /// that a compiler's message names the file and line.

@@ -11,8 +11,8 @@ namespace kilolux {
 double srgb_to_linear(double encoded);
 double linear_to_srgb(double linear);
 
-/// Light as tone curves take it, as in kernels/tonemap.cl: NaN and negative values are black, 1e9
-/// is the largest.
+/// Light as tone curves take it, as in kernels/picture/tonemap.cl: NaN and negative values are
+/// black, 1e9 is the largest.
 inline float displayable(double light) {
     return light > 0.0 ? static_cast<float>(light < 1e9 ? light : 1e9) : 0.0f;
 }

@@ -11,7 +11,7 @@
 #include "host/gpu/buffer.h"
 #include "host/render/renderer.h"
 #include "host/render/scene_plan.h"
-#include "host/stages/prefix_sum.h"
+#include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
 namespace {

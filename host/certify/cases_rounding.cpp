@@ -12,7 +12,7 @@
 #include "host/certify/opengl_beside.h"
 #include "host/certify/scene_case.h"
 #include "host/certify/synthetic/probe.h"
-#include "host/stages/tonemap.h"
+#include "host/stages/picture/tonemap.h"
 #include "kernels/shared/tone_curve.h"
 #include "raster/geometry_pass.h"
 

@@ -10,7 +10,7 @@
 #include "host/render/renderer.h"
 #include "host/scene/camera.h"
 #include "host/scene/generated/scenes.h"
-#include "host/stages/tonemap.h"
+#include "host/stages/picture/tonemap.h"
 #include "kernels/shared/tone_curve.h"
 
 namespace kilolux {

@@ -51,7 +51,7 @@ struct ShadowAgreement {
 };
 
 /// `settings` chooses device and size. The stated distance is 2^-15 of the distance from the light
-/// and the scene's size: kernels/device/shadow_triangle.h.
+/// and the scene's size: kernels/shadows/shadow_triangle.h.
 ShadowAgreement compare_shadows(const ShadowScenario& scenario, RenderSettings settings);
 
 }  // namespace kilolux

@@ -35,7 +35,7 @@ inline WorkSize groups(std::size_t count, int group) {
 /// high.
 WorkSize pixel_items(const View& view, int lanes, int rows);
 
-/// The same for whole tiles: of blocks of pixels (kernels/device/block.h).
+/// The same for whole tiles: of blocks of pixels (kernels/surfaces/block.h).
 WorkSize block_items(const View& view, int lanes, int rows);
 
 /// One kernel of a stage, made once. A launch sets all arguments in their order.

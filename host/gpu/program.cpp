@@ -52,7 +52,7 @@ BuildOptions& BuildOptions::flag(std::string_view text) {
 }
 
 cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options) {
-    const std::string file = "kernels/" + std::string(stem) + ".cl";
+    const std::string file = kernel_path(stem);
     return build_text(gpu, file, splice_source(file, false).text, options);
 }
 

@@ -8,7 +8,8 @@ namespace kilolux {
 std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
                                            std::span<const ShippedTuning> table) {
     const auto is_device = [&](const ShippedTuning& row) {
-        return row.platform == device.platform && row.device == device.name;
+        return row.platform == device.platform && row.device == device.name &&
+               row.is_cpu == device.is_cpu;
     };
     const auto is_class = [&](const ShippedTuning& row) {
         return row.platform == device.platform && row.is_cpu == device.is_cpu &&

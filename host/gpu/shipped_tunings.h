@@ -27,11 +27,11 @@ struct ShippedMatch {
     bool same_device = false;  // else only of its class
 };
 
-/// The row of the device's platform and name; else one of its class: of its platform, and on CPUs
-/// of its OpenCL version, which names the instructions that PoCL compiles for. Chunks of lights go
-/// with the number of compute units. None: no row matches. What it says of the geometry is not
-/// for others: OpenGL's triangles and OpenCL's differ at edges, so only a measurement here changes
-/// them.
+/// The row of the device's platform, name and kind; else one of its class: of its platform, and on
+/// CPUs of its OpenCL version, which names the instructions that PoCL compiles for. Chunks of
+/// lights go with the number of compute units. None: no row matches. What it says of the geometry
+/// is not for others: OpenGL's triangles and OpenCL's differ at edges, so only a measurement here
+/// changes them.
 std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
                                            std::span<const ShippedTuning> table);
 

@@ -54,8 +54,8 @@ struct ShadowCasters {
 struct ShadowInput {
     ShadowCasters casters;
     ShadowView view{};
-    DeviceArray<float> origins;  // [4][height][stride], see kernels/device/shadow_space.h
-    // With KernelFeatures::sampled_shadows, see kernels/device/shadow_draw.h.
+    DeviceArray<float> origins;  // [4][height][stride], see kernels/shadows/shadow_space.h
+    // With KernelFeatures::sampled_shadows, see kernels/shadows/shadow_draw.h.
     float rays = 0.0f;  // a pixel at most, on average
     uint seed = 0;      // of the frame and sample
 };
@@ -70,14 +70,14 @@ struct ShadowSamples {
 /// What kernels that cast shadows are compiled with.
 void define_casters(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning);
 
-/// Which pixels see which lights, as kernels/device/cast_shadows.h has it.
+/// Which pixels see which lights, as kernels/shadows/cast_shadows.h has it.
 struct ShadowWords {
     DeviceArray<uint> offsets;  // [tile_count + 1]
     DeviceArray<uint> words;
 };
 
 /// Triangles of each tile of the picture: lists[offsets[t] .. offsets[t + 1]), numbers along the
-/// instances, as kernels/device/raster_tile.h has them.
+/// instances, as kernels/surfaces/raster_tile.h has them.
 struct TriangleLists {
     DeviceArray<RasterRow> triangles;  // by number; those of the lists
     DeviceArray<uint> offsets;         // [tile_count + 1]

@@ -71,20 +71,20 @@
 #include "host/gpu/program.h"          // in_stage: OpenCL's errors with the stage's name
 #include "host/gpu/stage_timer.h"      // times by stage
 #include "host/gpu/tuning_store.h"     // known_tuning: the best work sizes known of a device
-#include "host/stages/bin_pixels.h"
-#include "host/stages/bloom.h"
-#include "host/stages/build_clusters.h"
-#include "host/stages/count_lights.h"
-#include "host/stages/count_pairs.h"
-#include "host/stages/cull_lights.h"
-#include "host/stages/decode_gbuffer.h"
-#include "host/stages/move_lights.h"
-#include "host/stages/pack_radiance.h"
-#include "host/stages/prepare_lights.h"
-#include "host/stages/refine_lights.h"
-#include "host/stages/repack_gbuffer.h"
-#include "host/stages/shade.h"
-#include "host/stages/tonemap.h"
+#include "host/stages/lights/move_lights.h"
+#include "host/stages/lights/prepare_lights.h"
+#include "host/stages/lists/bin_pixels.h"
+#include "host/stages/lists/build_clusters.h"
+#include "host/stages/lists/count_lights.h"
+#include "host/stages/lists/count_pairs.h"
+#include "host/stages/lists/cull_lights.h"
+#include "host/stages/lists/refine_lights.h"
+#include "host/stages/picture/bloom.h"
+#include "host/stages/picture/pack_radiance.h"
+#include "host/stages/picture/tonemap.h"
+#include "host/stages/shading/shade.h"
+#include "host/stages/surfaces/decode_gbuffer.h"
+#include "host/stages/surfaces/repack_gbuffer.h"
 #include "kernels/shared/evaluate_modes.h"  // SHADING_*
 #include "kernels/shared/gbuffer.h"         // planes, octahedral_encode
 #include "kernels/shared/tone_curve.h"      // TONE_CURVE_*

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "host/stages/build_clusters.h"
-#include "host/stages/cull_lights.h"
-#include "host/stages/prepare_lights.h"
+#include "host/stages/lights/prepare_lights.h"
+#include "host/stages/lists/build_clusters.h"
+#include "host/stages/lists/cull_lights.h"
 
 namespace kilolux {
 

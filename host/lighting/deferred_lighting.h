@@ -6,8 +6,8 @@
 
 #include "host/gpu/surface_flow.h"
 #include "host/lighting/light_lists.h"
-#include "host/stages/cast_shadows.h"
-#include "host/stages/shade.h"
+#include "host/stages/shading/shade.h"
+#include "host/stages/shadows/cast_shadows.h"
 
 namespace kilolux {
 

@@ -11,9 +11,9 @@
 #include "host/base/version.h"
 #include "host/gpu/tuning_store.h"
 #include "host/lighting/deferred_lighting.h"
-#include "host/stages/move_lights.h"
-#include "host/stages/pack_radiance.h"
-#include "host/stages/repack_gbuffer.h"
+#include "host/stages/lights/move_lights.h"
+#include "host/stages/picture/pack_radiance.h"
+#include "host/stages/surfaces/repack_gbuffer.h"
 
 namespace kilolux {
 namespace {

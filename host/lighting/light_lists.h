@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "host/lighting/coarse_light_lists.h"
-#include "host/stages/bin_pixels.h"
-#include "host/stages/count_pairs.h"
-#include "host/stages/cut_light_tree.h"
-#include "host/stages/refine_lights.h"
+#include "host/stages/lists/bin_pixels.h"
+#include "host/stages/lists/count_pairs.h"
+#include "host/stages/lists/refine_lights.h"
+#include "host/stages/tails/cut_light_tree.h"
 
 namespace kilolux {
 

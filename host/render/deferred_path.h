@@ -6,9 +6,9 @@
 #include "host/picture/pixel_probe.h"
 #include "host/render/blended_pass.h"
 #include "host/render/surface_pass.h"
-#include "host/stages/count_lights.h"
-#include "host/stages/count_seen.h"
-#include "host/stages/tail_errors.h"
+#include "host/stages/lists/count_lights.h"
+#include "host/stages/shadows/count_seen.h"
+#include "host/stages/tails/tail_errors.h"
 
 namespace kilolux {
 

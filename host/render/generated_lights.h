@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/scene/lights/light_generator.h"
-#include "host/stages/drift_lights.h"
+#include "host/stages/lights/drift_lights.h"
 
 namespace kilolux {
 

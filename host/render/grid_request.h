@@ -3,7 +3,7 @@
 
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
-#include "host/stages/build_clusters.h"
+#include "host/stages/lists/build_clusters.h"
 
 namespace kilolux {
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/stages/move_lights.h"
+#include "host/stages/lights/move_lights.h"
 
 namespace kilolux {
 namespace {
 
 // Squares of distances to farther positions leave the range that culling vouches for (1e30 m^2,
-// kernels/device/light_reach.h) [m].
+// kernels/lists/light_reach.h) [m].
 constexpr double kFarthest = 1e15;
 
 bool is_finite(const glm::dvec3& v) {

@@ -14,7 +14,7 @@
 #include "host/scene/lights/light_ranges.h"
 #include "host/scene/lights/light_tree.h"
 #include "host/scene/scene.h"
-#include "host/stages/move_lights.h"
+#include "host/stages/lights/move_lights.h"
 
 namespace kilolux {
 

@@ -14,8 +14,8 @@
 #include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/open_tiles.h"
-#include "host/stages/fill_background.h"
-#include "host/stages/reflect_environment.h"
+#include "host/stages/shading/fill_background.h"
+#include "host/stages/shading/reflect_environment.h"
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 

@@ -14,10 +14,10 @@
 #include "host/render/light_source.h"
 #include "host/render/memory_plan.h"
 #include "host/render/render_scene.h"
-#include "host/stages/adaptive_samples.h"
-#include "host/stages/bloom.h"
-#include "host/stages/sum_samples.h"
-#include "host/stages/tonemap.h"
+#include "host/stages/picture/adaptive_samples.h"
+#include "host/stages/picture/bloom.h"
+#include "host/stages/picture/sum_samples.h"
+#include "host/stages/picture/tonemap.h"
 #include "raster/overdraw_pass.h"
 
 namespace kilolux {

@@ -8,7 +8,7 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/scene/draw_list.h"
 #include "host/scene/scene.h"
-#include "host/stages/resolve_surfaces.h"
+#include "host/stages/surfaces/resolve_surfaces.h"
 
 namespace kilolux {
 

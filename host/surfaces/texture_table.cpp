@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "host/stages/build_mips.h"
+#include "host/stages/surfaces/build_mips.h"
 #include "host/surfaces/vertex_rows.h"
 
 namespace kilolux {

@@ -8,7 +8,7 @@
 
 #include "host/gpu/features.h"
 #include "host/scene/material_row.h"
-#include "host/stages/resolve_surfaces.h"
+#include "host/stages/surfaces/resolve_surfaces.h"
 
 namespace kilolux {
 

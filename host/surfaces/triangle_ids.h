@@ -6,8 +6,8 @@
 
 #include "host/scene/camera.h"
 #include "host/scene/draw_list.h"
-#include "host/stages/bin_triangles.h"
-#include "host/stages/raster_triangles.h"
+#include "host/stages/surfaces/bin_triangles.h"
+#include "host/stages/surfaces/raster_triangles.h"
 
 namespace kilolux {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/scene/scene.h"
-#include "host/stages/resolve_surfaces.h"
+#include "host/stages/surfaces/resolve_surfaces.h"
 
 namespace kilolux {
 

@@ -21,7 +21,7 @@
 #define SHADOW_NUMBER (SHADOW_MASKED - 1u)
 
 // By how much boxes are wider than their triangles, relative to the largest coordinate [m/m]: more
-// than what the tests of kernels/device/shadow_triangle.h grant beyond a triangle's edges.
+// than what the tests of kernels/shadows/shadow_triangle.h grant beyond a triangle's edges.
 #define SHADOW_PAD (1.0f / (1 << 17))
 
 // Ends of the box of a child that is not there: no shaft meets it.

@@ -22,7 +22,7 @@ float srgb_of_linear(float linear) {
     return static_cast<float>(linear_to_srgb(std::clamp<double>(linear, 0.0, 1.0)));
 }
 
-// As kernels/tonemap.cl: NaN and negative light become black, infinite light white.
+// As kernels/picture/tonemap.cl: NaN and negative light become black, infinite light white.
 float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
 
 FV3 tone_mapped(FV3 c, ToneCurve curve) {

@@ -12,8 +12,8 @@
 #include "host/lighting/deferred_lighting.h"
 #include "host/render/light_rows.h"
 #include "host/scene/lights/light_ranges.h"
-#include "host/stages/build_clusters.h"
-#include "host/stages/count_lights.h"
+#include "host/stages/lists/build_clusters.h"
+#include "host/stages/lists/count_lights.h"
 #include "kernels/shared/evaluate_modes.h"
 
 namespace kilolux {

@@ -101,7 +101,7 @@ uvec2 light_range(float z) {
 #endif
 }
 
-// As kernels/shade.cl: in blocks by light index.
+// As kernels/shading/shade.cl: in blocks by light index.
 LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
     RunningSum sum = start_sum(total);
 #if HAS_LIGHT_PROFILES

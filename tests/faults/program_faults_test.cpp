@@ -91,19 +91,20 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
         fs::copy(fs::path(source_root()) / room, elsewhere_ / room, fs::copy_options::recursive);
     }
     const Words developer = with_environment({"KILOLUX_SOURCE_DIR=" + elsewhere_.path().string()});
-    const std::string shade = text_of_file(elsewhere_ / "kernels/shade.cl");
-    write_text(elsewhere_ / "kernels/shade.cl", shade + "\nthis is no OpenCL C\n");
+    const std::string shade = text_of_file(elsewhere_ / "kernels/shading/shade.cl");
+    write_text(elsewhere_ / "kernels/shading/shade.cl", shade + "\nthis is no OpenCL C\n");
     const ChildResult result = run_child(render_words(developer, picture_));
-    expect_failure(result, "kernels/shade.cl: build failed with CL_BUILD_PROGRAM_FAILURE on ");
+    expect_failure(result,
+                   "kernels/shading/shade.cl: build failed with CL_BUILD_PROGRAM_FAILURE on ");
     expect_untouched();
     for (const char* part :
-         {"options '-cl-std=CL1.2", "unknown type name 'this'", "error: kernels/shade.cl:",
+         {"options '-cl-std=CL1.2", "unknown type name 'this'", "error: kernels/shading/shade.cl:",
           "kilolux: warning: sources are read from KILOLUX_SOURCE_DIR="}) {
         EXPECT_TRUE(has(result.err, part)) << part << "\n" << result.err;
     }
-    fs::remove(elsewhere_ / "kernels/shade.cl");
-    expect_refused(developer, "kernels/shade.cl: cannot be read");
-    write_text(elsewhere_ / "kernels/shade.cl", shade);
+    fs::remove(elsewhere_ / "kernels/shading/shade.cl");
+    expect_refused(developer, "kernels/shading/shade.cl: cannot be read");
+    write_text(elsewhere_ / "kernels/shading/shade.cl", shade);
     write_text(elsewhere_ / "raster/shaders/ids.frag", "#version 450\nthis is no GLSL\n");
     expect_refused(developer, "raster/shaders/ids.frag");
 }

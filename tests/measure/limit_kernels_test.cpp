@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What measured rates divide by: the operations and bytes of kernels/measure_limits.cl, compiled as
-// C++ with lanes that count.
+// What measured rates divide by: the operations and bytes of kernels/limits/measure_limits.cl,
+// compiled as C++ with lanes that count.
 #include "host/measure/roofline/limit_kernels.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ inline void counted_store(FV value, float* place) {
 }
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-parameter"
-#include "kernels/measure_limits.cl"
+#include "kernels/limits/measure_limits.cl"
 #pragma GCC diagnostic pop
 }  // namespace limit_source
 #undef kernel

@@ -10,7 +10,7 @@
 #include "host/measure/reference/ray_cast_reference.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
-#include "host/stages/decode_gbuffer.h"
+#include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/surfaces/surface_scene.h"
 #include "raster/gl_context.h"
 #include "raster/ids_pass.h"

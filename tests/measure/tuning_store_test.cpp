@@ -242,6 +242,9 @@ TEST_F(ShippedTunings, MatchesTheDeviceThenItsClass) {
     ASSERT_TRUE(of_class);
     EXPECT_FALSE(of_class->same_device);
     EXPECT_EQ(of_class->tuning.lanes, 8) << "the first of its class";
+    DeviceInfo forced = device_named("a");
+    forced.is_cpu = false;
+    EXPECT_FALSE(match(forced)) << "a CPU taken for a GPU has no CPU's tuning";
     DeviceInfo device = device_named("x");
     device.version = "OpenCL 3.0 of other instructions";
     EXPECT_FALSE(match(device));

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/host_lists.h"
-#include "host/stages/bloom.h"
-#include "host/stages/count_lights.h"
-#include "host/stages/count_pairs.h"
-#include "host/stages/fill_background.h"
-#include "host/stages/shade.h"
-#include "host/stages/tonemap.h"
+#include "host/stages/lists/count_lights.h"
+#include "host/stages/lists/count_pairs.h"
+#include "host/stages/picture/bloom.h"
+#include "host/stages/picture/tonemap.h"
+#include "host/stages/shading/fill_background.h"
+#include "host/stages/shading/shade.h"
 #include "kernels/shared/evaluate_modes.h"
 #include "kernels/shared/tone_curve.h"
 #include "tests/support/test_gpu.h"

@@ -37,7 +37,8 @@ TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
     const Gpu gpu = test_gpu();
     const std::string message = error_of(
         [&] { build_program(gpu, "tonemap", BuildOptions().define("fv", "no_such_function")); });
-    expect_contains(message, "kernels/tonemap.cl: build failed with CL_BUILD_PROGRAM_FAILURE");
+    expect_contains(message,
+                    "kernels/picture/tonemap.cl: build failed with CL_BUILD_PROGRAM_FAILURE");
     expect_contains(message, gpu.info.name);
     expect_contains(message, "-Dfv=no_such_function");
     expect_contains(message, "no_such_function");

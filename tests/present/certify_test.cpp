@@ -145,7 +145,7 @@ TEST_F(Certify, AFailedCaseExitsWithThreeAndIsNamed) {
     const TemporaryFolder folder;
     fs::copy(fs::path(source_root()) / "kernels", folder / "kernels", fs::copy_options::recursive);
     fs::copy(fs::path(source_root()) / "raster", folder / "raster", fs::copy_options::recursive);
-    const fs::path reach = folder / "kernels/device/light_reach.h";
+    const fs::path reach = folder / "kernels/lists/light_reach.h";
     std::string text = text_of_file(reach);
     const std::size_t at = text.find("<= CULL_LIMIT");
     ASSERT_NE(at, std::string::npos);

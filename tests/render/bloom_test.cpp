@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bloom: it moves light and neither makes nor loses any.
-#include "host/stages/bloom.h"
+#include "host/stages/picture/bloom.h"
 
 #include <cmath>
 #include <cstring>

@@ -7,7 +7,7 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/base/half.h"
 #include "host/certify/synthetic/probe.h"
-#include "host/stages/decode_gbuffer.h"
+#include "host/stages/surfaces/decode_gbuffer.h"
 
 namespace kilolux {
 namespace {

@@ -8,7 +8,7 @@
 #include "host/render/grid_request.h"
 #include "host/render/kernel_choice.h"
 #include "host/render/surface_pass.h"
-#include "host/stages/tonemap.h"
+#include "host/stages/picture/tonemap.h"
 
 namespace kilolux {
 namespace {

@@ -12,7 +12,7 @@
 #include "host/measure/roofline/roofline.h"
 #include "host/render/kernel_choice.h"
 #include "host/scene/camera.h"
-#include "host/stages/shade.h"
+#include "host/stages/shading/shade.h"
 
 namespace kilolux {
 namespace {

@@ -102,7 +102,7 @@ class SampledSums {
     }
 
     // Each takes the luminance without shadows over the rays away and adds its square, times what
-    // its probability lacks of 1, to the variance: kernels/device/shadow_draw.h.
+    // its probability lacks of 1, to the variance: kernels/shadows/shadow_draw.h.
     double hidden_draws(const HalfOfPictures& half, std::size_t i) const {
         const double each = luminance(&of_.whole.radiance[3 * i]) / result_.rays;
         return each > 0.0 ? half.told[i] / (each * each) : 0.0;

@@ -117,7 +117,7 @@ double LimitKernels::texels_per_s() {
     return best;
 }
 
-// How work-items share the buffers; see kernels/measure_limits.cl.
+// How work-items share the buffers; see kernels/limits/measure_limits.cl.
 struct LimitKernels::Walk {
     uint count, item_step, step;
     cl::Buffer to, from;

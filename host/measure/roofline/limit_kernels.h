@@ -10,10 +10,10 @@
 
 namespace kilolux {
 
-/// Independent chains of kernels/measure_limits.cl.
+/// Independent chains of kernels/limits/measure_limits.cl.
 inline constexpr int kFmaChains = 10;
 inline constexpr int kAddChains = 4;
-/// Of kernels/measure_texels.cl: texels of the table, and of an iteration.
+/// Of kernels/limits/measure_texels.cl: texels of the table, and of an iteration.
 inline constexpr int kTexels = 1024;
 inline constexpr int kTexelChains = 4;
 /// Of devices that do not report theirs [byte].
@@ -32,9 +32,9 @@ struct MemoryRates {
     double copy = 0.0;
 };
 
-/// Runs kernels/measure_limits.cl and measure_texels.cl; each rate is the best of several runs.
-/// Memory at the Gpu's lane width; arithmetic, where that is a CPU's own, also at twice the width,
-/// which shading uses and which AVX-512 needs for its full rate.
+/// Runs kernels/limits/measure_limits.cl and measure_texels.cl; each rate is the best of several
+/// runs. Memory at the Gpu's lane width; arithmetic, where that is a CPU's own, also at twice the
+/// width, which shading uses and which AVX-512 needs for its full rate.
 class LimitKernels {
  public:
     explicit LimitKernels(const Gpu& gpu);

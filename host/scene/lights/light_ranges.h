@@ -25,7 +25,7 @@ inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 ///               number does not depend on the device: nor does the picture.
 enum class Tails { automatic, exact, bounded, stochastic, tree };
 
-/// What a node of the light tree may err by default: see kernels/device/tree_cut.h.
+/// What a node of the light tree may err by default: see kernels/tails/tree_cut.h.
 inline constexpr float kDefaultTreeShare = 0.3f;
 
 /// Most lights without a range that `automatic` evaluates at every pixel.

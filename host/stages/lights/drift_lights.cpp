@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/lights/drift_lights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "host/base/light_cells.h"
+#include "host/base/point_pair.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kDriftLightsStage = "move_lights";  // in times: a part of it
+constexpr uint kDigitBits = 8;                                 // of kernels/lights/drift_lights.cl
+constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+constexpr std::size_t kLeastChunk = 256;  // lights: as many as a chunk has counters
+
+// A share of a turn, or of a second, in units of 2^-64; |share| < 1. What is next to 1 is 0.
+ulong fixed_point(double share) {
+    const double units = std::ldexp(std::abs(share), 64);
+    const ulong magnitude = units < 0x1p64 ? static_cast<ulong>(units) : 0;
+    return share < 0.0 ? 0 - magnitude : magnitude;
+}
+
+uint upper(ulong v) { return static_cast<uint>(v >> 32); }
+uint lower(ulong v) { return static_cast<uint>(v); }
+
+// Time since the start as kernels take it.
+struct Elapsed {
+    uint seconds, rest_high, rest_low;
+};
+
+Elapsed elapsed(double seconds) {
+    const double whole = std::floor(seconds);
+    const ulong rest = fixed_point(seconds - whole);
+    return {static_cast<uint>(whole), upper(rest), lower(rest)};
+}
+
+}  // namespace
+
+LightDrift light_drift(const std::array<double, 3>& turns, const std::array<double, 3>& rate,
+                       const std::array<float, 3>& intensity, std::uint32_t box) {
+    std::array<ulong, 3> at{}, by{};
+    std::ranges::transform(turns, at.begin(), fixed_point);
+    std::ranges::transform(rate, by.begin(), fixed_point);
+    const auto bits = [&](std::size_t i) { return std::bit_cast<uint>(intensity[i]); };
+    return {{upper(at[0]), upper(at[1]), upper(at[2]), box},
+            {lower(at[0]), lower(at[1]), lower(at[2]), bits(0)},
+            {upper(by[0]), upper(by[1]), upper(by[2]), bits(1)},
+            {lower(by[0]), lower(by[1]), lower(by[2]), bits(2)}};
+}
+
+DriftBox drift_box(const std::array<double, 3>& min, const std::array<double, 3>& extent,
+                   float range) {
+    const PointPair corner = point_pair(min[0], min[1], min[2]);
+    const PointPair size = point_pair(extent[0], extent[1], extent[2]);
+    DriftBox out{corner.high, corner.low, size.high, size.low};
+    out.min.w = range;
+    out.extent.w = static_cast<float>(1.0 / light_cell_edge(range));
+    return out;
+}
+
+DriftLights::DriftLights(const Gpu& gpu, const Tuning& tuning)
+    : gpu_(gpu),
+      tuning_(tuning),
+      program_(build_program(gpu, "drift_lights")),
+      keys_(gpu, program_, kDriftLightsStage, "drift_keys"),
+      count_(gpu, program_, kDriftLightsStage, "drift_count"),
+      scatter_(gpu, program_, kDriftLightsStage, "drift_scatter"),
+      permute_(gpu, program_, kDriftLightsStage, "drift_permute"),
+      place_(gpu, program_, kDriftLightsStage, "drift_lights"),
+      prefix_sum_(gpu, tuning, kDriftLightsStage),
+      staging_(gpu),
+      drifts_(gpu, "lights"),
+      ordered_(gpu, "lights"),
+      boxes_(gpu, "lights"),
+      order_(gpu, "lights"),
+      unsorted_(gpu, "lights"),
+      counts_(gpu, "lights"),
+      offsets_(gpu, "lights") {}
+
+std::span<LightDrift> DriftLights::stage(std::size_t count, std::span<const DriftBox> boxes) {
+    gpu_.queue.finish();
+    lights_ = count;
+    if (count == 0) return {};
+    kilolux::upload<DriftBox>(gpu_, boxes_.reserve(boxes.size()), boxes);
+    return {reinterpret_cast<LightDrift*>(staging_.reserve(count * sizeof(LightDrift))), count};
+}
+
+void DriftLights::upload() {
+    if (lights_ == 0) return;
+    const std::size_t bytes = lights_ * sizeof(LightDrift);
+    gpu_.queue.enqueueWriteBuffer(drifts_.reserve(lights_), CL_FALSE, 0, bytes,
+                                  staging_.reserve(bytes));
+}
+
+void DriftLights::order(double seconds, StageTimer& timer) {
+    if (lights_ == 0) return;
+    const auto count = static_cast<uint>(lights_);
+    const std::size_t walkers = static_cast<std::size_t>(tuning_.cull_chunks) *
+                                static_cast<std::size_t>(tuning_.cull_group);
+    const auto chunks = static_cast<uint>(
+        std::clamp<std::size_t>(lights_ / kLeastChunk, 1, std::max<std::size_t>(walkers, 1)));
+    const WorkSize by_chunk = items(chunks, tuning_.light_group);
+    const DeviceArray<uint> counts = counts_.reserve(kDigits * chunks);
+    const DeviceArray<uint> offsets = offsets_.reserve(kDigits * chunks + 1);
+    DeviceArray<std::uint64_t> from = order_.reserve(lights_), to = unsorted_.reserve(lights_);
+    const Elapsed t = elapsed(seconds);
+    keys_.enqueue(items(lights_, tuning_.light_group), timer, drifts_.get(), count, boxes_.get(),
+                  t.seconds, t.rest_high, t.rest_low, from);
+    for (uint shift = 0; shift < 32; shift += kDigitBits) {  // an even number of passes
+        count_.enqueue(by_chunk, timer, from, count, chunks, shift, counts);
+        prefix_sum_.enqueue(counts, static_cast<uint>(kDigits) * chunks, offsets, timer);
+        scatter_.enqueue(by_chunk, timer, from, count, chunks, shift, offsets, to);
+        std::swap(from, to);
+    }
+    permute_.enqueue(items(lights_, tuning_.light_group), timer, drifts_.get(), count, from,
+                     ordered_.reserve(lights_));
+}
+
+void DriftLights::place(const DeviceArray<WorldLight>& world, std::size_t first, double seconds,
+                        StageTimer& timer) {
+    if (lights_ == 0) return;
+    const Elapsed t = elapsed(seconds);
+    place_.enqueue(items(lights_, tuning_.light_group), timer, ordered_.get(),
+                   static_cast<uint>(lights_), boxes_.get(), t.seconds, t.rest_high, t.rest_low,
+                   static_cast<uint>(first), world);
+}
+
+std::vector<std::uint32_t> DriftLights::download_order() const {
+    std::vector<std::uint32_t> out;
+    if (lights_ == 0) return out;
+    out.reserve(lights_);
+    for (const std::uint64_t pair : download(gpu_, order_.get())) out.push_back(upper(pair));
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "host/gpu/flow.h"
+#include "host/stages/lists/prefix_sum.h"
+
+namespace kilolux {
+
+/// Finds the active clusters: per fine tile, one for each slice among its pixels, with their box.
+/// And puts the tile's pixels in their order.
+class BinPixels {
+ public:
+    BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Enqueues only.
+    ActiveClusters enqueue(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
+
+    /// Active clusters of the last enqueue: on the device; on the host, which blocks.
+    DeviceArray<std::uint64_t> total() const { return clusters_.total(); }
+    std::uint64_t active() const { return clusters_.read_total(); }
+
+    /// True if there is room for the last enqueue's `active` clusters; else makes room for the
+    /// next. Without a number it blocks to read it.
+    bool fits(std::uint64_t active) { return clusters_.fits(active); }
+    bool fits() { return fits(active()); }
+
+ private:
+    Tuning tuning_;
+    cl::Program program_;
+    Kernel clear_, count_, fill_;
+    CountedList clusters_;
+    GrowingArray<std::uint8_t> order_, occupied_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/lists/count_pairs.h"
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kCountPairsStage = "count_pairs";
+// Work-items that sum clusters: enough to fill a GPU, few enough for one work-group to join.
+constexpr uint kShares = 1024;
+// Sums of 32 bytes in local memory; divides kShares.
+constexpr int kLargestGroup = 64;
+constexpr std::size_t kSumsOfShare = 4;  // a ulong4
+
+}  // namespace
+
+CountPairs::CountPairs(const Gpu& gpu, const Tuning& tuning)
+    : gpu_(gpu),
+      group_(std::min(tuning.light_group, kLargestGroup)),
+      program_(build_program(gpu, kCountPairsStage, BuildOptions().define("GROUP", group_))),
+      sum_shares_(gpu, program_, kCountPairsStage, "count_pairs_sum_shares"),
+      gather_(gpu, program_, kCountPairsStage, "count_pairs"),
+      shares_(gpu, kCountPairsStage),
+      counts_(gpu, kCountPairsStage) {
+    shares_.reserve(kShares * kSumsOfShare);
+    counts_.reserve(1);
+}
+
+DeviceArray<PairCounts> CountPairs::enqueue(const ListTotals& totals,
+                                            const ActiveClusters& clusters, bool sums,
+                                            StageTimer& timer) {
+    const WorkSize size = items(kShares, group_);
+    const auto share_count = sums ? kShares : 0u;
+    if (sums) {
+        sum_shares_.enqueue(size, timer, clusters.clusters, clusters.capacity,
+                            totals.active_clusters, shares_.get());
+    }
+    gather_.enqueue(groups(1, group_), timer, totals.coarse_pairs, totals.active_clusters,
+                    totals.refine_tests, shares_.get(), share_count, counts_.get());
+    return counts_.get();
+}
+
+}  // namespace kilolux

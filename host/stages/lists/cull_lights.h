@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "host/gpu/flow.h"
+#include "host/stages/lists/prefix_sum.h"
+
+namespace kilolux {
+
+/// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
+///
+/// A stable counting sort: count by (chunk, cluster), prefix sum, fill. No light is ever left out:
+/// the lists have as many entries as there are pairs. enqueue() works with the room of the last
+/// frame; when that was too little, fits() grows it and the caller enqueues the frame's lists
+/// again.
+class CullLights {
+ public:
+    CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
+
+    /// Enqueues only. Lists ascend by light index within a cluster, whatever the tuning.
+    /// `occupied`: ActiveClusters'; clusters that are not have empty lists. None: all have lists.
+    CoarseLists enqueue(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer,
+                        const DeviceArray<std::uint8_t>& occupied = {});
+
+    /// The brute-force kernel: every light against every cluster's box; blocks. The oracle. Lists
+    /// are enqueue()'s plus lights that touch only the part of a box outside the cluster's part of
+    /// the frustum. Its times count to "cull_lights_brute_force", but for the prefix sum's.
+    CoarseLists brute_force(const PreparedLights& lights, const ClusterBoxes& boxes,
+                            StageTimer& timer);
+
+    /// Pairs of the last enqueue: on the device; on the host, which blocks.
+    DeviceArray<std::uint64_t> total() const { return lists_.total(); }
+    std::uint64_t pairs() const { return lists_.read_total(); }
+
+    /// True if there is room for the last enqueue's `pairs`; else makes room for the next. Without
+    /// a number it blocks to read it. Throws Error when the pairs exceed what 32-bit offsets or the
+    /// device can hold.
+    bool fits(std::uint64_t pairs) { return lists_.fits(pairs); }
+    bool fits() { return fits(pairs()); }
+
+ private:
+    std::size_t cursor_stride(const ClusterGrid& grid) const;
+    CoarseLists lists_so_far(const DeviceArray<uint>& offsets) const;
+
+    Gpu gpu_;
+    Tuning tuning_;
+    cl::Program program_;
+    Kernel count_, offset_, fill_, brute_force_;
+    GrowingArray<uint> cursors_;
+    CountedList lists_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/lists/prefix_sum.h"
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+constexpr uint kMostEntries = 0xfffffff0u;
+
+BuildOptions options_of(const Tuning& tuning) {
+    return BuildOptions()
+        .define("GROUP", tuning.prefix_group)
+        .define("PER_ITEM", tuning.prefix_per_item);
+}
+
+}  // namespace
+
+uint checked_list_size(std::uint64_t entries, std::string_view stage) {
+    if (entries > kMostEntries) {
+        throw Error(std::string(stage) + ": " + std::to_string(entries) +
+                    " (light, cluster) pairs exceed 2^32; use a coarser grid or smaller lights");
+    }
+    return static_cast<uint>(entries);
+}
+
+PrefixSum::PrefixSum(const Gpu& gpu, const Tuning& tuning, std::string_view stage)
+    : tuning_(tuning),
+      program_(build_program(gpu, "prefix_sum", options_of(tuning))),
+      one_block_(gpu, program_, stage, "prefix_sum_one_block"),
+      sum_blocks_(gpu, program_, stage, "prefix_sum_blocks"),
+      scan_totals_(gpu, program_, stage, "prefix_sum_totals"),
+      apply_(gpu, program_, stage, "prefix_sum_apply"),
+      block_sums_(gpu, stage),
+      total_(gpu, stage) {
+    total_.reserve(1);
+}
+
+void PrefixSum::enqueue(const DeviceArray<uint>& counts, uint n, const DeviceArray<uint>& offsets,
+                        StageTimer& timer) {
+    const auto block = static_cast<std::size_t>(tuning_.prefix_group) *
+                       static_cast<std::size_t>(tuning_.prefix_per_item);
+    const std::size_t blocks = std::max<std::size_t>((n + block - 1) / block, 1);
+    const WorkSize size = groups(blocks, tuning_.prefix_group);
+    if (blocks == 1) {
+        one_block_.enqueue(size, timer, counts, n, offsets, total_.get());
+        return;
+    }
+    const DeviceArray<std::uint64_t> sums = block_sums_.reserve(blocks);
+    sum_blocks_.enqueue(size, timer, counts, n, sums);
+    scan_totals_.enqueue(items(1, 1), timer, sums, static_cast<uint>(blocks), n, offsets,
+                         total_.get());
+    apply_.enqueue(size, timer, counts, n, sums, offsets);
+}
+
+CountedList::CountedList(const Gpu& gpu, const Tuning& tuning, std::string_view stage,
+                         std::size_t entry_bytes)
+    : gpu_(gpu),
+      stage_(stage),
+      entry_bytes_(entry_bytes),
+      prefix_sum_(gpu, tuning, stage),
+      counts_(gpu, stage),
+      offsets_(gpu, stage),
+      entries_(gpu, stage) {}
+
+DeviceArray<uint> CountedList::enqueue_offsets(uint n, StageTimer& timer) {
+    const DeviceArray<uint> offsets = offsets_.reserve(n + std::size_t{1});
+    prefix_sum_.enqueue(counts_.get(), n, offsets, timer);
+    return offsets;
+}
+
+uint CountedList::capacity() const {
+    return static_cast<uint>(std::min<std::size_t>(entries_.bytes() / entry_bytes_, kMostEntries));
+}
+
+bool CountedList::fits(std::uint64_t entries) {
+    const std::size_t needed = checked_list_size(entries, stage_);
+    if (needed <= capacity()) return true;
+    entries_.reserve(needed * entry_bytes_, needed / 8 * entry_bytes_);
+    return false;
+}
+
+}  // namespace kilolux

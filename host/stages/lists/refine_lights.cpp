@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/lists/refine_lights.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kRefineLightsStage = "refine_lights";
+constexpr std::size_t kFirstEntries = std::size_t{1} << 20;
+
+BuildOptions options_of(const Tuning& tuning, const KernelFeatures& features) {
+    return BuildOptions()
+        .define("GROUP", tuning.refine_group)
+        .define("HAS_SPOT_LIGHTS", features.spot_lights)
+        .define("LIGHT_INDEX", light_index_type(features));
+}
+
+}  // namespace
+
+RefineLights::RefineLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : tuning_(tuning),
+      program_(build_program(gpu, kRefineLightsStage, options_of(tuning, features))),
+      reserve_(gpu, program_, kRefineLightsStage, "refine_lights_reserve"),
+      refine_(gpu, program_, kRefineLightsStage, "refine_lights"),
+      lists_(gpu, tuning, kRefineLightsStage, light_index_bytes(features)) {
+    lists_.reserve(kFirstEntries);
+}
+
+RefinedLists RefineLights::enqueue(const PreparedLights& lights, const CoarseLists& coarse,
+                                   const ActiveClusters& clusters, const View& view,
+                                   const ClusterGrid& grid, StageTimer& timer) {
+    const uint tiles = clusters.tile_count;
+    const RefinedLists out{lists_.entries<std::byte>(), lists_.capacity()};
+    reserve_.enqueue(items(tiles, tuning_.light_group), timer, view, grid, tiles, clusters.offsets,
+                     clusters.clusters, clusters.capacity, coarse.offsets, lists_.counts(tiles));
+    const DeviceArray<uint> offsets = lists_.enqueue_offsets(tiles, timer);
+    refine_.enqueue(groups(tiles, tuning_.refine_group), timer, lights.lights, lights.bounds, view,
+                    grid, coarse.offsets, coarse.lists, coarse.capacity, clusters.offsets,
+                    clusters.clusters, clusters.capacity, offsets, out.lists, out.capacity);
+    return out;
+}
+
+}  // namespace kilolux

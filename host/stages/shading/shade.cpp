@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/shading/shade.h"
+
+#include "host/base/srgb.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kShadeStage = "shade";
+constexpr std::string_view kDrawStage = "draw_shadows";
+
+// PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
+// make, and reads through a wild pointer (hard case 17). A CPU has no local memory to gain by
+// staging anyway, and no GPU is built for with that many lanes.
+Tuning usable(Tuning tuning, const DeviceInfo& device) {
+    if (device.lane_width >= FINE_TILE) tuning.shade_stage = 0;
+    return tuning;
+}
+
+// Of kernels/device/stored_light.h: float4 rows of a StoredLight.
+std::size_t stored_light_rows(const KernelFeatures& features) {
+    return features.spot_lights ? 3 : 2;
+}
+
+// Of kernels/shading/sum_lights.h: SHADOWS.
+constexpr int kShadowBits = 1;
+constexpr int kShadowRays = 2;
+
+BuildOptions all_options(const ShadingResources& resources, const KernelFeatures& features,
+                         const SurfaceFeatures& surfaces, const Tuning& tuning) {
+    BuildOptions options = resources.options();
+    if (!features.shadows) return options;
+    options.define("SHADOWS", kShadowRays).define("SAMPLED_SHADOWS", features.sampled_shadows);
+    define_casters(options, surfaces, tuning);
+    return options;
+}
+
+}  // namespace
+
+ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
+                                   const KernelFeatures& features)
+    : gpu_(gpu),
+      tuning_(usable(tuning, gpu.info)),
+      features_(features),
+      srgb_(gpu, kShadeStage),
+      radiance_(gpu, kShadeStage),
+      stored_(gpu, kShadeStage) {
+    const auto table = srgb_to_linear_table();
+    upload<float>(gpu_, srgb_.reserve(table.size()), table);
+    if (features.half_light_colors) {
+        store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), kShadeStage,
+                              "store_lights");
+    }
+}
+
+BuildOptions ShadingResources::options() const {
+    BuildOptions options = feature_options(features_)
+                               .define("STAGE", tuning_.shade_stage)
+                               .define("PREFETCH", tuning_.shade_prefetch)
+                               .define("FAST_RSQRT", !gpu_.info.is_cpu)
+                               .define("NATIVE_MATH", features_.native_math)
+                               .define("HALF_LIGHT_COLORS", features_.half_light_colors);
+    if (features_.fast_relaxed_math) options.flag("-cl-fast-relaxed-math");
+    return options;
+}
+
+WorkSize ShadingResources::work_size(const View& view) const {
+    // Staging is a whole tile's common work.
+    return pixel_items(view, gpu_.info.lane_width,
+                       tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
+}
+
+cl::Buffer ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {
+    if (!store_lights_ || lights.rows() == 0) return lights.lights;
+    const DeviceArray<float4> stored =
+        stored_.reserve(lights.rows() * stored_light_rows(features_));
+    store_lights_->enqueue({cl::NDRange(lights.rows()), cl::NullRange}, timer, lights.lights,
+                           stored);
+    return stored;
+}
+
+Radiance ShadingResources::radiance(const View& view) {
+    return {radiance_.reserve(std::size_t{3} * view.stride * view.height), view};
+}
+
+DrawShadows::DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : resources_(gpu, tuning, features),
+      program_(build_program(gpu, kDrawStage, resources_.options())),
+      clear_(gpu, program_, kDrawStage, "draw_shadows_clear"),
+      draw_(gpu, program_, kDrawStage, "draw_shadows") {}
+
+void DrawShadows::enqueue(const LitPixels& lit, const ShadowWords& words,
+                          const ShadowSamples& samples, StageTimer& timer) {
+    constexpr std::size_t kClearItems = 16384;
+    const GBuffer& gbuffer = lit.gbuffer;
+    const PreparedLights& lights = lit.lights;
+    const ActiveClusters& clusters = lit.clusters;
+    clear_.enqueue(items(kClearItems, 1), timer, words.offsets, clusters.tile_count, words.words);
+    draw_.enqueue(resources_.work_size(gbuffer.view), timer, gbuffer.bytes, gbuffer.layout,
+                  gbuffer.view, resources_.srgb(), samples.whole, lights.directional,
+                  lights.directional_count, resources_.stored_lights(lights, timer),
+                  lights.profiles.lights, lights.profiles.tables, lit.grid, clusters.offsets,
+                  clusters.clusters, clusters.capacity, clusters.order, lit.refined.lists,
+                  words.offsets, samples.rays, samples.seed, words.words);
+}
+
+Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
+    : gpu_(gpu),
+      features_(features),
+      resources_(gpu, tuning, features),
+      variance_(gpu, kShadeStage) {}
+
+void Shade::build(std::optional<int> tone_curve) {
+    if (kernels_.contains(tone_curve)) return;
+    BuildOptions options = resources_.options()
+                               .define("SHADOWS", features_.shadows ? kShadowBits : 0)
+                               .define("SAMPLED_SHADOWS", features_.sampled_shadows);
+    if (tone_curve) options.define("DISPLAYED", 1).define("TONE_CURVE", *tone_curve);
+    kernels_.try_emplace(tone_curve, gpu_, build_program(gpu_, kShadeStage, options), kShadeStage,
+                         "shade");
+}
+
+Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWords& shadows,
+                        const ShadowSamples& samples, const std::optional<DisplayTarget>& display) {
+    const std::optional<int> tone_curve =
+        display ? std::optional(display->tone_curve) : std::nullopt;
+    build(tone_curve);
+    Kernel& kernel = kernels_.at(tone_curve);
+    if (display) {
+        enqueue_shadowed(kernel, lit, timer, shadows, samples, display->gain,
+                         display->bucket_boundary, display->bucket_code, display->pixels);
+        return {{}, lit.gbuffer.view};
+    }
+    const Radiance out = resources_.radiance(lit.gbuffer.view);
+    enqueue_shadowed(kernel, lit, timer, shadows, samples, out.planes);
+    return out;
+}
+
+template <typename... Output>
+void Shade::enqueue_shadowed(Kernel& kernel, const LitPixels& lit, StageTimer& timer,
+                             const ShadowWords& shadows, const ShadowSamples& samples,
+                             const Output&... output) {
+    const View& view = lit.gbuffer.view;
+    const PreparedLights& lights = lit.lights;
+    const ActiveClusters& clusters = lit.clusters;
+    const auto enqueue = [&](const auto&... rest) {
+        kernel.enqueue(resources_.work_size(view), timer, lit.gbuffer.bytes, lit.gbuffer.layout,
+                       view, resources_.srgb(), lights.directional, lights.directional_count,
+                       resources_.stored_lights(lights, timer), lights.profiles.lights,
+                       lights.profiles.tables, lit.grid, clusters.offsets, clusters.clusters,
+                       clusters.capacity, clusters.order, lit.refined.lists, ambient_, rest...);
+    };
+    if (features_.sampled_shadows) {
+        enqueue(shadows.offsets, shadows.words, samples.whole, samples.rays, samples.seed,
+                variance_.reserve(std::size_t{view.stride} * view.height), output...);
+    } else if (features_.shadows) {
+        enqueue(shadows.offsets, shadows.words, output...);
+    } else {
+        enqueue(output...);
+    }
+}
+
+ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                   const SurfaceFeatures& surfaces)
+    : resources_(gpu, tuning, features),
+      kernel_(gpu,
+              build_program(gpu, "shade_all", all_options(resources_, features, surfaces, tuning)),
+              kShadeStage, "shade_all"),
+      has_shadows_(features.shadows),
+      samples_shadows_(features.sampled_shadows),
+      variance_(gpu, kShadeStage) {}
+
+Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
+                           const ShadowInput& shadows, const ShadowSamples& samples) {
+    const View& view = gbuffer.view;
+    const Radiance out = resources_.radiance(view);
+    const auto enqueue = [&](const auto&... rest) {
+        kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
+                        resources_.srgb(), lights.directional, lights.directional_count,
+                        resources_.stored_lights(lights, timer), lights.profiles.lights,
+                        lights.profiles.tables, lights.count, ambient_, rest...);
+    };
+    const ShadowCasters& c = shadows.casters;
+    if (samples_shadows_) {
+        enqueue(shadows.view, shadows.origins, lights.bounds, c.nodes, c.triangles, c.masked,
+                c.materials, c.textures, c.texels, samples.whole, samples.rays, samples.seed,
+                variance_.reserve(std::size_t{view.stride} * view.height), out.planes);
+    } else if (has_shadows_) {
+        enqueue(shadows.view, shadows.origins, lights.bounds, c.nodes, c.triangles, c.masked,
+                c.materials, c.textures, c.texels, out.planes);
+    } else {
+        enqueue(out.planes);
+    }
+    return out;
+}
+
+}  // namespace kilolux

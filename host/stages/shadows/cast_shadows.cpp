@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/shadows/cast_shadows.h"
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kCastShadowsStage = "cast_shadows";
+// Work-groups that share a tile's lights: the longest lists decide when the last group ends.
+constexpr int kSplit = 4;
+constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
+
+// PoCL 3.1 reads through wild pointers in the work-group form, which loses values across barriers;
+// oclgrind finds no fault in it. A CPU would not gain by it.
+Tuning usable_for_shadows(Tuning tuning, const DeviceInfo& device) {
+    if (device.is_cpu && device.platform != "Oclgrind") {
+        tuning.shadow_group = std::min(tuning.shadow_group, 1);
+    }
+    return tuning;
+}
+
+cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                       const SurfaceFeatures& surfaces, bool counts) {
+    BuildOptions options = feature_options(features);
+    define_casters(options, surfaces, tuning);
+    options.define("DRAWN_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
+    if (tuning.shadow_group == 0) return build_program(gpu, "cast_shadows_by_bundle", options);
+    if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
+    options.define("GROUP", tuning.shadow_group).define("SPLIT", kSplit);
+    return build_program(gpu.with_lanes(1), "cast_shadows_by_group", options);
+}
+
+}  // namespace
+
+CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                         const SurfaceFeatures& surfaces, bool counts)
+    : gpu_(gpu),
+      tuning_(usable_for_shadows(tuning, gpu.info)),
+      has_counts_(counts),
+      program_(program_of(gpu, tuning_, features, surfaces, counts)),
+      reserve_(gpu, program_, kCastShadowsStage, "cast_shadows_reserve"),
+      cast_(gpu, program_, kCastShadowsStage, "cast_shadows"),
+      words_(gpu, tuning, kCastShadowsStage, sizeof(uint)),
+      counts_(gpu, kCastShadowsStage) {
+    words_.reserve(kFirstWords);
+}
+
+ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClusters& clusters,
+                                 StageTimer& timer) {
+    const uint tiles = clusters.tile_count;
+    reserve_.enqueue(items(tiles, tuning_.light_group), timer, tiles, lights.directional_count,
+                     clusters.offsets, clusters.clusters, clusters.capacity, words_.counts(tiles));
+    ShadowWords out;
+    out.offsets = words_.enqueue_offsets(tiles, timer);
+    words_.fits(words_.read_total());
+    out.words = words_.entries<uint>();
+    return out;
+}
+
+// Of the kernel that casts.
+WorkSize CastShadows::work_size(uint tiles, const View& view) const {
+    const int group = tuning_.shadow_group;
+    if (group == 0) return pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows);
+    return groups(std::size_t{tiles} * (group == 1 ? 1 : kSplit), group);
+}
+
+void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
+                          StageTimer& timer) {
+    const View& view = lit.gbuffer.view;
+    const PreparedLights& lights = lit.lights;
+    const ActiveClusters& clusters = lit.clusters;
+    const ShadowCasters& c = input.casters;
+    const WorkSize size = work_size(clusters.tile_count, view);
+    const auto enqueue = [&](const auto&... rest) {
+        cast_.enqueue(size, timer, view, input.view, input.origins, lights.bounds,
+                      lights.directional, lights.directional_count, clusters.offsets,
+                      clusters.clusters, clusters.capacity, clusters.order, lit.refined.lists,
+                      words.offsets, c.nodes, c.triangles, c.masked, c.materials, c.textures,
+                      c.texels, rest...);
+    };
+    if (!has_counts_) return enqueue(words.words);
+    const std::size_t items = size.global[0] * (size.global.dimensions() > 1 ? size.global[1] : 1);
+    const auto counts = counts_.reserve(items);
+    gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
+    enqueue(counts, words.words);
+}
+
+ShadowCounts CastShadows::counts() const {
+    ShadowCounts sum{};
+    for (const ShadowCounts& c : download(gpu_, counts_.get())) sum = sum + c;
+    return sum;
+}
+
+}  // namespace kilolux

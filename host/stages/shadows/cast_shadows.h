@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/gpu/flow.h"
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
+#include "host/stages/lists/prefix_sum.h"
+
+namespace kilolux {
+
+/// Casts the shadows of the lights in each active cluster's list onto the cluster's pixels.
+class CastShadows {
+ public:
+    /// Tuning::shadow_group 0: by a walk for each light and vector of pixels. `counts`: kernels
+    /// count what they do, for measurements.
+    CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                const SurfaceFeatures& surfaces, bool counts = false);
+
+    /// Makes room for the words, and sets first_pixel and first_word of the clusters. Blocks for
+    /// the number of words. Throws Error when the device cannot hold them. Valid until the next
+    /// call.
+    ShadowWords reserve(const PreparedLights& lights, const ActiveClusters& clusters,
+                        StageTimer& timer);
+
+    /// Casts into what reserve() returned; with KernelFeatures::sampled_shadows the words hold what
+    /// DrawShadows drew. Enqueues only.
+    void enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
+                 StageTimer& timer);
+
+    /// Words of 32 bits of the last reserve().
+    std::uint64_t words() const { return words_.read_total(); }
+
+    /// What the last enqueue() counted; without words. Blocks.
+    ShadowCounts counts() const;
+
+ private:
+    WorkSize work_size(uint tiles, const View& view) const;
+
+    Gpu gpu_;
+    Tuning tuning_;
+    bool has_counts_;
+    cl::Program program_;
+    Kernel reserve_, cast_;
+    CountedList words_;
+    GrowingArray<ShadowCounts> counts_;  // of work-items or groups
+};
+
+}  // namespace kilolux

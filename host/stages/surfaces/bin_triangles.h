@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "host/gpu/kernel.h"
+#include "host/gpu/surface_flow.h"
+#include "host/stages/lists/prefix_sum.h"
+
+namespace kilolux {
+
+/// Sets up triangles and lists those that each tile's pixels may show. As CullLights, it works with
+/// the room of the last call, and fits() says whether that was enough.
+class BinTriangles {
+ public:
+    BinTriangles(const Gpu& gpu, const Tuning& tuning);
+
+    /// The next enqueue() leaves tiles empty where `closed`, [tiles], is 1; empty: none.
+    void close_tiles(std::span<const std::uint8_t> closed);
+
+    /// Enqueues only. `triangle_count`: of all instances, at least 1 with any.
+    TriangleLists enqueue(const SurfaceBuffers& scene, uint triangle_count, const View& view,
+                          StageTimer& timer);
+
+    /// Pairs of triangle and tile of the last enqueue. Blocks.
+    std::uint64_t pairs() const { return lists_.read_total(); }
+
+    /// True if there is room for `pairs`; else makes room for the next enqueue. Throws Error where
+    /// 32-bit offsets or the device cannot hold them.
+    bool fits(std::uint64_t pairs) { return lists_.fits(pairs); }
+
+ private:
+    Gpu gpu_;
+    Tuning tuning_;
+    cl::Program program_;
+    Kernel clear_, set_up_, offset_, fill_;
+    GrowingArray<RasterRow> triangles_;
+    GrowingArray<uint> boxes_, kept_, cursors_;
+    GrowingArray<std::uint8_t> closed_;
+    uint some_closed_ = 0;
+    CountedList lists_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/surfaces/raster_triangles.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kRasterTrianglesStage = "raster_triangles";
+
+// NVIDIA's compiler takes so many registers for setting up that few work-groups fit into a unit,
+// which then waits for memory: half of the time on an H200.
+constexpr std::string_view kFewerRegisters = "-cl-nv-maxrregcount=64";
+
+cl::Program program_of(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
+    features.anisotropy = 1;
+    features.texture_uses &= 1u << USE_BASE_COLOR;
+    BuildOptions options;
+    options.define("GROUP", tuning.raster_group).define("HAS_MASKS", features.masks);
+    if (gpu.info.platform.starts_with("NVIDIA")) options.flag(kFewerRegisters);
+    define_tiles(options, tuning);
+    define_surfaces(options, features, tuning);
+    return build_program(
+        gpu, tuning.raster_group == 1 ? "raster_triangles_by_item" : "raster_triangles_by_group",
+        options);
+}
+
+}  // namespace
+
+RasterTriangles::RasterTriangles(const Gpu& gpu, const Tuning& tuning,
+                                 const SurfaceFeatures& features)
+    : tuning_(tuning),
+      kernel_(gpu, program_of(gpu, tuning, features), kRasterTrianglesStage, "raster_triangles"),
+      ids_(gpu, kRasterTrianglesStage) {}
+
+DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
+                                           const View& view, StageTimer& timer) {
+    const DeviceArray<uint> ids = ids_.reserve(std::size_t{view.stride} * view.height);
+    kernel_.enqueue(groups(lists.tile_count, tuning_.raster_group), timer, view, scene.instances,
+                    scene.instance_blocks, scene.meshes, scene.vertices, scene.indices,
+                    scene.materials, scene.textures, scene.texels, lists.triangles, lists.offsets,
+                    lists.lists, lists.capacity, ids);
+    return ids;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// bin_pixels by a work-group a tile: all slices and strips at once, in local memory. For GPUs.
+#include "kernels/lists/bin_pixels.h"
+
+#ifndef GROUP
+#define GROUP 64
+#endif
+
+// Strips that one work-item takes: number round * GROUP + its own.
+#define ROUNDS ((FINE_TILE * STRIPS + GROUP - 1) / GROUP)
+// Words of a bit for each slice: make_cluster_grid() has at most 64 an octave, and 200 octaves.
+#define SLICE_WORDS (64 * 256 / 32)
+// Words of a bit for each pixel of a tile.
+#define PIXEL_WORDS (FINE_TILE_PIXELS / 32)
+
+static inline uint strip_of_round(uint round) { return round * GROUP + (uint)get_local_id(0); }
+
+static inline uint slice_words(ClusterGrid grid) {
+    return ((grid.slices << grid.fine_slice_bits) + 31u) / 32u;
+}
+
+// The bits below bit i of a word.
+static inline uint bits_below(uint word, uint i) { return word & ((1u << i) - 1u); }
+
+// The slices of a work-item's strips, and a bit in `seen` for each slice of the tile.
+static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint tile_y, UV* slices,
+                               local uint* seen) {
+    for (uint i = get_local_id(0); i < slice_words(grid); i += GROUP) seen[i] = 0;
+    barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any bit is set
+    uint strips = rows_of_tile(g.view, tile_y) * STRIPS;
+    uint last = NO_SLICE;  // whose bit the work-item has set
+    for (uint round = 0; round < ROUNDS; ++round) {
+        uint strip = strip_of_round(round);
+        slices[round] = (UV)(NO_SLICE);
+        FV z;
+        if (strip < strips) {
+            Pixels pixels = strip_pixels(g.view, tile_x, tile_y, strip);
+            slices[round] = slices_of_pixels(g, grid, pixels, &z);
+        }
+        uint slice[VW];
+        lane_store(slices[round], slice);
+        for (uint lane = 0; lane < VW; ++lane) {
+            if (slice[lane] == last) continue;
+            last = slice[lane];
+            if (last != NO_SLICE) atomic_or(&seen[last / 32], 1u << last % 32);
+        }
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);  // all bits are set
+}
+
+// How many of the tile's slices lie below `slice`.
+static inline uint cluster_of(local const uint* seen, uint slice) {
+    uint cluster = 0;
+    for (uint word = 0; word < slice / 32; ++word) cluster += popcount(seen[word]);
+    return cluster + popcount(bits_below(seen[slice / 32], slice % 32));
+}
+
+static inline uint count_slices(local const uint* seen, ClusterGrid grid) {
+    uint count = 0;
+    for (uint word = 0; word < slice_words(grid); ++word) count += popcount(seen[word]);
+    return count;
+}
+
+kernel void bin_pixels_count(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view, ClusterGrid grid,
+    global uint* restrict counts,  // out [tiles]: active clusters
+    // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
+    global uchar* restrict occupied) {  // [cluster_count]
+    local uint seen[SLICE_WORDS];
+    uint tiles_x = fine_tiles_x(view);
+    uint tile = get_group_id(0);
+    GBuffer g = {gbuffer, layout, view, 0};
+    UV slices[ROUNDS];
+    load_slices(g, grid, tile % tiles_x, tile / tiles_x, slices, seen);
+    if (get_local_id(0) == 0) counts[tile] = count_slices(seen, grid);
+    CoarseTile coarse = coarse_tile(view, grid, tile);
+    uint fine_slices = grid.slices << grid.fine_slice_bits;
+    for (uint slice = get_local_id(0); slice < fine_slices; slice += GROUP) {
+        if (seen[slice / 32] >> slice % 32 & 1u)
+            occupied[cluster_index(grid, coarse.column, coarse.row,
+                                   slice >> grid.fine_slice_bits)] = 1;
+    }
+}
+
+// The clusters of a tile in the making.
+typedef struct TileClusters {
+    int low[FINE_TILE_PIXELS][3];  // of the boxes, as ordered_bits
+    int high[FINE_TILE_PIXELS][3];
+    // The pixels of each, a bit each; then those of none.
+    uint pixels[FINE_TILE_PIXELS + 1][PIXEL_WORDS];
+    uint first[FINE_TILE_PIXELS + 1];  // where their pixels begin in the tile's order
+    uint slice[FINE_TILE_PIXELS];
+} TileClusters;
+
+// Floats' order, negative ones included, as integers'; its own inverse on bits.
+static inline int ordered_bits(int bits) { return bits ^ (bits >> 31 & 0x7fffffff); }
+
+static inline void clear_clusters(local TileClusters* tile, uint count) {
+    for (uint i = get_local_id(0); i <= count; i += GROUP) {
+        for (uint word = 0; word < PIXEL_WORDS; ++word) tile->pixels[i][word] = 0;
+        for (uint axis = 0; i < count && axis < 3; ++axis) {
+            tile->low[i][axis] = ordered_bits(as_int(Z_UNBOUNDED));
+            tile->high[i][axis] = ordered_bits(as_int(-Z_UNBOUNDED));
+        }
+    }
+}
+
+// A run of one work-item's pixels in the same cluster. Its box is merged locally first, so few
+// atomics contend.
+typedef struct Run {
+    uint cluster;  // NO_CLUSTER: none yet
+    float low[3], high[3];
+} Run;
+
+#define NO_CLUSTER 0xffffffffu
+
+static inline void end_run(Run run, local TileClusters* tile) {
+    if (run.cluster == NO_CLUSTER) return;
+    for (uint axis = 0; axis < 3; ++axis) {
+        atomic_min(&tile->low[run.cluster][axis], ordered_bits(as_int(run.low[axis])));
+        atomic_max(&tile->high[run.cluster][axis], ordered_bits(as_int(run.high[axis])));
+    }
+}
+
+static inline Run add_to_run(Run run, uint cluster, const float* position,
+                             local TileClusters* tile) {
+    bool goes_on = run.cluster == cluster;
+    if (!goes_on) end_run(run, tile);
+    run.cluster = cluster;
+    for (uint axis = 0; axis < 3; ++axis) {
+        float at = position[axis];
+        run.low[axis] = goes_on ? min(run.low[axis], at) : at;
+        run.high[axis] = goes_on ? max(run.high[axis], at) : at;
+    }
+    return run;
+}
+
+// A strip's pixels join their clusters; those of none have number `count`.
+static inline Run add_strip(Run run, GBuffer g, Pixels at, UV slices, uint pixel,
+                            local const uint* seen, uint count, local TileClusters* tile) {
+    FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
+    uint slice[VW];
+    float x[VW], y[VW], z[VW];
+    lane_store(slices, slice);
+    lane_store(p.x, x);
+    lane_store(p.y, y);
+    lane_store(p.z, z);
+    for (uint lane = 0; lane < VW; ++lane) {
+        bool in_one = slice[lane] != NO_SLICE;
+        uint cluster = in_one ? cluster_of(seen, slice[lane]) : count;
+        atomic_or(&tile->pixels[cluster][pixel / 32], 1u << (pixel % 32 + lane));
+        float position[3] = {x[lane], y[lane], z[lane]};
+        if (in_one) run = add_to_run(run, cluster, position, tile);
+    }
+    return run;
+}
+
+static inline uint pixels_of(local const uint* words) {
+    uint sum = 0;
+    for (uint word = 0; word < PIXEL_WORDS; ++word) sum += popcount(words[word]);
+    return sum;
+}
+
+// Slices and places of all clusters, by one work-item.
+static inline void number_clusters(ClusterGrid grid, local const uint* seen,
+                                   local TileClusters* tile) {
+    uint cluster = 0;
+    uint place = 0;
+    for (uint word = 0; word < slice_words(grid); ++word) {
+        for (uint bits = seen[word]; bits != 0u; bits &= bits - 1u) {
+            tile->slice[cluster] = word * 32 + 31u - clz(bits & -bits);
+            tile->first[cluster] = place;
+            place += pixels_of(tile->pixels[cluster]);
+            ++cluster;
+        }
+    }
+    tile->first[cluster] = place;
+}
+
+static inline ActiveCluster finished_cluster(local const TileClusters* tile, uint i) {
+    ActiveCluster c;
+    c.min_x = as_float(ordered_bits(tile->low[i][0]));
+    c.min_y = as_float(ordered_bits(tile->low[i][1]));
+    c.min_z = as_float(ordered_bits(tile->low[i][2]));
+    c.max_x = as_float(ordered_bits(tile->high[i][0]));
+    c.max_y = as_float(ordered_bits(tile->high[i][1]));
+    c.max_z = as_float(ordered_bits(tile->high[i][2]));
+    c.slice = tile->slice[i];
+    c.pixel_count = pixels_of(tile->pixels[i]);
+    c.list_begin = 0;
+    c.list_count = 0;
+    c.first_pixel = 0;
+    c.first_word = 0;
+    return c;
+}
+
+// Puts a strip's pixels where the tile's order has them.
+static inline void place_strip(UV slices, uint pixel, local const uint* seen, uint count,
+                               local const TileClusters* tile, global uchar* order) {
+    uint slice[VW];
+    lane_store(slices, slice);
+    for (uint lane = 0; lane < VW; ++lane) {
+        uint cluster = slice[lane] != NO_SLICE ? cluster_of(seen, slice[lane]) : count;
+        uint place = tile->first[cluster];
+        for (uint word = 0; word < pixel / 32; ++word)
+            place += popcount(tile->pixels[cluster][word]);
+        place += popcount(bits_below(tile->pixels[cluster][pixel / 32], pixel % 32 + lane));
+        order[place] = (uchar)(pixel + lane);
+    }
+}
+
+kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+                            ClusterGrid grid,
+                            global const uint* restrict offsets,      // [tiles + 1]
+                            global ActiveCluster* restrict clusters,  // out [capacity]
+                            uint capacity,
+                            global uchar* restrict order) {  // out [tiles][FINE_TILE_PIXELS]
+    local uint seen[SLICE_WORDS];
+    local TileClusters made;
+    uint tiles_x = fine_tiles_x(view);
+    uint tile = get_group_id(0);
+    uint tile_x = tile % tiles_x;
+    uint tile_y = tile / tiles_x;
+    uint count = offsets[tile + 1] - offsets[tile];
+    GBuffer g = {gbuffer, layout, view, 0};
+    UV slices[ROUNDS];
+    load_slices(g, grid, tile_x, tile_y, slices, seen);
+    clear_clusters(&made, count);
+    barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any grows
+    uint strips = rows_of_tile(view, tile_y) * STRIPS;
+    Run run;
+    run.cluster = NO_CLUSTER;
+    for (uint round = 0; round < ROUNDS; ++round) {
+        uint strip = strip_of_round(round);
+        if (strip < strips)
+            run = add_strip(run, g, strip_pixels(view, tile_x, tile_y, strip), slices[round],
+                            strip * VW, seen, count, &made);
+    }
+    end_run(run, &made);
+    barrier(CLK_LOCAL_MEM_FENCE);  // all pixels have joined
+    if (get_local_id(0) == 0) number_clusters(grid, seen, &made);
+    barrier(CLK_LOCAL_MEM_FENCE);  // numbered before any is written
+    for (uint i = get_local_id(0); i < count; i += GROUP) {
+        if (offsets[tile] + i < capacity) clusters[offsets[tile] + i] = finished_cluster(&made, i);
+    }
+    for (uint round = 0; round < ROUNDS; ++round) {
+        uint strip = strip_of_round(round);
+        if (strip < strips)
+            place_strip(slices[round], strip * VW, seen, count, &made,
+                        order + tile * FINE_TILE_PIXELS);
+    }
+}

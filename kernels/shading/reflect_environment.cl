@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adds an environment's light to the lit surfaces: diffuse light from a map of irradiance, specular
+// light from maps prefiltered by roughness, times the reflectance of a table (Karis 2013, "Real
+// Shading in Unreal Engine 4", split sum). One work-item takes VW neighbouring pixels of a row.
+#include "kernels/device/gbuffer.h"
+#include "kernels/device/radiance.h"
+#include "kernels/shading/environment.h"
+#include "kernels/shared/surface.h"
+
+// The maps by levels, and the table.
+typedef struct ReflectionMaps {
+    global const float* texels;
+    global const uint4* levels;  // [roughness_levels + 1]: width, height, first texel; the last one
+                                 // is the irradiance / pi
+    uint roughness_levels;       // of equal steps from 0 to 1
+    global const float* table;   // [table_size][table_size][3]: by n.v and roughness from 0 to 1
+    uint table_size;
+} ReflectionMaps;
+
+#if SHADING == SHADING_PBR
+// A level of each lane: lanes go one by one where their levels differ.
+static inline FV3 level_rgb(ReflectionMaps maps, FV3 d, UV level) {
+    FV3 out = zero3();
+    for (uint i = 0; i < maps.roughness_levels; ++i) {
+        MASK mine = lane_mask(level == lane_uint(i));
+        if (!lane_any(mine)) continue;
+        out = select3(mine, filtered_rgb(maps.texels, texels_towards(d, maps.levels[i])), out);
+    }
+    return out;
+}
+
+// Light from around the direction `d` for a lobe of this roughness.
+static inline FV3 prefiltered(ReflectionMaps maps, FV3 d, FV roughness) {
+    FV place = roughness * (float)(maps.roughness_levels - 1u);
+    FV lower = min(floor(place), fv((float)(maps.roughness_levels - 2u)));
+    UV level = lane_to_uint(lower);
+    FV share = place - lower;
+    FV3 a = level_rgb(maps, d, level);
+    FV3 b = level_rgb(maps, d, level + 1u);
+    return fv3(fma(share, b.x - a.x, a.x), fma(share, b.y - a.y, a.y), fma(share, b.z - a.z, a.z));
+}
+
+// Shares of the light that a surface returns: f0's, f90's, and what diffuse light loses to
+// Schlick's rise.
+static inline FV3 table_at(ReflectionMaps maps, FV n_dot_v, FV roughness) {
+    FV last = fv((float)(maps.table_size - 1u));
+    FV x = min(n_dot_v, fv(1.0f)) * last;
+    FV y = min(roughness, fv(1.0f)) * last;
+    FV left = min(floor(x), last - 1.0f), top = min(floor(y), last - 1.0f);
+    Texels t;
+    t.right = x - left;
+    t.down = y - top;
+    t.upper_left = lane_to_uint(top) * maps.table_size + lane_to_uint(left);
+    t.upper_right = t.upper_left + 1u;
+    t.lower_left = t.upper_left + maps.table_size;
+    t.lower_right = t.lower_left + 1u;
+    return filtered_rgb(maps.table, t);
+}
+
+// Where most of a lobe's light comes from: the mirror's direction, for rough surfaces nearer to the
+// normal (Lagarde and de Rousiers 2014, "Moving Frostbite to PBR", 4.9.3). 1 - alpha^2 has half the
+// error of their weight at roughness 0.25, and like errors above. Of any length.
+static inline FV3 lobe_direction(FV3 normal, FV3 to_eye, FV roughness) {
+    FV alpha = clamped_alpha(roughness);
+    FV share = fma(-alpha, alpha, fv(1.0f));
+    FV along = 2.0f * dot3(normal, to_eye) * share + (fv(1.0f) - share);
+    return fv3(fma(along, normal.x, -share * to_eye.x), fma(along, normal.y, -share * to_eye.y),
+               fma(along, normal.z, -share * to_eye.z));
+}
+
+static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {
+    ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+    FV3 lobe = lobe_direction(s.normal, p.to_eye, s.roughness);
+    FV3 shares = table_at(maps, p.n_dot_v, s.roughness);
+    FV3 light = prefiltered(maps, rotate_to_world(view, lobe), s.roughness);
+    FV f90 = fv(1.0f), kept = fv(1.0f) - shares.z;
+#if HAS_SPECULAR
+    f90 = p.f90;
+    kept = fma(shares.z, p.diffuse_rises, kept);
+#endif
+#if F0_VARIES
+    FV3 f0 = p.f0;
+#else
+    FV3 f0 = dielectric_f0(s);
+#endif
+    FV3 lost = diffuse_f0(s);
+    FV base = kept;
+#if HAS_METALLIC
+    base = kept * (fv(1.0f) - s.metallic);
+#endif
+    FV rise = f90 * shares.y;
+    return fv3(fma(fma(f0.x, shares.x, rise), light.x,
+                   s.albedo.x * base * (fv(1.0f) - lost.x) * irradiance.x),
+               fma(fma(f0.y, shares.x, rise), light.y,
+                   s.albedo.y * base * (fv(1.0f) - lost.y) * irradiance.y),
+               fma(fma(f0.z, shares.x, rise), light.z,
+                   s.albedo.z * base * (fv(1.0f) - lost.z) * irradiance.z));
+}
+#else
+static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irradiance) {
+    return fv3(s.albedo.x * irradiance.x, s.albedo.y * irradiance.y, s.albedo.z * irradiance.z);
+}
+#endif
+
+kernel void reflect_environment(
+    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+    global const float* restrict srgb,    // [256]
+    global const float* restrict texels,  // RGB, [texels of all levels][3]
+    global const uint4* restrict levels,  // [roughness_levels + 1]
+    uint roughness_levels,
+    global const float* restrict table,  // [table_size][table_size][3]
+    uint table_size,
+    global float* restrict radiance) {  // in, out [3][height][stride]
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    GBuffer g = {gbuffer, layout, view, srgb};
+    Pixels pixels = row_pixels(view, x, y);
+    FV depth01 = load_depth01(g, pixels);
+    MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
+    if (!lane_any(drawn)) return;
+    FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
+    Surface s = load_surface(g, pixels, z);
+    ReflectionMaps maps = {texels, levels, roughness_levels, table, table_size};
+    Texels around = texels_towards(rotate_to_world(view, s.normal), levels[roughness_levels]);
+    FV3 added = reflected(maps, view, s, filtered_rgb(texels, around));
+#if HAS_UNLIT
+    drawn &= lane_mask(s.roughness > fv(0.0f));
+#endif
+    uint plane_size = view.stride * view.height;
+    FV3 former =
+        fv3(lane_load(radiance + pixels.first), lane_load(radiance + plane_size + pixels.first),
+            lane_load(radiance + 2 * plane_size + pixels.first));
+    FV3 sum = add3(former, scale3(added, s.occlusion));
+    store_radiance(radiance, view, pixels, select3(drawn, sum, former));
+}

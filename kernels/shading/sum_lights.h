@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sum of evaluate() over a list of lights, or with ALL_LIGHTS over lights 0 .. count - 1, for
+// VW pixels. With STAGE > 0 a work-group reads that many lights at a time into local memory, which
+// GPUs read faster than global memory through its cache.
+#ifndef KILOLUX_DEVICE_SUM_LIGHTS_H
+#define KILOLUX_DEVICE_SUM_LIGHTS_H
+#include "kernels/device/light_index.h"
+#include "kernels/device/stored_light.h"
+#include "kernels/shared/clusters.h"  // not where a switch may leave it out
+#include "kernels/shared/evaluate.h"
+
+// Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
+// SHADOWS_RAYS: found out where it is asked. SAMPLED_SHADOWS: only of the lights that are drawn.
+#define SHADOWS_NONE 0
+#define SHADOWS_BITS 1
+#define SHADOWS_RAYS 2
+#ifndef SAMPLED_SHADOWS
+#define SAMPLED_SHADOWS 0
+#endif
+#ifndef SHADOWS
+#define SHADOWS SHADOWS_NONE
+#endif
+#if SHADOWS == SHADOWS_BITS
+#include "kernels/shadows/shadow_bits.h"
+#elif SHADOWS == SHADOWS_RAYS
+#include "kernels/shadows/shadow_rays.h"
+#endif
+
+#if SAMPLED_SHADOWS
+#include "kernels/shadows/shadow_draw.h"
+#endif
+
+#ifndef ALL_LIGHTS
+#define ALL_LIGHTS 0
+#endif
+#ifndef STAGE
+#define STAGE 0
+#endif
+#ifndef HAS_DIRECTIONAL_LIGHTS
+#define HAS_DIRECTIONAL_LIGHTS 0
+#endif
+
+typedef struct LightSet {
+    global const StoredLight* lights;
+#if STAGE > 0
+    local ShadeLight* staged;    // [STAGE]
+    local uint* staged_indices;  // [STAGE]
+#endif
+#if SHADOWS == SHADOWS_BITS
+    ShadowBits shadows;
+    uint directional_count;
+#elif SHADOWS == SHADOWS_RAYS
+    ShadowRays shadows;
+#endif
+#if SAMPLED_SHADOWS
+    ShadowDraw draw;
+    FV* variance;  // of the luminance, its estimate
+#endif
+#if HAS_LIGHT_PROFILES
+    LightProfiles profiles;
+#endif
+} LightSet;
+
+#if SHADOWS
+static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
+    a.diffuse = select3(mask, a.diffuse, b.diffuse);
+    a.specular = select3(mask, a.specular, b.specular);
+    return a;
+}
+
+// The lanes that see the light of a list's entry.
+static inline MASK sees_entry(LightSet set, uint entry, uint light) {
+#if SHADOWS == SHADOWS_BITS
+    return sees_light(set.shadows, set.directional_count + entry);
+#else
+    return sees_point_light(set.shadows, light);
+#endif
+}
+
+static inline MASK sees_directional(LightSet set, uint i) {
+#if SHADOWS == SHADOWS_BITS
+    return sees_light(set.shadows, i);
+#else
+    return sees_directional_light(set.shadows, i);
+#endif
+}
+
+#if SAMPLED_SHADOWS
+#if SHADOWS == SHADOWS_BITS
+// The lanes that draw the light and from which it is hidden: the bits are theirs.
+static inline MASK hides_drawn(LightSet set, uint entry, uint light) {
+    return sees_light(set.shadows,
+                      (light & DRAWN_DIRECTIONAL) != 0u ? entry : set.directional_count + entry);
+}
+#else
+// The same; `one`: the light's sum alone.
+static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum one) {
+    MASK drawn = set.shadows.drawn & draws_light(set.draw, light_alone(set.draw, one), light);
+    if (!lane_any(drawn)) return drawn;
+    set.shadows.drawn = drawn;
+    MASK seen = (light & DRAWN_DIRECTIONAL) != 0u ? sees_directional(set, entry)
+                                                  : sees_entry(set, entry, light);
+    return drawn & ~seen;
+}
+#endif
+
+// `sum` of what the estimate takes away, with that of a light whose sum alone is `one`.
+static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, LightSum sum) {
+    FV alone = light_alone(set.draw, one);
+    FV q = draw_probability(set.draw, alone);
+    *set.variance += lane_select(hidden, variance_of(alone, q), fv(0.0f));
+    return add_hidden(sum, one, q, hidden);
+}
+
+// Adds what a light takes away from the radiance if all are seen. ONE: its sum alone, which bits
+// need only where one is set.
+#if SHADOWS == SHADOWS_BITS
+#define ADD_SAMPLED(set, entry, light, sum, ONE)                            \
+    {                                                                       \
+        MASK hidden = hides_drawn(set, entry, light);                       \
+        if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, (ONE), sum); \
+    }
+#else
+#define ADD_SAMPLED(set, entry, light, sum, ONE)                          \
+    {                                                                     \
+        LightSum one = (ONE);                                             \
+        MASK hidden = hides_drawn(set, entry, light, one);                \
+        if (lane_any(hidden)) (sum) = sampled_sum(set, hidden, one, sum); \
+    }
+#endif
+#endif
+
+// ADD_SEEN(sum, seen, lit): `lit`, what `sum` becomes, in the lanes that see the light. It is made
+// only if any does.
+#define ADD_SEEN(sum, seen, lit)                                    \
+    {                                                               \
+        MASK lanes = (seen);                                        \
+        if (lane_any(lanes)) (sum) = select_sum(lanes, (lit), sum); \
+    }
+#else
+#define ADD_SEEN(sum, seen, lit) (sum) = (lit);
+#endif
+
+static inline uint light_of_entry(global const LIGHT_INDEX* list, uint entry) {
+#if ALL_LIGHTS
+    return entry;
+#else
+    return list[entry];
+#endif
+}
+
+#if STAGE > 0
+static inline void stage_batch(LightSet set, global const LIGHT_INDEX* list, uint first, uint end) {
+    uint item = get_local_id(1) * get_local_size(0) + get_local_id(0);
+    uint items = get_local_size(0) * get_local_size(1);
+    for (uint i = item; first + i < end; i += items) {
+        uint light = light_of_entry(list, first + i);
+        set.staged_indices[i] = light;
+        set.staged[i] = LIGHT_AT(set.lights, light);
+    }
+}
+#endif
+
+// Adds the lights of list[0..count) to `total` where `wanted`. The whole work-group calls this with
+// the same list: it may stage the lights together.
+static inline LightSum sum_lights(LightSum total, bool wanted, ShadingPoint p, LightSet set,
+                                  global const LIGHT_INDEX* list, uint count) {
+    RunningSum sum = start_sum(total);
+#if STAGE > 0
+    for (uint first = 0; first < count; first += STAGE) {
+        uint end = min(first + STAGE, count);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the batch before is used up
+        stage_batch(set, list, first, end);
+        barrier(CLK_LOCAL_MEM_FENCE);  // the batch is complete
+        for (uint i = 0; wanted && i < end - first; ++i) {
+            uint light = set.staged_indices[i];
+            sum = enter_block(sum, light);
+#if SAMPLED_SHADOWS
+            ADD_SAMPLED(set, first + i, light, sum.block,
+                        EVALUATE(zero_sum(), p, set.staged[i], set.profiles, light))
+#else
+            ADD_SEEN(sum.block, sees_entry(set, first + i, light),
+                     EVALUATE(sum.block, p, set.staged[i], set.profiles, light))
+#endif
+        }
+    }
+#else
+    if (!wanted) return total;
+    for (uint i = 0; i < count; ++i) {
+        uint light = light_of_entry(list, i);
+        sum = enter_block(sum, light);
+#if SAMPLED_SHADOWS
+        ADD_SAMPLED(set, i, light, sum.block,
+                    EVALUATE(zero_sum(), p, LIGHT_AT(set.lights, light), set.profiles, light))
+#else
+        ADD_SEEN(sum.block, sees_entry(set, i, light),
+                 EVALUATE(sum.block, p, LIGHT_AT(set.lights, light), set.profiles, light))
+#endif
+    }
+#endif
+    return finish_sum(sum);
+}
+
+static inline LightSum sum_directional(ShadingPoint p, LightSet set,
+                                       global const DirectionalLight* lights, uint count) {
+    LightSum sum = zero_sum();
+#if HAS_DIRECTIONAL_LIGHTS
+    for (uint i = 0; i < count; ++i) {
+#if SAMPLED_SHADOWS
+        ADD_SAMPLED(set, i, DRAWN_DIRECTIONAL + i, sum,
+                    evaluate_directional(zero_sum(), p, lights[i]))
+#else
+        ADD_SEEN(sum, sees_directional(set, i), evaluate_directional(sum, p, lights[i]))
+#endif
+    }
+#endif
+    return sum;
+}
+#endif

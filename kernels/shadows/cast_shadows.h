@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both forms of cast_shadows share.
+//
+// Words of bits: tile after tile, cluster after cluster, for each directional light and each light
+// of the cluster's list as many words of 32 pixels as the cluster touches. Bit i of word w is place
+// 32 w + i in the tile's order, w counted from the cluster's first pixel's.
+#ifndef KILOLUX_DEVICE_CAST_SHADOWS_H
+#define KILOLUX_DEVICE_CAST_SHADOWS_H
+// With DRAWN_ONLY the words hold the pixels that draw a light (draw_shadows), and then those of
+// them from which it is hidden; else those that see it.
+#ifndef DRAWN_ONLY
+#define DRAWN_ONLY 0
+#endif
+#include "kernels/device/light_index.h"
+#include "kernels/device/pixels.h"
+#include "kernels/shadows/shadow_bits.h"
+#include "kernels/shadows/shadow_space.h"
+#include "kernels/shared/clusters.h"
+
+// The j-th light of a cluster, directional ones first.
+static inline ShadowLight light_of_cluster(ShadowView shadow, global const ActiveCluster* cluster,
+                                           uint j, global const DirectionalLight* directional,
+                                           uint directional_count, global const float4* bounds,
+                                           global const LIGHT_INDEX* lists) {
+    if (j < directional_count) return shadow_directional_light(shadow, directional[j]);
+    uint light = lists[cluster->list_begin + j - directional_count];
+    return shadow_point_light(shadow, bounds[light]);
+}
+
+kernel void cast_shadows_reserve(
+    uint tile_count, uint directional_count,
+    global const uint* restrict cluster_offsets,  // [tile_count + 1]
+    global ActiveCluster* restrict clusters,      // in/out [cluster_capacity]: shadow_words set
+    uint cluster_capacity,
+    global uint* restrict reserves) {  // out [tile_count]
+    uint tile = get_global_id(0);
+    if (tile >= tile_count) return;
+    ulong sum = 0;  // saturates, as in refine_lights
+    uint first = 0;
+    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+        clusters[i].first_pixel = first;
+        clusters[i].first_word = (uint)sum;
+        uint last = first + clusters[i].pixel_count;
+        sum += (ulong)shadow_words(first, last) * (directional_count + clusters[i].list_count);
+        first = last;
+    }
+    reserves[tile] = (uint)min(sum, (ulong)0xffffffffu);
+}
+#endif

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+// Visibility of one light at up to SHADOW_POINTS points: one walk through the hierarchy for all of
+// them; the triangles that their shaft meets are tested on VW points at a time. By one work-item.
+#ifndef KILOLUX_DEVICE_SHADOW_CAST_H
+#define KILOLUX_DEVICE_SHADOW_CAST_H
+#include "kernels/device/prefetch.h"
+#include "kernels/shadows/masked_caster.h"
+#include "kernels/shadows/shadow_shaft.h"
+
+// Triangles that wait for their test: whole vectors, and room for a node's children.
+#define SHADOW_BATCH 64
+
+// Whether walks count what they do, in ShadowPoints: for measurements.
+#ifndef COUNT_SHADOWS
+#define COUNT_SHADOWS 0
+#endif
+#if COUNT_SHADOWS
+#define ADD_COUNT(points, name, number) (points)->counts.name += (ulong)(number)
+#else
+#define ADD_COUNT(points, name, number)
+#endif
+
+// What casts shadows.
+typedef struct ShadowScene {
+    global const ShadowNode* nodes;  // 0: the root
+    global const float* casters;     // [][3][3]
+    MaskedScene masked;
+    ShadowView view;
+} ShadowScene;
+
+// Points in rows of VW.
+typedef struct ShadowPoints {
+    float x[SHADOW_POINTS], y[SHADOW_POINTS], z[SHADOW_POINTS];  // [m]
+    float nx[SHADOW_POINTS], ny[SHADOW_POINTS], nz[SHADOW_POINTS];
+    // What edges' forms take, see ShadowForm.
+    float ex[SHADOW_POINTS], ey[SHADOW_POINTS], ez[SHADOW_POINTS];
+    float lit[SHADOW_POINTS];        // masks in the bits of floats
+    uchar rows[SHADOW_POINTS / VW];  // those with lit points
+    uint row_count;
+#if COUNT_SHADOWS
+    ShadowCounts counts;
+#endif
+} ShadowPoints;
+
+static inline void reset_counts(ShadowPoints* points) {
+#if COUNT_SHADOWS
+    points->counts = (ShadowCounts){0, 0, 0, 0, 0, 0, 0, 0};
+#endif
+}
+
+static inline uint lane_count(MASK mask) { return popcount(lane_ballot(mask)); }
+
+static inline void load_origins(ShadowPoints* to, uint row, global const float* origins, uint plane,
+                                Pixels pixels) {
+    uint at = row * VW;
+    lane_store(LOAD_PLANE(FV, origins + ORIGIN_X * plane, pixels), to->x + at);
+    lane_store(LOAD_PLANE(FV, origins + ORIGIN_Y * plane, pixels), to->y + at);
+    lane_store(LOAD_PLANE(FV, origins + ORIGIN_Z * plane, pixels), to->z + at);
+    FV3 n = unpacked_normal(LOAD_PLANE(FV, origins + ORIGIN_NORMAL * plane, pixels));
+    lane_store(n.x, to->nx + at);
+    lane_store(n.y, to->ny + at);
+    lane_store(n.z, to->nz + at);
+}
+
+// A box that grows.
+typedef struct LaneBox {
+    FV3 low, high;
+} LaneBox;
+
+static inline LaneBox grown_box(LaneBox box, MASK mask, FV3 p) {
+    box.low =
+        select3(mask, fv3(min(box.low.x, p.x), min(box.low.y, p.y), min(box.low.z, p.z)), box.low);
+    box.high = select3(mask, fv3(max(box.high.x, p.x), max(box.high.y, p.y), max(box.high.z, p.z)),
+                       box.high);
+    return box;
+}
+
+// Begins a light: which points of row `row` it could reach. The eye must see the side of the
+// triangle that the light is on; beyond the range, and a little more, there is no light to block.
+static inline MASK face_light(ShadowPoints* points, uint row, ShadowLight light, MASK wanted) {
+    uint at = row * VW;
+    FV3 p = fv3(lane_load(points->x + at), lane_load(points->y + at), lane_load(points->z + at));
+    FV3 n = fv3(lane_load(points->nx + at), lane_load(points->ny + at), lane_load(points->nz + at));
+    FV3 e = p;
+    MASK lit = wanted;
+    if (light.is_direction) {
+        lit &= lane_mask(dot3(n, splat3(light.at)) > fv(0.0f));
+    } else {
+        FV3 d = sub3(p, splat3(light.at));
+        lit &= lane_mask(dot3(n, d) < fv(0.0f)) &
+               lane_mask(dot3(d, d) * light.inv_range2 < fv(1.001f));
+        e = scale3(d, fv(1.0f) / max(size3(d), fv(1e-30f)));
+    }
+    lane_store(e.x, points->ex + at);
+    lane_store(e.y, points->ey + at);
+    lane_store(e.z, points->ez + at);
+    lane_store(KX_CONCAT(as_, FV)(lit), points->lit + at);
+    return lit;
+}
+
+static inline MASK lit_of(const ShadowPoints* points, uint row) {
+    return KX_CONCAT(as_, IV)(lane_load(points->lit + row * VW));
+}
+
+static inline FV3 load_edge_points(const ShadowPoints* points, uint row) {
+    uint at = row * VW;
+    return fv3(lane_load(points->ex + at), lane_load(points->ey + at), lane_load(points->ez + at));
+}
+static inline FV3 load_points(const ShadowPoints* points, uint row) {
+    uint at = row * VW;
+    return fv3(lane_load(points->x + at), lane_load(points->y + at), lane_load(points->z + at));
+}
+
+static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
+
+// The forms of VW triangles: g.x, g.y, g.z, c of the three edges and of the plane, each in all
+// lanes; the edges' units; and the boxes' middles and half edges.
+#define FORM_ROWS 25
+typedef struct FormRows {
+    float of[FORM_ROWS][VW];
+} FormRows;
+
+static inline void store_form(ShadowForm form, FormRows* to, uint row) {
+    lane_store(form.g.x, to->of[row]);
+    lane_store(form.g.y, to->of[row + 1]);
+    lane_store(form.g.z, to->of[row + 2]);
+    lane_store(form.c, to->of[row + 3]);
+}
+
+static inline void store_forms(const ShadowTriangles* t, FormRows* to) {
+    for (uint i = 0; i < 3; ++i) {
+        store_form(t->edge[i], to, 4 * i);
+        lane_store(t->unit[i], to->of[16 + i]);
+    }
+    store_form(t->plane, to, 12);
+    lane_store(t->box.middle.x, to->of[19]);
+    lane_store(t->box.middle.y, to->of[20]);
+    lane_store(t->box.middle.z, to->of[21]);
+    lane_store(t->box.half_edge.x, to->of[22]);
+    lane_store(t->box.half_edge.y, to->of[23]);
+    lane_store(t->box.half_edge.z, to->of[24]);
+}
+
+// Three rows of triangle `lane`.
+static inline FV3 row3_of(const FormRows* forms, uint row, uint lane) {
+    return fv3(fv(forms->of[row][lane]), fv(forms->of[row + 1][lane]),
+               fv(forms->of[row + 2][lane]));
+}
+
+// A form of triangle `lane` at points.
+static inline FV form_at(const FormRows* forms, uint row, uint lane, FV3 x) {
+    return fma(fv(forms->of[row][lane]), x.x,
+               fma(fv(forms->of[row + 1][lane]), x.y,
+                   fma(fv(forms->of[row + 2][lane]), x.z, fv(forms->of[row + 3][lane]))));
+}
+
+// The triangles of one vector that are tested.
+typedef struct FoundTriangles {
+    FormRows forms;
+    uint wanted;           // a bit for each
+    const uint* children;  // [VW]
+} FoundTriangles;
+
+// Of a row's points, `lit` is left where none of the triangles stands between them and the light.
+static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, ShadowLight light,
+                              FV3 edge_point, FV3 point, MASK lit) {
+    for (uint bits = found->wanted; bits != 0u; bits &= bits - 1u) {
+        uint lane = lowest_bit(bits);
+        FV u0 = form_at(&found->forms, 0, lane, edge_point);
+        FV u1 = form_at(&found->forms, 4, lane, edge_point);
+        FV u2 = form_at(&found->forms, 8, lane, edge_point);
+        FV behind = form_at(&found->forms, 12, lane, point);
+        MASK shaded = lane_mask(min(min(u0, u1), min(u2, behind)) >= fv(-1.0f)) & lit;
+        if (!lane_any(shaded)) continue;
+        LaneBoxes box = {row3_of(&found->forms, 19, lane), row3_of(&found->forms, 22, lane)};
+        shaded &= passes_box(light, point, box);
+#if HAS_MASKED_CASTERS
+        uint child = found->children[lane];
+        if ((child & SHADOW_MASKED) != 0u) {
+            shaded &=
+                is_opaque_at(scene.masked, child & SHADOW_NUMBER, u0 * found->forms.of[16][lane],
+                             u1 * found->forms.of[17][lane], u2 * found->forms.of[18][lane]);
+        }
+#endif
+        lit &= ~shaded;
+    }
+    return lit;
+}
+
+static inline void shade_rows(ShadowPoints* points, const FoundTriangles* found, ShadowScene scene,
+                              ShadowLight light) {
+    uint count = 0;
+    for (uint i = 0; i < points->row_count; ++i) {
+        uint row = points->rows[i];
+        MASK lit = lit_of(points, row);
+        ADD_COUNT(points, points, popcount(found->wanted) * lane_count(lit));
+        lit = lit_by_row(found, scene, light, load_edge_points(points, row),
+                         load_points(points, row), lit);
+        lane_store(KX_CONCAT(as_, FV)(lit), points->lit + row * VW);
+        points->rows[count] = (uchar)row;
+        count += lane_any(lit) ? 1u : 0u;
+    }
+    points->row_count = count;
+}
+
+// Lists the rows that still have lit points.
+static inline void find_lit_rows(ShadowPoints* points, uint first, uint end) {
+    uint count = 0;
+    for (uint row = first; row < end; ++row) {
+        points->rows[count] = (uchar)row;
+        count += lane_any(lit_of(points, row)) ? 1u : 0u;
+    }
+    points->row_count = count;
+}
+
+static inline uint caster_of(ShadowScene scene, uint child) {
+    uint number = child & SHADOW_NUMBER;
+#if HAS_MASKED_CASTERS
+    if ((child & SHADOW_MASKED) != 0u) return scene.masked.casters[number].triangle;
+#endif
+    return number;
+}
+
+// Corners of VW triangles.
+static inline void load_casters(ShadowScene scene, const uint* children, FV3* v) {
+    float corner[9][VW];
+#pragma unroll
+    for (uint lane = 0; lane < VW; ++lane) {
+        global const float* t = scene.casters + (ulong)caster_of(scene, children[lane]) * 9u;
+        for (uint i = 0; i < 9; ++i) corner[i][lane] = t[i];
+    }
+    for (uint i = 0; i < 3; ++i) {
+        v[i] = fv3(lane_load(corner[3 * i]), lane_load(corner[3 * i + 1]),
+                   lane_load(corner[3 * i + 2]));
+    }
+}
+
+// Tests the triangles that the walk found. `found` has room for whole vectors.
+static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft, uint* found,
+                               uint count, ShadowPoints* points) {
+    ADD_COUNT(points, triangles, count);
+    for (uint i = count; i < (count + VW - 1) / VW * VW; ++i) found[i] = found[count - 1];
+    for (uint first = 0; first < count; first += VW) {
+        FV3 v[3];
+        load_casters(scene, found + first, v);
+        MASK sure;
+        ShadowTriangles t = set_up_shadow(v, light, scene.view.extent, &sure);
+        MASK may = sure & may_shade(shaft, &t) & lane_mask(lane_numbers < (UV)(count - first));
+        if (!lane_any(may)) continue;
+        FoundTriangles triangles;
+        triangles.wanted = lane_ballot(may);
+        triangles.children = found + first;
+        store_forms(&t, &triangles.forms);
+        shade_rows(points, &triangles, scene, light);
+    }
+}
+
+// Asks for a node that will be read soon.
+static inline void prefetch_node(global const ShadowNode* node) {
+    for (uint i = 0; i < sizeof(ShadowNode) / 64; ++i) {
+        prefetch_to_read((global const uchar*)node + i * 64);
+    }
+}
+
+// Counts rays of the walks since `before`, and those of them that are left lit.
+static inline void count_rays(ShadowPoints* points, ulong tests_before, uint rays, uint seen) {
+#if COUNT_SHADOWS
+    points->counts.rays += rays;
+    points->counts.seen += seen;
+    if (points->counts.points != tests_before) points->counts.met_rays += rays;
+#endif
+}
+
+static inline ulong counted_tests(const ShadowPoints* points) {
+#if COUNT_SHADOWS
+    return points->counts.points;
+#else
+    return 0;
+#endif
+}
+
+// Puts out the points' lit flags where something stands between them and the light, of the rows
+// first .. end - 1, which face_light() began. low, high: box of the lit points.
+static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 low, float3 high,
+                                   uint first, uint end, ShadowPoints* points) {
+    ADD_COUNT(points, shafts, 1);
+    Shaft shaft = make_shaft(light, low, high);
+    uint stack[SHADOW_STACK];
+    uint found[SHADOW_BATCH + SHADOW_WIDTH];
+    uint top = 1;
+    uint count = 0;
+    stack[0] = 0;
+    find_lit_rows(points, first, end);
+    while (top > 0u && points->row_count > 0u) {
+        global const ShadowNode* node = scene.nodes + stack[--top];
+        ADD_COUNT(points, nodes, 1);
+        for (uint child = 0; child < SHADOW_WIDTH; child += VW) {
+            uint bits = lane_ballot(meets_children(shaft, node, child));
+            for (; bits != 0u; bits &= bits - 1u) {
+                uint number = node->child[child + lowest_bit(bits)];
+                if ((number & SHADOW_LEAF) != 0u) {
+                    found[count++] = number;
+                } else {
+                    prefetch_node(scene.nodes + number);
+                    stack[top++] = number;
+                }
+            }
+        }
+        if (count > SHADOW_BATCH - SHADOW_WIDTH || (top == 0u && count > 0u)) {
+            shade_found(scene, light, shaft, found, count, points);
+            count = 0;
+        }
+    }
+}
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many texels the surfaces of a G-buffer are made of: what resolve_surfaces reads at least.
+// Four for each mip level and each sample along a footprint; a texture that several uses read
+// counts once. For limits; no part of a frame otherwise.
+// One work-item counts for VW neighbouring pixels of a row.
+#include "kernels/surfaces/footprint.h"
+
+#if HAS_TEXCOORD0 || HAS_TEXCOORD1
+static inline UV texels_of_lookup(Lookup at) {
+    MASK two_levels = lane_mask(at.coarser_share > fv(0.0f));
+    return select((UV)(4u), (UV)(8u), two_levels);
+}
+
+static inline UV texels_of_use(global const TextureRow* row, Footprint at) {
+#if MAX_ANISOTROPY > 1
+    if (is_anisotropic(row)) {
+        Samples s = samples_along(row, at);
+        return texels_of_lookup(make_lookup(row, at.u, at.v, s.lambda)) * lane_to_uint(s.count);
+    }
+#endif
+    return texels_of_lookup(lookup_isotropic(row, at));
+}
+
+// Whether an earlier use reads the texture, too.
+static inline bool is_read(global const SurfaceMaterial* material, uint use) {
+    for (uint i = 0; i < use; ++i) {
+        if (HAS_USE(i) && material->textures[i] == material->textures[use]) return true;
+    }
+    return false;
+}
+
+static inline UV texels_of_material(SurfaceScene scene, uint number, const Fragment* f) {
+    global const SurfaceMaterial* material = scene.materials + number;
+    UV texels = (UV)(0u);
+    for (uint use = 0; use < USE_COUNT; ++use) {
+        uint texture = material->textures[use];
+        if (!HAS_USE(use) || texture == SURFACE_ABSENT || is_read(material, use)) continue;
+        texels += texels_of_use(scene.textures + texture, footprint_of(material, f, use));
+    }
+    return texels;
+}
+#else
+static inline UV texels_of_material(SurfaceScene scene, uint number, const Fragment* f) {
+    return (UV)(0u);
+}
+#endif
+
+kernel void count_texels(
+    global const uint* restrict ids,  // [height][stride]: triangle + 1; 0 for background
+    View view,
+    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
+    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
+    global const MeshRow* restrict meshes, global const float* restrict vertices,
+    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
+    global const TextureRow* restrict textures, global const ulong* restrict texels,
+    global uint* restrict counts) {  // out [height][stride]; 0 for background
+    uint x = (uint)get_global_id(0) * VW;
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    Pixels pixels = row_pixels(view, x, y);
+    UV id = lane_load(ids + pixels.first);
+    MASK drawn = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
+    UV count = (UV)(0u);
+    if (lane_any(drawn)) {
+        SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
+                              indices,   materials,       textures, texels};
+        Fragment fragment = interpolate_fragment(scene, view, pixels, id, drawn);
+        for (MASK left = drawn; lane_any(left);) {
+            uint material = first_of(fragment.material, left);
+            MASK mask = lane_mask(fragment.material == (UV)(material)) & left;
+            count = select(count, texels_of_material(scene, material, &fragment), mask);
+            left &= ~mask;
+        }
+    }
+    lane_store(count, counts + pixels.first);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bound of the radiance that each pixel lacks as lights without a range of their own got one,
+// from the moments of its coarse cluster (tail_moments). One work-item bounds one pixel: VW is 1.
+//
+// Of the light from directions l with weights w, the surface takes sum w max(n.l, 0) = sum w (|n.l|
+// + n.l) / 2, and sum w |n.l| <= sqrt(sum w * sum w (n.l)^2) by Cauchy and Schwarz. Directions
+// stray by s within a cluster, which adds sum w s.
+#include "kernels/device/gbuffer.h"
+#include "kernels/device/radiance.h"
+#include "kernels/lists/coarse_tile.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/evaluate.h"
+#include "kernels/tails/tail_moments.h"
+
+// More than float32 loses in the sums of moments.
+#define ROUNDING 1.0001f
+
+// sum of w max(n.l, 0) of one colour, at most.
+static inline float irradiance_bound(global const float* m, FV3 n) {
+    global const float* to = m + TAIL_TO;
+    global const float* outer = m + TAIL_OUTER;
+    float along = n.x * to[0] + n.y * to[1] + n.z * to[2];
+    float square = n.x * n.x * outer[0] + n.y * n.y * outer[1] + n.z * n.z * outer[2] +
+                   2.0f * (n.x * n.y * outer[3] + n.x * n.z * outer[4] + n.y * n.z * outer[5]);
+    float both = sqrt(m[TAIL_AIMED] * max(square, 0.0f));
+    // Rounding may have taken as much from the difference as from its terms.
+    return 0.5f * (both + along) + (ROUNDING - 1.0f) * m[TAIL_AIMED] + m[TAIL_STRAY];
+}
+
+// Radiance of one colour from light of which `all` is the sum of weights and `irradiance` what the
+// surface takes, at most; `f0` head on: of dielectrics, or mixed.
+static inline float radiance_bound(Surface s, ShadingPoint p, float albedo, float f0, float all,
+                                   float irradiance) {
+#if SHADING == SHADING_LAMBERT
+    return albedo * INV_PI * irradiance;
+#else
+    float base = albedo;
+#if HAS_METALLIC
+    base *= 1.0f - s.metallic;
+#endif
+#if SHADING == SHADING_BLINN_PHONG
+    float alpha = clamped_alpha(s.roughness);
+    return (base * INV_PI + f0 * 0.25f * INV_PI / (alpha * alpha)) * irradiance;
+#else
+    // GGX: D <= 1 / (pi alpha^2), n.l V <= 1 / (2 sqrt(n.v^2 (1 - alpha^2) + alpha^2)), F <= 1.
+    return base * INV_PI * irradiance + 0.5f * INV_PI / (p.alpha2 * p.smith_v) * all;
+#endif
+#endif
+}
+
+kernel void tail_bound(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+                       global const float* restrict srgb,  // [256]
+                       ClusterGrid grid,
+                       global const float* restrict moments,  // [cluster_count][TAIL_ROWS]
+                       global float* restrict bound) {        // out [3][height][stride]
+    uint x = get_global_id(0);
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    Pixels pixels = row_pixels(view, x, y);
+    GBuffer g = {gbuffer, layout, view, srgb};
+    float depth01 = load_depth01(g, pixels);
+    if (!(depth01 > 0.0f) || x >= view.width) {
+        store_radiance(bound, view, pixels, zero3());
+        return;
+    }
+    float z = view_depth(view, pixels.x, pixels.y, depth01);
+    Surface s = load_surface(g, pixels, z);
+    ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+    CoarseTile tile = coarse_tile(view, grid, fine_tile_of(view, x, y));
+    uint cluster = cluster_index(grid, tile.column, tile.row, slice_of_depth(grid, z));
+    global const float* m = moments + cluster * TAIL_ROWS;
+    FV3 f0 = mixed_f0(s, dielectric_f0(s));
+    const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
+    const float f0_of[3] = {f0.x, f0.y, f0.z};
+    float out[3];
+    for (uint c = 0; c < 3; ++c) {
+        global const float* sums = m + c * TAIL_MOMENTS;
+        float irradiance = irradiance_bound(sums, s.normal);
+        out[c] = ROUNDING * radiance_bound(s, p, albedo[c], f0_of[c], sums[TAIL_ALL], irradiance);
+#if HAS_UNLIT
+        if (!(s.roughness > 0.0f)) out[c] = 0.0f;
+#endif
+    }
+    store_radiance(bound, view, pixels, fv3(out[0], out[1], out[2]));
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bound of what each pixel gains or lacks as nodes of the light tree stand for their lights:
+// kernels/tails/tree_cut.h for diffuse light; of a lobe, what it has at most in any direction to
+// the node's lights. One work-item bounds one pixel: VW is 1.
+//
+// A direction to a node's light is within `stray` of that to its centre, and the half vector within
+// stray / (|h| - stray / 2), h = l + v: |a/|a| - b/|b|| <= 2 |a - b| / (|a| + |b|). The cosine
+// v.h moves by at most half as much as l: it is sqrt((1 + l.v) / 2).
+#include "kernels/device/gbuffer.h"
+#include "kernels/device/light_index.h"
+#include "kernels/device/radiance.h"
+#include "kernels/shared/cluster_grid.h"
+#include "kernels/shared/clusters.h"
+#include "kernels/shared/evaluate.h"
+#include "kernels/tails/tree_cut.h"
+
+// More than float32 loses in the sums.
+#define ROUNDING 1.0001f
+
+// Errors of light of intensity 1 from a node.
+typedef struct NodeError {
+    float diffuse;   // of the irradiance
+    float specular;  // most that a lobe has of it, by kernels' constants left out as in LightSum
+    float fresnel;   // f of Schlick's f0 + (1 - f0) f, at most
+} NodeError;
+
+// The lobe's most within `stray` of the direction l.
+static inline float lobe_bound(Surface s, ShadingPoint p, float3 l, float stray, float* fresnel) {
+    float3 v = (float3)(p.to_eye.x, p.to_eye.y, p.to_eye.z);
+    float3 n = (float3)(p.normal.x, p.normal.y, p.normal.z);
+    float3 h = l + v;
+    float length_h = sqrt(dot(h, h));
+    float rest = length_h - 0.5f * stray;
+    float turn = rest > 0.0f ? stray / rest : 2.0f;
+    float inv_length = 1.0f / max(length_h, 1e-12f);
+    float cosine = min(dot(n, h) * inv_length + turn + 1e-6f, 1.0f);
+    float v_dot_h = max(dot(v, h) * inv_length - 0.5f * stray, 0.0f);
+    float dark = 1.0f - min(v_dot_h, 1.0f);
+    *fresnel = dark * dark * dark * dark * dark;
+    if (cosine <= 0.0f) cosine = 0.0f;
+#if SHADING == SHADING_PBR
+    // D V n.l d^2 without 1 / (2 pi): V n.l <= 1 / (2 smith_v).
+    float sine2 = 1.0f - cosine * cosine;
+    float ggx = fma(sine2, p.ggx_slope, p.ggx_floor);
+    return 1.0f / (ggx * ggx * p.smith_v);
+#elif SHADING == SHADING_BLINN_PHONG
+    return pow_of_cos2(cosine * cosine, 1.0f - cosine * cosine, 1.0f, p.exponent);
+#else
+    return 0.0f;
+#endif
+}
+
+static inline NodeError node_error(Surface s, ShadingPoint p, TreeNode node, float4 at) {
+    NodeError out = {0.0f, 0.0f, 0.0f};
+    float3 w = (float3)(at.x - p.position.x, at.y - p.position.y, at.z - p.position.z);
+    float distance = sqrt(dot(w, w));
+    float near = distance * (2.0f - TREE_ROUNDING) - node.radius * TREE_ROUNDING;
+    float along = p.normal.x * w.x + p.normal.y * w.y + p.normal.z * w.z;
+    float slack = node.radius * TREE_ROUNDING + 1e-5f * distance;
+    if (along < -slack) return out;  // behind the surface: nothing of it is seen
+    float inv = 1.0f / near;
+    float share = inv * inv;  // of the intensity, at most
+    float spread = node.spread * inv;
+    bool lit = along > slack;
+    float error = lit ? fma(3.0f * spread, spread, 2.0f * node.offset * inv) : 2.0f * spread;
+    out.diffuse = share * min(error, 1.0f);
+#if SHADING != SHADING_LAMBERT
+    float stray = node.radius / (distance - 0.5f * node.radius);
+    out.specular = share * lobe_bound(s, p, w / distance, stray, &out.fresnel);
+#if SHADING == SHADING_PBR
+    // Diffuse light is what Fresnel leaves: its slope is at most 5 (1 - v.h)^4 / 2.
+    float slope = 2.5f * pow(out.fresnel, 0.8f) * TREE_ROUNDING;
+    out.diffuse += share * min(slope * spread, 1.0f);
+#endif
+#endif
+    return out;
+}
+
+// Radiance of one colour that errs by `e` for intensity 1.
+static inline float radiance_error(Surface s, ShadingPoint p, float albedo, float f0, NodeError e) {
+    float base = albedo;
+#if HAS_METALLIC
+    base *= 1.0f - s.metallic;
+#endif
+#if SHADING == SHADING_LAMBERT
+    return albedo * INV_PI * e.diffuse;
+#elif SHADING == SHADING_BLINN_PHONG
+    float alpha = clamped_alpha(s.roughness);
+    return base * INV_PI * e.diffuse + f0 * 0.25f * INV_PI / (alpha * alpha) * e.specular;
+#else
+    return base * INV_PI * e.diffuse + 0.5f * INV_PI * (f0 + e.fresnel) * e.specular;
+#endif
+}
+
+// The cluster of a pixel at depth z [m] among those of its tile; `end`: none.
+static inline uint cluster_of(ClusterGrid grid, global const ActiveCluster* clusters, uint first,
+                              uint end, float z) {
+    uint slice = fine_slice_of_depth(grid, z);
+    for (uint i = first; i < end; ++i) {
+        if (clusters[i].slice == slice) return i;
+    }
+    return end;
+}
+
+kernel void tree_bound(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
+                       global const float* restrict srgb,  // [256]
+                       ClusterGrid grid,
+                       global const uint* restrict cluster_offsets,    // [tiles + 1]
+                       global const ActiveCluster* restrict clusters,  // [cluster_capacity]
+                       uint cluster_capacity, global const LIGHT_INDEX* restrict lists,
+                       global const ShadeLight* restrict lights,  // [first_node + node_count]
+                       uint first_node,
+                       global const TreeNode* restrict nodes,  // [node_count]
+                       global float* restrict bound) {         // out [3][height][stride]
+    uint x = get_global_id(0);
+    uint y = get_global_id(1);
+    if (y >= view.height) return;
+    Pixels pixels = row_pixels(view, x, y);
+    GBuffer g = {gbuffer, layout, view, srgb};
+    float depth01 = load_depth01(g, pixels);
+    float out[3] = {0.0f, 0.0f, 0.0f};
+    if (depth01 > 0.0f && x < view.width) {
+        float z = view_depth(view, pixels.x, pixels.y, depth01);
+        Surface s = load_surface(g, pixels, z);
+        ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
+        FV3 f0 = mixed_f0(s, dielectric_f0(s));
+        const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
+        const float f0_of[3] = {f0.x, f0.y, f0.z};
+        uint tile = fine_tile_of(view, x, y);
+        uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+        uint cluster = cluster_of(grid, clusters, cluster_offsets[tile], end, z);
+        uint count = cluster < end ? clusters[cluster].list_count : 0u;
+        for (uint i = 0; i < count; ++i) {
+            uint light = lists[clusters[cluster].list_begin + i];
+            if (light < first_node || !(nodes[light - first_node].radius > 0.0f)) continue;
+            ShadeLight row = lights[light];
+            NodeError e = node_error(s, p, nodes[light - first_node], row.position_inv_range2);
+            const float intensity[3] = {row.color_scale.x, row.color_scale.y, row.color_scale.z};
+            for (uint c = 0; c < 3; ++c) {
+                out[c] += ROUNDING * intensity[c] * radiance_error(s, p, albedo[c], f0_of[c], e);
+            }
+        }
+#if HAS_UNLIT
+        if (!(s.roughness > 0.0f)) out[0] = out[1] = out[2] = 0.0f;
+#endif
+    }
+    store_radiance(bound, view, pixels, fv3(out[0], out[1], out[2]));
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/opencl/shading/shading_reference.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "kernels/shared/evaluate_modes.h"
+
+namespace kilolux {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kNearest = 0.01;     // [m] light sources have a size
+constexpr double kSmoothest = 0.045;  // perceptual roughness
+constexpr double kSmallestNdotV = 1e-4;
+
+glm::dvec3 vec(float4 v) { return {v.x, v.y, v.z}; }
+
+double clamp01(double x) { return std::clamp(x, 0.0, 1.0); }
+
+double alpha_of(double roughness) {
+    const double r = std::max(roughness, kSmoothest);
+    return r * r;
+}
+
+// glTF 2.0 appendix B, metallic-roughness, without the cosine to the light.
+glm::dvec3 gltf_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
+    const double a2 = alpha_of(s.roughness) * alpha_of(s.roughness);
+    const glm::dvec3 h = glm::normalize(l + v);
+    const double nh = dot(n, h);
+    const double nl = std::max(dot(n, l), 0.0);
+    const double nv = std::max(dot(n, v), kSmallestNdotV);
+    const double t = nh * nh * (a2 - 1) + 1;
+    const double distribution = a2 / (kPi * t * t);
+    const double visibility =
+        0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
+    const double schlick = std::pow(std::max(1 - dot(v, h), 0.0), 5);
+    // KHR_materials_specular: diffuse light loses the strongest channel of the dielectric's Fresnel
+    // term; that share of what is lost head on is the metal's as well.
+    const double most = std::max({s.specular.x, s.specular.y, s.specular.z});
+    const double rises = std::min((1 - s.specular_f90) / std::max(1 - most, 1e-6), 1.0);
+    const double to_diffuse = 1 - schlick + schlick * rises;
+    const double f90 = s.specular_f90 + (1 - s.specular_f90) * s.metallic;
+    const auto channel = [&](double albedo, double specular) {
+        const double f0 = specular + (albedo - specular) * s.metallic;
+        const double f = f0 + (f90 - f0) * schlick;
+        const double kept = (1 - (most + (albedo - most) * s.metallic)) * to_diffuse;
+        return kept * albedo * (1 - s.metallic) / kPi + f * distribution * visibility;
+    };
+    return {channel(s.albedo.x, s.specular.x), channel(s.albedo.y, s.specular.y),
+            channel(s.albedo.z, s.specular.z)};
+}
+
+glm::dvec3 blinn_phong_brdf(const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
+    const double exponent = 2 / std::pow(alpha_of(s.roughness), 2) - 2;
+    const double nh = std::max(dot(n, glm::normalize(l + v)), 0.0);
+    const double lobe = (exponent + 2) / (8 * kPi) * std::pow(nh, exponent);
+    const auto channel = [&](double albedo, double specular) {
+        const double f0 = specular + (albedo - specular) * s.metallic;
+        return albedo * (1 - s.metallic) / kPi + f0 * lobe;
+    };
+    return {channel(s.albedo.x, s.specular.x), channel(s.albedo.y, s.specular.y),
+            channel(s.albedo.z, s.specular.z)};
+}
+
+glm::dvec3 brdf(int shading, const SurfaceD& s, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l) {
+    if (shading == SHADING_PBR) return gltf_brdf(s, n, v, l);
+    if (shading == SHADING_BLINN_PHONG) return blinn_phong_brdf(s, n, v, l);
+    return s.albedo * (1 / kPi);
+}
+
+double cone_of(const ShadeLight& light, glm::dvec3 to_light) {
+    const double cosine = -dot(to_light, vec(light.axis_cos));
+    const double t = clamp01((cosine - light.axis_cos.w) * light.color_scale.w);
+    return t * t;
+}
+
+}  // namespace
+
+ReferenceRadiance reference_radiance(const SurfaceD& s, const Lighting& lighting) {
+    const glm::dvec3 n = glm::normalize(s.normal);
+    const glm::dvec3 eye =
+        lighting.orthographic ? glm::dvec3{0, 0, 1} : glm::normalize(s.position * -1.0);
+    ReferenceRadiance sum;
+    const auto add = [&](glm::dvec3 l, glm::dvec3 strength) {
+        sum.scale += std::max({strength.x, strength.y, strength.z});
+        const double nl = dot(n, l);
+        if (nl <= 0 || strength.x + strength.y + strength.z == 0) return;
+        sum.value = sum.value + brdf(lighting.shading, s, n, eye, l) * strength * nl;
+    };
+    for (const DirectionalLight& light : lighting.directional)
+        add(vec(light.to_light), vec(light.color));
+    for (const ShadeLight& light : lighting.lights) {
+        const glm::dvec3 offset = vec(light.position_inv_range2) - s.position;
+        const double d2 = dot(offset, offset);
+        const double ratio4 = std::pow(d2 * light.position_inv_range2.w, 2);
+        const double d = std::max(std::sqrt(d2), kNearest);
+        const glm::dvec3 to_light = offset * (1 / d);  // shorter than 1 within the source itself
+        const double falloff = clamp01(1 - ratio4) / (d * d) * cone_of(light, to_light);
+        add(to_light, vec(light.color_scale) * falloff);
+    }
+    sum.value = sum.value + s.albedo * (lighting.ambient * s.occlusion) + s.emissive;
+    return sum;
+}
+
+double relative_error(glm::dvec3 found, const ReferenceRadiance& expected) {
+    const auto error = [&](double x, double r) {
+        const double difference = std::abs(x - r);
+        if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
+        const double size = std::max(r, expected.scale);
+        return size > 0 ? difference / size : difference;
+    };
+    return std::max({error(found.x, expected.value.x), error(found.y, expected.value.y),
+                     error(found.z, expected.value.z)});
+}
+
+}  // namespace kilolux

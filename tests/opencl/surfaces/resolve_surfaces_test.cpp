@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/stages/surfaces/resolve_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "host/base/gbuffer_layout.h"
+#include "host/stages/surfaces/bin_triangles.h"
+#include "host/stages/surfaces/build_mips.h"
+#include "host/stages/surfaces/count_texels.h"
+#include "host/stages/surfaces/decode_gbuffer.h"
+#include "host/stages/surfaces/raster_triangles.h"
+#include "kernels/shared/surface_planes.h"
+#include "tests/support/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+constexpr uint kWidth = 21, kHeight = 5;
+
+// A view with square pixels of 0.1 at depth 1.
+View small_view() {
+    View view{};
+    view.ray = {0.1f, -0.05f * kWidth, -0.1f, 0.05f * kHeight};
+    view.depth = {10.0f, 0.0f, 0.0f, 0.0f};
+    view.width = kWidth;
+    view.height = kHeight;
+    view.stride = 32;
+    view.view_from_world_x = {1, 0, 0, 0};
+    view.view_from_world_y = {0, 1, 0, 0};
+    view.view_from_world_z = {0, 0, 1, 0};
+    return view;
+}
+
+// Keeps what SurfaceBuffers refer to.
+class QuadScene {
+ public:
+    // `repeats` of the texture along each edge.
+    explicit QuadScene(const Gpu& gpu, float repeats = 1.0f) : gpu_(gpu) {
+        // Position, normal, tangent, texcoord; a rectangle at depth 2 that leaves the left columns.
+        constexpr float kEdge = 1.6f;
+        std::vector<float> vertices;
+        for (const auto& [x, y, u, v] :
+             {std::array{-kEdge, -9.0f, 0.0f, 1.0f}, std::array{9.0f, -9.0f, 1.0f, 1.0f},
+              std::array{9.0f, 9.0f, 1.0f, 0.0f}, std::array{-kEdge, 9.0f, 0.0f, 0.0f}}) {
+            const std::array row = {x,    y,    -2.0f, 0.0f, 0.0f,        1.0f,
+                                    1.0f, 0.0f, 0.0f,  1.0f, u * repeats, v * repeats};
+            vertices.insert(vertices.end(), row.begin(), row.end());
+        }
+        MeshRow mesh{};
+        mesh.vertex_floats = 12;
+        mesh.normal = 3;
+        mesh.tangent = 6;
+        mesh.texcoord0 = 10;
+        mesh.texcoord1 = mesh.color = SURFACE_ABSENT;
+        InstanceRow instance{};
+        for (int i = 0; i < 3; ++i) {
+            float* row = &instance.view_from_object[i].x;
+            row[i] = 1.0f;
+            (&instance.normal_from_object[i].x)[i] = 1.0f;
+        }
+        instance.normal_from_object[0].w = 1.0f;
+        TextureRow texture{};
+        place_mips(texture, 5, 3, 0);
+        std::vector<std::uint8_t> image;
+        for (int i = 0; i < 5 * 3; ++i) {
+            const auto code = static_cast<std::uint8_t>(17 * i);
+            image.insert(image.end(), {code, 128, static_cast<std::uint8_t>(255 - code), 255});
+        }
+        const auto texels = texels_.reserve(mip_texels(5, 3));
+        BuildMips(gpu, default_tuning(gpu.info)).enqueue(image, false, texture, texels);
+        put(vertices_, vertices, buffers.vertices);
+        put(indices_, std::vector<uint>{0, 1, 2, 0, 2, 3}, buffers.indices);
+        put(meshes_, std::vector{mesh}, buffers.meshes);
+        InstanceRow end{};
+        end.first_triangle = 2;
+        put(instances_, std::vector{instance, end}, buffers.instances);
+        put(blocks_, std::vector<uint>{0, 0}, buffers.instance_blocks);
+        put(materials_, std::vector{material()}, buffers.materials);
+        put(textures_, std::vector{texture}, buffers.textures);
+        buffers.texels = texels;
+    }
+
+    SurfaceBuffers buffers;
+
+ private:
+    static SurfaceMaterial material() {
+        SurfaceMaterial out{};
+        out.row.base_color = {1.0f, 0.5f, 1.0f, 1.0f};
+        out.row.factors = {0.25f, 0.75f, 1.0f, 1.0f};
+        for (uint& texture : out.textures) texture = SURFACE_ABSENT;
+        out.textures[USE_BASE_COLOR] = out.textures[USE_NORMAL] = 0;
+        out.lookup_use = USE_BASE_COLOR;
+        out.flags = MATERIAL_SHARES_LOOKUP << USE_BASE_COLOR |
+                    MATERIAL_SHARES_LOOKUP << USE_NORMAL | MATERIAL_MASKED;
+        out.row.emissive_cutoff.w = 0.5f;  // texels' alpha is 1
+        return out;
+    }
+
+    template <typename T>
+    void put(GrowingArray<T>& array, const std::vector<T>& values, DeviceArray<T>& out) {
+        out = array.reserve(values.size());
+        upload<T>(gpu_, out, values);
+    }
+
+    Gpu gpu_;
+    GrowingArray<float> vertices_{gpu_, "test"};
+    GrowingArray<uint> indices_{gpu_, "test"};
+    GrowingArray<MeshRow> meshes_{gpu_, "test"};
+    GrowingArray<InstanceRow> instances_{gpu_, "test"};
+    GrowingArray<uint> blocks_{gpu_, "test"};
+    GrowingArray<SurfaceMaterial> materials_{gpu_, "test"};
+    GrowingArray<TextureRow> textures_{gpu_, "test"};
+    GrowingArray<std::uint64_t> texels_{gpu_, "test"};
+};
+
+SurfaceFeatures quad_features(int anisotropy) {
+    SurfaceFeatures surfaces;
+    surfaces.texture_uses = 1u << USE_BASE_COLOR | 1u << USE_NORMAL;
+    surfaces.texcoord0 = true;
+    surfaces.anisotropy = anisotropy;
+    return surfaces;
+}
+
+// Its two triangles by turns, from column 3 on.
+std::vector<uint> quad_ids(const View& view) {
+    std::vector<uint> ids(std::size_t{view.stride} * view.height, 0);
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 3; x < view.width; ++x) ids[y * view.stride + x] = 1 + (x + y) % 2;
+    }
+    return ids;
+}
+
+// The planes of a layout, as bytes; `decoded` gets them as shading sees them.
+std::vector<std::byte> resolved(const Gpu& gpu, uint layout, int anisotropy,
+                                std::vector<float>* decoded = nullptr) {
+    const View view = small_view();
+    KernelFeatures features;
+    features.gbuffer = layout;
+    features.material = features.metallic = features.occlusion = features.specular = true;
+    GBufferNeeds needs;
+    static_cast<SceneFeatures&>(needs) = features;
+    needs.layout = layout;
+    const SurfaceFeatures surfaces = quad_features(anisotropy);
+    const QuadScene scene(gpu);
+    const std::vector<uint> ids = quad_ids(view);
+    GrowingArray<uint> device_ids(gpu, "test");
+    upload<uint>(gpu, device_ids.reserve(ids.size()), ids);
+    const Tuning tuning = default_tuning(gpu.info);
+    ResolveSurfaces resolve(gpu, tuning, features, surfaces);
+    StageTimer timer;
+    const GBufferLayout planes = make_gbuffer_layout(needs, view.stride, view.height);
+    const GBuffer out = resolve.enqueue(device_ids.get(), scene.buffers, planes, view, timer);
+    if (decoded) {
+        DecodeGBuffer decode(gpu, tuning, features);
+        *decoded =
+            download<float>(gpu, decode.enqueue(out, timer), decode.plane_count() * ids.size());
+    }
+    std::vector<std::byte> bytes = download(gpu, out.bytes);
+    // What lies between planes is no one's.
+    std::vector<std::byte> kept;
+    for (uint plane = 0; plane < PLANE_COUNT; ++plane) {
+        if (planes.offset_bytes[plane] == PLANE_ABSENT) continue;
+        const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(planes.offset_bytes[plane]);
+        kept.insert(
+            kept.end(), first,
+            first + static_cast<std::ptrdiff_t>(plane_element_bytes(layout, plane) * ids.size()));
+    }
+    return kept;
+}
+
+TEST(ResolveSurfaces, EveryLaneWidthGivesTheSameBits) {
+    if (!test_gpu().info.is_cpu) GTEST_SKIP() << "promised on CPUs";
+    for (const uint layout :
+         {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
+        const auto one = resolved(test_gpu(1), layout, 1);
+        for (const int lanes : {2, 4, 8, 16}) {
+            EXPECT_EQ(resolved(test_gpu(lanes), layout, 1), one) << layout << ' ' << lanes;
+        }
+    }
+    EXPECT_EQ(resolved(test_gpu(16), GBUFFER_PACKED, 8), resolved(test_gpu(1), GBUFFER_PACKED, 8));
+}
+
+TEST(ResolveSurfaces, InterpolatesAndLeavesTheBackground) {
+    std::vector<float> planes;
+    resolved(test_gpu(), GBUFFER_FULL, 1, &planes);
+    const View view = small_view();
+    const std::size_t plane = std::size_t{view.stride} * view.height;
+    const auto at = [&](std::size_t index, uint x, uint y) {
+        return planes[index * plane + y * view.stride + x];
+    };
+    for (uint y = 0; y < kHeight; ++y) {
+        EXPECT_EQ(at(SURFACE_DEPTH, 2, y), 0.0f);
+        EXPECT_NEAR(at(SURFACE_DEPTH, 12, y), 2.0f, 1e-6f);
+        EXPECT_NEAR(at(SURFACE_POSITION, 12, y), 2.0f * 0.1f * (12.5f - 0.5f * kWidth), 1e-6f);
+        EXPECT_NEAR(at(SURFACE_ALBEDO + 1, 12, y), 0.5f * 128.0f / 255.0f, 1e-6f);
+        EXPECT_EQ(at(SURFACE_ROUGHNESS, 12, y), 0.75f);
+        EXPECT_EQ(at(SURFACE_METALLIC, 12, y), 0.25f);
+        const float nx = at(SURFACE_NORMAL, 12, y);
+        const float nz = at(SURFACE_NORMAL + 2, 12, y);
+        const float red = at(SURFACE_ALBEDO, 12, y);
+        const float blue = at(SURFACE_ALBEDO + 2, 12, y);
+        EXPECT_NEAR(nx / nz, (2 * red - 1) / (2 * blue - 1), 1e-4f);
+    }
+}
+
+// The ids of the quad's triangles, drawn in OpenCL.
+std::vector<uint> drawn_ids(const Gpu& gpu, int group) {
+    const View view = small_view();
+    Tuning tuning = default_tuning(gpu.info);
+    tuning.raster_group = group;
+    tuning.raster_tile_width = tuning.raster_tile_height = 16;
+    tuning.cull_chunks = 2;
+    SurfaceFeatures features;
+    features.texture_uses = 1u << USE_BASE_COLOR;
+    features.texcoord0 = features.masks = true;
+    const QuadScene scene(gpu);
+    BinTriangles bin(gpu, tuning);
+    RasterTriangles raster(gpu, tuning, features);
+    StageTimer timer;
+    const TriangleLists lists = bin.enqueue(scene.buffers, 2, view, timer);
+    EXPECT_TRUE(bin.fits(bin.pairs()));
+    std::vector<uint> ids = download(gpu, raster.enqueue(scene.buffers, lists, view, timer));
+    for (uint y = 0; y < view.height; ++y) {
+        std::fill_n(ids.begin() + y * view.stride + view.width, view.stride - view.width, 0u);
+    }
+    return ids;
+}
+
+// Texels that a pixel of the quad is made of, all the same.
+uint texels_of_quad(int lanes, float repeats, int anisotropy) {
+    const Gpu gpu = test_gpu(lanes);
+    const View view = small_view();
+    const QuadScene scene(gpu, repeats);
+    const std::vector<uint> ids = drawn_ids(gpu, 1);
+    GrowingArray<uint> device_ids(gpu, "test");
+    upload<uint>(gpu, device_ids.reserve(ids.size()), ids);
+    CountTexels count(gpu, default_tuning(gpu.info), quad_features(anisotropy));
+    StageTimer timer;
+    const std::vector<uint> counts =
+        download(gpu, count.enqueue(device_ids.get(), scene.buffers, view, timer));
+    const uint expected = counts[kWidth - 1];
+    for (uint y = 0; y < view.height; ++y) {
+        for (uint x = 0; x < view.width; ++x) {
+            const std::size_t i = y * view.stride + x;
+            EXPECT_EQ(counts[i], ids[i] == 0 ? 0u : expected) << x << ' ' << y;
+        }
+    }
+    return expected;
+}
+
+// A pixel is 0.094 * repeats texels wide and 0.033 * repeats high. Both uses read one texture.
+TEST(CountTexels, CountsLevelsAndSamples) {
+    for (const int lanes : {1, 2, 16}) {
+        EXPECT_EQ(texels_of_quad(lanes, 1.0f, 1), 4u) << "magnified";
+        EXPECT_EQ(texels_of_quad(lanes, 20.0f, 1), 8u) << "between two mip levels";
+        EXPECT_EQ(texels_of_quad(lanes, 20.0f, 8), 12u) << "three samples of the finest";
+        EXPECT_EQ(texels_of_quad(lanes, 40.0f, 8), 24u) << "three samples between two";
+    }
+}
+
+}  // namespace
+
+TEST(EveryKernel, Triangles) {
+    const std::vector<uint> ids = drawn_ids(test_gpu(1), 1);
+    // The quad's left edge is at -1.6 / 2, at pixel 2.5: that column's centres lie on it.
+    for (uint y = 0; y < kHeight; ++y) {
+        EXPECT_EQ(ids[y * 32 + 1], 0u);
+        for (uint x = 3; x < kWidth; ++x) EXPECT_TRUE(ids[y * 32 + x] == 1 || ids[y * 32 + x] == 2);
+    }
+    EXPECT_EQ(drawn_ids(test_gpu(4), 1), ids);
+    EXPECT_EQ(drawn_ids(test_gpu(1), 32), ids);
+}
+
+// Under oclgrind, with the other kernels.
+TEST(EveryKernel, Surfaces) {
+    for (const int lanes : {1, 4}) {
+        texels_of_quad(lanes, 20.0f, 1);
+        for (const uint layout :
+             {GBUFFER_PACKED, GBUFFER_FULL, GBUFFER_HALF, GBUFFER_NORMAL_XY, GBUFFER_OCT_2X4}) {
+            EXPECT_FALSE(resolved(test_gpu(lanes), layout, lanes).empty());
+        }
+    }
+}
+
+}  // namespace kilolux
