@@ -120,7 +120,8 @@ std::vector<BenchRow> shown_rows(const BenchOptions& options, const Sweep& sweep
     std::vector<BenchRow> rows = sweep.rows;
     if (options.shared.verbose || sweep.points.size() <= kFewPoints) return rows;
     std::erase_if(rows, [](const BenchRow& row) {
-        return row.stage != kFrameStage && row.stage != "shade" && !row.beats_limit();
+        return row.stage != kFrameStage.name && group_of(row.stage) != StageGroup::shading &&
+               !row.beats_limit();
     });
     return rows;
 }

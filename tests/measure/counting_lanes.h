@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host/measure/roofline/instruction_counts.h"
+#include "host/stages/shading/instruction_counts.h"
 #include "kernels/shared/types.h"  // whose macros and guard are replaced below
 
 namespace counting {

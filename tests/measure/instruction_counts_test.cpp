@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The instruction counts of the roofline, against evaluate() itself compiled with a type that
 // counts its operations.
-#include "host/measure/roofline/instruction_counts.h"
+#include "host/stages/shading/instruction_counts.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +44,7 @@ constexpr float kInRange = 0.5f, kOutOfRange = 2.0f;
 struct Case {
     const char* name;
     InstructionCounts (*count)(float distance);
+    InstructionCounts (*count_directional)();
     int shading;
     bool metallic, spots;
 
@@ -57,12 +58,17 @@ struct Case {
 };
 
 const Case kCases[] = {
-    {"lambert", lambert::count_evaluation, SHADING_LAMBERT, false, false},
-    {"lambert, spots", lambert_spots::count_evaluation, SHADING_LAMBERT, false, true},
-    {"blinn-phong", blinn_phong::count_evaluation, SHADING_BLINN_PHONG, false, false},
-    {"pbr", pbr::count_evaluation, SHADING_PBR, false, false},
-    {"pbr, metallic", pbr_metallic::count_evaluation, SHADING_PBR, true, false},
-    {"pbr, metallic, spots", pbr_metallic_spots::count_evaluation, SHADING_PBR, true, true},
+    {"lambert", lambert::count_evaluation, lambert::count_directional, SHADING_LAMBERT, false,
+     false},
+    {"lambert, spots", lambert_spots::count_evaluation, lambert_spots::count_directional,
+     SHADING_LAMBERT, false, true},
+    {"blinn-phong", blinn_phong::count_evaluation, blinn_phong::count_directional,
+     SHADING_BLINN_PHONG, false, false},
+    {"pbr", pbr::count_evaluation, pbr::count_directional, SHADING_PBR, false, false},
+    {"pbr, metallic", pbr_metallic::count_evaluation, pbr_metallic::count_directional, SHADING_PBR,
+     true, false},
+    {"pbr, metallic, spots", pbr_metallic_spots::count_evaluation,
+     pbr_metallic_spots::count_directional, SHADING_PBR, true, true},
 };
 
 void expect_equal(const InstructionCounts& counted, const InstructionCounts& model) {
@@ -76,6 +82,13 @@ TEST(InstructionCountsTest, OfLightsInRangeAreThoseOfEvaluate) {
     for (const Case& c : kCases) {
         SCOPED_TRACE(c.name);
         expect_equal(c.count(kInRange), kilolux::evaluation_instructions(c.features()));
+    }
+}
+
+TEST(InstructionCountsTest, OfDirectionalLightsAreThoseOfEvaluateDirectional) {
+    for (const Case& c : kCases) {
+        SCOPED_TRACE(c.name);
+        expect_equal(c.count_directional(), kilolux::directional_instructions(c.features()));
     }
 }
 

@@ -155,7 +155,7 @@ TEST_F(Report, RefusesWhatCannotBeObeyed) {
     EXPECT_EQ(metric.code, 2);
     EXPECT_TRUE(contains(metric.err, "r3-flip")) << metric.err;
     EXPECT_EQ(small({"render", "-o", "x.png", "--max-error", "-1"}).code, 2);
-    EXPECT_EQ(small({"bench", "--culling", "--max-error", "1"}).code, 2);
+    EXPECT_EQ(small({"bench", "--tune", "--max-error", "1"}).code, 2);
 }
 
 TEST_F(Report, ABudgetIsChosenOnceAndKept) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "host/measure/roofline/stages.h"
+
 namespace kilolux {
 namespace {
 
@@ -96,10 +98,11 @@ Plot time_plot(const PlotAxis& axis, const Curves& curves) {
     plot.log_x = plot.log_y = true;
     for (const BenchRow& row : curves.rows) {
         // Automatic values are not on the axis.
-        if ((row.stage != kFrameStage && row.stage != "shade") || axis.x(row.point) <= 0.0)
-            continue;
+        const bool drawn =
+            row.stage == kFrameStage.name || group_of(row.stage) == StageGroup::shading;
+        if (!drawn || axis.x(row.point) <= 0.0) continue;
         const std::string name = curve_name(row.point, curves.varying, axis.field);
-        const bool labelled = axis.labelled && row.stage == kFrameStage;
+        const bool labelled = axis.labelled && row.stage == kFrameStage.name;
         series_of(plot, row.stage + (name.empty() ? "" : ", " + name))
             .push_back({axis.x(row.point), row.ms.median,
                         labelled ? field_text(row.point, axis.field) : "", row.ms.p5, row.ms.p95});
@@ -113,7 +116,7 @@ const BenchRow* naive_row(const BenchRow& row, const std::vector<BenchRow>& rows
         SweepPoint wanted = row.point;
         wanted.renderer = RendererKind::deferred_all;
         wanted.grid = other.point.grid;
-        if (other.stage == kFrameStage && other.point == wanted) return &other;
+        if (other.stage == kFrameStage.name && other.point == wanted) return &other;
     }
     return nullptr;
 }
@@ -125,7 +128,8 @@ Plot speed_up_plot(const Curves& curves) {
     plot.y_label = "frame time of deferred-all / frame time";
     plot.log_x = plot.log_y = true;
     for (const BenchRow& row : curves.rows) {
-        if (row.stage != kFrameStage || row.point.renderer == RendererKind::deferred_all) continue;
+        if (row.stage != kFrameStage.name || row.point.renderer == RendererKind::deferred_all)
+            continue;
         const BenchRow* naive = naive_row(row, curves.rows);
         if (!naive || row.ms.median <= 0.0) continue;
         series_of(plot, curve_name(row.point, curves.varying, "lights"))

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "host/measure/metrics/pareto.h"
+#include "host/measure/roofline/stages.h"
 
 namespace kilolux {
 namespace {
@@ -39,9 +40,7 @@ double noise_of(std::vector<double> times) {
 
 double shading_ms(const ReportSpeed& speed) {
     for (const ReportStage& stage : speed.stages) {
-        if (stage.name == "shade" || stage.name == "forward" || stage.name == "forward_plus") {
-            return stage.ms.median;
-        }
+        if (group_of(stage.name) == StageGroup::shading) return stage.ms.median;
     }
     return 0.0;
 }

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "host/measure/roofline/stages.h"
+#include "host/stages/tails/cut_light_tree.h"
+
 namespace kilolux {
 namespace {
 
@@ -27,16 +30,25 @@ std::vector<std::string> stage_names(const std::vector<Row>& rows) {
     return names;
 }
 
-// A column of the sum of the named stages' medians; empty where none of them ran.
-Column<Row> stage_column(const std::string& name, const std::vector<std::string>& stages) {
-    return {name, [stages](const Row& row) {
+// A column of the sum of the medians of stages by their names; empty where none of them ran.
+template <typename IsSummed>
+Column<Row> sum_column(const std::string& name, IsSummed is_summed) {
+    return {name, [is_summed](const Row& row) {
                 std::optional<double> sum;
                 for (const ReportStage& stage : row.speed.stages) {
-                    if (std::ranges::count(stages, stage.name) == 0) continue;
-                    sum = sum.value_or(0.0) + stage.ms.median;
+                    if (is_summed(stage.name)) sum = sum.value_or(0.0) + stage.ms.median;
                 }
                 return sum;
             }};
+}
+
+Column<Row> stage_column(const std::string& name, std::string_view stage) {
+    return sum_column(name,
+                      [stage = std::string(stage)](const std::string& s) { return s == stage; });
+}
+
+Column<Row> group_column(const std::string& name, StageGroup group) {
+    return sum_column(name, [group](const std::string& s) { return group_of(s) == group; });
 }
 
 // A column of a count that is negative where nothing was counted.
@@ -207,7 +219,7 @@ Table report_table(const std::vector<Row>& rows) {
         {"frames", [](const Row& row) { return row.speed.frame_ms.count; }},
         {"scaled", [](const Row& row) { return row.speed.scaled ? "by pixels" : ""; }}};
     for (const std::string& stage : stage_names(rows)) {
-        columns.push_back(stage_column(stage + " [ms]", {stage}));
+        columns.push_back(stage_column(stage + " [ms]", stage));
     }
     columns.insert(
         columns.end(),
@@ -238,11 +250,9 @@ Table report_summary(const std::vector<Row>& rows) {
         {"Pareto", front_text},
         {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
         {"x default", [](const Row& row) { return row.speed.relative; }},
-        stage_column("draw", {"geometry", "gbuffer_bridge", "bin_triangles", "raster_triangles",
-                              "resolve_surfaces"}),
-        stage_column("lists", {"prepare_lights", "build_clusters", "cull_lights", "bin_pixels",
-                               "refine_lights", "cut_light_tree"}),
-        stage_column("shade", {"shade", "forward", "forward_plus"}),
+        group_column("draw", StageGroup::surfaces),
+        group_column("lists", StageGroup::lists),
+        group_column("shade", StageGroup::shading),
         count_column("k", &ReportSpeed::k),
         {"k*/k", useful_share},
         {"G eval/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
@@ -257,8 +267,7 @@ Table report_summary(const std::vector<Row>& rows) {
         {"R3 FLIP", [](const Row& row) { return row.unbounded.flip.mean; }}};
     if (std::ranges::any_of(rows, casts_shadows)) {
         const auto shade = std::ranges::find(columns, "shade", &Column<Row>::name);
-        columns.insert(shade, stage_column("cast", {"shadow_scene", "shadow_origins",
-                                                    "draw_shadows", "cast_shadows"}));
+        columns.insert(shade, group_column("cast", StageGroup::shadows));
     }
     add_told(columns, rows);
     add_sampled(columns, rows);
@@ -276,8 +285,8 @@ Table cut_off_table(const std::vector<Row>& rows) {
         {"Pareto", [](const Row& row) { return row.tails_front ? "yes" : ""; }},
         {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
         {"x default", [](const Row& row) { return row.speed.relative; }},
-        stage_column("cut [ms]", {"cut_light_tree"}),
-        stage_column("shade [ms]", {"shade"}),
+        stage_column("cut [ms]", kCutLightTreeStage.name),
+        group_column("shade [ms]", StageGroup::shading),
         count_column("k", &ReportSpeed::k),
         {"tails RMSE", [](const Row& row) { return row.tails.rmse; }},
         {"tails relMSE", [](const Row& row) { return row.tails.rel_mse; }},

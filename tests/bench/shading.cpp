@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/bench/shading.h"
+#include "tests/bench/shading.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -128,7 +128,7 @@ void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) 
     counts.lights = kShadingLights;
     counts.evaluations = counts.full_evaluations = counts.pixels * kShadingLights;
     counts.kernels = variant.features;
-    const StageWork work = stage_work("shade", counts).value();
+    const StageWork work = shade_work(counts);
     const StageLimit limit = stage_limit(work, limits);
     m.limit_ms = limit.ms;
     m.bound = bound_name(limit.bound);

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/features.h"
+#include "host/gpu/stage_info.h"
 
+/// Instructions of lights at pixels, as kernels/shared/evaluate.h spells them: a test compiles it
+/// with a type that counts.
 namespace kilolux {
-
-/// Operations of one lane, as kernels/shared/evaluate.h and kernels/device/gbuffer.h spell them:
-/// fma counts as one; comparisons, selections, conversions and bit operations count one each;
-/// negations, loads, stores, loop counters and what does not change in the loop count nothing.
-struct InstructionCounts {
-    double total = 0.0;  // special functions included, as one each
-    double rsqrts = 0.0;
-    double sqrts = 0.0;
-    double divisions = 0.0;
-    bool operator==(const InstructionCounts&) const = default;
-};
 
 InstructionCounts operator+(const InstructionCounts& a, const InstructionCounts& b);
 InstructionCounts operator*(double times, const InstructionCounts& counts);
@@ -31,7 +22,12 @@ InstructionCounts evaluation_instructions(const KernelFeatures& kernels);
 /// Of a directional light at one pixel: evaluate_directional().
 InstructionCounts directional_instructions(const KernelFeatures& kernels);
 
-/// Of one drawn pixel without its lights: decoding, make_shading_point() and finish_shading().
-InstructionCounts pixel_instructions(const KernelFeatures& kernels);
+/// Of all lights of all pixels' lists. With exact shadows seen_instructions(): only lights that
+/// are seen are evaluated, and directional ones first, as they take least.
+InstructionCounts shading_instructions(const StageCounts& counts);
+InstructionCounts seen_instructions(const StageCounts& counts);
+
+/// Lights evaluated in full at a pixel, of all pixels.
+double full_evaluations(const StageCounts& counts);
 
 }  // namespace kilolux

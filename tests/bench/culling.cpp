@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/bench/culling.h"
+#include "tests/bench/culling.h"
 
 #include <algorithm>
 
@@ -58,8 +58,8 @@ void time_lists(const CullingCase& in, int runs, CullingMeasurement& out) {
     for (int i = 0; i < runs; ++i) {
         coarse = lists.enqueue(in.lights, in.view, in.grid, timer);
         const auto times = timer.take();
-        prepare_ms.push_back(sum_of(times, "prepare_lights"));
-        cull_ms.push_back(sum_of(times, "cull_lights"));
+        prepare_ms.push_back(sum_of(times, kPrepareLightsStage));
+        cull_ms.push_back(sum_of(times, kCullLightsStage));
     }
     out.prepare_ms = statistics(prepare_ms);
     out.cull_ms = statistics(cull_ms);
@@ -81,7 +81,7 @@ void set_limits(CullingMeasurement& m, const KernelFeatures& features, const Dev
     counts.clusters = static_cast<double>(m.clusters);
     counts.coarse_pairs = static_cast<double>(m.pairs);
     counts.kernels = features;
-    StageWork work = stage_work("cull_lights", counts).value();
+    StageWork work = cull_lights_work(counts);
     m.limit_ms = stage_limit(work, limits).ms;
     m.bytes = work.bytes();
     work.instructions = {};

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/roofline/instruction_counts.h"
+#include "host/stages/shading/instruction_counts.h"
+
+#include <algorithm>
 
 #include "kernels/shared/evaluate_modes.h"
 
@@ -59,49 +61,6 @@ InstructionCounts cone_instructions(const KernelFeatures& kernels) {
     return {10.0};
 }
 
-// Position, normal and albedo from what the layout stores.
-InstructionCounts decode_instructions(uint gbuffer) {
-    // Codes 2, conversion 2, scale 2; octahedron: |x|, |y| 2, z 2, fold 1, signs 6, square 3, root,
-    // inverse, scale 3.
-    const InstructionCounts unpack = {6.0};
-    const InstructionCounts octahedral = {19.0, 0.0, 1.0, 1.0};
-    const InstructionCounts position = {3.0};
-    const InstructionCounts albedo_codes = {5.0};
-    switch (gbuffer) {
-        case GBUFFER_FULL:
-            return {};
-        case GBUFFER_HALF:
-            // World positions 3 + 9; normals 9 + 4, inverse root, 3; albedo 5 + 6.
-            return {39.0, 1.0};
-        case GBUFFER_NORMAL_XY:
-            return position + unpack + InstructionCounts{4.0, 0.0, 1.0} + albedo_codes;
-        case GBUFFER_OCT_2X4:
-            return octahedral + albedo_codes;
-        default:
-            return position + unpack + octahedral + albedo_codes;
-    }
-}
-
-// make_shading_point() and finish_shading() beyond Lambert's.
-InstructionCounts gloss_instructions(const KernelFeatures& kernels) {
-    if (kernels.shading == SHADING_LAMBERT) return {};
-    // Roughness 3, its squares 3, distance to the eye 4 and an inverse root 1, direction 3; the
-    // sums' three more components 6.
-    InstructionCounts work = {20.0, 1.0};
-    if (kernels.shading == SHADING_BLINN_PHONG) {
-        // Exponent: a division and 1; lobe: a division; specular 1 + 3, beside the diffuse term.
-        work = work + InstructionCounts{7.0, 0.0, 0.0, 2.0};
-    } else {
-        // n.v 4, Smith 3 and a root 1; lobe 1, channels 3 * 2 beside the diffuse term.
-        work = work + InstructionCounts{15.0, 0.0, 1.0};
-    }
-    // Decoding 3, dielectric share 1, base 3, F0 4, by channel 3.
-    if (kernels.metallic) work = work + InstructionCounts{14.0};
-    // Codes 3 * 4 and 3, the strongest 2, grazing angles 3 and a division 1, their mean 2.
-    if (kernels.specular) work = work + InstructionCounts{22.0, 0.0, 0.0, 1.0};
-    return work;
-}
-
 }  // namespace
 
 InstructionCounts operator+(const InstructionCounts& a, const InstructionCounts& b) {
@@ -134,15 +93,22 @@ InstructionCounts directional_instructions(const KernelFeatures& kernels) {
     return InstructionCounts{4.0} + incident_instructions(kernels);
 }
 
-InstructionCounts pixel_instructions(const KernelFeatures& kernels) {
-    // Pixel centre 2, depth 2 and a division 1, slice 4, mask 4; the list's sum joins 3 and is
-    // selected 3; albedo / pi 6, ambient 3, background 3.
-    InstructionCounts work = InstructionCounts{31.0, 0.0, 0.0, 1.0} +
-                             decode_instructions(kernels.gbuffer) + gloss_instructions(kernels);
-    // Emissive: codes 5, scale 3, sum 3.
-    if (kernels.material) work = work + InstructionCounts{11.0};
-    if (kernels.occlusion) work = work + InstructionCounts{3.0};
-    return work;
+InstructionCounts shading_instructions(const StageCounts& c) {
+    const double left_early = c.evaluations - c.full_evaluations;
+    return left_early * range_test_instructions() +
+           c.full_evaluations * evaluation_instructions(c.kernels) +
+           c.drawn_pixels * c.directional_lights * directional_instructions(c.kernels);
+}
+
+InstructionCounts seen_instructions(const StageCounts& c) {
+    const double directional = std::min(c.shadow_seen, c.drawn_pixels * c.directional_lights);
+    const double listed = leaves_early(c.kernels) ? c.full_evaluations : c.evaluations;
+    return std::min(c.shadow_seen - directional, listed) * evaluation_instructions(c.kernels) +
+           directional * directional_instructions(c.kernels);
+}
+
+double full_evaluations(const StageCounts& c) {
+    return c.full_evaluations + c.drawn_pixels * c.directional_lights;
 }
 
 }  // namespace kilolux

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/bench/visibility.h"
+#include "tests/bench/visibility.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,14 +8,13 @@
 
 #include "host/base/error.h"
 #include "host/measure/metrics/statistics.h"
+#include "host/stages/shadows/cast_shadows.h"
 
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kVisibilityStage = "cast_shadows";
-
 double stage_ms(const FrameStats& stats) {
-    const auto found = std::ranges::find(stats.stages, kVisibilityStage, &StageTime::name);
+    const auto found = std::ranges::find(stats.stages, kCastShadowsStage.name, &StageTime::name);
     return found == stats.stages.end() ? 0.0 : found->ms;
 }
 
@@ -29,7 +28,7 @@ void set_report(VisibilityMeasurement& out, const LightingRun& run, const Lighti
                 const LightingBench& bench, const DeviceLimits& limits) {
     const FrameSetup setup = frame_setup(bench.settings(), request.plan, bench.device());
     for (const StageReport& report : stage_reports(run.stats, limits, setup)) {
-        if (report.stage == kVisibilityStage) static_cast<StageEffort&>(out) = report;
+        if (report.stage == kCastShadowsStage.name) static_cast<StageEffort&>(out) = report;
     }
     out.counts = run.stats.shadows;
 }
