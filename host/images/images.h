@@ -92,4 +92,15 @@ struct OcioOptions {
 void apply_ocio(std::span<float> rgb, int width, const std::string& configuration,
                 const OcioOptions& options);
 
+/// A line of text as coverage, 0..255 a pixel, row 0 on top.
+struct TextMask {
+    int width = 0;   // [pixel]
+    int height = 0;  // [pixel]; the same for all texts of a size
+    std::vector<unsigned char> coverage;
+};
+
+/// `text` in DejaVu Sans Mono, whose characters are all as wide, of `size` pixels from one line to
+/// the next. Throws Error with OpenImageIO's reason, e.g. where the font is missing.
+TextMask text_mask(const std::string& text, int size);
+
 }  // namespace kilolux

@@ -7,6 +7,7 @@
 
 #include "host/base/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
+#include "host/measure/metrics/error_metrics.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/views.h"
 
@@ -160,13 +161,13 @@ Choices aov_choices() {
 }
 
 Choices metric_choices() {
-    return {{"rmse", "root of the mean square difference"},
-            {"mean", "mean absolute difference"},
-            {"max", "largest absolute difference"},
-            {"max-relative", "largest difference relative to the reference"},
-            {"relmse", "mean of relative squares"},
-            {"different-pixels", "pixels that differ in any bit"},
-            {"flip", "mean difference that an observer sees, 0 to 1 (FLIP)"}};
+    Choices out(std::vector<std::string>{});
+    for (const ErrorMetric& m : error_metrics()) {
+        if (!m.is_error || m.part == MetricPart::display) continue;
+        out.names.emplace_back(m.name);
+        out.meanings.emplace_back(m.meaning);
+    }
+    return out;
 }
 
 const Choices& choices_of(ViewKind) {

@@ -99,13 +99,14 @@ void write_table(const std::filesystem::path& csv, const Table& table,
 /// that it was measured with. Throws Error for a file that is none or that lacks its context.
 std::string results_text(const std::vector<std::string>& csv_files);
 
-/// What a bench of one point needs: the first value of each axis.
+/// What a bench of one point needs: the first value of each axis. `usual_runs`: without --frames.
 struct BenchScene {
-    explicit BenchScene(BenchOptions& options);
+    BenchScene(BenchOptions& options, int usual_runs);
 
     Scene scene;
     Camera camera;
     RenderSettings settings;
+    int runs;  // after one that warms up
     nlohmann::ordered_json context;
 };
 

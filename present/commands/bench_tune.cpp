@@ -33,27 +33,27 @@ Table tuning_table(const TuningResult& result) {
 
 }  // namespace
 
-BenchScene::BenchScene(BenchOptions& options)
+BenchScene::BenchScene(BenchOptions& options, int usual_runs)
     : scene(open_scene(options.shared)),
       camera(choose_camera(options.shared, scene)),
       settings(settings_at(options.shared.settings, bench_points(options).front())),
-      context(bench_context(options.shared, bench_frames(options), scene, camera,
+      runs(options.frames.value_or(usual_runs)),
+      context(bench_context(options.shared, {.warm_up = 1, .measured = runs}, scene, camera,
                             describe(choose_device(settings.device)))) {
     context["resolution"] = {settings.width, settings.height};
 }
 
 void run_tuning(BenchOptions& options) {
-    const BenchScene bench(options);
+    const BenchScene bench(options, 5);
     LightingBench lighting(bench.scene, bench.settings, bench.camera, options.shared.time);
-    const int runs = options.frames.value_or(5);
     const auto on_trial = [](const StoredTuning& tuning, double ms) {
         check_interrupt();
         detail(fmt::format("{:.4g} ms: {}", ms, tuning_text(tuning_json(tuning))));
     };
-    TuningResult result = tune(lighting, runs, on_trial);
+    TuningResult result = tune(lighting, bench.runs, on_trial);
     note(fmt::format("kernels   {:.4g} ms, built-in {:.4g} ms", result.best_ms, result.start_ms));
     if (!has_blended_surfaces(bench.scene)) {
-        GeometryTuning geometry = tune_geometry(lighting, result.best, runs, on_trial);
+        GeometryTuning geometry = tune_geometry(lighting, result.best, bench.runs, on_trial);
         note(fmt::format("geometry  {}: frames of {:.4g} ms with compute, {:.4g} ms with ids",
                          geometry.raster.best.tuning.geometry == 1 ? "compute" : "ids",
                          geometry.raster.best_ms, geometry.ids_ms));

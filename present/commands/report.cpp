@@ -44,6 +44,7 @@ struct Report {
     std::string caption;  // scene, lights, sizes, device, for pictures
     std::vector<ReportRow> rows;
     std::vector<SampledShadowError> shadows;  // empty: no row is about them
+    bool plots = false;                       // are written
 };
 
 BenchFrames report_frames(const ReportOptions& options) {
@@ -117,7 +118,6 @@ void write_errors(const fs::path& folder, const Report& report, const ReportRow&
                   ReportRun& run) {
     const auto references = run.references().all(run.at_error_size(row.setting.settings));
     const std::string file = file_stem(row.setting.name) + ".png";
-    write_canvas(folder / "worst" / file, worst_pixel_sheet(row, references, report.caption));
     write_canvas(folder / "errors" / file, error_map_sheet(row, references, report.caption));
 }
 
@@ -152,18 +152,16 @@ void write_cut_offs(const fs::path& folder, const Report& report, ReportRun& run
                  cut_off_sheet(report.rows, run.references().unbounded(), report.caption));
 }
 
-// Last, as they need gnuplot.
-void write_plots(const fs::path& folder, const Report& report) {
-    for (const auto& [stem, plot] : report_plots(report.rows, report.caption)) {
-        write_plot(plot, folder / stem);
+std::vector<NamedPlot> plots_of(const Report& report) {
+    std::vector<NamedPlot> plots = report_plots(report.rows, report.caption);
+    if (!report.shadows.empty()) {
+        plots.push_back(
+            {"shadow_variance_over_rays", shadow_error_plot(report.shadows, report.caption)});
     }
-    if (report.shadows.empty()) return;
-    write_plot(shadow_error_plot(report.shadows, report.caption),
-               folder / "shadow_variance_over_rays");
+    return plots;
 }
 
-// Writes report.csv, report.json, report.md, the plots, and the pictures of errors and worst pixels
-// to the folder of -o.
+// Writes report.csv, report.json, report.md, the plots, and the maps of errors to the folder of -o.
 void write_report(const ReportOptions& options, const Report& report, ReportRun& run) {
     const fs::path& folder = options.output;
     write_atomically(folder / "report.csv", to_csv(report_table(report.rows)));
@@ -171,13 +169,12 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
     write_json((folder / "report.json").string(), report_json(report));
     write_shadow_errors(folder, report);
     write_cut_offs(folder, report, run);
-    make_output_folder(folder / "worst");
     make_output_folder(folder / "errors");
     for (const ReportRow& row : report.rows) {
         check_interrupt();
         write_errors(folder, report, row, run);
     }
-    write_plots(folder, report);
+    if (report.plots) write_plots(plots_of(report), folder);
     note("wrote   " + folder.string());
 }
 
@@ -216,6 +213,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     const Camera camera = choose_camera(shared, scene);
     const DeviceInfo device = describe(choose_device(shared.settings.device));
     Report report;
+    report.plots = !options.output.empty() && can_plot();
     report.context = bench_context(shared, report_frames(options), scene, camera, device);
     report.context["lights"] = shared.settings.lights.count;
     report.context["resolution"] = {shared.settings.width, shared.settings.height};
@@ -235,7 +233,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
     add_shared_options(command, options.shared);
     OptionBuilder(command, "Measuring and output")
         .flag("--quick", options.quick,
-              "480x270 pixels, 1000 lights, fewer settings and frames: about a minute")
+              "480x270 pixels, 1000 lights, fewer settings and frames: minutes on two CPU cores")
         .choice_list({"--axes", "", "all; shadows where --shadows asks for some",
                       "What settings may differ in; shadows compares off, exact and sampled ones "
                       "by 1, 4 and 16 rays, and makes --shadows exact the default"},

@@ -25,7 +25,7 @@ namespace kilolux {
 namespace {
 
 void bench_culling(BenchOptions& options) {
-    const BenchScene bench(options);
+    const BenchScene bench(options, 10);
     const DeviceLimits limits = LimitWatch(choose_device(bench.settings.device)).limits();
     const std::vector<std::uint64_t> standard = {1000, 5000, 10000, 100000, 1000000};
     const std::vector<std::uint64_t> counts = options.axes.lights.value_or(standard);
@@ -36,8 +36,7 @@ void bench_culling(BenchOptions& options) {
         for (const std::uint64_t count : counts) {
             check_interrupt();
             measured.push_back(measure_culling(bench.scene, bench.settings, bench.camera,
-                                               options.shared.time, count, limits,
-                                               options.frames.value_or(10)));
+                                               options.shared.time, count, limits, bench.runs));
             foreign += measured.back().foreign_pairs;
             progress.advance();
         }
@@ -57,16 +56,16 @@ void bench_culling(BenchOptions& options) {
 }
 
 void bench_shading(BenchOptions& options) {
-    const BenchScene bench(options);
-    const int runs = options.frames.value_or(5);
-    const auto total = static_cast<std::size_t>((runs + 1) * shading_variants(bench.settings));
+    const BenchScene bench(options, 5);
+    const auto total =
+        static_cast<std::size_t>((bench.runs + 1) * shading_variants(bench.settings));
     std::vector<ShadingMeasurement> measured;
     {
         Progress progress("shading", total, !options.shared.quiet);
         // Measures the limits now: other work on the machine then slows limits and kernels alike.
         const DeviceLimits limits =
             measure_device_limits(Gpu(choose_device(bench.settings.device)));
-        measured = measure_shading(bench.settings, limits, runs, [&] {
+        measured = measure_shading(bench.settings, limits, bench.runs, [&] {
             check_interrupt();
             progress.advance();
         });
@@ -77,17 +76,14 @@ void bench_shading(BenchOptions& options) {
 void bench_visibility(BenchOptions& options) {
     Shadows& shadows = options.shared.settings.shadows;
     if (shadows == Shadows::off) shadows = Shadows::exact;
-    BenchScene bench(options);
+    BenchScene bench(options, 5);
     LightingBench lighting(bench.scene, bench.settings, bench.camera, options.shared.time);
-    const int runs = options.frames.value_or(5);
-    bench.context["frames"]["measured"] = runs;
-    bench.context["frames"]["warm_up"] = 1;
     const DeviceLimits limits = LimitWatch(choose_device(bench.settings.device)).limits();
     std::vector<VisibilityMeasurement> measured;
     {
-        Progress progress("visibility", static_cast<std::size_t>(visibility_runs(runs)),
+        Progress progress("visibility", static_cast<std::size_t>(visibility_runs(bench.runs)),
                           !options.shared.quiet);
-        measured = measure_visibility(lighting, limits, runs, [&] {
+        measured = measure_visibility(lighting, limits, bench.runs, [&] {
             check_interrupt();
             progress.advance();
         });

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <fstream>
 
+#include "host/base/error.h"
 #include "host/gpu/device_cache.h"
+#include "host/measure/roofline/independent_limits.h"
 #include "host/measure/roofline/limit_kernels.h"
 #include "tests/support/cache_sandbox.h"
 
@@ -26,27 +28,16 @@ void expect_plausible(const DeviceLimits& l) {
         const double value = l.*field.value;
         EXPECT_TRUE(std::isfinite(value) && value > 0.0) << field.name << ": " << value;
     }
-    EXPECT_GE(l.lane_instructions_per_s, l.fma_flops / 2.0);
-    EXPECT_GE(l.cached_read_bandwidth, l.read_bandwidth);
-    EXPECT_GE(l.cached_write_bandwidth, l.write_bandwidth);
-    EXPECT_GE(l.cached_copy_bandwidth, l.copy_bandwidth);
     // A special function takes a vector instruction at least.
     EXPECT_LT(l.rsqrt_per_s, l.lane_instructions_per_s);
     EXPECT_LT(l.divisions_per_s, l.lane_instructions_per_s);
     EXPECT_LT(l.texels_per_s, l.lane_instructions_per_s);
 }
 
-TEST_F(DeviceLimitsTest, ArePlausibleAndUseTheVectorUnit) {
-    DeviceLimits limits = measure_device_limits(gpu_);
+TEST_F(DeviceLimitsTest, ArePlausibleAndOfTheVectorUnit) {
+    const DeviceLimits limits = measure_device_limits(gpu_);
     expect_plausible(limits);
     EXPECT_EQ(limits.lanes, describe(gpu_.device).vector_width);
-    if (!gpu_.info.is_cpu || limits.lanes == 1) return;
-    // Lanes that are done one after the other give 1. What else the machine does may slow a
-    // measurement.
-    constexpr double kScalarBound = 1.5;
-    for (int i = 0; i < 4 && limits.effective_lanes() < kScalarBound; ++i)
-        limits = measure_device_limits(gpu_);
-    EXPECT_GT(limits.effective_lanes(), kScalarBound);
 }
 
 TEST_F(DeviceLimitsTest, DoNotDependOnTheLanesThatTheCallerShadesWith) {
@@ -105,6 +96,19 @@ TEST_F(DeviceLimitsTest, WorkWithoutACacheFolder) {
     const std::string warning = testing::internal::GetCapturedStderr();
     expect_plausible(limits);
     EXPECT_NE(warning.find("measured again"), std::string::npos) << warning;
+}
+
+TEST(PublishedLimits, AreThoseOfTheDeviceAndNotOfOneWithALongerName) {
+    const auto peak = [](const char* name) {
+        DeviceInfo device;
+        device.name = name;
+        return check_limits(device, DeviceLimits{}).front().independent;
+    };
+    EXPECT_EQ(peak("NVIDIA L4"), 30.3e12);
+    EXPECT_EQ(peak("NVIDIA L40S"), 91.6e12);
+    EXPECT_EQ(peak("NVIDIA H100 80GB HBM3"), 67e12);
+    for (const char* unknown : {"NVIDIA L40", "NVIDIA T400", "Quadro RTX 40900"})
+        EXPECT_THROW(peak(unknown), Error) << unknown;
 }
 
 TEST(BufferSizes, FitWhatTheDeviceHas) {

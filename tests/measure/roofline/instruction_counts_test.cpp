@@ -5,35 +5,35 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/measure/counting_lanes.h"
+#include "tests/measure/roofline/counting_lanes.h"
 
 #define SHADING SHADING_LAMBERT
 #define HAS_SPOT_LIGHTS 0
 #define HAS_METALLIC 0
 #define COUNTED lambert
-#include "tests/measure/counted_evaluate.h"
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_SPOT_LIGHTS
 #define HAS_SPOT_LIGHTS 1
 #define COUNTED lambert_spots
-#include "tests/measure/counted_evaluate.h"
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef SHADING
 #define SHADING SHADING_BLINN_PHONG
 #undef HAS_SPOT_LIGHTS
 #define HAS_SPOT_LIGHTS 0
 #define COUNTED blinn_phong
-#include "tests/measure/counted_evaluate.h"
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef SHADING
 #define SHADING SHADING_PBR
 #define COUNTED pbr
-#include "tests/measure/counted_evaluate.h"
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_METALLIC
 #define HAS_METALLIC 1
 #define COUNTED pbr_metallic
-#include "tests/measure/counted_evaluate.h"
+#include "tests/measure/roofline/counted_evaluate.h"
 #undef HAS_SPOT_LIGHTS
 #define HAS_SPOT_LIGHTS 1
 #define COUNTED pbr_metallic_spots
-#include "tests/measure/counted_evaluate.h"
+#include "tests/measure/roofline/counted_evaluate.h"
 
 namespace {
 

@@ -68,17 +68,24 @@ TEST(FlipHdr, EqualPicturesHaveNoError) {
     EXPECT_EQ(flip_hdr(a, a).error.max, 0.0);
 }
 
-TEST(FlipHdr, IsTheLargestOfTheLdrErrors) {
-    const RgbImage a = bright_noise(16, 12, 3), b = bright_noise(16, 12, 4);
-    const FlipExposures e = flip_exposures(b);
-    std::vector<double> expected(16 * 12, 0.0);
-    for (int i = 0; i < e.count; ++i) {
-        const double ev = e.start + (e.stop - e.start) * i / (e.count - 1);
-        const auto one = flip_ldr(flip_tone_map(a, ev), flip_tone_map(b, ev), 40.0).errors;
-        for (std::size_t p = 0; p < one.size(); ++p) expected[p] = std::max(expected[p], one[p]);
+// Most of the picture is dark, some of it very bright: a patch between is burnt out at one end of
+// the exposures and nearly black at the other.
+TEST(FlipHdr, SeesWhatOnlyMiddleExposuresShow) {
+    RgbImage reference = grays(40, 20, {1.0 / 256.0});
+    const auto fill = [](RgbImage& image, std::size_t first, std::size_t last, double value) {
+        for (std::size_t i = 3 * first; i < 3 * last; ++i) image.rgb[i] = value;
+    };
+    fill(reference, 0, 80, 256.0);
+    fill(reference, 400, 600, 1.0);
+    RgbImage test = reference;
+    fill(test, 400, 600, 0.7);
+    const FlipExposures e = flip_exposures(reference);
+    ASSERT_GT(e.count, 4);
+    for (const double ev : {e.start, e.stop}) {
+        const double end =
+            flip_ldr(flip_tone_map(test, ev), flip_tone_map(reference, ev)).error.max;
+        EXPECT_LT(3.0 * end, flip_hdr(test, reference).error.max) << ev;
     }
-    EXPECT_EQ(flip_hdr(a, b, 40.0).errors, expected);
-    EXPECT_GT(e.count, 2);
 }
 
 // Results of the authors' program (NVlabs/flip, python/flip_api.py, version 1.2, in double).

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/measure/roofline/independent_limits.h"
-#include "tests/measure/counting_lanes.h"
+#include "tests/measure/roofline/counting_lanes.h"
 
 // OpenCL C's words.
 #define KILOLUX_DEVICE_LANES_H

@@ -76,6 +76,16 @@ TEST(HdrMetrics, NothingPassesOverNanAndInfinity) {
     }
 }
 
+TEST(HdrMetrics, AnInfiniteReferenceHidesNoOtherError) {
+    for (const double bad : {kNan, kInf}) {
+        const RgbImage r = image(2, 1, {1, 1, 1, 1, 1, bad});
+        RgbImage x = r;
+        EXPECT_EQ(compare_hdr(x, r).rel_mse, 0.0) << bad;
+        x.rgb[0] = 1.5;
+        EXPECT_DOUBLE_EQ(compare_hdr(x, r).rel_mse, 0.25 / 1.01 / 6) << bad;
+    }
+}
+
 TEST(HdrMetrics, CountsPixelsNotValues) {
     const RgbImage r = image(2, 2, std::vector<double>(12, 1.0));
     RgbImage x = r;
