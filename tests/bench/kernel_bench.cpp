@@ -19,6 +19,7 @@
 #include "present/exit_code.h"
 #include "tests/bench/culling.h"
 #include "tests/bench/shading.h"
+#include "tests/bench/shadow_error.h"
 #include "tests/bench/visibility.h"
 
 namespace kilolux {
@@ -92,11 +93,26 @@ void bench_visibility(BenchOptions& options) {
     note("both see the same, bit for bit");
 }
 
+void bench_shadows(BenchOptions& options) {
+    const BenchScene bench(options, 1024);
+    const ReportView view{bench.scene, bench.camera, options.shared.time};
+    ShadowErrorPlan plan;
+    plan.draws = bench.runs;
+    const auto errors = measure_shadow_error(view, bench.settings, plan, check_interrupt);
+    put_table(options, "shadows", shadow_error_table(errors), bench.context);
+    note(shadow_error_notes());
+    if (!options.output.empty() && can_plot())
+        write_plot(shadow_error_plot(errors, options.shared.scene),
+                   options.output / "shadow_variance_over_rays");
+}
+
 constexpr struct {
     const char* name;
     void (*run)(BenchOptions& options);
-} kModes[] = {
-    {"culling", bench_culling}, {"shading", bench_shading}, {"visibility", bench_visibility}};
+} kModes[] = {{"culling", bench_culling},
+              {"shading", bench_shading},
+              {"visibility", bench_visibility},
+              {"shadows", bench_shadows}};
 
 void run_kernel_bench(const std::vector<std::string>& words) {
     for (const auto& [name, run] : kModes) {
@@ -110,7 +126,8 @@ void run_kernel_bench(const std::vector<std::string>& words) {
         make_output_folder(options.output);
         return run(options);
     }
-    throw UsageError("usage: kernel_bench culling|shading|visibility [OPTIONS of kilolux bench]");
+    throw UsageError(
+        "usage: kernel_bench culling|shading|visibility|shadows [OPTIONS of kilolux bench]");
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ Worst facing_away_error(const LightingCase& input, const DeviceResult& result) {
         const double allowed =
             1e-5 * std::max(expected, scale) +
             scale * std::max(glm::dot(s.normal, l), 0.0) * lobe_uncertainty(s, l);
-        worst.see(std::abs(result.radiance(x, y, 0) - expected) / allowed,
+        worst.add(std::abs(result.radiance(x, y, 0) - expected) / allowed,
                   [&] { return fmt::format("{}, roughness {:f}", at_pixel(x, y), s.roughness); });
     });
     return worst;

@@ -118,7 +118,7 @@ void compare(Findings& findings, const DenormalOutput& a, const DenormalOutput& 
     Worst radiance;
     std::uint64_t slices = 0;
     for (std::size_t i = 0; i < a.radiance.size(); ++i) {
-        radiance.see(std::abs(double{a.radiance[i]} - b.radiance[i]) / (kSmallestNormal * k),
+        radiance.add(std::abs(double{a.radiance[i]} - b.radiance[i]) / (kSmallestNormal * k),
                      [&] { return fmt::to_string(i); });
         slices += a.slices[i] != b.slices[i] ? 1 : 0;
     }

@@ -38,7 +38,7 @@ void scale_intensities(LightingCase& input, int exponent) {
 void check_lit(Findings& findings, const DeviceResult& result) {
     const auto lit = std::count_if(result.listed.begin(), result.listed.end(),
                                    [](float v) { return v > 1e-3f; });
-    findings.tried("lit values", static_cast<std::uint64_t>(lit), 1000);
+    findings.at_least("lit values", static_cast<std::uint64_t>(lit), 1000);
 }
 
 // Distance of two floats that are not negative, in units of the last place.
@@ -169,7 +169,7 @@ void try_scaled_world(const Gpu& gpu, Findings& findings) {
         remove_near_lights(gpu, input, 0.0101 * (1 << kMost));
         const DeviceResult expected = light_on_device(gpu, input);
         check_lit(findings, expected);
-        findings.tried("lights left", input.lights.size(), 100);
+        findings.at_least("lights left", input.lights.size(), 100);
         for (const int exponent : {-kMost, -1, 3, 10}) {
             const LightingCase scaled = scaled_world(input, exponent);
             check_same_bits(findings, "bits changed by scale", light_on_device(gpu, scaled).listed,
@@ -194,7 +194,7 @@ void try_mirror(const Gpu& gpu, Findings& findings) {
     Worst worst;
     for (std::size_t i = 0; i < a.listed.size(); ++i) {
         const std::size_t x = i % kMirrorWidth;
-        worst.see(ulps_apart(a.listed[i], b.listed[i - x + (kMirrorWidth - 1 - x)]),
+        worst.add(ulps_apart(a.listed[i], b.listed[i - x + (kMirrorWidth - 1 - x)]),
                   [&] { return fmt::format("value {}", i); });
     }
     findings.at_most("ulp apart", worst, 2.0);
@@ -215,7 +215,7 @@ void try_split_light(const Gpu& gpu, Findings& findings) {
                 static_cast<double>(halves.lights.size() + halves.directional_lights.size());
             Worst worst;
             for (std::size_t i = 0; i < found.listed.size(); ++i) {
-                worst.see(ulps_apart(found.listed[i], expected.listed[i]) / (2.0 * k),
+                worst.add(ulps_apart(found.listed[i], expected.listed[i]) / (2.0 * k),
                           [&] { return fmt::format("value {}", i); });
             }
             findings.at_most("ulp apart / 2k", worst, 1.0);
@@ -243,7 +243,7 @@ void try_permuted_lights(const Gpu& gpu, Findings& findings) {
                 const double apart =
                     std::abs(double{found.radiance(x, y, c)} - expected.radiance(x, y, c));
                 if (scale > 0.0) {
-                    worst.see(apart / (bound * scale), [&] { return at_pixel(x, y); });
+                    worst.add(apart / (bound * scale), [&] { return at_pixel(x, y); });
                 }
             }
         });

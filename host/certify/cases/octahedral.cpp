@@ -134,16 +134,16 @@ void try_octahedral_wrap(const Gpu& gpu, Findings& findings) {
         const glm::dvec3 n = xyz(directions[i]);
         const auto place = [&] { return fmt::format("{:f} {:f} {:f}", n.x, n.y, n.z); };
         const double angle = std::max(angle_rad(n, xyz(device[i])), angle_rad(n, xyz(glsl[i])));
-        degrees.see(glm::degrees(angle), place);
+        degrees.add(glm::degrees(angle), place);
         const bool axis = std::abs(n.x) + std::abs(n.y) + std::abs(n.z) == 1.0;
-        if (i < kSpecialDirections && axis) axes.see(angle, place);
+        if (i < kSpecialDirections && axis) axes.add(angle, place);
         for (int c = 0; c < 3; ++c) {
-            apart.see(std::abs(xyz(device[i])[c] - xyz(glsl[i])[c]) / 0x1p-24, place);
+            apart.add(std::abs(xyz(device[i])[c] - xyz(glsl[i])[c]) / 0x1p-24, place);
         }
     }
     findings.at_most("degrees off after 2x16 bits", degrees, 0.0038);
     findings.at_most("axes off [rad]", axes, 1e-4);
-    findings.tried("axes", axes.checked, 12);
+    findings.at_least("axes", axes.checked, 12);
     // What GLSL 4.50 (4.7.1) allows a driver, in ulp of a component in [1/2, 1): an fma of two
     // roundings moves x and y by u each, 2.5 ulp at the face's slope of sqrt(3); division 2.5 ulp;
     // sqrt inherits 2 + 2.5.

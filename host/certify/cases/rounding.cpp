@@ -109,8 +109,8 @@ void try_srgb_rounding(const Gpu& gpu, Findings& findings) {
     for (std::size_t i = 0; i < own.size(); ++i) {
         wrong += own[i] != std::lround(exact_code(values.linear[i])) ? 1 : 0;
         const auto place = [&] { return fmt::format("{:f}", values.linear[i]); };
-        off.see(std::abs(own[i] - opengl[i]), place);
-        from_exact.see(std::abs(exact_code(values.linear[i]) - opengl[i]), place);
+        off.add(std::abs(own[i] - opengl[i]), place);
+        from_exact.add(std::abs(exact_code(values.linear[i]) - opengl[i]), place);
     }
     findings.none("own codes wrong", wrong, own.size());
     findings.at_most("OpenGL's codes off by", off, 1.0);

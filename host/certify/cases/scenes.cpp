@@ -120,10 +120,10 @@ void check_rows(const Gpu& gpu, Findings& findings) {
         scene.lights.erase(scene.lights.begin() + 500);
         const bool good = stats.lights_rejected == 1 && same_rows(rows.local, expected.local) &&
                           same_rows(rows.directional, expected.directional);
-        wrong.see(good ? 0.0 : 1.0, [&] { return bad.what; });
+        wrong.add(good ? 0.0 : 1.0, [&] { return bad.what; });
     }
     findings.at_most("bad lights not rejected alone", wrong, 0.0);
-    findings.tried("bad lights", wrong.checked, 60);
+    findings.at_least("bad lights", wrong.checked, 60);
 }
 
 Frame render_first_camera(const Scene& scene, const RenderSettings& settings) {
@@ -198,7 +198,7 @@ Worst relative_difference(const Frame& a, const Frame& b) {
     const double floor = 0.01 * mean / static_cast<double>(b.radiance.size());
     Worst worst;
     for (std::size_t i = 0; i < a.radiance.size(); ++i) {
-        worst.see(std::abs(double{a.radiance[i]} - b.radiance[i]) /
+        worst.add(std::abs(double{a.radiance[i]} - b.radiance[i]) /
                       std::max(double{b.radiance[i]}, floor),
                   [&] { return fmt::format("value {}", i); });
     }
@@ -260,7 +260,7 @@ void try_degenerate_surfaces(const Gpu& gpu, Findings& findings) {
         different += std::equal(pixel, pixel + 3, &expected.radiance[3 * i], same_bits) ? 0 : 1;
     }
     findings.none("pixels unlike those of sound normals", different, drawn);
-    findings.tried("drawn pixels", drawn, 64 * 32 / 2);
+    findings.at_least("drawn pixels", drawn, 64 * 32 / 2);
     findings.require("zero normals counted", found.stats.zero_normals == 32,
                      fmt::format("{} counted", found.stats.zero_normals));
 }

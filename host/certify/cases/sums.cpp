@@ -123,8 +123,8 @@ void check_lobe(Findings& findings, const Gpu& gpu, int shading, double roughnes
     std::size_t i = 0;
     for_each_pixel(input.image.view, [&](uint x, uint y) {
         const double found = result.radiance(x, y, 0);
-        worst.see(std::abs(found - r1.radiance.rgb[3 * i++]) / peak, place);
-        above.see(found / peak - 1.0, place);
+        worst.add(std::abs(found - r1.radiance.rgb[3 * i++]) / peak, place);
+        above.add(found / peak - 1.0, place);
     });
     const bool phong = shading == SHADING_BLINN_PHONG;
     findings.at_most(phong ? "Blinn-Phong: error / peak" : "GGX: error / peak", worst, limit);

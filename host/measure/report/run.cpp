@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "host/measure/metrics/pareto.h"
 #include "host/measure/roofline/stages.h"
@@ -55,11 +54,6 @@ std::string coverage_key(const RenderSettings& s) {
 ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& settings) {
     if (settings.shadows != Shadows::off) limits.evaluations /= 10.0;
     return limits;
-}
-
-bool is_about_sampled_shadows(const ReportSetting& setting) {
-    return setting.settings.shadows == Shadows::sampled &&
-           (setting.axis == SettingAxis::none || setting.axis == SettingAxis::shadows);
 }
 
 }  // namespace
@@ -316,27 +310,6 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
 double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels) {
     const double slope = std::max(0.0, larger.ms - small.ms) / (larger.pixels - small.pixels);
     return larger.ms + slope * (pixels - larger.pixels);
-}
-
-std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows) {
-    std::set<int> out;
-    for (const ReportRow& row : rows) {
-        if (is_about_sampled_shadows(row.setting)) out.insert(row.setting.settings.shadow_rays);
-    }
-    if (out.empty()) return {};
-    const std::vector<int> standard = ShadowErrorPlan().rays;
-    out.insert(standard.begin(), standard.end());
-    return {out.begin(), out.end()};
-}
-
-void add_shadow_errors(std::vector<ReportRow>& rows,
-                       const std::vector<SampledShadowError>& errors) {
-    for (ReportRow& row : rows) {
-        if (!is_about_sampled_shadows(row.setting)) continue;
-        const auto found =
-            std::ranges::find(errors, row.setting.settings.shadow_rays, &SampledShadowError::rays);
-        if (found != errors.end()) row.sampled = *found;
-    }
 }
 
 std::optional<double> surfaces_rmse(const ReportRow& row) {

@@ -15,7 +15,6 @@
 #include "host/measure/metrics/statistics.h"
 #include "host/measure/report/references.h"
 #include "host/measure/report/setting.h"
-#include "host/measure/report/shadow_error.h"
 #include "host/measure/report/told_error.h"
 #include "host/render/renderer.h"
 
@@ -51,10 +50,9 @@ struct ReportRow {
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
     HdrMetrics tails;  // where lights lack a range: of what is done about that, see unlimited()
-    std::optional<ToldError> told;              // against the same
-    std::optional<SampledShadowError> sampled;  // see add_shadow_errors()
-    RgbImage picture;                           // linear, at the size of the comparison
-    std::vector<std::uint8_t> display;          // its sRGB codes
+    std::optional<ToldError> told;      // against the same
+    RgbImage picture;                   // linear, at the size of the comparison
+    std::vector<std::uint8_t> display;  // its sRGB codes
     bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
     bool unbounded_front = false;  // in that of time and R3's RMSE, among the cut-offs
     bool tails_front = false;      // in that of time and the RMSE of `tails`, among the same
@@ -120,11 +118,6 @@ struct TimedFrame {
     double pixels = 0.0, ms = 0.0;
 };
 double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels);
-
-/// Numbers of rays of the rows that are about sampled shadows, and those of ShadowErrorPlan.
-std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows);
-/// Gives these rows their error.
-void add_shadow_errors(std::vector<ReportRow>& rows, const std::vector<SampledShadowError>& errors);
 
 /// The error by which rows are compared; none: a row is not compared.
 using RowError = std::function<std::optional<double>(const ReportRow&)>;

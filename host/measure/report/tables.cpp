@@ -83,22 +83,6 @@ void add_errors(std::vector<Column<Row>>& columns, const std::string& of, Errors
 
 bool casts_shadows(const Row& row) { return row.setting.settings.shadows != Shadows::off; }
 
-bool has_sampled(const std::vector<Row>& rows) {
-    return std::ranges::any_of(rows, [](const Row& row) { return row.sampled.has_value(); });
-}
-
-// Of sampled shadows, where there are any.
-void add_sampled(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
-    if (!has_sampled(rows)) return;
-    columns.push_back({"exact RMSE", [](const Row& row) {
-                           return row.sampled ? Cell(row.sampled->rmse) : Cell();
-                       }});
-    columns.push_back({"in 95 % [%]", [](const Row& row) {
-                           const bool told = row.sampled && row.sampled->settled_share > 0.0;
-                           return told ? Cell(100.0 * row.sampled->within_mean) : Cell();
-                       }});
-}
-
 bool has_told(const Row& row) { return row.told.has_value(); }
 
 bool tells(const Row& row, ErrorTold kind) { return row.told && row.told->kind == kind; }
@@ -212,7 +196,6 @@ Table report_table(const std::vector<Row>& rows) {
          {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }},
          {"tails rmse", [](const Row& row) { return row.tails.rmse; }}});
     add_told(columns, rows);
-    add_sampled(columns, rows);
     return make_table(columns, rows);
 }
 
@@ -242,7 +225,6 @@ Table report_summary(const std::vector<Row>& rows) {
         columns.insert(shade, group_column("cast", StageGroup::shadows));
     }
     add_told(columns, rows);
-    add_sampled(columns, rows);
     return make_table(columns, rows);
 }
 
@@ -277,14 +259,13 @@ std::string report_notes(const std::vector<Row>& rows) {
         "R1: against float64 shading of the stored surfaces, the kernels' error. drawn: of the "
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
-        "of unlimited range.\n{}{}",
+        "of unlimited range.\n{}",
         error_size_text(rows.front()), size_text(s.width, s.height),
         std::ranges::any_of(rows, has_told)
             ? "told: the error that a picture tells of itself, of a bound the median, of a "
               "standard "
               "error the root mean square; and its ratio to the error's.\n"
-            : "",
-        has_sampled(rows) ? "exact RMSE, in 95 %: of sampled shadows, see below.\n" : "");
+            : "");
 }
 
 std::vector<NamedPlot> report_plots(const std::vector<Row>& rows, const std::string& caption) {
