@@ -25,18 +25,19 @@ std::string font_file() {
 
 TextMask text_mask(const std::string& text, int size) {
     static const std::string font = font_file();
-    // The line's height follows from letters with ink above and below, not from those of `text`.
     const int pixels = std::max(size * 4 / 5, 1);  // of an em
-    const OIIO::ROI line = OIIO::ImageBufAlgo::text_size("(|jg", pixels, font);
-    const OIIO::ROI room = OIIO::ImageBufAlgo::text_size(text + "|", pixels, font);
-    if (!line.defined() || !room.defined())
+    // Sizes are of ink: of letters that reach as high as any, and of one and two characters.
+    const OIIO::ROI one = OIIO::ImageBufAlgo::text_size("|", pixels, font);
+    const OIIO::ROI two = OIIO::ImageBufAlgo::text_size("||", pixels, font);
+    if (!one.defined() || !two.defined())
         throw Error(
             fmt::format("text: cannot draw in the font {} (package fonts-dejavu-core)", font));
-    TextMask out{room.width(), size, {}};
+    TextMask out{static_cast<int>(text.size()) * (two.xend - one.xend), size, {}};
+    if (text.empty()) return out;
     OIIO::ImageBuf image(OIIO::ImageSpec(out.width, out.height, 1, OIIO::TypeDesc::UINT8));
     OIIO::ImageBufAlgo::zero(image);
     const float ink = 1.0f;
-    if (!OIIO::ImageBufAlgo::render_text(image, 0, -line.ybegin, text, pixels, font, ink))
+    if (!OIIO::ImageBufAlgo::render_text(image, 0, -one.ybegin, text, pixels, font, ink))
         throw Error("text: " + image.geterror());
     out.coverage.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
     image.get_pixels(OIIO::ROI::All(), OIIO::TypeDesc::UINT8, out.coverage.data());
