@@ -103,9 +103,6 @@ void ViewSession::take_picture(const PictureRequest& request, Picture picture) {
     facts_.plan = picture.plan;
     facts_.device_bytes = picture.device_bytes;
     facts_.process_bytes = resident_bytes();
-    facts_.picture_way = pictures_.buffers().is_mapped()
-                             ? "persistent pixel buffer, written by the device"
-                             : "upload from host memory";
     clusters_.take_depths(picture.frame);
 }
 

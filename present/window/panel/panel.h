@@ -29,7 +29,6 @@ struct PanelFacts {
     int samples = 1;         // a pixel that it has, of drawn.samples
     StageHistory history{};
     std::optional<DeviceLimits> limits{};
-    const char* picture_way = "";     // how pictures come to the window
     std::uint64_t device_bytes = 0;   // of our OpenCL buffers
     std::uint64_t process_bytes = 0;  // resident
     std::size_t boxes = 0;            // frozen clusters drawn

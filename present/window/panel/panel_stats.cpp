@@ -208,7 +208,6 @@ void Panel::device() const {
     wrapped("OpenCL", fmt::format("{}, {}, {} units, {} lanes", d.name, d.version, d.compute_units,
                                   d.lane_width));
     wrapped("OpenGL", facts.opengl);
-    wrapped("Picture to the window", facts.picture_way);
     wrapped("Scene", fmt::format("{}, {} triangles, {} instances, {} materials", facts.scene.name,
                                  short_count(facts.triangles), facts.scene.instances.size(),
                                  facts.scene.materials.size()));

@@ -88,6 +88,9 @@ void ScriptPlayer::begin(const ScriptStep& step) {
         add_wait(2);
     } else if (name == "frames") {
         add_wait(static_cast<int>(number(step, 1)));
+    } else if (name == "away") {
+        move_to(-1.0, -1.0);
+        add_wait(2);
     } else if (name == "settle") {
         add_settle();
     } else if (name == "screenshot") {
