@@ -28,7 +28,7 @@ AlphaMode convert_alpha_mode(const std::string& mode) {
     return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-void read_specular(Material& out, const tinygltf::Value& specular, TextureTable& textures) {
+void read_specular(Material& out, const tinygltf::Value& specular, FileTextures& textures) {
     out.specular = unit(member_or(specular, "specularFactor", 1.0));
     const auto color = numbers_member(specular, "specularColorFactor");
     if (color.size() == 3) {
@@ -38,7 +38,7 @@ void read_specular(Material& out, const tinygltf::Value& specular, TextureTable&
     out.specular_color_texture = textures.convert(specular, "specularColorTexture");
 }
 
-void read_extensions(Material& out, const tinygltf::Material& source, TextureTable& textures) {
+void read_extensions(Material& out, const tinygltf::Material& source, FileTextures& textures) {
     if (const auto* strength =
             find_extension(source.extensions, "KHR_materials_emissive_strength")) {
         const double scale = member_or(*strength, "emissiveStrength", 1.0);
@@ -57,7 +57,7 @@ void read_extensions(Material& out, const tinygltf::Material& source, TextureTab
 }
 
 void read_metallic_roughness(Material& out, const tinygltf::PbrMetallicRoughness& pbr,
-                             TextureTable& textures) {
+                             FileTextures& textures) {
     for (glm::length_t c = 0; c < 4; ++c) {
         out.base_color[c] = unit(pbr.baseColorFactor[static_cast<std::size_t>(c)]);
     }
@@ -67,7 +67,7 @@ void read_metallic_roughness(Material& out, const tinygltf::PbrMetallicRoughness
     out.metallic_roughness_texture = textures.convert(use_of(pbr.metallicRoughnessTexture));
 }
 
-Material convert_material(const tinygltf::Material& source, TextureTable& textures) {
+Material convert_material(const tinygltf::Material& source, FileTextures& textures) {
     Material out;
     out.name = source.name;
     if (!is_specular_glossiness(source)) {
@@ -123,7 +123,7 @@ std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& ma
 
 GltfMaterials convert_materials(const GltfDocument& document) {
     GltfMaterials out;
-    TextureTable textures(document);
+    FileTextures textures(document);
     for (const tinygltf::Material& source : document.model.materials) {
         out.materials.push_back(convert_material(source, textures));
     }

@@ -66,9 +66,9 @@ struct FileTextureUse {
 };
 
 /// Collects the textures and images that materials use, each once.
-class TextureTable {
+class FileTextures {
  public:
-    explicit TextureTable(const GltfDocument& document) : document_(document) {}
+    explicit FileTextures(const GltfDocument& document) : document_(document) {}
 
     /// The use, with its TEXCOORD_n as uv_set. Not present when the file names no texture, or the
     /// texture has no image that can be read (warned of once).

@@ -68,7 +68,7 @@ std::size_t place_of(GltfMaterials& materials, const ConvertedTextures& textures
 // Gives a material its textures, with the layout and sampler of those that they are made of.
 void set_textures(const GltfDocument& document, GltfMaterials& materials, Material& material,
                   const tinygltf::Value& extension, const SpecularGlossiness& factors) {
-    TextureTable sources(document);
+    FileTextures sources(document);
     const TextureUse diffuse = sources.convert(extension, "diffuseTexture");
     const TextureUse glossy = sources.convert(extension, "specularGlossinessTexture");
     if (!diffuse.present() && !glossy.present()) return;

@@ -56,7 +56,7 @@ glm::mat3 uv_transform(const tinygltf::Value& transform) {
 
 }  // namespace
 
-TextureUse TextureTable::convert(const tinygltf::Value& extension, const std::string& slot) {
+TextureUse FileTextures::convert(const tinygltf::Value& extension, const std::string& slot) {
     if (!extension.Has(slot)) return {};
     const tinygltf::Value& info = extension.Get(slot);
     tinygltf::ExtensionMap extensions;
@@ -64,7 +64,7 @@ TextureUse TextureTable::convert(const tinygltf::Value& extension, const std::st
     return convert({member_or(info, "index", -1), member_or(info, "texCoord", 0), &extensions});
 }
 
-TextureUse TextureTable::convert(const FileTextureUse& use) {
+TextureUse FileTextures::convert(const FileTextureUse& use) {
     TextureUse out;
     if (use.texture < 0) return out;
     const auto& texture = document_.model.textures[static_cast<std::size_t>(use.texture)];
