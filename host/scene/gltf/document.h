@@ -9,8 +9,10 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
@@ -36,6 +38,9 @@ class LoadBudget {
     /// Takes bytes for a buffer or an image, which only the memory bounds.
     void charge_memory(std::uint64_t bytes, const std::string& where);
 
+    /// Gives back what charge_memory() took.
+    void release_memory(std::uint64_t bytes) { memory_left_ += bytes; }
+
     /// Gives back what charge() took: what is decoded from now on replaces it.
     void refill();
 
@@ -54,10 +59,10 @@ struct GltfDocument {
     UriBase base;
     LoadOptions options;
     tinygltf::Model model;  // without buffers; images keep uri, bufferView and mimeType only
-    std::vector<Bytes> buffers;
-    std::vector<std::span<const unsigned char>> views;  // one per buffer view, decompressed
-    std::vector<Bytes> decompressed;                    // what views of compressed data point into
-    std::vector<std::size_t> clips;                     // animations that play, first one first
+    std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data
+    std::vector<ByteSpan> views;                   // one per buffer view, decompressed
+    std::vector<Bytes> owned;                      // what buffers and views point into
+    std::vector<std::size_t> clips;                // animations that play, first one first
     std::unique_ptr<LoadBudget> budget;
 
     /// Tells what of the file the picture lacks or shows otherwise: a warning, or an Error where
@@ -73,15 +78,44 @@ struct GltfDocument {
     }
 };
 
+/// Memory that the budget gets back when this goes.
+class MemoryCharge {
+ public:
+    MemoryCharge() = default;
+    MemoryCharge(LoadBudget& budget, std::uint64_t bytes, const std::string& where)
+        : budget_(&budget), bytes_(bytes) {
+        budget.charge_memory(bytes, where);
+    }
+    MemoryCharge(MemoryCharge&& other) noexcept
+        : budget_(std::exchange(other.budget_, nullptr)), bytes_(other.bytes_) {}
+    MemoryCharge& operator=(MemoryCharge&& other) noexcept {
+        std::swap(budget_, other.budget_);
+        std::swap(bytes_, other.bytes_);
+        return *this;
+    }
+    ~MemoryCharge() {
+        if (budget_ != nullptr) budget_->release_memory(bytes_);
+    }
+
+ private:
+    LoadBudget* budget_ = nullptr;
+    std::uint64_t bytes_ = 0;
+};
+
 /// Bytes that a part of a file refers to.
 struct FileBytes {
     Bytes owned;  // of a uri
-    std::span<const unsigned char> bytes;
+    ByteSpan bytes;
+    MemoryCharge charge{};  // for `owned`
 };
 
 /// What a uri names, or what a buffer view holds where that is empty. Throws as read_uri() does.
 FileBytes read_source(const GltfDocument& document, const std::string& uri, int view,
                       const std::string& where);
+
+/// A buffer's bytes for the part of the file that `reader` names. Throws Error for a placeholder.
+ByteSpan bytes_of_buffer(const GltfDocument& document, std::size_t buffer,
+                         const std::string& reader);
 
 /// "accessors[7]".
 std::string element_name(const char* array, std::size_t element);

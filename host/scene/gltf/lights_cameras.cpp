@@ -34,6 +34,8 @@ SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_
     return out;
 }
 
+constexpr double kLeastSine = 1e-6;  // of the angle between a camera's axes
+
 void require(const GltfDocument& document, bool holds, const std::string& where, double value,
              const std::string& expected) {
     if (holds) return;
@@ -71,9 +73,10 @@ SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
     SceneCamera out;
     out.name = source.name;
     out.world_from_camera = world_from_node;
-    const bool has_axes = glm::length(glm::dvec3(world_from_node[1])) > 0.0 &&
-                          glm::length(glm::dvec3(world_from_node[2])) > 0.0;
-    if (!is_finite(world_from_node) || !has_axes) {
+    const glm::dvec3 y(world_from_node[1]);
+    const glm::dvec3 z(world_from_node[2]);
+    const double across = glm::length(glm::cross(y, z)) / (glm::length(y) * glm::length(z));
+    if (!is_finite(world_from_node) || !(across > kLeastSine)) {
         document.fail(node, "has a camera but a transform without direction");
     }
     if (source.type == "orthographic") {

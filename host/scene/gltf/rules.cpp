@@ -15,6 +15,7 @@ constexpr double kMaxInt = 2147483647.0;
 constexpr double kMaxCount = 4294967294.0;  // indices are 32 bits, and one value is for restarts
 
 GltfRule object(std::string path) { return {.path = std::move(path), .kind = JsonKind::object}; }
+GltfRule array(std::string path) { return {.path = std::move(path), .kind = JsonKind::array}; }
 GltfRule text(std::string path) { return {.path = std::move(path), .kind = JsonKind::text}; }
 GltfRule boolean(std::string path) { return {.path = std::move(path), .kind = JsonKind::boolean}; }
 GltfRule number(std::string path) { return {.path = std::move(path), .kind = JsonKind::number}; }
@@ -35,6 +36,16 @@ GltfRule required(GltfRule rule) {
     return rule;
 }
 
+GltfRule multiple_of(int factor, GltfRule rule) {
+    rule.multiple_of = factor;
+    return rule;
+}
+// Where the object that holds it has that "type".
+GltfRule where_type(std::string type, GltfRule rule) {
+    rule.where_type = std::move(type);
+    return rule;
+}
+
 Rules buffer_rules() {
     const std::string meshopt = "bufferViews[].extensions.EXT_meshopt_compression.";
     return {
@@ -44,7 +55,7 @@ Rules buffer_rules() {
         required(index("bufferViews[].buffer", "/buffers")),
         integer("bufferViews[].byteOffset", 0, kMaxBytes),
         required(integer("bufferViews[].byteLength", 0, kMaxBytes)),
-        integer("bufferViews[].byteStride", 0, 252),
+        multiple_of(4, integer("bufferViews[].byteStride", 0, 252)),
         required(index(meshopt + "buffer", "/buffers")),
         integer(meshopt + "byteOffset", 0, kMaxInt),
         required(integer(meshopt + "byteLength", 0, kMaxInt)),
@@ -98,7 +109,8 @@ Rules node_rules() {
               "/extensions/KHR_lights_punctual/lights"),
         required(object(instancing + ".attributes")),
         index(instancing + ".attributes{}", "/accessors"),
-        required(index("skins[].joints[]", "/nodes")),
+        required(array("skins[].joints")),
+        index("skins[].joints[]", "/nodes"),
         index("skins[].inverseBindMatrices", "/accessors"),
     };
 }
@@ -201,6 +213,8 @@ Rules camera_and_light_rules() {
     const std::string profile = "extensions.EXT_lights_ies.lights[].";
     return {
         required(choice("cameras[].type", {"perspective", "orthographic"})),
+        where_type("perspective", required(object("cameras[].perspective"))),
+        where_type("orthographic", required(object("cameras[].orthographic"))),
         required(number("cameras[].perspective.yfov")),
         required(number("cameras[].perspective.znear")),
         number("cameras[].perspective.zfar"),
