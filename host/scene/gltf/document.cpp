@@ -98,7 +98,7 @@ std::string one_line(std::string text) {
     return text;
 }
 
-void add_images(GltfDocument& document, json& images) {
+void add_images(GltfDocument& document, std::vector<json>& images) {
     for (json& source : images) {
         tinygltf::Image image;
         if (source.contains("name") && source.at("name").is_string())
@@ -110,11 +110,18 @@ void add_images(GltfDocument& document, json& images) {
     }
 }
 
-// Reads all but buffers and images, which tinygltf would read without our checks.
+// An array of the file, taken out of it.
+std::vector<json> take_array(json& root, const char* name) {
+    std::vector<json> out;
+    if (root.contains(name)) out = std::move(root.at(name).get_ref<json::array_t&>());
+    root.erase(name);
+    return out;
+}
+
+// Reads all but buffers and images, which tinygltf would read without our checks, and materials.
 void parse_model(GltfDocument& document, json root) {
-    json images;
-    if (root.contains("images")) images.swap(root.at("images"));
-    root.erase("images");
+    std::vector<json> images = take_array(root, "images");
+    document.materials = take_array(root, "materials");
     const std::vector<int> indices = adapt_to_tinygltf(root);
     const std::string text = root.dump();
     if (text.size() > std::numeric_limits<unsigned>::max()) {
@@ -219,6 +226,13 @@ ByteSpan bytes_of_buffer(const GltfDocument& document, std::size_t buffer,
     if (document.buffers[buffer]) return *document.buffers[buffer];
     document.fail(element_name("buffers", buffer),
                   "has neither a uri nor a GLB's BIN chunk, and {} reads it", reader);
+}
+
+const json* find_member(const json& object, std::string_view path) {
+    const std::size_t end = std::min(path.find('.'), path.size());
+    const auto member = object.find(path.substr(0, end));
+    if (member == object.end()) return nullptr;
+    return end == path.size() ? &*member : find_member(*member, path.substr(end + 1));
 }
 
 std::string element_name(const char* array, std::size_t element) {

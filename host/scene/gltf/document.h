@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,7 +59,9 @@ class LoadBudget {
 struct GltfDocument {
     UriBase base;
     LoadOptions options;
-    tinygltf::Model model;  // without buffers; images keep uri, bufferView and mimeType only
+    // Without buffers and materials; images keep uri, bufferView and mimeType only.
+    tinygltf::Model model;
+    std::vector<nlohmann::json> materials;
     std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data
     std::vector<ByteSpan> views;                   // one per buffer view, decompressed
     std::vector<Bytes> owned;                      // what buffers and views point into
@@ -116,6 +119,9 @@ FileBytes read_source(const GltfDocument& document, const std::string& uri, int 
 /// A buffer's bytes for the part of the file that `reader` names. Throws Error for a placeholder.
 ByteSpan bytes_of_buffer(const GltfDocument& document, std::size_t buffer,
                          const std::string& reader);
+
+/// The member of a JSON object that a path of names leads to ("extensions.KHR_x.factor"), or null.
+const nlohmann::json* find_member(const nlohmann::json& object, std::string_view path);
 
 /// "accessors[7]".
 std::string element_name(const char* array, std::size_t element);

@@ -5,20 +5,17 @@
 #include <glm/gtc/constants.hpp>
 
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 namespace {
 
-LightType convert_type(const std::string& type) {
-    if (type == "spot") return LightType::spot;
-    return type == "directional" ? LightType::directional : LightType::point;
-}
-
 SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_from_node) {
     SceneLight out;
-    out.type = convert_type(source.type);
+    const LightKind& kind = *find_light_kind(source.type);
+    out.type = kind.type;
     out.position = glm::dvec3(world_from_node[3]);
-    if (out.type != LightType::point) {
+    if (kind.is_aimed) {
         // Lights travel along the node's -Z; its scale does not matter.
         out.direction = -glm::normalize(glm::dvec3(world_from_node[2]));
     }
@@ -27,7 +24,7 @@ SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_
         out.intensity[c] = to_float(color * source.intensity);
     }
     out.range = to_float(source.range);
-    if (out.type == LightType::spot) {
+    if (kind.has_cone) {
         out.inner_cone = to_float(source.spot.innerConeAngle);
         out.outer_cone = to_float(source.spot.outerConeAngle);
     }

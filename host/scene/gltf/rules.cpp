@@ -2,6 +2,8 @@
 #include <utility>
 
 #include "host/scene/gltf/check.h"
+#include "host/scene/lights/light_kinds.h"
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
@@ -144,38 +146,31 @@ void append_texture_use(Rules& rules, const std::string& slot) {
 }
 
 Rules material_rules() {
-    const std::string pbr = "materials[].pbrMetallicRoughness.";
-    const std::string extensions = "materials[].extensions.";
-    const std::string specular = extensions + "KHR_materials_specular.";
+    const std::string material = "materials[].";
+    const std::string extensions = material + "extensions.";
     const std::string glossiness = extensions + "KHR_materials_pbrSpecularGlossiness.";
     Rules rules = {
         object("materials[]"),
         object("materials[].pbrMetallicRoughness"),
-        numbers(pbr + "baseColorFactor", 4),
-        number(pbr + "metallicFactor"),
-        number(pbr + "roughnessFactor"),
-        number("materials[].normalTexture.scale"),
-        number("materials[].occlusionTexture.strength"),
-        numbers("materials[].emissiveFactor", 3),
+        object("materials[].extensions"),
+        object(extensions + "KHR_materials_unlit"),
         choice("materials[].alphaMode", {"OPAQUE", "MASK", "BLEND"}),
-        number("materials[].alphaCutoff"),
         boolean("materials[].doubleSided"),
         number(extensions + "KHR_materials_emissive_strength.emissiveStrength"),
-        number(extensions + "KHR_materials_ior.ior"),
-        number(specular + "specularFactor"),
-        numbers(specular + "specularColorFactor", 3),
         numbers(glossiness + "diffuseFactor", 4),
         numbers(glossiness + "specularFactor", 3),
         number(glossiness + "glossinessFactor"),
     };
-    for (const std::string& slot :
-         {pbr + "baseColorTexture", pbr + "metallicRoughnessTexture",
-          std::string("materials[].normalTexture"), std::string("materials[].occlusionTexture"),
-          std::string("materials[].emissiveTexture"), specular + "specularTexture",
-          specular + "specularColorTexture", glossiness + "diffuseTexture",
-          glossiness + "specularGlossinessTexture"}) {
-        append_texture_use(rules, slot);
+    for (const MaterialFactor& factor : kMaterialFactors) {
+        const std::string path = material + std::string(factor.path);
+        const std::size_t length = factor_length(factor);
+        rules.push_back(length == 1 ? number(path) : numbers(path, length));
     }
+    for (const MaterialMap& map : kMaterialMaps) {
+        append_texture_use(rules, material + std::string(map.path));
+    }
+    append_texture_use(rules, glossiness + "diffuseTexture");
+    append_texture_use(rules, glossiness + "specularGlossinessTexture");
     return rules;
 }
 
@@ -208,6 +203,12 @@ Rules texture_rules() {
     };
 }
 
+std::vector<std::string> light_kind_names() {
+    std::vector<std::string> names;
+    for (const LightKind& kind : kLightKinds) names.emplace_back(kind.name);
+    return names;
+}
+
 Rules camera_and_light_rules() {
     const std::string light = "extensions.KHR_lights_punctual.lights[].";
     const std::string profile = "extensions.EXT_lights_ies.lights[].";
@@ -223,7 +224,7 @@ Rules camera_and_light_rules() {
         required(number("cameras[].orthographic.ymag")),
         required(number("cameras[].orthographic.znear")),
         required(number("cameras[].orthographic.zfar")),
-        required(choice(light + "type", {"point", "spot", "directional"})),
+        required(choice(light + "type", light_kind_names())),
         numbers(light + "color", 3),
         number(light + "intensity"),
         number(light + "range"),

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene/gltf/extensions.h"
-
 namespace kilolux {
 namespace {
 
-constexpr const char* kGlossinessExtension = "KHR_materials_pbrSpecularGlossiness";
+using nlohmann::json;
+
+constexpr const char* kGlossinessExtension = "extensions.KHR_materials_pbrSpecularGlossiness";
 constexpr double kDielectric = 0.04;  // reflectance head on of metallic-roughness's dielectrics
 constexpr double kLeast = 1e-6;       // keeps divisions finite; what they multiply is then 0
 
@@ -31,22 +31,17 @@ double solve_metallic(double diffuse, double specular, double diffuse_share) {
 
 double clamped_unit(double value) { return std::clamp(value, 0.0, 1.0); }
 
+glm::dvec3 colour_of(const std::vector<double>& numbers) {
+    return {clamped_unit(numbers[0]), clamped_unit(numbers[1]), clamped_unit(numbers[2])};
+}
+
 // The extension's factors, and the opacity.
-SpecularGlossiness read_factors(const tinygltf::Value& extension, double& alpha) {
-    SpecularGlossiness out;
-    const auto diffuse = numbers_member(extension, "diffuseFactor");
-    const auto specular = numbers_member(extension, "specularFactor");
-    if (diffuse.size() == 4) {
-        out.diffuse = {clamped_unit(diffuse[0]), clamped_unit(diffuse[1]),
-                       clamped_unit(diffuse[2])};
-        alpha = clamped_unit(diffuse[3]);
-    }
-    if (specular.size() == 3) {
-        out.specular = {clamped_unit(specular[0]), clamped_unit(specular[1]),
-                        clamped_unit(specular[2])};
-    }
-    out.glossiness = clamped_unit(member_or(extension, "glossinessFactor", 1.0));
-    return out;
+SpecularGlossiness read_factors(const json& extension, double& alpha) {
+    const auto diffuse = extension.value("diffuseFactor", std::vector<double>(4, 1.0));
+    const auto specular = extension.value("specularFactor", std::vector<double>(3, 1.0));
+    alpha = clamped_unit(diffuse[3]);
+    return {colour_of(diffuse), colour_of(specular),
+            clamped_unit(extension.value("glossinessFactor", 1.0))};
 }
 
 void set_factors(Material& material, const SpecularGlossiness& factors, double alpha) {
@@ -67,7 +62,7 @@ std::size_t place_of(GltfMaterials& materials, const ConvertedTextures& textures
 
 // Gives a material its textures, with the layout and sampler of those that they are made of.
 void set_textures(const GltfDocument& document, GltfMaterials& materials, Material& material,
-                  const tinygltf::Value& extension, const SpecularGlossiness& factors) {
+                  const json& extension, const SpecularGlossiness& factors) {
     FileTextures sources(document);
     const TextureUse diffuse = sources.convert(extension, "diffuseTexture");
     const TextureUse glossy = sources.convert(extension, "specularGlossinessTexture");
@@ -116,15 +111,14 @@ MetallicRoughness metallic_roughness_of(const SpecularGlossiness& from) {
     return {glm::clamp(base, 0.0, 1.0), metallic, 1.0 - from.glossiness};
 }
 
-bool is_specular_glossiness(const tinygltf::Material& material) {
-    return find_extension(material.extensions, kGlossinessExtension) != nullptr;
+bool is_specular_glossiness(const json& material) {
+    return find_member(material, kGlossinessExtension) != nullptr;
 }
 
 void convert_specular_glossiness(const GltfDocument& document, GltfMaterials& materials) {
     std::size_t count = 0;
     for (std::size_t m = 0; m < materials.materials.size(); ++m) {
-        const auto* extension =
-            find_extension(document.model.materials[m].extensions, kGlossinessExtension);
+        const json* extension = find_member(document.materials[m], kGlossinessExtension);
         if (extension == nullptr) continue;
         double alpha = 1.0;
         const SpecularGlossiness factors = read_factors(*extension, alpha);

@@ -26,7 +26,7 @@ MetallicRoughness metallic_roughness_of(const SpecularGlossiness& from);
 
 /// Whether a material has the extension, which then wins over its pbrMetallicRoughness (the
 /// extension's section "Best practices").
-bool is_specular_glossiness(const tinygltf::Material& material);
+bool is_specular_glossiness(const nlohmann::json& material);
 
 /// Sets base colour, metallic and roughness of the materials that have the extension. Their
 /// textures become GltfMaterials::converted.
