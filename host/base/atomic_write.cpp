@@ -24,7 +24,8 @@ fs::path folder_of(const fs::path& file) {
 fs::path target_of(fs::path file) {
     constexpr int kMostLinks = 40;  // as Linux follows (path_resolution(7))
     std::error_code error;
-    for (int link = 0; link < kMostLinks && fs::is_symlink(fs::symlink_status(file, error)); ++link) {
+    for (int link = 0; link < kMostLinks && fs::is_symlink(fs::symlink_status(file, error));
+         ++link) {
         const fs::path target = fs::read_symlink(file, error);
         if (error) break;
         file = folder_of(file) / target;

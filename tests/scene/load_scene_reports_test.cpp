@@ -152,15 +152,6 @@ TEST(LoadSceneReports, MessagesNameAPlace) {
         "is a multiple of 4"));
 }
 
-TEST(LoadSceneReports, AChannelWithoutNodeDrivesNothing) {
-    GltfBuilder file = triangle_file();
-    const int times = file.add_floats("SCALAR", {0, 1});
-    file.add("animations", {{"samplers", {{{"input", times}, {"output", times}}}},
-                            {"channels", {{{"sampler", 0}, {"target", {{"path", "pointer"}}}}}}});
-    EXPECT_EQ(load_error(file), "");
-    EXPECT_EQ(load(file).clips.at(0).channels, 0u);
-}
-
 TEST(LoadSceneReports, IndicesOfASparseAccessorAloneAreRead) {
     GltfBuilder file = triangle_file();
     const int where = file.add_view(bytes_of(std::vector<std::uint16_t>{1, 2}));

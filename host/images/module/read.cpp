@@ -24,6 +24,11 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& where) {
     for (int i = 0; i < spec.nchannels; ++i) {
         out.channels.push_back({spec.channel_name(i), sample_type(spec.channelformat(i))});
     }
+    const OIIO::TypeDesc eight_floats(OIIO::TypeDesc::FLOAT, 8);
+    if (const auto* found = spec.find_attribute("chromaticities", eight_floats)) {
+        const auto* values = static_cast<const float*>(found->data());
+        out.chromaticities.assign(values, values + 8);
+    }
     out.associated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
     return out;
 }

@@ -75,10 +75,6 @@ std::vector<int> adapt_to_tinygltf(json& root) {
     });
     // It drops empty objects, and the array's indices with them.
     each("/extensions/EXT_lights_ies/lights", [](json& light) { light.emplace("name", ""); });
-    each("/animations", [](json& animation) {
-        if (!animation.contains("channels")) return;
-        for (json& channel : animation.at("channels")) channel.at("target").emplace("node", -1);
-    });
     std::vector<int> indices;
     each("/meshes", [&indices](json& mesh) {
         if (!mesh.contains("primitives")) return;
