@@ -62,7 +62,7 @@ const Choices& choices_of(BenchMotion) {
 }
 
 const Choices& choices_of(Shading) {
-    static const Choices choices = {{"auto", "what the scene's materials ask for"},
+    static const Choices choices = {{"auto", "pbr; lambert where nothing is lit"},
                                     {"lambert", "matt: albedo / pi"},
                                     {"blinn-phong", "with normalised highlights"},
                                     {"pbr", "glTF's metallic-roughness model"}};
