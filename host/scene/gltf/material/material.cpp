@@ -59,6 +59,7 @@ Material convert_material(const json& source, FileTextures& textures) {
     if (const json* name = find_member(source, "name"); name != nullptr && name->is_string()) {
         out.name = *name;
     }
+    if (is_specular_glossiness(source)) read_specular_glossiness(out, source, textures);
     read_factors(out, source);
     for (const MaterialMap& map : kMaterialMaps) {
         if (counts(source, map.path)) out.*map.member = textures.convert(source, map.path);
@@ -107,7 +108,7 @@ GltfMaterials convert_materials(const GltfDocument& document) {
     }
     out.textures = textures.textures();
     out.images = textures.images();
-    convert_specular_glossiness(document, out);
+    add_roughness_textures(document, out);
     for (Material& material : out.materials) {
         out.texcoord_sets.push_back(pack_texcoord_sets(document, material));
     }

@@ -7,22 +7,11 @@
 
 namespace kilolux {
 
-/// A point of a specular-glossiness material's surface; linear.
-struct SpecularGlossiness {
-    glm::dvec3 diffuse{1.0};
-    glm::dvec3 specular{1.0};
+/// An image to be made: green is 1 - glossiness * the alpha of another one.
+struct RoughnessImage {
+    int image = 0;  // index into GltfMaterials::images
     double glossiness = 1.0;
-    bool operator==(const SpecularGlossiness&) const = default;
-};
-
-/// Two textures to be made of a specular-glossiness material's: base colour, and metallic with
-/// roughness.
-struct ConvertedTextures {
-    SpecularGlossiness factors;
-    int diffuse = -1;              // image of the file, -1 for none
-    int specular_glossiness = -1;  // image of the file, -1 for none
-    bool same_layout = true;       // texture coordinates and transform are those of both
-    bool operator==(const ConvertedTextures&) const = default;
+    bool operator==(const RoughnessImage&) const = default;
 };
 
 /// What of points and lines decides about their material.
@@ -38,9 +27,9 @@ struct LineMaterial {
 struct GltfMaterials {
     std::vector<Material> materials;                // the file's, then those of `of_lines`
     std::vector<std::array<int, 2>> texcoord_sets;  // per material: the file's sets that it uses
-    std::vector<Texture> textures;                  // images index `images`, then `converted`
+    std::vector<Texture> textures;                  // images index `images`, then `roughness`
     std::vector<int> images;                        // indices into the file's images
-    std::vector<ConvertedTextures> converted;       // two images each, behind `images`
+    std::vector<RoughnessImage> roughness;          // of specular-glossiness materials
     std::map<LineMaterial, int> of_lines;           // materials made for points and lines
 };
 
