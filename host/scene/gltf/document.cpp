@@ -196,6 +196,13 @@ void LoadBudget::charge_memory(std::uint64_t bytes, const std::string& where) {
                     where, mebibytes(bytes), memory_left_ >> 20, mebibytes(memory_limit_)));
 }
 
+MemoryCharge LoadBudget::borrow_memory(std::uint64_t bytes, const std::string& where) {
+    charge_memory(bytes, where);
+    return MemoryCharge(this, ReleaseMemory{bytes});
+}
+
+void ReleaseMemory::operator()(LoadBudget* budget) const { budget->release_memory(bytes); }
+
 void LoadBudget::refill() {
     memory_left_ += decode_limit_ - decode_left_;
     decode_left_ = decode_limit_;
@@ -211,7 +218,7 @@ FileBytes read_source(const GltfDocument& document, const std::string& uri, int 
     if (uri.empty()) return {{}, document.views[static_cast<std::size_t>(view)]};
     FileBytes out;
     out.owned = read_uri(document.base, uri, where, [&](std::uint64_t bytes) {
-        out.charge = {*document.budget, bytes, document.base.file + ": " + where};
+        out.charge = document.budget->borrow_memory(bytes, document.base.file + ": " + where);
     });
     out.bytes = out.owned;
     return out;
@@ -252,7 +259,8 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
         document.budget->charge_memory(bytes, document.base.file);
     };
     GltfText text = read_gltf_text(file, document.base.file, charge_file);
-    const MemoryCharge values(*document.budget, text.json.size(), document.base.file + ": JSON");
+    const MemoryCharge values =
+        document.budget->borrow_memory(text.json.size(), document.base.file + ": JSON");
     json root = parse_gltf_json(text.json, document.base.file);
     read_buffers(document, root, text);
     if (text.has_binary) {

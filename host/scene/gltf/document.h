@@ -13,7 +13,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "host/base/error.h"
@@ -21,6 +20,15 @@
 #include "host/scene/gltf/load_scene.h"
 
 namespace kilolux {
+
+class LoadBudget;
+struct ReleaseMemory {
+    std::uint64_t bytes = 0;
+    void operator()(LoadBudget* budget) const;
+};
+
+/// Memory that its budget gets back when this goes.
+using MemoryCharge = std::unique_ptr<LoadBudget, ReleaseMemory>;
 
 /// What loading a file may still allocate. Safe to charge from several threads.
 class LoadBudget {
@@ -38,6 +46,9 @@ class LoadBudget {
 
     /// Takes bytes for a buffer or an image, which only the memory bounds.
     void charge_memory(std::uint64_t bytes, const std::string& where);
+
+    /// The same for a while.
+    MemoryCharge borrow_memory(std::uint64_t bytes, const std::string& where);
 
     /// Gives back what charge_memory() took.
     void release_memory(std::uint64_t bytes) { memory_left_ += bytes; }
@@ -79,30 +90,6 @@ struct GltfDocument {
         throw Error(base.file + ": " + where + ": " +
                     fmt::format(what, std::forward<Args>(args)...));
     }
-};
-
-/// Memory that the budget gets back when this goes.
-class MemoryCharge {
- public:
-    MemoryCharge() = default;
-    MemoryCharge(LoadBudget& budget, std::uint64_t bytes, const std::string& where)
-        : budget_(&budget), bytes_(bytes) {
-        budget.charge_memory(bytes, where);
-    }
-    MemoryCharge(MemoryCharge&& other) noexcept
-        : budget_(std::exchange(other.budget_, nullptr)), bytes_(other.bytes_) {}
-    MemoryCharge& operator=(MemoryCharge&& other) noexcept {
-        std::swap(budget_, other.budget_);
-        std::swap(bytes_, other.bytes_);
-        return *this;
-    }
-    ~MemoryCharge() {
-        if (budget_ != nullptr) budget_->release_memory(bytes_);
-    }
-
- private:
-    LoadBudget* budget_ = nullptr;
-    std::uint64_t bytes_ = 0;
 };
 
 /// Bytes that a part of a file refers to.
