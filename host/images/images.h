@@ -38,6 +38,8 @@ struct ImageLayout {
     // By OpenImageIO's names. A file that is read leaves them empty.
     std::vector<std::pair<std::string, ImageAttribute>> attributes{};
     bool associated_alpha = false;  // of a file that is read: its colours are multiplied by alpha
+    // Of a file that is read: x and y of red, green, blue and white (CIE 1931); else empty.
+    std::vector<float> chromaticities{};
 
     std::size_t pixels() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
