@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "host/base/error.h"
+#include "host/images/images.h"
 #include "host/scene/lights/built_in_environments.h"
+#include "host/scene/lights/prefiltered_environment.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/messages.h"
 
@@ -159,6 +162,60 @@ TEST(BuiltInEnvironment, TheStudioLightsTheFrontMost) {
         EXPECT_GT(from(other), 0.15 * front) << "no side is black";
     }
     EXPECT_GT(from({-1, 0, 0}), from({1, 0, 0})) << "the key is on the left";
+}
+
+// A file of 4 x 2 equal pixels as an environment's first pixel.
+template <typename Sample>
+glm::vec3 read_back(const std::string& format, SampleType type, const std::array<Sample, 3>& pixel,
+                    const std::vector<float>& chromaticities = {}) {
+    ImageLayout layout{4, 2, {{"R", type}, {"G", type}, {"B", type}}};
+    if (!chromaticities.empty()) layout.attributes.emplace_back("chromaticities", chromaticities);
+    std::vector<Sample> samples;
+    for (int i = 0; i < 8; ++i) samples.insert(samples.end(), pixel.begin(), pixel.end());
+    const std::span<const unsigned char> bytes(
+        reinterpret_cast<const unsigned char*>(samples.data()), samples.size() * sizeof(Sample));
+    const TempFolder folder;
+    const auto file = folder.path() / ("e." + format);
+    write_file(file, encode_pixels("e", format, layout, bytes, sizeof(pixel)));
+    return read_environment(file).rows[0];
+}
+
+void expect_colour(const glm::vec3& seen, const glm::vec3& wanted) {
+    constexpr float kRounding = 2e-4f;  // of chromaticities in four digits
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(seen[i], wanted[i], kRounding) << i;
+}
+
+TEST(Environment, FilesAreBroughtToLinearRec709) {
+    using Bytes = std::array<std::uint8_t, 3>;
+    using Floats = std::array<float, 3>;
+    const SampleType real = SampleType::float32;
+    expect_colour(read_back("png", SampleType::uint8, Bytes{128, 0, 255}), {0.2158605f, 0, 1});
+    expect_colour(read_back("exr", real, Floats{0.5f, 2, 7}), {0.5f, 2, 7});
+    const std::vector<float> rec2020 = {0.708f, 0.292f, 0.17f,   0.797f,
+                                        0.131f, 0.046f, 0.3127f, 0.329f};
+    expect_colour(read_back("exr", real, Floats{1, 1, 1}, rec2020), {1, 1, 1});
+    expect_colour(read_back("exr", real, Floats{0.1f, 1, 0.1f}, rec2020), {0, 1.1196f, 0.0095f});
+    const std::vector<float> acescg = {0.713f, 0.293f, 0.165f,   0.83f,
+                                       0.128f, 0.044f, 0.32168f, 0.33767f};
+    expect_colour(read_back("exr", real, Floats{1, 1, 1}, acescg), {1, 1, 1});
+}
+
+TEST(Environment, OddSizesAreShrunkToTheSameLight) {
+    const Environment odd = painted_environment(
+        513, [](const glm::dvec3& d) { return glm::dvec3(1.0 + d.x, 2.0 + d.y, 1.5 + d.z * d.x); });
+    const PrefilteredEnvironment maps = prefiltered(odd);
+    ASSERT_EQ(maps.levels[0].x, 1024u);
+    ASSERT_EQ(maps.levels[0].y, 512u);
+    const Environment even{1024, 512, {}};
+    for (int y = 0; y < 512; y += 37) {
+        for (int x = 0; x < 1024; x += 53) {
+            const glm::dvec3 d = even.direction(x, y);
+            const float* texel = &maps.texels[3 * even.place(x, y)];
+            EXPECT_NEAR(texel[0], 1.0 + d.x, 1e-4);
+            EXPECT_NEAR(texel[1], 2.0 + d.y, 1e-4);
+            EXPECT_NEAR(texel[2], 1.5 + d.z * d.x, 1e-4);
+        }
+    }
 }
 
 TEST(Environment, BrokenFilesAreOneLine) {

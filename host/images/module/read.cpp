@@ -21,6 +21,12 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& where) {
     for (int i = 0; i < spec.nchannels; ++i) {
         out.channels.push_back({spec.channel_name(i), sample_type(spec.channelformat(i))});
     }
+    if (const auto* found = spec.find_attribute("chromaticities");
+        found != nullptr && found->type().basetype == OIIO::TypeDesc::FLOAT &&
+        found->type().numelements() * found->type().aggregate == 8) {
+        const auto* values = static_cast<const float*>(found->data());
+        out.attributes.emplace_back("chromaticities", std::vector<float>(values, values + 8));
+    }
     out.associated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
     return out;
 }

@@ -10,6 +10,7 @@
 #include <queue>
 
 #include "host/base/error.h"
+#include "host/base/srgb.h"
 #include "host/images/images.h"
 
 namespace kilolux {
@@ -98,6 +99,43 @@ SceneLight light_of(const Environment& e, const Region& r) {
     return out;
 }
 
+// XYZ of a colour of luminance 1 by its chromaticity.
+glm::dvec3 xyz_of(double x, double y) { return glm::dvec3(x, y, 1.0 - x - y) / y; }
+
+// XYZ with D65 white from RGB of these primaries (x and y of red, green, blue, white), whose white
+// becomes D65 by the Bradford transform.
+glm::dmat3 xyz_from_rgb(const std::vector<float>& c) {
+    const auto point = [&c](std::size_t i) { return xyz_of(c[2 * i], c[2 * i + 1]); };
+    const glm::dmat3 primaries(point(0), point(1), point(2));
+    const glm::dvec3 shares = glm::inverse(primaries) * point(3);
+    const glm::dmat3 bradford(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367,
+                              1.0296);
+    const glm::dvec3 gain = (bradford * xyz_of(0.3127, 0.3290)) / (bradford * point(3));
+    const glm::dmat3 adapted =
+        glm::inverse(bradford) * glm::dmat3(gain.x, 0, 0, 0, gain.y, 0, 0, 0, gain.z) * bradford;
+    return adapted *
+           glm::dmat3(shares.x * primaries[0], shares.y * primaries[1], shares.z * primaries[2]);
+}
+
+// To linear Rec. 709.
+void convert_colours(const ImageLayout& image, std::vector<glm::vec3>& pixels) {
+    if (image.channels[0].type != SampleType::half &&
+        image.channels[0].type != SampleType::float32) {
+        for (glm::vec3& c : pixels) {
+            c = {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
+        }
+    }
+    const std::vector<float> rec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+    for (const auto& [name, value] : image.attributes) {
+        const auto* own = std::get_if<std::vector<float>>(&value);
+        if (name != "chromaticities" || own == nullptr || *own == rec709) continue;
+        const glm::dmat3 matrix = glm::inverse(xyz_from_rgb(rec709)) * xyz_from_rgb(*own);
+        if (!std::isfinite(glm::determinant(matrix))) continue;  // no primaries
+        for (glm::vec3& c : pixels)
+            c = glm::max(glm::vec3(matrix * glm::dvec3(c)), glm::vec3(0.0f));
+    }
+}
+
 }  // namespace
 
 double luminance(const glm::dvec3& light) {
@@ -153,6 +191,7 @@ Environment read_environment(const std::filesystem::path& file) {
         throw Error(fmt::format("{}: pixel {},{} is {},{},{}, must be finite and >= 0",
                                 file.string(), i % width, i / width, c.x, c.y, c.z));
     }
+    convert_colours(image, out.rows);
     return out;
 }
 

@@ -32,9 +32,8 @@ double alpha_of(double roughness) {
     return r * r;
 }
 
-// Means of squares of texels, weighted by their solid angle, until it is at most `width` wide.
-Environment shrunk(const Environment& from, int width) {
-    if (from.width <= width || from.width % 2 != 0 || from.height % 2 != 0) return from;
+// Means of squares of texels, weighted by their solid angle.
+Environment halved(const Environment& from) {
     Environment out{from.width / 2, from.height / 2, {}};
     out.rows.reserve(from.rows.size() / 4);
     for (int y = 0; y < out.height; ++y) {
@@ -45,7 +44,42 @@ Environment shrunk(const Environment& from, int width) {
                                   (2.0 * (from.solid_angle(2 * y) + from.solid_angle(2 * y + 1))));
         }
     }
-    return shrunk(out, width);
+    return out;
+}
+
+// Means over the area of each texel of an image of `width`, by longitude and height above the
+// equator, for sizes that halving does not reach.
+Environment resampled(const Environment& from, int width) {
+    Environment out{width, width / 2, {}};
+    std::vector<glm::dvec3> sums(out.place(0, out.height));
+    std::vector<double> weights(sums.size());
+    const double columns = static_cast<double>(from.width) / out.width;
+    const double rows = static_cast<double>(from.height) / out.height;
+    const auto overlap = [](int i, double size, int texel) {
+        return std::min((i + 1) * size, texel + 1.0) - std::max(i * size, double(texel));
+    };
+    for (int y = 0; y < from.height; ++y) {
+        for (int x = 0; x < from.width; ++x) {
+            for (int v = static_cast<int>(y / rows); v < out.height && overlap(v, rows, y) > 0.0;
+                 ++v) {
+                for (int u = static_cast<int>(x / columns);
+                     u < out.width && overlap(u, columns, x) > 0.0; ++u) {
+                    const double weight =
+                        overlap(v, rows, y) * overlap(u, columns, x) * from.solid_angle(y);
+                    sums[out.place(u, v)] += weight * glm::dvec3(from.rows[from.place(x, y)]);
+                    weights[out.place(u, v)] += weight;
+                }
+            }
+        }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) out.rows.emplace_back(sums[i] / weights[i]);
+    return out;
+}
+
+Environment shrunk(const Environment& from, int width) {
+    if (from.width <= width) return from;
+    const bool halves = from.width % 2 == 0 && from.height % 2 == 0;
+    return halves ? shrunk(halved(from), width) : resampled(from, width);
 }
 
 // What a sum over an environment needs of a texel.
@@ -204,8 +238,9 @@ std::vector<float> reflectance_table() {
 
 PrefilteredEnvironment prefiltered(const Environment& environment) {
     PrefilteredEnvironment out;
-    for (const LevelPlan& plan : kLevels) append(out, filtered(environment, plan));
-    append(out, filtered(environment, kIrradiance));
+    const Environment finest = shrunk(environment, kLevels[0].source_width);
+    for (const LevelPlan& plan : kLevels) append(out, filtered(finest, plan));
+    append(out, filtered(finest, kIrradiance));
     out.table = reflectance_table();
     out.table_size = kTableSize;
     return out;
