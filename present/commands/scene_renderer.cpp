@@ -92,7 +92,6 @@ std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, in
 
 void SceneRenderer::relight(SharedOptions& options) {
     scene_.replace_lights({});
-    scene_.set_time(first.time);
     rig_ = light_scene(options, scene_);
     scene_.add_lights(lights_);
 }

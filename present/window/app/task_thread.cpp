@@ -13,7 +13,10 @@ TaskThread::TaskThread(Call begin, Call end, Call wake)
       thread_([this] { run(); }) {}
 
 TaskThread::~TaskThread() {
-    if (::getpid() != process_) return thread_.detach();
+    if (::getpid() != process_) {
+        thread_.detach();
+        return;
+    }
     stop({});
     thread_.join();
 }
