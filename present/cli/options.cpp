@@ -186,7 +186,9 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
         .text({"--environment", "FILE|studio|sky", "",
-               "Light from all around: .hdr or .exr, longitude by latitude, its middle towards -Z; "
+               "Light from all around: an image, e.g. .hdr or .exr, longitude by latitude, its "
+               "middle "
+               "towards -Z; "
                "studio: soft boxes in a dim room; sky: a clear sky with a sun. Then --rig auto is "
                "none and --ambient 0"},
               o.environment)
