@@ -21,6 +21,7 @@ constexpr std::size_t kInnerRays = 1024;  // from a point
 constexpr std::size_t kLineWays = 64;     // directions of lines through the scene
 constexpr int kLines = 10;                // of each direction, along the edge of a square
 constexpr int kMostHits = 100;            // of a line
+constexpr float kLargest = 1e18f;         // number of a ray that Embree takes
 constexpr float kApart = 1e-6f;           // of the box's diagonal: surfaces on a line
 constexpr int kCells = 16;                // of a cube's face, along an edge: see level()
 
@@ -143,7 +144,8 @@ struct LookAround::Rays {
         const Mesh& mesh = scene.meshes[shape];
         if (mesh.indices.empty() || is_seen_through(scene, mesh)) return;
         glm::dmat4 placed = instance.world_from_object;
-        if (!(std::abs(glm::determinant(glm::dmat3(placed))) > 0.0)) return;  // Embree inverts it
+        const double volume = std::abs(glm::determinant(glm::dmat3(placed)));
+        if (!(volume > 0.0 && std::isfinite(volume))) return;  // Embree inverts it
         if (!meshes[shape]) meshes[shape] = mesh_scene(device.get(), mesh);
         RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, meshes[shape].get());
@@ -190,6 +192,10 @@ LookAround::~LookAround() = default;
 LookAround::Hit LookAround::first_hit(const glm::dvec3& eye, const glm::dvec3& direction,
                                       float beyond) const {
     const glm::vec3 from(eye - rays_->middle), along(direction);
+    const float nearest = beyond + rays_->apart;
+    for (const float value : {from.x, from.y, from.z, along.x, along.y, along.z, nearest}) {
+        if (!(std::abs(value) < kLargest)) return {};
+    }
     RTCRayHit query{};
     query.ray.org_x = from.x;
     query.ray.org_y = from.y;
@@ -197,7 +203,7 @@ LookAround::Hit LookAround::first_hit(const glm::dvec3& eye, const glm::dvec3& d
     query.ray.dir_x = along.x;
     query.ray.dir_y = along.y;
     query.ray.dir_z = along.z;
-    query.ray.tnear = beyond + rays_->apart;
+    query.ray.tnear = nearest;
     query.ray.tfar = std::numeric_limits<float>::infinity();
     query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;

@@ -185,13 +185,13 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
             l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
-        .text({"--environment", "FILE|studio|sky", "",
-               "Light from all around: an image, e.g. .hdr or .exr, longitude by latitude, its "
-               "middle "
-               "towards -Z; "
-               "studio: soft boxes in a dim room; sky: a clear sky with a sun. Then --rig auto is "
-               "none and --ambient 0"},
-              o.environment)
+        .text(
+            {"--environment", "FILE|studio|sky", "",
+             "Light from all around: an image, longitude by latitude, its middle towards -Z, e.g. "
+             ".hdr or .exr; studio: soft boxes in a dim room; sky: a clear sky with a sun. Then "
+             "--rig auto is "
+             "none and --ambient 0"},
+            o.environment)
         .rest()
         .flag("--reflections", o.reflections,
               "The environment lights by prefiltered maps (split sum) in place of lights, so that "
