@@ -117,6 +117,14 @@ const Choices& choices_of(Fit) {
     return choices;
 }
 
+const Choices& choices_of(SeenFrom) {
+    static const Choices choices = {
+        {"auto", "inside where walls without outer sides enclose a point within, else outside"},
+        {"inside", "as an interior, with a swarm's lights"},
+        {"outside", "as an object, whole, with a studio's lights"}};
+    return choices;
+}
+
 const Choices& choices_of(MathMode) {
     static const Choices choices = {{"exact", "as OpenCL C demands"},
                                     {"fast-relaxed", "with -cl-fast-relaxed-math"},

@@ -87,6 +87,23 @@ Rig rig_of(const SharedOptions& options, const Scene& scene) {
                                 : automatic_rig(scene, is_generated_scene(options.scene));
 }
 
+// From where the scene is seen and why, where its cameras leave that open.
+std::string view_line(const SharedOptions& options, const AnimatedScene& scene) {
+    const SeenFrom asked = options.camera.view;
+    const bool open =
+        !is_generated_scene(options.scene) && is_framed(options.camera, scene.scene());
+    if (!open && asked == SeenFrom::automatic) return "";
+    const SeenFrom from =
+        scene.scene().kind == SceneKind::interior ? SeenFrom::inside : SeenFrom::outside;
+    if (asked != SeenFrom::automatic) return fmt::format("view    {} (--view)\n", name_of(from));
+    const Enclosure& seen = scene.enclosure();
+    return fmt::format(
+        "view    {} (automatic): surfaces face {:.0f} % of what a point within sees, and {:.0f} % "
+        "of "
+        "what they face is outside\n",
+        name_of(from), 100.0 * seen.within, 100.0 * seen.open);
+}
+
 std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, std::size_t own) {
     std::string line = fmt::format("rig     {}{}: ", name_of(rig), automatic ? " (automatic)" : "");
     if (const std::size_t count = rig_lights(rig).size(); count > 0) {
@@ -181,20 +198,21 @@ void reflect_studio(SharedOptions& options) {
 
 }  // namespace
 
-AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
+AnimatedScene open_animated_scene(const SharedOptions& options) {
     if (is_generated_scene(options.scene)) {
         check_generated(options);
         return AnimatedScene(make_generated_scene(options.scene));
     }
     LoadBar bar(!options.quiet);
     LoadOptions load = options.load;
-    load.time = time;
+    load.time = options.time;
     load.max_memory_bytes = options.settings.max_memory_bytes;
     return AnimatedScene(scene_file(options.scene), load,
                          [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
 }
 
 std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
+    scene.see_from(options.camera.view);
     const bool automatic = options.rig == Rig::automatic;
     Rig rig = rig_of(options, scene.scene());
     const bool metal = automatic && rig == Rig::studio && wants_reflections(options, scene.scene());
@@ -216,8 +234,8 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     }
     // A swarm stays automatic where another command line has to say nothing for it.
     options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
-    return rig_line(rig, automatic, options.settings, own) + from_around +
-           (metal ? " (a studio's room, as most of the surface is metal)" : "") +
+    return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) +
+           from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +
            tails_line(scene.scene(), options.settings);
 }
 
@@ -227,7 +245,7 @@ void measure_swarm(SharedOptions& options) {
 }
 
 Scene open_scene(SharedOptions& options) {
-    AnimatedScene scene = open_animated_scene(options, options.time);
+    AnimatedScene scene = open_animated_scene(options);
     note(light_scene(options, scene));
     return std::move(scene).take();
 }

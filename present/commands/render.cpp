@@ -174,8 +174,9 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures, c
 }
 
 void advise(SceneRenderer& pictures, const FrameRecord& record) {
-    const std::string advice = picture_advice(pictures.scene().scene(), pictures.camera(),
-                                              pictures.renderer().settings(), record.stats);
+    const std::string advice =
+        picture_advice(pictures.scene().scene(), pictures.camera(), pictures.renderer().settings(),
+                       record.stats, pictures.is_framed());
     if (!advice.empty()) note(record.file + ": " + advice);
 }
 

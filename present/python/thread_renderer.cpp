@@ -75,6 +75,11 @@ RendererOptions parse_renderer_options(const std::string& scene,
 // Runs `work` in the thread and returns what it does.
 template <typename Work>
 auto ThreadRenderer::run(Work work) {
+    if (::getpid() != process_) {
+        throw Error(
+            "a renderer is of no use in a process that was forked after it was made: take "
+            "multiprocessing's start method 'spawn'");
+    }
     auto result = thread_.ask(std::move(work));
     std::exception_ptr interruption;
     for (;;) {
@@ -97,7 +102,7 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
           block_signals, [this] { pictures_.reset(); }, [] {}) {
     run([&] {
         const SharedOptions& shared = options_.shared;
-        pictures_.emplace(
+        pictures_ = std::make_unique<SceneRenderer>(
             options_.shared, options_.budget,
             FirstPicture{request_of(shared, false, false), shared.time, 0, {}, std::move(made)});
         pictures_->set_between([this] {
@@ -109,6 +114,10 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
 }
 
 ThreadRenderer::~ThreadRenderer() {
+    if (::getpid() != process_) {  // neither the thread nor the drivers' ones are here
+        (void)pictures_.release();
+        return;
+    }
     cancelled_ = true;
     const py::gil_scoped_release other_threads_run;
     thread_.stop(std::chrono::hours(1));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unistd.h>
+
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -64,10 +66,11 @@ class ThreadRenderer {
 
     RendererOptions options_;
     std::atomic<bool> cancelled_ = false;
-    double last_time_ = 0.0;                 // [s] of the last picture
-    bool rendered_ = false;                  // whether there is one
-    std::optional<SceneRenderer> pictures_;  // used in the thread only
-    TaskThread thread_;                      // last: it ends first
+    double last_time_ = 0.0;                   // [s] of the last picture
+    bool rendered_ = false;                    // whether there is one
+    pid_t process_ = ::getpid();               // that the thread and OpenCL belong to
+    std::unique_ptr<SceneRenderer> pictures_;  // used in the thread only
+    TaskThread thread_;                        // last: it ends first
 };
 
 }  // namespace kilolux

@@ -103,7 +103,7 @@ TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
         options.shows_environment = true;
         add_shared_options(app, options);
         app.parse((folder_ / "metal.glb").string() + " -q " + more);
-        AnimatedScene scene = open_animated_scene(options, 0.0);
+        AnimatedScene scene = open_animated_scene(options);
         const std::string line = light_scene(options, scene);
         return std::tuple(options.maps != nullptr, options.shown_background != nullptr,
                           contains(line, "most of the surface is metal"),

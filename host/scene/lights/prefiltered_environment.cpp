@@ -243,8 +243,9 @@ Environment shrunk(const Environment& from, int width) {
 
 PrefilteredEnvironment prefiltered(const Environment& environment) {
     PrefilteredEnvironment out;
-    for (const LevelPlan& plan : kLevels) append(out, filtered(environment, plan));
-    append(out, filtered(environment, kIrradiance));
+    const Environment finest = shrunk(environment, kLevels[0].source_width);
+    for (const LevelPlan& plan : kLevels) append(out, filtered(finest, plan));
+    append(out, filtered(finest, kIrradiance));
     out.table = reflectance_table();
     out.table_size = kTableSize;
     return out;
