@@ -66,7 +66,8 @@ class Renderer {
     /// jittered samples (sample_pattern.h), or of settings.auto_samples. AOVs, views and counts are
     /// those of the sample through the pixels' centres; stage times are sums over the samples and
     /// bands. Blocks until it is on the host. The same arguments give the same bits on every call
-    /// and with any memory. Between samples, bands and parts of a slow pass it calls check_interrupt().
+    /// and with any memory. Between samples, bands and parts of a slow pass it calls
+    /// check_interrupt().
     Frame render(const Camera& camera, double time);
 
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows

@@ -42,7 +42,7 @@ def test_a_change_that_fails_changes_nothing():
     renderer = kilolux.Renderer("grid", **SMALL)
     before = renderer.render()
     for bad in ({"exposure": "bright"}, {"camera_index": 9}, {"lights": 70, "rig": "none", "samples": 0},
-                {"clip": "walk"}, {"lights": kilolux.Lights([[0, 1, 0]], range=[1, 2])}):
+                {"clip": "walk"}, {"lights": kilolux.Lights([[0, 1, 0]], kind="area")}):
         with pytest.raises(kilolux.Error):
             renderer.change(**bad)
         assert same(renderer.render(), before), bad
@@ -73,7 +73,8 @@ def test_lights_in_arrays_replace_each_other():
     with_swarm = kilolux.render("grid", lights=arrays[0], rig="swarm", **options)
     assert with_swarm.stats["lights"]["given"] == 5050
     dark = kilolux.Lights([[0, 1, 0], [np.nan, 0, 0]], 1.0, 2.0)
-    assert kilolux.render("grid", lights=dark, **options).stats["lights"]["rejected"] == 1
+    with pytest.warns(UserWarning, match="position of light 1 is"):
+        assert kilolux.render("grid", lights=dark, **options).stats["lights"]["rejected"] == 1
 
 
 def test_lights_edited_in_place_count_when_they_are_given_again():

@@ -100,10 +100,10 @@ TEST(Desktop, AnswersWhileAForwardPictureIsMade) {
         const std::size_t swaps = viewer.count("swap");
         wait_for("frames", [&] { return viewer.count("swap") >= swaps + more; });
     };
-    frames(8);
+    frames(4);  // each counts the seconds
     viewer.key("h");
     viewer.wait_for_change();  // the help, while there is no picture yet
-    frames(4);
+    frames(2);
     EXPECT_FALSE(viewer.program().has_ended());
     viewer.key("1");  // another renderer: the picture is given up
     viewer.key("h");

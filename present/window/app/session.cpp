@@ -120,6 +120,8 @@ void ViewSession::wait() {
     }
     if (woken_.exchange(false)) redraw_soon();
     if (notice_.fade(clock_.now())) redraw_soon(1);
+    const std::string waiting = waiting_line();
+    if (std::exchange(waiting_, waiting) != waiting) redraw_soon(1);
 }
 
 void ViewSession::remember_size() {

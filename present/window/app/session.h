@@ -102,6 +102,7 @@ class ViewSession {
     void describe_picture();
     void describe_panel(Actions& actions);
     std::vector<std::string> overlay_lines() const;
+    std::string waiting_line() const;
 
     const Scene& scene_;
     SessionOptions options_;
@@ -128,6 +129,7 @@ class ViewSession {
     PanelFacts facts_;
     Notice notice_;
     std::string failure_;  // the last one; empty: none
+    std::string waiting_;  // waiting_line(), as shown
     int frames_to_draw_ = 4;
     bool dragging_ = false;  // the mouse, begun on the picture
     bool show_help_ = false;

@@ -13,17 +13,19 @@ namespace {
 
 constexpr double kPatienceSeconds = 2.0;  // a picture that takes longer says so
 
+}  // namespace
+
 // What is said of a picture that is being made and takes long; empty: nothing.
-std::string waiting_line(const PictureProgress* progress, const std::string& renderer) {
+std::string ViewSession::waiting_line() const {
+    const PictureProgress* progress = pictures_.progress();
     if (progress == nullptr) return "";
     const double whole = progress->estimate(), so_far = progress->seconds();
     if (std::max(whole, so_far) < kPatienceSeconds) return "";
-    const std::string time = fmt::format("{}: {:.0f} s so far", renderer, so_far);
+    const std::string time =
+        fmt::format("{}: {:.0f} s so far", name_of(state_.settings.renderer), so_far);
     return whole > 0.0 ? fmt::format("{}, about {:.0f} s in all", time, std::max(whole, so_far))
                        : time;
 }
-
-}  // namespace
 
 void ViewSession::describe() {
     gui_.begin(input_, script_ ? std::optional(ScriptPlayer::kFrameSeconds) : std::nullopt);
@@ -87,8 +89,7 @@ std::vector<std::string> ViewSession::overlay_lines() const {
         out.push_back(fmt::format("{}  {} lights", name_of(drawn.renderer),
                                   short_count(facts_.stats.lights_used)));
     }
-    const std::string wait = waiting_line(pictures_.progress(), name_of(state_.settings.renderer));
-    if (!wait.empty()) out.push_back(wait);
+    if (!waiting_.empty()) out.push_back(waiting_);
     if (state_.frozen) {
         out.push_back(fmt::format("frozen: {} clusters", short_count(clusters_.box_count())));
     }
