@@ -5,9 +5,9 @@
 
 #include "kernels/shared/evaluate_modes.h"
 
-// tests/measure/roofline/instruction_counts_test.cpp compiles evaluate.h with a type that counts. PoCL 3.1's
-// AVX2 code of shade's inner loop has 21, 83 and 68 vector instructions a light for Lambert,
-// Blinn-Phong and PBR (an inverse square root is two).
+// tests/measure/roofline/instruction_counts_test.cpp compiles evaluate.h with a type that counts.
+// PoCL 3.1's AVX2 code of shade's inner loop has 21, 83 and 68 vector instructions a light for
+// Lambert, Blinn-Phong and PBR (an inverse square root is two).
 namespace kilolux {
 namespace {
 
