@@ -16,6 +16,7 @@
 #include "host/scene/lights/built_in_environments.h"
 #include "host/scene/lights/light_tree.h"
 #include "present/cli/names.h"
+#include "present/cli/prefiltered_cache.h"
 #include "present/cli/progress.h"
 
 namespace kilolux {
@@ -184,7 +185,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     Environment environment = opened_environment(options.environment);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
-        options.maps = std::make_shared<const PrefilteredEnvironment>(prefiltered(environment));
+        options.maps = std::make_shared<const PrefilteredEnvironment>(
+            kept_prefiltered(options.environment, environment));
         line += "prefiltered";
         if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
     } else {
