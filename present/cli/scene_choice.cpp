@@ -13,6 +13,7 @@
 #include "host/base/suggest.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/bounded_loss.h"
 #include "host/scene/lights/built_in_environments.h"
 #include "host/scene/lights/light_tree.h"
 #include "present/cli/names.h"

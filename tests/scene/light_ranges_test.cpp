@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
+#include "host/scene/lights/bounded_loss.h"
 #include "tests/support/box_scene.h"
 
 namespace kilolux {

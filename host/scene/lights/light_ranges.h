@@ -22,8 +22,7 @@ inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 ///   stated
 ///               share at most; spots are as with exact
 ///   automatic   exact for at most kExactTails lights, unless a budget is given; else bounded. The
-///               number does not depend on the device: nor does the picture. Where that loses more
-///               than a tenth (bounded_loss()), pictures of `deferred` without shadows take tree.
+///               number does not depend on the device: nor does the picture.
 enum class Tails { automatic, exact, bounded, stochastic, tree };
 
 /// What a node of the light tree may err by default: see kernels/tails/tree_cut.h.
@@ -58,10 +57,6 @@ bool lacks_range(const SceneLight& light);
 /// is not automatic.
 void fill_missing_ranges(std::vector<SceneLight>& lights, Tails tails,
                          double error_budget = kDefaultRangeBudget);
-
-/// Share of the light of lights without a range that their ranges cut, 0 to 1: the mean over the
-/// points of a grid in the scene's box, of at most 4096 of the lights.
-double bounded_loss(const Scene& scene, double error_budget = kDefaultRangeBudget);
 
 /// What `asked` means for these lights.
 Tails tails_for(std::span<const SceneLight> lights, Tails asked, double error_budget);
