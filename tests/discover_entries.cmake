@@ -2,7 +2,7 @@
 # Included by ctest: adds its entries for PROGRAM, a Google Test program, from LIST, a file made anew when PROGRAM is
 # newer. An entry is the cases whose full names begin alike: with what the regular expression ENTRY matches. What
 # follows the name's PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry. Entries that the regular
-# expression UNIT matches also have the label `unit`.
+# expression UNIT matches also have the label `unit`; one whose name matches SERIAL runs alone.
 cmake_minimum_required(VERSION 3.22)
 
 if(NOT EXISTS ${PROGRAM})
@@ -57,6 +57,9 @@ if(NOT EXISTS ${LIST} OR ${PROGRAM} IS_NEWER_THAN ${LIST} OR ${CMAKE_CURRENT_LIS
     foreach(word IN LISTS PROPERTIES)
       string(APPEND text " [==[${word}]==]")
     endforeach()
+    if("${PREFIX}${filter}" MATCHES "${SERIAL}")
+      string(APPEND text " RUN_SERIAL TRUE")
+    endif()
     string(APPEND text ")\n")
     if(UNIT AND filter MATCHES "${UNIT}")
       string(APPEND text "set_tests_properties([==[${PREFIX}${filter}]==] PROPERTIES LABELS [==[${FOLDER};unit]==])\n")

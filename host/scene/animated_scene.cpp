@@ -88,7 +88,7 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     scene_.webs = read_profiles(file.document);
     place();
     scene_.images = decode_images(file.document, file.materials.images, progress);
-    for (Image& image : make_converted_images(file.document, file.materials)) {
+    for (Image& image : roughness_images(file.document, file.materials, scene_.images)) {
         scene_.images.push_back(std::move(image));
     }
     scene_.textures = file.materials.textures;

@@ -106,6 +106,10 @@ std::string picture_advice(const Scene& scene, const Camera& camera, const Rende
             "it; try --rig studio",
             stats.lights_used);
     }
+    if (settings.shadows != Shadows::off && stats.lights_used == stats.directional_lights) {
+        return "picture has no shadows: all its lights are directional, which cast none; try --rig "
+               "swarm";
+    }
     return "";
 }
 

@@ -263,6 +263,13 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     return want;
 }
 
+void warn_of_exposure(const RenderOptions& options) {
+    const bool exposes =
+        options.shared.automatic_exposure || options.shared.settings.exposure != 0.0f;
+    if (!exposes || is_for_the_eye(options.output.output)) return;
+    note(options.output.output.string() + ": holds linear light, which --exposure does not change");
+}
+
 // Whether the picture is cut out of its background: --background none, where the format has alpha.
 // Bloom glows where nothing is, and debug views are of no light.
 bool wants_alpha(const RenderOptions& options) {
@@ -285,6 +292,7 @@ void run_render(RenderOptions& options) {
     const Task first = tasks[begin];
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
+    warn_of_exposure(options);
     const CameraMotion motion(options.shared, out);
     const auto camera = [&motion](const Scene& scene, int frame, double time) {
         return motion.at(scene, frame, time);

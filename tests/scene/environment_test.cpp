@@ -164,58 +164,40 @@ TEST(BuiltInEnvironment, TheStudioLightsTheFrontMost) {
     EXPECT_GT(from({-1, 0, 0}), from({1, 0, 0})) << "the key is on the left";
 }
 
-// A file of 4 x 2 equal pixels as an environment's first pixel.
-template <typename Sample>
-glm::vec3 read_back(const std::string& format, SampleType type, const std::array<Sample, 3>& pixel,
-                    const std::vector<float>& chromaticities = {}) {
-    ImageLayout layout{4, 2, {{"R", type}, {"G", type}, {"B", type}}};
-    if (!chromaticities.empty()) layout.attributes.emplace_back("chromaticities", chromaticities);
-    std::vector<Sample> samples;
-    for (int i = 0; i < 8; ++i) samples.insert(samples.end(), pixel.begin(), pixel.end());
-    const std::span<const unsigned char> bytes(
-        reinterpret_cast<const unsigned char*>(samples.data()), samples.size() * sizeof(Sample));
-    const TempFolder folder;
-    const auto file = folder.path() / ("e." + format);
-    write_file(file, encode_pixels("e", format, layout, bytes, sizeof(pixel)));
-    return read_environment(file).rows[0];
-}
-
-void expect_colour(const glm::vec3& seen, const glm::vec3& wanted) {
-    constexpr float kRounding = 2e-4f;  // of chromaticities in four digits
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(seen[i], wanted[i], kRounding) << i;
-}
-
-TEST(Environment, FilesAreBroughtToLinearRec709) {
-    using Bytes = std::array<std::uint8_t, 3>;
-    using Floats = std::array<float, 3>;
-    const SampleType real = SampleType::float32;
-    expect_colour(read_back("png", SampleType::uint8, Bytes{128, 0, 255}), {0.2158605f, 0, 1});
-    expect_colour(read_back("exr", real, Floats{0.5f, 2, 7}), {0.5f, 2, 7});
-    const std::vector<float> rec2020 = {0.708f, 0.292f, 0.17f,   0.797f,
-                                        0.131f, 0.046f, 0.3127f, 0.329f};
-    expect_colour(read_back("exr", real, Floats{1, 1, 1}, rec2020), {1, 1, 1});
-    expect_colour(read_back("exr", real, Floats{0.1f, 1, 0.1f}, rec2020), {0, 1.1196f, 0.0095f});
-    const std::vector<float> acescg = {0.713f, 0.293f, 0.165f,   0.83f,
-                                       0.128f, 0.044f, 0.32168f, 0.33767f};
-    expect_colour(read_back("exr", real, Floats{1, 1, 1}, acescg), {1, 1, 1});
-}
-
-TEST(Environment, OddSizesAreShrunkToTheSameLight) {
-    const Environment odd = painted_environment(
-        513, [](const glm::dvec3& d) { return glm::dvec3(1.0 + d.x, 2.0 + d.y, 1.5 + d.z * d.x); });
-    const PrefilteredEnvironment maps = prefiltered(odd);
-    ASSERT_EQ(maps.levels[0].x, 1024u);
-    ASSERT_EQ(maps.levels[0].y, 512u);
-    const Environment even{1024, 512, {}};
-    for (int y = 0; y < 512; y += 37) {
-        for (int x = 0; x < 1024; x += 53) {
-            const glm::dvec3 d = even.direction(x, y);
-            const float* texel = &maps.texels[3 * even.place(x, y)];
-            EXPECT_NEAR(texel[0], 1.0 + d.x, 1e-4);
-            EXPECT_NEAR(texel[1], 2.0 + d.y, 1e-4);
-            EXPECT_NEAR(texel[2], 1.5 + d.z * d.x, 1e-4);
+TEST(Environment, AnyHeightIsShrunkWithItsPower) {
+    for (const int width : {1024, 1030, 514, 2050}) {
+        const Environment whole = sky(width);
+        const Environment small = shrunk(whole, 128);
+        EXPECT_LE(small.width, 128) << width;
+        EXPECT_EQ(small.width, 2 * small.height) << width;
+        for (const glm::dvec3& normal : {glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0, -0.8)}) {
+            const glm::dvec3 wanted = irradiance(whole, normal);
+            EXPECT_LT(glm::length(irradiance(small, normal) - wanted), 3e-3 * glm::length(wanted))
+                << width;
         }
     }
+}
+
+TEST(Environment, FilesOfIntegersAreEncodedAndPrimariesAreKept) {
+    const TempFolder folder;
+    write_file(folder.path() / "a.png", encode_image("png", 2, 3, {188, 0, 255, 188, 0, 255}));
+    const glm::vec3 c = read_environment(folder.path() / "a.png").rows.at(0);
+    EXPECT_NEAR(c.x, 0.5029, 1e-4);
+    EXPECT_EQ(c.y, 0.0f);
+    EXPECT_EQ(c.z, 1.0f);
+    // ACES 2065-1: its white stays white, and its middle green is brighter in Rec. 709.
+    ImageLayout layout{
+        2, 1, {{"R", SampleType::float32}, {"G", SampleType::float32}, {"B", SampleType::float32}}};
+    layout.attributes.emplace_back(
+        "chromaticities",
+        std::vector<float>{0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.32168f, 0.33767f});
+    const std::vector<float> pixels = {0.5f, 0.5f, 0.5f, 0.2f, 0.4f, 0.2f};
+    write_file(folder.path() / "a.exr",
+               encode_pixels("a", "openexr", layout, bytes_of(pixels), 3 * sizeof(float)));
+    const Environment e = read_environment(folder.path() / "a.exr");
+    for (glm::length_t i = 0; i < 3; ++i) EXPECT_NEAR(e.rows.at(0)[i], 0.5f, 1e-4f);
+    EXPECT_GT(e.rows.at(1).y, 0.42f);
+    EXPECT_LT(e.rows.at(1).x, 0.15f);
 }
 
 TEST(Environment, BrokenFilesAreOneLine) {

@@ -5,9 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <queue>
+#include <span>
 
 #include "host/base/error.h"
 #include "host/base/srgb.h"
@@ -99,41 +101,43 @@ SceneLight light_of(const Environment& e, const Region& r) {
     return out;
 }
 
-// XYZ of a colour of luminance 1 by its chromaticity.
-glm::dvec3 xyz_of(double x, double y) { return glm::dvec3(x, y, 1.0 - x - y) / y; }
-
-// XYZ with D65 white from RGB of these primaries (x and y of red, green, blue, white), whose white
-// becomes D65 by the Bradford transform.
-glm::dmat3 xyz_from_rgb(const std::vector<float>& c) {
-    const auto point = [&c](std::size_t i) { return xyz_of(c[2 * i], c[2 * i + 1]); };
-    const glm::dmat3 primaries(point(0), point(1), point(2));
-    const glm::dvec3 shares = glm::inverse(primaries) * point(3);
-    const glm::dmat3 bradford(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367,
-                              1.0296);
-    const glm::dvec3 gain = (bradford * xyz_of(0.3127, 0.3290)) / (bradford * point(3));
-    const glm::dmat3 adapted =
-        glm::inverse(bradford) * glm::dmat3(gain.x, 0, 0, 0, gain.y, 0, 0, 0, gain.z) * bradford;
-    return adapted *
-           glm::dmat3(shares.x * primaries[0], shares.y * primaries[1], shares.z * primaries[2]);
+glm::dmat3 xyz_from_rgb(std::span<const float> xy) {
+    const auto xyz = [&](std::size_t i) {
+        const double x = xy[2 * i], y = xy[2 * i + 1];
+        return glm::dvec3(x / y, 1.0, (1.0 - x - y) / y);
+    };
+    const glm::dmat3 primaries(xyz(0), xyz(1), xyz(2));
+    const glm::dvec3 shares = glm::inverse(primaries) * xyz(3);
+    return {primaries[0] * shares.x, primaries[1] * shares.y, primaries[2] * shares.z};
 }
 
-// To linear Rec. 709.
-void convert_colours(const ImageLayout& image, std::vector<glm::vec3>& pixels) {
-    if (image.channels[0].type != SampleType::half &&
-        image.channels[0].type != SampleType::float32) {
-        for (glm::vec3& c : pixels) {
-            c = {srgb_to_linear(c.x), srgb_to_linear(c.y), srgb_to_linear(c.z)};
+// To linear Rec. 709 from other primaries; white stays white (Bradford's adaptation: Lam 1985).
+glm::dmat3 rec709_from(std::span<const float> chromaticities) {
+    constexpr std::array<float, 8> kRec709 = {0.64f, 0.33f, 0.3f,    0.6f,
+                                              0.15f, 0.06f, 0.3127f, 0.329f};
+    const glm::dmat3 bradford(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367,
+                              1.0296);
+    const glm::dmat3 from = bradford * xyz_from_rgb(chromaticities);
+    const glm::dmat3 to = bradford * xyz_from_rgb(kRec709);
+    const glm::dvec3 adapted = (to * glm::dvec3(1.0)) / (from * glm::dvec3(1.0));
+    glm::dmat3 scale(0.0);
+    for (glm::length_t i = 0; i < 3; ++i) scale[i][i] = adapted[i];
+    return glm::inverse(to) * scale * from;
+}
+
+// Integers are encoded in sRGB; a file's own primaries become Rec. 709's.
+void make_linear_rec709(const ImageLayout& image, std::vector<glm::vec3>& rows) {
+    const SampleType type = image.channels.front().type;
+    if (type == SampleType::uint8 || type == SampleType::uint16) {
+        for (glm::vec3& c : rows) {
+            for (glm::length_t i = 0; i < 3; ++i) {
+                c[i] = static_cast<float>(srgb_to_linear(double{c[i]}));
+            }
         }
     }
-    const std::vector<float> rec709 = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
-    for (const auto& [name, value] : image.attributes) {
-        const auto* own = std::get_if<std::vector<float>>(&value);
-        if (name != "chromaticities" || own == nullptr || *own == rec709) continue;
-        const glm::dmat3 matrix = glm::inverse(xyz_from_rgb(rec709)) * xyz_from_rgb(*own);
-        if (!std::isfinite(glm::determinant(matrix))) continue;  // no primaries
-        for (glm::vec3& c : pixels)
-            c = glm::max(glm::vec3(matrix * glm::dvec3(c)), glm::vec3(0.0f));
-    }
+    if (image.chromaticities.empty()) return;
+    const glm::dmat3 matrix = rec709_from(image.chromaticities);
+    for (glm::vec3& c : rows) c = glm::max(glm::vec3(matrix * glm::dvec3(c)), 0.0f);
 }
 
 }  // namespace
@@ -191,7 +195,7 @@ Environment read_environment(const std::filesystem::path& file) {
         throw Error(fmt::format("{}: pixel {},{} is {},{},{}, must be finite and >= 0",
                                 file.string(), i % width, i / width, c.x, c.y, c.z));
     }
-    convert_colours(image, out.rows);
+    make_linear_rec709(image, out.rows);
     return out;
 }
 

@@ -42,10 +42,10 @@ Environment painted_environment(
 /// Of linear Rec. 709 light, in its unit.
 double luminance(const glm::dvec3& light);
 
-/// A picture in any format that OpenImageIO reads. Integer samples (JPEG, PNG) are sRGB; an EXR's
-/// chromaticities are brought to Rec. 709, its white to D65 (Bradford), and what they leave below 0
-/// to 0. Throws Error with the file for what cannot be read, is not twice as wide as high, or has a
-/// pixel that is negative or no number.
+/// A picture in any format that OpenImageIO reads: .hdr and .exr are linear, those of 8 or 16 bits
+/// encoded in sRGB; primaries that a file names become Rec. 709's. Throws Error with the file
+/// for what cannot be read, is not twice as wide as high, or has a pixel that is negative or no
+/// number.
 Environment read_environment(const std::filesystem::path& file);
 
 /// At most `count` directional lights that stand for the environment, by median cut (Debevec 2005,
