@@ -13,9 +13,11 @@
 #include "host/base/suggest.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/bounded_loss.h"
 #include "host/scene/lights/built_in_environments.h"
 #include "host/scene/lights/light_tree.h"
 #include "present/cli/names.h"
+#include "present/cli/prefiltered_cache.h"
 #include "present/cli/progress.h"
 
 namespace kilolux {
@@ -116,12 +118,12 @@ std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, st
 }
 
 // What becomes of lights without a range; nothing where there are none.
-std::string tails_line(const Scene& scene, const RenderSettings& settings) {
+std::string tails_line(const Scene& scene, const RenderSettings& settings, bool automatic) {
     const auto unranged = std::ranges::count_if(scene.lights, lacks_range);
     if (unranged == 0) return "";
     const Tails tails = tails_for(scene.lights, settings.tails, settings.range_budget);
     std::string line = fmt::format("\ntails   {}{}: {} lights without a range ", name_of(tails),
-                                   tails == settings.tails ? "" : " (automatic)", unranged);
+                                   automatic ? " (automatic)" : "", unranged);
     if (tails == Tails::exact) return line + "reach every pixel";
     if (tails == Tails::tree) {
         return line + fmt::format(
@@ -139,6 +141,25 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings) {
                       "have random ones, at least to where each adds {:.3g} of radiance: "
                       "right in the mean of --samples",
                       settings.range_budget);
+}
+
+// Many lights without a range: bounded ones lose what many far ones add together.
+void choose_tails(SharedOptions& options, const Scene& scene) {
+    constexpr double kMostLost = 0.1;
+    RenderSettings& s = options.settings;
+    const Tails tails = tails_for(scene.lights, s.tails, s.range_budget);
+    if (s.tails != Tails::automatic || tails != Tails::bounded) return;
+    if (!options.shows_environment || s.range_budget != kDefaultRangeBudget) return;
+    const double lost = bounded_loss(scene, s.range_budget);
+    if (lost <= kMostLost) return;
+    if (s.renderer == RendererKind::deferred && s.shadows == Shadows::off) {
+        s.tails = Tails::tree;
+        return;
+    }
+    warn(fmt::format(
+        "{}: the ranges that lights without one get cut about {:.0f} % of their light; --tails "
+        "exact keeps it",
+        options.scene, 100.0 * lost));
 }
 
 Environment opened_environment(const std::string& name) {
@@ -165,7 +186,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     Environment environment = opened_environment(options.environment);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
-        options.maps = std::make_shared<const PrefilteredEnvironment>(prefiltered(environment));
+        options.maps = std::make_shared<const PrefilteredEnvironment>(
+            kept_prefiltered(options.environment, environment));
         line += "prefiltered";
         if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
     } else {
@@ -232,11 +254,13 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     if (!options.ambient_given) {
         ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
     }
+    const bool finds_tails = options.settings.tails == Tails::automatic;
+    choose_tails(options, scene.scene());
     // A swarm stays automatic where another command line has to say nothing for it.
     options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
     return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) +
            from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +
-           tails_line(scene.scene(), options.settings);
+           tails_line(scene.scene(), options.settings, finds_tails);
 }
 
 void measure_swarm(SharedOptions& options) {

@@ -161,6 +161,8 @@ void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) 
             next.shared.settings.ambient = settled.settings.ambient;
             next.shared.settings.lights.count = settled.settings.lights.count;
             next.shared.environment = settled.environment;
+            Tails& tails = next.shared.settings.tails;
+            if (tails == Tails::automatic) tails = settled.settings.tails;
             next.shared.reflections = settled.reflections;
             next.shared.maps = settled.maps;
             next.shared.background = settled.background;
