@@ -54,7 +54,7 @@ struct MaterialFactor {
 };
 
 /// Ahead of KHR_materials_emissive_strength, which multiplies emissiveFactor.
-constexpr std::array kMaterialFactors = {
+inline constexpr std::array kMaterialFactors = {
     MaterialFactor{"pbrMetallicRoughness.baseColorFactor", &Material::base_color},
     MaterialFactor{"pbrMetallicRoughness.metallicFactor", &Material::metallic},
     MaterialFactor{"pbrMetallicRoughness.roughnessFactor", &Material::roughness},
