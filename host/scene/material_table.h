@@ -22,7 +22,7 @@ struct MaterialMap {
     std::string_view channels;  // that are read
 };
 
-constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
+inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
     {USE_BASE_COLOR, "pbrMetallicRoughness.baseColorTexture", &Material::base_color_texture, true,
      "rgba"},
     {USE_METALLIC_ROUGHNESS, "pbrMetallicRoughness.metallicRoughnessTexture",
@@ -54,7 +54,7 @@ struct MaterialFactor {
 };
 
 /// Ahead of KHR_materials_emissive_strength, which multiplies emissiveFactor.
-constexpr std::array kMaterialFactors = {
+inline constexpr std::array kMaterialFactors = {
     MaterialFactor{"pbrMetallicRoughness.baseColorFactor", &Material::base_color},
     MaterialFactor{"pbrMetallicRoughness.metallicFactor", &Material::metallic},
     MaterialFactor{"pbrMetallicRoughness.roughnessFactor", &Material::roughness},
