@@ -22,7 +22,7 @@ struct MaterialMap {
     std::string_view channels;  // that are read
 };
 
-constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
+inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
     {USE_BASE_COLOR, "pbrMetallicRoughness.baseColorTexture", &Material::base_color_texture, true,
      "rgba"},
     {USE_METALLIC_ROUGHNESS, "pbrMetallicRoughness.metallicRoughnessTexture",

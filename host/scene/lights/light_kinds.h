@@ -19,7 +19,7 @@ struct LightKind {
     bool has_cone;
 };
 
-constexpr std::array kLightKinds = {
+inline constexpr std::array kLightKinds = {
     LightKind{LightType::point, "point", true, false, false},
     LightKind{LightType::spot, "spot", true, true, true},
     LightKind{LightType::directional, "directional", false, true, false},
