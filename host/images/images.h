@@ -35,9 +35,12 @@ struct ImageLayout {
     int width = 0;                       // [pixel]
     int height = 0;                      // [pixel]
     std::vector<ImageChannel> channels;  // in the order of a pixel's samples
-    // By OpenImageIO's names. A file that is read leaves them empty.
+    // By OpenImageIO's names. Of a file that is read only "chromaticities": x and y of red, green,
+    // blue and white.
     std::vector<std::pair<std::string, ImageAttribute>> attributes{};
     bool associated_alpha = false;  // of a file that is read: its colours are multiplied by alpha
+    // Of a file that is read: x and y of red, green, blue and white (CIE 1931); else empty.
+    std::vector<float> chromaticities{};
 
     std::size_t pixels() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

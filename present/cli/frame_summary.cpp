@@ -34,10 +34,12 @@ std::string stage_lines(const FrameStats& stats) {
 std::string light_line(const FrameStats& s) {
     std::string out = fmt::format("lights  {} of {} used, {} rejected", s.lights_used,
                                   s.lights_given, s.lights_rejected);
-    if (s.evaluations_per_pixel >= 0.0) {
+    // Directional lights are in no list.
+    const bool listed = s.lights_used > s.directional_lights;
+    if (listed && s.evaluations_per_pixel >= 0.0) {
         out += fmt::format("; {:.1f} evaluated a pixel", s.evaluations_per_pixel);
     }
-    if (s.useful_evaluations_per_pixel >= 0.0) {
+    if (listed && s.useful_evaluations_per_pixel >= 0.0) {
         out += fmt::format(", {:.1f} useful", s.useful_evaluations_per_pixel);
     }
     return out + "\n";

@@ -63,7 +63,7 @@ const Choices& choices_of(BenchMotion) {
 }
 
 const Choices& choices_of(Shading) {
-    static const Choices choices = {{"auto", "what the scene's materials ask for"},
+    static const Choices choices = {{"auto", "pbr; lambert where nothing is lit"},
                                     {"lambert", "matt: albedo / pi"},
                                     {"blinn-phong", "with normalised highlights"},
                                     {"pbr", "glTF's metallic-roughness model"}};
@@ -90,10 +90,11 @@ const Choices& choices_of(Tails) {
 }
 
 const Choices& choices_of(ToneCurve) {
-    static const Choices choices = {{"none", "clamp at 1"},
-                                    {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
-                                    {"aces", "ACES, filmic contrast"},
-                                    {"agx", "AgX, bright colours go to white softly"}};
+    static const Choices choices = {
+        {"none", "clamp at 1"},
+        {"neutral", "Khronos PBR Neutral: 0.04 less, above 0.8 compressed"},
+        {"aces", "ACES, filmic contrast"},
+        {"agx", "AgX, bright colours go to white softly"}};
     return choices;
 }
 
@@ -113,6 +114,14 @@ const Choices& choices_of(Fit) {
     static const Choices choices = {{"height", "its vertical field"},
                                     {"width", "its horizontal field"},
                                     {"both", "all that it shows"}};
+    return choices;
+}
+
+const Choices& choices_of(SeenFrom) {
+    static const Choices choices = {
+        {"auto", "inside where walls without outer sides enclose a point within, else outside"},
+        {"inside", "as an interior, with a swarm's lights"},
+        {"outside", "as an object, whole, with a studio's lights"}};
     return choices;
 }
 

@@ -78,6 +78,7 @@ Json clips_json(const Scene& scene) {
                        {"length_s", clip.length},
                        {"channels", clip.channels},
                        {"plays", clip.plays}});
+        if (!clip.broken.empty()) out.back()["broken"] = clip.broken;
     }
     return out;
 }
@@ -150,7 +151,10 @@ std::string text_of(const Json& value) {
 std::string clip_line(const Json& clip) {
     return fmt::format("{} '{}': {:.6g} s, {} channels{}", clip["index"].get<int>(),
                        shown_uri(clip["name"].get<std::string>()), clip["length_s"].get<double>(),
-                       clip["channels"].get<int>(), clip["plays"].get<bool>() ? ", plays" : "");
+                       clip["channels"].get<int>(),
+                       clip["plays"].get<bool>() ? ", plays"
+                       : clip.contains("broken") ? ", broken"
+                                                 : "");
 }
 
 std::string profile_line(const Json& profile) {

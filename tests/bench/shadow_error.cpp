@@ -48,7 +48,7 @@ class SampledSums {
 
     // Of a picture with the layers error-standard and depth.
     void add(const Frame& picture) {
-        HalfOfPictures& half = halves_[result_.seeds++ % 2];
+        HalfOfPictures& half = halves_[static_cast<std::size_t>(result_.seeds++ % 2)];
         ++half.seeds;
         for (std::size_t i = 0; i < pixels_; ++i) {
             if (picture.aovs[1].values[i] > 0.0f) add_pixel(picture, i, half);
@@ -62,7 +62,7 @@ class SampledSums {
             if (!noisy_[i].differs) continue;
             ++noisy;
             noisy_within += noisy_[i].within;
-            for (const int half : {0, 1}) {
+            for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
                 if (hidden_draws(halves_[1 - half], i) < kEnoughDraws) continue;
                 settled += 0.5;
                 settled_within += is_mean_within(halves_[half], i) ? 0.5 : 0.0;

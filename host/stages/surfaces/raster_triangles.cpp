@@ -10,7 +10,7 @@ namespace {
 // which then waits for memory: half of the time on an H200.
 constexpr std::string_view kFewerRegisters = "-cl-nv-maxrregcount=64";
 
-cl::Program program_of(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
+cl::Program raster_program(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
     features.anisotropy = 1;
     features.texture_uses &= 1u << USE_BASE_COLOR;
     BuildOptions options;
@@ -28,7 +28,8 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures fea
 RasterTriangles::RasterTriangles(const Gpu& gpu, const Tuning& tuning,
                                  const SurfaceFeatures& features)
     : tuning_(tuning),
-      kernel_(gpu, program_of(gpu, tuning, features), kRasterTrianglesStage, "raster_triangles"),
+      kernel_(gpu, raster_program(gpu, tuning, features), kRasterTrianglesStage,
+              "raster_triangles"),
       ids_(gpu, kRasterTrianglesStage) {}
 
 DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,

@@ -59,6 +59,12 @@ TEST(AtomicWrite, WritesThroughALink) {
     write_atomically(folder / "link", "new");
     EXPECT_TRUE(fs::is_symlink(folder / "link"));
     EXPECT_EQ(text_of_file(folder / "target"), "new");
+    fs::create_symlink("link_of_link", folder / "dangling");
+    fs::create_symlink(folder / "new_target", folder / "link_of_link");
+    write_atomically(folder / "dangling", "there");
+    EXPECT_TRUE(fs::is_symlink(folder / "dangling"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link_of_link"));
+    EXPECT_EQ(text_of_file(folder / "new_target"), "there");
 }
 
 TEST(AtomicWrite, SpecialFilesAreWrittenAndNotReplaced) {
