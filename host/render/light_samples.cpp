@@ -9,9 +9,6 @@
 namespace kilolux {
 namespace {
 
-// Grows with every change of the scene.
-std::uint32_t revision_of(const Scene& scene) { return scene.revision + scene.lights_revision; }
-
 // Samples of a half after which tiles may be done: each time by half as many again.
 int next_goal(int taken, int most) {
     if (taken == 0) return kLeastAutoSamples / 2;
@@ -55,7 +52,7 @@ void Pipeline::refine(const Camera& camera, double time, int samples) {
     refining_ = partly ? std::min(samples, settings.samples) : 0;
     summed_ = 0;
     if (refining_ > 0 && refined_) {
-        const Refined same{settings, camera, time, revision_of(scene->scene()), refined_->samples};
+        const Refined same{settings, camera, time, scene->scene().revisions, refined_->samples};
         if (*refined_ == same && refined_->samples < refining_) summed_ = refined_->samples;
     }
     refined_.reset();  // a frame that fails leaves no sum
@@ -63,7 +60,7 @@ void Pipeline::refine(const Camera& camera, double time, int samples) {
 
 void Pipeline::keep_refined(const Camera& camera, double time) {
     if (refining_ == 0) return;
-    refined_ = Refined{settings, camera, time, revision_of(scene->scene()), refining_};
+    refined_ = Refined{settings, camera, time, scene->scene().revisions, refining_};
 }
 
 // A jittered sample.

@@ -80,7 +80,7 @@ class Pipeline {
         RenderSettings settings;
         Camera camera;
         double time = 0.0;  // [s]
-        std::uint32_t scene_revision = 0;
+        SceneRevisions scene;
         int samples = 0;
         bool operator==(const Refined&) const = default;
     };

@@ -96,7 +96,7 @@ GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
                         sample.band,
                         settings.width,
                         settings.height,
-                        context_.scene.scene().revision,
+                        context_.scene.scene().revisions.surfaces(),
                         sample.needed != nullptr};
     const bool is_kept = is_checked_ && !settings.no_reuse && !source.masked;
     if (is_kept && source_ == source) return gbuffer_;
@@ -205,7 +205,9 @@ void SurfacePass::count(const DeviceArray<uint>& ids, const SurfaceBuffers& scen
 void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                                 const GBuffer& gbuffer, const Sample& sample, Measured out) {
     const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t built = context_.shadows->built();
     shadows_.casters = context_.shadows->casters();
+    out.stats.shadow_scenes_built += context_.shadows->built() - built;
     const std::chrono::duration<double, std::milli> spent =
         std::chrono::steady_clock::now() - start;
     add_host_time(out, "shadow_scene", spent.count());

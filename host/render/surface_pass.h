@@ -59,7 +59,7 @@ class SurfacePass {
         Camera camera;
         Band band;
         int width, height;
-        std::uint32_t revision;  // of the scene
+        std::array<std::uint32_t, 2> revision;  // of the scene's surfaces
         bool masked;             // some tiles are background though surfaces cover them
         bool operator==(const Source&) const = default;
     };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene.h"
 
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,14 +22,36 @@ bool has_own_reflectance(const Material& material) {
            material.specular_texture.present() || material.specular_color_texture.present();
 }
 
+// Which vertex comes first changes no box: minima and maxima are exact.
 Box bounds(const Scene& scene) {
-    Box box;
-    for (const Instance& instance : scene.instances) {
-        for (const glm::vec3& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
-            box.add(glm::dvec3(instance.world_from_object * glm::dvec4(p, 1.0)));
-        }
-    }
-    return box;
+    constexpr std::size_t kVerticesOfTask = 4096;
+    const auto joined = [](Box a, const Box& b) {
+        a.min = glm::min(a.min, b.min);
+        a.max = glm::max(a.max, b.max);
+        return a;
+    };
+    const auto box_of = [&](const Instance& instance) {
+        const std::vector<glm::vec3>& positions =
+            scene.meshes[static_cast<std::size_t>(instance.mesh)].positions;
+        return tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, positions.size(), kVerticesOfTask), Box{},
+            [&](const auto& range, Box box) {
+                for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                    box.add(glm::dvec3(instance.world_from_object * glm::dvec4(positions[i], 1.0)));
+                }
+                return box;
+            },
+            joined);
+    };
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, scene.instances.size()), Box{},
+        [&](const auto& range, Box box) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                box = joined(box, box_of(scene.instances[i]));
+            }
+            return box;
+        },
+        joined);
 }
 
 std::size_t zero_normal_count(const Scene& scene) {
