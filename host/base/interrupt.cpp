@@ -72,8 +72,12 @@ void catch_signals() {
 
 bool interrupt_requested() { return state().requested; }
 
-void check_interrupt() {
-    if (interrupt_requested()) throw Interrupted();
+void check_interrupt() { check_stop(interrupt_flag()); }
+
+StopFlag interrupt_flag() { return &state().requested; }
+
+void check_stop(StopFlag stop) {
+    if (stop != nullptr && *stop) throw Interrupted();
 }
 
 void set_unfinished_file(const std::filesystem::path& file) {

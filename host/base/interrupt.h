@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 
 namespace kilolux {
@@ -16,6 +17,15 @@ bool interrupt_requested();
 
 /// Throws Interrupted once a signal has asked for the end.
 void check_interrupt();
+
+/// Set once somebody wants long work to end; null: nobody does.
+using StopFlag = const std::atomic<bool>*;
+
+/// The flag that signals set.
+StopFlag interrupt_flag();
+
+/// Throws Interrupted once the flag is set.
+void check_stop(StopFlag stop);
 
 /// Names the file that a killing signal must remove, which exists; an empty path: none. One at a
 /// time. The signal removes it only while that name still means the same file.

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "host/base/interrupt.h"
 #include "host/gpu/device.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/frame.h"
 #include "host/picture/pixel_probe.h"
-#include "host/render/memory_plan.h"
-#include "host/render/scene_plan.h"
+#include "host/render/plan/memory_plan.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
@@ -67,9 +67,8 @@ class Renderer {
     /// jittered samples (sample_pattern.h), or of settings.auto_samples. AOVs, views and counts are
     /// those of the sample through the pixels' centres; stage times are sums over the samples and
     /// bands. Blocks until it is on the host. The same arguments give the same bits on every call
-    /// and with any memory. `between` is called before every sample of every band, and what it
-    /// throws comes out.
-    Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
+    /// and with any memory. Throws Interrupted before the next sample of a band once `stop` is set.
+    Frame render(const Camera& camera, double time, StopFlag stop = nullptr);
 
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
     /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display

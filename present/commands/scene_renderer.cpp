@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/measure/roofline/roofline.h"
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/kernel_choice.h"
 #include "present/cli/scene_choice.h"
 #include "present/commands/bench.h"
 #include "present/image/automatic_exposure.h"
@@ -28,7 +27,7 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
                              FirstPicture first)
     : options_(options),
-      between_(check_interrupt),
+      stop_(interrupt_flag()),
       camera_at_(std::move(first.camera)),
       scene_(first.made ? AnimatedScene(std::move(*first.made))
                         : open_animated_scene(options, first.time)) {
@@ -39,9 +38,9 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
     }
     rig_ = light_scene(options, scene_);
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
-    between_();
+    check_stop(stop_);
     renderer_.emplace(scene_.scene(), settings_of(budget, first.want, first.time));
-    between_();
+    check_stop(stop_);
 }
 
 // For the camera as it is.
@@ -72,7 +71,7 @@ void SceneRenderer::expose_automatically(double time, int frame, const std::stri
 Frame SceneRenderer::render(double time, int frame) {
     scene_.set_time(time);
     camera_ = camera_at_(scene_.scene(), frame, time);
-    return renderer_->render(camera_, time, between_);
+    return renderer_->render(camera_, time, stop_);
 }
 
 std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, int frame) {

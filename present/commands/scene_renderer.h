@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "host/base/interrupt.h"
 #include "host/measure/roofline/device_limits.h"
 #include "host/render/renderer.h"
 #include "host/scene/animated_scene.h"
@@ -54,8 +55,9 @@ class SceneRenderer {
     /// Lights in the world beside all others; none replaces the former ones.
     void set_lights(std::vector<SceneLight> lights);
 
-    /// Called within long work; what it throws comes out. As made: check_interrupt().
-    void set_between(std::function<void()> between) { between_ = std::move(between); }
+    /// Long work ends by Interrupted once the flag is set; it must outlive this. As made: that of
+    /// signals.
+    void set_stop_flag(StopFlag stop) { stop_ = stop; }
 
     /// The document of --stats. `limits`: what each stage would take at the device's limits, which
     /// are measured once a device.
@@ -72,7 +74,7 @@ class SceneRenderer {
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
-    std::function<void()> between_;
+    StopFlag stop_;
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
     std::vector<SceneLight> lights_;  // of set_lights()

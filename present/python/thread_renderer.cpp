@@ -100,9 +100,7 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
         pictures_.emplace(
             options_.shared, options_.budget,
             FirstPicture{request_of(shared, false, false), shared.time, 0, {}, std::move(made)});
-        pictures_->set_between([this] {
-            if (cancelled_) throw Interrupted();
-        });
+        pictures_->set_stop_flag(&cancelled_);
         if (!lights.empty()) pictures_->set_lights(std::move(lights));
         if (shared.automatic_exposure) pictures_->expose_automatically(shared.time);
     });

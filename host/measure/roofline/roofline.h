@@ -7,7 +7,7 @@
 #include "host/measure/roofline/device_limits.h"
 #include "host/measure/roofline/instruction_counts.h"
 #include "host/picture/frame.h"
-#include "host/render/scene_plan.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/render/settings.h"
 
 /// A lower bound for each stage's time: the work it cannot avoid, at the device's measured rates.

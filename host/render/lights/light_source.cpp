@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/light_source.h"
+#include "host/render/lights/light_source.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
-#include "host/render/light_order.h"
+#include "host/render/lights/light_order.h"
 #include "host/scene/lights/rig.h"
 #include "kernels/shared/hash.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/generated_lights.h"
+#include "host/render/lights/generated_lights.h"
 
 #include <tbb/parallel_for.h>
 
