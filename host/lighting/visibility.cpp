@@ -26,8 +26,8 @@ void Visibility::set_ambient(float ambient) {
 
 SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                                const ShadowInput& shadows, StageTimer& timer) {
-    const Source source = draw_ ? Source{lists.version, shadows.rays, ambient_, shadows.seed}
-                                : Source{lists.version};
+    const Source source =
+        draw_ ? Source{lists.version, shadows.rays, ambient_, shadows.seed} : Source{lists.version};
     if (source_ == source) return seen_;
     source_.reset();
     seen_ = {};  // arrays that grow must not be held twice

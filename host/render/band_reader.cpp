@@ -31,8 +31,7 @@ void BandReader::count(const LastSample& last, FrameStats& stats) {
     const RendererKind kind = context_.settings.renderer;
     stats.useful_evaluations_per_pixel = -1.0;
     if (is_forward(kind)) {
-        stats.evaluations_per_pixel =
-            want.counts ? mean_of_drawn(pixels(last).evaluated) : -1.0;
+        stats.evaluations_per_pixel = want.counts ? mean_of_drawn(pixels(last).evaluated) : -1.0;
         return;
     }
     if (kind == RendererKind::deferred_all) {
@@ -41,8 +40,8 @@ void BandReader::count(const LastSample& last, FrameStats& stats) {
     }
     stats.evaluations_per_pixel = mean_list_length(stats);
     if (want.counts) {
-        stats.useful_evaluations_per_pixel = mean_of_drawn(download<uint>(
-            context_.gpu, count_lights(last).covering, plane_size(last.band)));
+        stats.useful_evaluations_per_pixel = mean_of_drawn(
+            download<uint>(context_.gpu, count_lights(last).covering, plane_size(last.band)));
     }
     if (!want.shadow_counts || !last.stages.visibility()) return;
     if (!counting_) {
@@ -117,9 +116,10 @@ std::vector<uint> BandReader::forward_evaluated(const LastSample& last,
             const std::size_t pixel = y * view.stride + x;
             const std::optional<uint> cluster = coarse_cluster_at(surfaces, pixel);
             if (!cluster) continue;
-            out[pixel] = clustered ? lists.offsets[*cluster + 1] - lists.offsets[*cluster]
-                                   : last.band.lights.count *
-                                         static_cast<uint>(std::lround(fragments[y * view.width + x]));
+            out[pixel] = clustered
+                             ? lists.offsets[*cluster + 1] - lists.offsets[*cluster]
+                             : last.band.lights.count *
+                                   static_cast<uint>(std::lround(fragments[y * view.width + x]));
         }
     }
     return out;
@@ -152,9 +152,9 @@ std::vector<float> BandReader::variance(const LastSample& last) {
         return std::vector<float>(plane_size(band));
     }
     StageTimer untimed;
-    return download(context_.gpu, tail_errors().variance(
-                                      band.lists.at(band.surfaces), band.visible.words,
-                                      band.visible.samples, last.stages.variance(), untimed));
+    return download(context_.gpu,
+                    tail_errors().variance(band.lists.at(band.surfaces), band.visible.words,
+                                           band.visible.samples, last.stages.variance(), untimed));
 }
 
 std::vector<float> BandReader::bound(const LastSample& last) {
@@ -182,8 +182,7 @@ LitSurfaces BandReader::lit_surfaces(const LastSample& last) {
                     {}};
     if (lights.profiles.lights) {
         const auto rows = download(gpu, *lights.profiles.lights, lights.rows());
-        out.webs =
-            webs_in_view(single_lights(rows, lights.count, nodes), context_.scene->scene());
+        out.webs = webs_in_view(single_lights(rows, lights.count, nodes), context_.scene->scene());
     }
     return out;
 }
@@ -211,8 +210,8 @@ PixelProbe BandReader::surface_at(const LitBand& band, int x, int y) {
     StageTimer untimed;
     const ClusterGrid& grid = band.grid;
     const cl::Buffer planes = decoder().enqueue(band.surfaces, untimed);
-    const std::size_t pixel = static_cast<std::size_t>(y) * band.surfaces.view.stride +
-                              static_cast<std::size_t>(x);
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * band.surfaces.view.stride + static_cast<std::size_t>(x);
     PixelProbe out;
     out.grid = grid;
     out.specular = context_.plan.gbuffer.specular;

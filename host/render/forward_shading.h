@@ -36,6 +36,9 @@ class ForwardShading {
 /// Surfaces that blend, drawn by OpenGL over a lit picture.
 class BlendedPass {
  public:
+    /// Of a pixel on the host: the light before and after, and OpenGL's copy of it.
+    static constexpr std::size_t kPixelBytes = 3 * Radiance::kPixelBytes;
+
     /// `clustered`: draw() gets lists.
     BlendedPass(const RenderContext& context, bool clustered);
 

@@ -69,8 +69,8 @@ void FrameStages::shade(const Sample& sample, LitBand& band, EnvironmentLight& e
                                      band.visible.samples, sample.display);
     } else if (shade_all_) {
         shade_all_->set_ambient(ambient);
-        band.light = shade_all_->enqueue({band.surfaces, band.lights, band.grid, band.shadows},
-                                         out.timer);
+        band.light =
+            shade_all_->enqueue({band.surfaces, band.lights, band.grid, band.shadows}, out.timer);
     } else {
         band.light = forward_->draw(sample, coarse_ ? &band.coarse : nullptr, environment, out);
     }

@@ -90,8 +90,8 @@ void PictureOutput::read_light(const Radiance& light, std::vector<float>& to, St
 void PictureOutput::read_display(const DisplayTarget& display, StageTimer& timer) {
     const cl::CommandQueue& queue = context_.gpu.queue;
     if (is_written_by_device()) {
-        void* mapped = queue.enqueueMapBuffer(display.pixels, CL_FALSE, CL_MAP_READ, 0,
-                                              memory_.size_bytes());
+        void* mapped =
+            queue.enqueueMapBuffer(display.pixels, CL_FALSE, CL_MAP_READ, 0, memory_.size_bytes());
         queue.enqueueUnmapMemObject(display.pixels, mapped);
     } else if (!memory_.empty() && memory_.data() == shown_.data<uint>()) {
         cl::Event event;

@@ -17,12 +17,12 @@ struct AnimatedScene::File {
     GltfDocument document;
     GltfMaterials materials;
     std::vector<PrimitiveJob> jobs;
-    std::vector<int> mesh_of_job;  // index into Scene::meshes; -1: has no triangles
+    std::vector<int> mesh_of_job;   // index into Scene::meshes; -1: has no triangles
     std::vector<MeshShape> shapes;  // of the scene's time
     // By job, of shapes that move: decoded and listed once.
     std::vector<std::optional<PrimitiveArrays>> arrays;
-    double line_width_m = 0.0;     // of points and lines
-    double time = 0.0;             // [s] of the scene
+    double line_width_m = 0.0;  // of points and lines
+    double time = 0.0;          // [s] of the scene
 };
 
 namespace {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // --samples auto: edges, sampled shadows and random ranges to a given error, the same bits every
 // way.
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
+#include "host/base/error.h"
 #include "host/picture/sample_pattern.h"
 #include "tests/support/render_fixture.h"
 
@@ -200,17 +204,22 @@ TEST(AutoSamples, ForwardRenderersAndPlanesHaveThem) {
     EXPECT_LT(std::sqrt(squared_error(forward.radiance, frame.radiance)), 0.1);
 }
 
-// Called between samples, so that a long picture can be left; what fails leaves nothing behind.
+// A long picture can be left between its samples; that leaves nothing behind.
 TEST(AutoSamples, CanBeLeftBetweenSamples) {
     const Scene scene = make_generated_scene("grid");
     const Camera camera = first_camera(scene);
-    Renderer renderer(scene, auto_settings(70, 37, 0.05f, 64));
+    const RenderSettings settings = auto_settings(70, 37, 0.05f, 64);
+    Renderer renderer(scene, settings);
     const Frame first = renderer.render(camera, 0.0);
-    int calls = 0;
-    const auto leave = [&] {
-        if (++calls == 12) throw Error("left");
-    };
-    EXPECT_THROW(renderer.render(camera, 0.0, leave), Error);
+    renderer.change(auto_settings(70, 37, 1e-6f, 1 << 20));  // would take minutes
+    std::atomic<bool> stop = false;
+    std::thread leaver([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        stop = true;
+    });
+    EXPECT_THROW(renderer.render(camera, 0.0, &stop), Interrupted);
+    leaver.join();
+    renderer.change(settings);
     EXPECT_EQ(renderer.render(camera, 0.0).radiance, first.radiance);
 }
 

@@ -35,10 +35,10 @@ GltfBuilder file_with_moving_camera() {
     const int node = file.add_node({{"camera", 0}});
     const int times = file.add_floats("SCALAR", {0, 4});
     const int path = file.add_floats("VEC3", {0, 0, 4, 1, 1, 5});
-    file.add("animations",
-             {{"samplers", {{{"input", times}, {"output", path}}}},
-              {"channels",
-               {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}});
+    file.add(
+        "animations",
+        {{"samplers", {{{"input", times}, {"output", path}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}});
     return file;
 }
 
@@ -83,8 +83,8 @@ constexpr Part kParts[] = {
      true, false},
     {"placement", &SceneRevisions::placement,
      [](Scene& scene) { scene.instances[0].world_from_object[3].x += 0.25; }, true, false},
-    {"lights", &SceneRevisions::lights,
-     [](Scene& scene) { scene.lights[0].position.x += 0.25; }, false, true},
+    {"lights", &SceneRevisions::lights, [](Scene& scene) { scene.lights[0].position.x += 0.25; },
+     false, true},
     {"cameras", &SceneRevisions::cameras,
      [](Scene& scene) { scene.cameras[0].world_from_camera[3].x += 0.25; }, false, false},
 };

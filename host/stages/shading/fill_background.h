@@ -14,6 +14,11 @@ namespace kilolux {
 /// level whose texels are at most about as large as a pixel in the picture's middle.
 class FillBackground {
  public:
+    /// Of an image of so many texels: all levels.
+    static constexpr std::uint64_t bytes(std::uint64_t texels) {
+        return texels * 3 * sizeof(float) * 4 / 3;
+    }
+
     FillBackground(const Gpu& gpu, const Tuning& tuning);
 
     /// The environment: float[height][width][3], longitude by latitude, its middle column towards

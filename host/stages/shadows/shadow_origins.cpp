@@ -5,7 +5,6 @@ namespace kilolux {
 namespace {
 
 constexpr std::string_view kShadowOriginsStage = "shadow_origins";
-constexpr std::size_t kPlanes = 4;
 
 }  // namespace
 

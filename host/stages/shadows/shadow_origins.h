@@ -10,6 +10,9 @@ namespace kilolux {
 /// Where every pixel's shadow rays end.
 class ShadowOrigins {
  public:
+    static constexpr std::size_t kPlanes = 4;
+    static constexpr std::size_t kPixelBytes = kPlanes * sizeof(float);
+
     ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Of a G-buffer made of `ids`, which number the triangles of `scene`'s instances. Background
