@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <filesystem>
+#include <functional>
 
 namespace kilolux {
 
@@ -15,17 +15,31 @@ void catch_signals();
 /// Whether a signal has asked for the end. What fails from then on is taken to fail because of it.
 bool interrupt_requested();
 
-/// Throws Interrupted once a signal has asked for the end.
+/// Called between the parts of long work. Throws Interrupted once a signal has asked for the end,
+/// and asks this thread's WorkWatch.
 void check_interrupt();
 
-/// Set once somebody wants long work to end; null: nobody does.
-using StopFlag = const std::atomic<bool>*;
+/// The same, with the share of the work that is done, 0 to 1.
+void check_interrupt_at(double share);
 
-/// The flag that signals set.
-StopFlag interrupt_flag();
+/// Watches the long work of its thread while it lives: check_interrupt() calls it, and what it
+/// throws, as Interrupted, ends the work. The share is below 0 where it is unknown.
+class WorkWatch {
+ public:
+    using Call = std::function<void(double share)>;
+    explicit WorkWatch(Call call);
+    ~WorkWatch();
+    WorkWatch(const WorkWatch&) = delete;
+    WorkWatch& operator=(const WorkWatch&) = delete;
 
-/// Throws Interrupted once the flag is set.
-void check_stop(StopFlag stop);
+    /// Whether this thread's work is watched: then it is worth splitting into short parts.
+    static bool is_present();
+
+ private:
+    friend void check_interrupt_at(double share);
+    Call call_;
+    WorkWatch* outer_;
+};
 
 /// Names the file that a killing signal must remove, which exists; an empty path: none. One at a
 /// time. The signal removes it only while that name still means the same file.

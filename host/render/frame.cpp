@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "host/base/error.h"
+#include "host/base/interrupt.h"
 #include "host/picture/frame_bands.h"
 #include "host/picture/sample_pattern.h"
 #include "host/picture/views.h"
@@ -124,7 +126,7 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
         const Measured out{p.timer, stats};
         p.samples.begin_band();
         while (const auto next = p.samples.next()) {
-            check_stop(shot.stop);
+            check_interrupt();
             const Sample sample = make_sample(p, shot, lights, band, *next);
             StageTimer before = p.timer;
             Room room;
@@ -154,25 +156,34 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
     }
 }
 
+Frame make_frame(Pipeline& p, const Shot& shot) {
+    Frame frame;
+    DecodedSurfaces surfaces;
+    const QueueDrain drain(p.context.gpu.queue);
+    render_bands(p, shot, surfaces, frame);
+    if (const auto light = p.picture.gathered(shot.camera)) {
+        const Clock::time_point start = Clock::now();
+        develop(p, *light, frame);
+        p.picture.finish(p.timer, frame.stats);
+        frame.stats.frame_ms += ms_since(start);
+    }
+    show_view(p, shot, surfaces, frame);
+    if (!p.context.settings.want.radiance) frame.radiance.clear();
+    p.samples.keep();
+    return frame;
+}
+
 }  // namespace
 
 Frame render_frame(Pipeline& pipeline, const Shot& shot) {
-    const bool was_sound = std::exchange(pipeline.last.is_sound, false);  // until it is made
-    Frame frame;
-    DecodedSurfaces surfaces;
-    const QueueDrain drain(pipeline.context.gpu.queue);
-    render_bands(pipeline, shot, surfaces, frame);
-    if (const auto light = pipeline.picture.gathered(shot.camera)) {
-        const Clock::time_point start = Clock::now();
-        develop(pipeline, *light, frame);
-        pipeline.picture.finish(pipeline.timer, frame.stats);
-        frame.stats.frame_ms += ms_since(start);
+    try {
+        return make_frame(pipeline, shot);
+    } catch (const Interrupted&) {
+        throw;
+    } catch (...) {
+        pipeline.last.is_sound = false;
+        throw;
     }
-    show_view(pipeline, shot, surfaces, frame);
-    if (!pipeline.context.settings.want.radiance) frame.radiance.clear();
-    pipeline.samples.keep();
-    pipeline.last.is_sound = was_sound;
-    return frame;
 }
 
 }  // namespace kilolux

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/base/interrupt.h"
 #include "host/render/pipeline.h"
 
 namespace kilolux {
@@ -10,7 +9,6 @@ namespace kilolux {
 struct Shot {
     Camera camera;
     double time = 0.0;        // [s]
-    StopFlag stop = nullptr;  // asked before every sample of every band
     DisplayMemory display{};  // see Renderer::render_to()
     int samples = 0;          // likewise
 };

@@ -81,8 +81,8 @@ void Renderer::refit() {
 
 std::size_t display_stride(int width) { return view_of(Camera{}, width, 1).stride; }
 
-Frame Renderer::render(const Camera& camera, double time, StopFlag stop) {
-    return in_stage("render", [&] { return render_frame(*pipeline_, {camera, time, stop}); });
+Frame Renderer::render(const Camera& camera, double time) {
+    return in_stage("render", [&] { return render_frame(*pipeline_, {camera, time}); });
 }
 
 Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double time, int samples) {
@@ -92,7 +92,7 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
     const bool direct = s.want.view == ViewKind::lit && pipeline_->context.is_whole();
     return in_stage("render", [&] {
         Frame frame = render_frame(
-            *pipeline_, {camera, time, nullptr, direct ? pixels : DisplayMemory(), samples});
+            *pipeline_, {camera, time, direct ? pixels : DisplayMemory(), samples});
         if (direct) return frame;
         const auto row = static_cast<std::size_t>(s.width);
         for (std::size_t y = 0; y < static_cast<std::size_t>(s.height); ++y) {

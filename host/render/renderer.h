@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "host/base/interrupt.h"
 #include "host/gpu/device.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/frame.h"
@@ -67,8 +66,9 @@ class Renderer {
     /// jittered samples (sample_pattern.h), or of settings.auto_samples. AOVs, views and counts are
     /// those of the sample through the pixels' centres; stage times are sums over the samples and
     /// bands. Blocks until it is on the host. The same arguments give the same bits on every call
-    /// and with any memory. Throws Interrupted before the next sample of a band once `stop` is set.
-    Frame render(const Camera& camera, double time, StopFlag stop = nullptr);
+    /// and with any memory. Between samples, bands and parts of a slow pass it calls
+    /// check_interrupt().
+    Frame render(const Camera& camera, double time);
 
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
     /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display

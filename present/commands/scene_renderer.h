@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "host/base/interrupt.h"
 #include "host/measure/roofline/device_limits.h"
 #include "host/render/renderer.h"
 #include "host/scene/animated_scene.h"
@@ -55,10 +54,6 @@ class SceneRenderer {
     /// Lights in the world beside all others; none replaces the former ones.
     void set_lights(std::vector<SceneLight> lights);
 
-    /// Long work ends by Interrupted once the flag is set; it must outlive this. As made: that of
-    /// signals.
-    void set_stop_flag(StopFlag stop) { stop_ = stop; }
-
     /// The document of --stats. `limits`: what each stage would take at the device's limits, which
     /// are measured once a device.
     nlohmann::ordered_json stats(FrameRecord record, bool limits);
@@ -74,7 +69,6 @@ class SceneRenderer {
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
-    StopFlag stop_;
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
     std::vector<SceneLight> lights_;  // of set_lights()
