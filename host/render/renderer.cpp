@@ -91,8 +91,8 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
     pixels = pixels.first(stride * static_cast<std::size_t>(s.height));
     const bool direct = s.want.view == ViewKind::lit && pipeline_->context.is_whole();
     return in_stage("render", [&] {
-        Frame frame = render_frame(
-            *pipeline_, {camera, time, direct ? pixels : DisplayMemory(), samples});
+        Frame frame =
+            render_frame(*pipeline_, {camera, time, direct ? pixels : DisplayMemory(), samples});
         if (direct) return frame;
         const auto row = static_cast<std::size_t>(s.width);
         for (std::size_t y = 0; y < static_cast<std::size_t>(s.height); ++y) {
