@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/forward_shading.h"
 
+#include "host/render/host_stages.h"
+
 namespace kilolux {
 
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque) {
@@ -33,7 +35,7 @@ ForwardShading::ForwardShading(const RenderContext& context)
       pass_(context.meshes(),
             forward_features(context.plan, context.settings.renderer == RendererKind::forward_plus,
                              true)),
-      radiance_(context.gpu, "forward") {}
+      radiance_(context.gpu, kForwardStage) {}
 
 Radiance ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists,
                               EnvironmentLight& environment, Measured out) {
@@ -49,7 +51,7 @@ Radiance ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists
     pass_.draw(sample.camera, settings.width, settings.height,
                forward_lights(sample, settings.ambient, lists), background);
     upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
-    add_host_time(out, lists ? "forward_plus" : "forward", pass_.last_ms());
+    add_host_time(out, lists ? kForwardPlusStage : kForwardStage, pass_.last_ms());
     return radiance;
 }
 

@@ -9,6 +9,7 @@
 #include "host/picture/frame_bands.h"
 #include "host/picture/sample_pattern.h"
 #include "host/picture/views.h"
+#include "host/render/host_stages.h"
 
 namespace kilolux {
 namespace {
@@ -25,13 +26,13 @@ LightInput place_lights(Pipeline& p, const Shot& shot, FrameStats& stats) {
     const Measured out{p.timer, stats};
     const Clock::time_point start = Clock::now();
     p.lights.update(shot.time, shot.camera, stats);
-    add_host_time(out, "light_input", ms_since(start));
+    add_host_time(out, kLightInputStage, ms_since(start));
     const LightInput input =
         p.lights.input(shot.camera.position, !context.settings.no_reuse, p.timer);
     if (!context.lights_on_host()) return input;
     const Clock::time_point rows_start = Clock::now();
     p.last.rows = p.lights.rows(shot.camera.position);
-    add_host_time(out, "light_input", ms_since(rows_start));
+    add_host_time(out, kLightInputStage, ms_since(rows_start));
     return input;
 }
 

@@ -18,7 +18,7 @@ int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device) 
 bool chooses_compute(const RenderContext& context) {
     const Geometry geometry = context.settings.geometry;
     if (geometry != Geometry::automatic) return geometry == Geometry::compute;
-    return context.tuning.geometry == 1 || !has_egl();
+    return context.tuning.geometry == 1 || !context.scene->has_opengl();
 }
 
 }  // namespace

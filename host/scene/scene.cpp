@@ -22,36 +22,51 @@ bool has_own_reflectance(const Material& material) {
            material.specular_texture.present() || material.specular_color_texture.present();
 }
 
+namespace {
+
+constexpr std::size_t kVerticesOfTask = 4096;
+
+// Whether a scale of 0 leaves nothing of an instance but a point or a line.
+bool is_hidden(const Instance& instance) {
+    const glm::dmat3 axes(instance.world_from_object);
+    return glm::cross(axes[0], axes[1]) == glm::dvec3(0.0) &&
+           glm::cross(axes[1], axes[2]) == glm::dvec3(0.0) &&
+           glm::cross(axes[2], axes[0]) == glm::dvec3(0.0);
+}
+
+Box joined(Box a, const Box& b) {
+    a.min = glm::min(a.min, b.min);
+    a.max = glm::max(a.max, b.max);
+    return a;
+}
+
+Box bounds(const Mesh& mesh, const glm::dmat4& world_from_object) {
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto add = [&](const Range& range, Box box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            box.add(glm::dvec3(world_from_object * glm::dvec4(mesh.positions[i], 1.0)));
+        }
+        return box;
+    };
+    return tbb::parallel_reduce(Range(0, mesh.positions.size(), kVerticesOfTask), Box{}, add,
+                                joined);
+}
+
+}  // namespace
+
 // Which vertex comes first changes no box: minima and maxima are exact.
 Box bounds(const Scene& scene) {
-    constexpr std::size_t kVerticesOfTask = 4096;
-    const auto joined = [](Box a, const Box& b) {
-        a.min = glm::min(a.min, b.min);
-        a.max = glm::max(a.max, b.max);
-        return a;
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto add = [&](const Range& range, Box box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const Instance& instance = scene.instances[i];
+            if (is_hidden(instance)) continue;
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            box = joined(box, bounds(mesh, instance.world_from_object));
+        }
+        return box;
     };
-    const auto box_of = [&](const Instance& instance) {
-        const std::vector<glm::vec3>& positions =
-            scene.meshes[static_cast<std::size_t>(instance.mesh)].positions;
-        return tbb::parallel_reduce(
-            tbb::blocked_range<std::size_t>(0, positions.size(), kVerticesOfTask), Box{},
-            [&](const auto& range, Box box) {
-                for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                    box.add(glm::dvec3(instance.world_from_object * glm::dvec4(positions[i], 1.0)));
-                }
-                return box;
-            },
-            joined);
-    };
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, scene.instances.size()), Box{},
-        [&](const auto& range, Box box) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                box = joined(box, box_of(scene.instances[i]));
-            }
-            return box;
-        },
-        joined);
+    return tbb::parallel_reduce(Range(0, scene.instances.size()), Box{}, add, joined);
 }
 
 std::size_t zero_normal_count(const Scene& scene) {

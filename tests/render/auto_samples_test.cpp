@@ -3,7 +3,6 @@
 // way.
 #include <cmath>
 
-#include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/picture/sample_pattern.h"
 #include "tests/support/render_fixture.h"
@@ -208,12 +207,12 @@ TEST(AutoSamples, CanBeLeftBetweenSamples) {
     const Camera camera = first_camera(scene);
     Renderer renderer(scene, auto_settings(70, 37, 0.05f, 64));
     const Frame first = renderer.render(camera, 0.0);
+    int calls = 0;
     {
-        int calls = 0;
-        const WorkWatch watch([&](double) {
-            if (++calls == 12) throw Error("left");
+        const WorkWatch leave([&](double) {
+            if (++calls == 12) throw Interrupted();
         });
-        EXPECT_THROW(renderer.render(camera, 0.0), Error);
+        EXPECT_THROW(renderer.render(camera, 0.0), Interrupted);
     }
     EXPECT_EQ(renderer.render(camera, 0.0).radiance, first.radiance);
 }
