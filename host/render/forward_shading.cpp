@@ -3,6 +3,8 @@
 
 #include "host/render/host_stages.h"
 
+#include "host/render/host_stages.h"
+
 namespace kilolux {
 
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque) {
@@ -68,7 +70,7 @@ void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
     pass_.draw_blended(crop(sample.camera, settings.height, sample.band), view, targets, planes,
                        forward_lights(sample, settings.ambient, lists));
     upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
-    add_host_time(out, "blended", pass_.last_ms());
+    add_host_time(out, kBlendedStage, pass_.last_ms());
 }
 
 }  // namespace kilolux
