@@ -130,7 +130,7 @@ DeviceResult light_on_device(const Gpu& gpu, const LightingCase& input) {
     out.grid = uploaded.grid;
     out.planes = decode(gpu, input.features, uploaded.gbuffer);
     out.listed = download(gpu, lighting.light(uploaded, timer));
-    out.all = download(gpu, all_lights.light(uploaded, timer));
+    out.all = download(gpu, all_lights.enqueue(uploaded, timer));
     const ListedLights& lists = lighting.lists();
     out.lists = download_lists(gpu, input.features, lists);
     out.lights = download<ShadeLight>(gpu, lists.lights.lights, input.lights.size());

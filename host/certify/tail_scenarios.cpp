@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host/measure/reference/decoded_samples.h"
-#include "host/render/light_source.h"
+#include "host/render/lights/light_source.h"
 #include "host/scene/generated/scenes.h"
 
 namespace kilolux {

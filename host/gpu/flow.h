@@ -119,12 +119,14 @@ struct LitPixels {
 
 /// Linear HDR radiance as three planes.
 struct Radiance {
+    static constexpr std::size_t kPixelBytes = 3 * sizeof(float);
     DeviceArray<float> planes;  // [3][height][stride]; none where it was shaded to a DisplayTarget
     View view{};
 };
 
 /// Where a display's sRGB codes go, and how radiance becomes codes.
 struct DisplayTarget {
+    static constexpr std::size_t kPixelBytes = sizeof(uint);
     DeviceArray<uint> pixels;  // [height][stride]: R | G << 8 | B << 16 | 255 << 24
     View view{};
     int tone_curve = 0;                  // TONE_CURVE_*

@@ -11,9 +11,10 @@
 // Around it: make_view() takes a renderer's own matrices, RepackGBuffer its depth, normals and
 // albedo from buffers or images, MoveLights its lights in the world, and PackRadiance gives RGBA
 // back. Behind it stand LightLists (BinPixels, PrepareLights, BuildClusters, CullLights,
-// RefineLights) and Shade; a program may run these stages itself. A stage compiles in its
-// constructor, and its results stay valid until its next enqueue(). What must match between stages
-// is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid a frame.
+// RefineLights), Visibility with shadows, and Shade; a program may run these stages itself. A stage
+// compiles in its constructor, and its results stay valid until its next enqueue(). What must match
+// between stages is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid
+// a frame.
 //
 // BUFFERS. Planes have rows of View::stride elements (the width rounded up to 16) and View::height
 // rows, from the top. Those that the library owns are valid until the next call of the stage that
@@ -36,10 +37,11 @@
 //   [1] the caller's own planes, or what RepackGBuffer made
 //   [2] the caller's own rows, or what MoveLights made
 //
-// QUEUES AND EVENTS. The queue is in order, with profiling; Gpu refuses another. enqueue() never
-// blocks. light() blocks once, at its end, for the counts of the lists: all that was enqueued
-// before, and what its `then` enqueued, is done when it returns. It runs its stages, and `then`,
-// again where lists had to grow. upload(), download(), MoveLights::stage() and StageTimer::take()
+// QUEUES AND EVENTS. The queue is in order, with profiling; Gpu refuses another. enqueue() does not
+// block, but for shadows. DeferredLighting::fits() waits for the counts of the lists: all that was
+// enqueued before is done when it returns. Where it is false, lists lacked room: what was enqueued
+// since enqueue() does not count, and all of it is enqueued again. light() does both until they
+// fit. upload(), download(), MoveLights::stage() and StageTimer::take()
 // block, too; MoveLights::upload() does not.
 // There are no event arguments: with one queue in order, waiting for another queue's events is
 // queue.enqueueBarrierWithWaitList(&events) before the call, and an event for another queue is
@@ -58,6 +60,7 @@
 // IWYU pragma: begin_exports
 #include "host/lighting/deferred_lighting.h"  // DeferredLighting: radiance from G-buffer and lights
 #include "host/lighting/light_lists.h"        // LightLists: which lights each pixel needs
+#include "host/lighting/visibility.h"         // Visibility: which of them it sees
 //
 #include "host/base/error.h"           // Error: what every function throws
 #include "host/base/gbuffer_layout.h"  // where a G-buffer's planes lie

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "host/gpu/surface_flow.h"
 #include "host/lighting/light_lists.h"
+#include "host/lighting/visibility.h"
 #include "host/stages/shading/shade.h"
-#include "host/stages/shadows/cast_shadows.h"
 
 namespace kilolux {
 
@@ -17,32 +16,36 @@ struct LightingInput {
     LightInput lights;
     ClusterGrid grid{};
     ShadowInput shadows{};  // with KernelFeatures::shadows
-    // Where the picture goes in place of radiance, which is not made then.
-    std::optional<DisplayTarget> display = {};
 };
 
-/// Enqueues what reads a frame's radiance. It may run more than once a frame; only the last run's
-/// results count.
-using AfterShading = std::function<void(const Radiance&)>;
-
-/// Lights a G-buffer with the lights of each pixel's list: LightLists, then Shade.
+/// Lights a G-buffer with the lights of each pixel's list: LightLists, Visibility with shadows,
+/// Shade.
 ///
 ///     DeferredLighting lighting(gpu, tuning, features);
 ///     const Radiance radiance = lighting.light({gbuffer, lights, grid}, timer);
+///
+/// What reads the radiance may be enqueued before the one wait of a frame:
+///
+///     do {
+///         const Radiance radiance = lighting.enqueue({gbuffer, lights, grid}, timer);
+///         tonemap.enqueue(radiance, exposure, timer);
+///     } while (!lighting.fits(timer));
 class DeferredLighting {
  public:
     /// `surfaces`: with KernelFeatures::shadows, what of the casters' materials is read.
     DeferredLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                      const SurfaceFeatures& surfaces = {});
 
-    /// Builds what light() needs for a DisplayTarget's tone curve; none: for radiance. Else the
-    /// first light() does.
-    void build(std::optional<int> tone_curve) { shade_.build(tone_curve); }
+    /// Radiance of every pixel; 0 for background. Blocks only for shadows, see Visibility. Valid
+    /// until the next call. Throws Error as the stages do.
+    Radiance enqueue(const LightingInput& input, StageTimer& timer);
 
-    /// Radiance of every pixel; 0 for background. `then` runs before the frame is waited for.
-    /// Which lights pixels see is kept while the versions of G-buffer and lights stay, and the
-    /// grid. Blocks. Valid until the next call. Throws Error as the stages do.
-    Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
+    /// False where the lists of the last enqueue() had no room: its results do not count, and the
+    /// next one makes room. Waits for the device.
+    bool fits(StageTimer& timer);
+
+    /// Both until they fit; the timer gets the stages of the last time. Blocks.
+    Radiance light(const LightingInput& input, StageTimer& timer);
 
     /// Radiance that falls in from everywhere.
     void set_ambient(float ambient);
@@ -50,43 +53,19 @@ class DeferredLighting {
     LightLists& light_lists() { return light_lists_; }
     const LightLists& light_lists() const { return light_lists_; }
 
-    /// Those of the last light().
+    /// Those of the last enqueue().
     const ListedLights& lists() const { return lists_; }
 
-    /// Which pixels saw which lights in the last light(), with KernelFeatures::shadows.
-    const ShadowWords& shadows() const { return shadows_; }
-
-    /// With sampled shadows, what the last light() drew by.
-    const ShadowSamples& samples() const { return samples_; }
-
-    /// What it took to cast them, by `counting` kernels, which cast them again. `input`: that of
-    /// the last light(). Blocks.
+    /// What it took to cast the last enqueue()'s shadows: see Visibility::count(). `input`: that of
+    /// the last enqueue(). Blocks.
     ShadowCounts count_shadows(const LightingInput& input, CastShadows& counting);
 
-    /// With sampled shadows, of the last light(): see Shade::variance().
-    DeviceArray<float> variance() const { return shade_.variance(); }
-
  private:
-    // What the visibility of a frame is of.
-    struct Visibility {
-        ListSource lists;
-        float rays = 0.0f, ambient = 0.0f;  // of sampled shadows
-        uint seed = 0;
-    };
-    Visibility visibility_of(const LightingInput& input) const;
-    bool keeps(const Visibility& wanted) const;
-    void cast(const LightingInput& input, const ListedLights& lists, StageTimer& timer);
-
     LightLists light_lists_;
-    std::optional<CastShadows> cast_;  // with shadows
-    std::optional<DrawShadows> draw_;  // with sampled ones
-    std::optional<Shade> unshadowed_;  // likewise
+    std::optional<Visibility> visibility_;  // with shadows
     Shade shade_;
-    float ambient_ = 0.0f;
     ListedLights lists_;
-    std::optional<Visibility> kept_;  // of shadows_ and samples_
-    ShadowWords shadows_;
-    ShadowSamples samples_;
+    SeenLights seen_;
 };
 
 /// Lights a G-buffer with every light at every pixel: DeferredLighting's reference, bit for bit.
@@ -95,18 +74,18 @@ class AllLightsLighting {
     AllLightsLighting(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                       const SurfaceFeatures& surfaces = {});
 
-    /// As DeferredLighting::light(), but always radiance.
-    Radiance light(const LightingInput& input, StageTimer& timer, const AfterShading& then = {});
+    /// Radiance of every pixel; 0 for background. Enqueues only. Valid until the next call.
+    Radiance enqueue(const LightingInput& input, StageTimer& timer);
 
     void set_ambient(float ambient) {
         shade_.set_ambient(ambient);
         if (unshadowed_) unshadowed_->set_ambient(ambient);
     }
 
-    /// As DeferredLighting's.
+    /// With sampled shadows, of the last enqueue(): see Shade::variance().
     DeviceArray<float> variance() const { return shade_.variance(); }
 
-    /// Those of the last light(), view space.
+    /// Those of the last enqueue(), view space.
     const PreparedLights& lights() const { return lights_; }
 
  private:

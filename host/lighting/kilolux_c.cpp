@@ -173,13 +173,15 @@ struct kilolux_lighting {
         if (f.farthest > 0.0f) request.z_last = f.farthest;
         const ClusterGrid grid = make_cluster_grid(request, f.width, f.height);
         lighting->set_ambient(f.ambient);
-        lighting->light({gbuffer,
-                         {moved, static_cast<uint>(moved.count()), directional_lights.get(),
-                          static_cast<uint>(directional_lights.get().count())},
-                         grid},
-                        timer, [&](const Radiance& radiance) {
-                            pack.enqueue(radiance, memory_of(f.radiance), f.radiance_pitch, timer);
-                        });
+        const LightingInput input{
+            gbuffer,
+            {moved, static_cast<uint>(moved.count()), directional_lights.get(),
+             static_cast<uint>(directional_lights.get().count())},
+            grid};
+        do {
+            pack.enqueue(lighting->enqueue(input, timer), memory_of(f.radiance), f.radiance_pitch,
+                         timer);
+        } while (!lighting->fits(timer));
     }
 
     Gpu gpu;

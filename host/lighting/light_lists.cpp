@@ -16,36 +16,46 @@ LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 }
 
 ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
-                             const ClusterGrid& grid, StageTimer& timer,
-                             const std::function<void(const ListedLights&)>& then) {
-    const ListSource source{gbuffer.version, input.version, input.seed, grid};
-    if (kept_ && source.matches(kept_of_)) {
-        if (then) then(*kept_);
-        gpu_.queue.finish();
-        return *kept_;
-    }
-    kept_.reset();  // arrays that grow must not be held twice
+                             const ClusterGrid& grid, StageTimer& timer) {
     const StageTimer before = timer;
-    for (;;) {
-        {
-            const ListedLights lists = enqueue(input, gbuffer, grid, timer);
-            if (then) then(lists);
-            count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, lists.clusters, true,
-                           timer);
-            counts_ = count_.read();  // the frame's one wait
-            if (is_complete(lists)) {
-                binned_version_ = gbuffer.version;
-                binned_grid_ = grid;
-                kept_of_ = source;
-                kept_ = lists;
-                return lists;
-            }
-        }  // the arrays that had no room go before those that have
-        active_ = {};
-        binned_version_ = 0;
-        grow(input.node_count > 0);
-        timer = before;  // without the lists that had no room
+    do {
+        timer = before;  // without lists that had no room
+        enqueue(input, gbuffer, grid, timer);
+    } while (!fits(timer));
+    return *made_;
+}
+
+ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
+                                 const ClusterGrid& grid, StageTimer& timer) {
+    const ListSource source{gbuffer.version, input.version, input.seed, grid};
+    if (made_ && is_checked_ && source.matches(made_of_)) return *made_;
+    made_.reset();  // arrays that grow must not be held twice
+    is_checked_ = false;
+    if (needs_room_) grow();
+    made_ = make(input, gbuffer, grid, timer);
+    made_->version = ++version_;
+    made_of_ = source;
+    return *made_;
+}
+
+bool LightLists::fits(StageTimer& timer) {
+    if (is_checked_) {
+        gpu_.queue.finish();
+        return true;
     }
+    count_.enqueue({coarse_.total(), bin_.total(), refine_.total()}, made_->clusters, true, timer);
+    counts_ = count_.read();
+    is_checked_ = is_complete(*made_);
+    if (is_checked_) {
+        binned_version_ = made_of_.gbuffer;
+        binned_grid_ = made_of_.grid;
+        return true;
+    }
+    needs_room_ = true;
+    made_.reset();
+    active_ = {};
+    binned_version_ = 0;
+    return false;
 }
 
 bool ListSource::matches(const ListSource& other) const {
@@ -60,16 +70,17 @@ bool LightLists::is_complete(const ListedLights& lists) const {
            (lists.lights.node_count == 0 || cut_->entries() <= lists.refined.capacity);
 }
 
-void LightLists::grow(bool has_cuts) {
+void LightLists::grow() {
+    needs_room_ = false;
     const bool coarse = coarse_.fits(counts_.coarse_pairs);
     const bool active = bin_.fits(counts_.active_clusters);
     // The need of each is known only once those before are complete.
-    if (coarse && active && refine_.fits(counts_.refine_tests) && has_cuts) {
+    if (coarse && active && refine_.fits(counts_.refine_tests) && has_cuts_) {
         cut_->fits(cut_->entries());
     }
 }
 
-// Those of the last run where pixels and grid are the same.
+// The last ones where pixels and grid are the same.
 ActiveClusters LightLists::active_of(const GBuffer& gbuffer, const ClusterGrid& grid,
                                      StageTimer& timer) {
     const bool same_grid = std::memcmp(&grid, &binned_grid_, sizeof(grid)) == 0;
@@ -79,8 +90,8 @@ ActiveClusters LightLists::active_of(const GBuffer& gbuffer, const ClusterGrid& 
     return active_;
 }
 
-ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
-                                 const ClusterGrid& grid, StageTimer& timer) {
+ListedLights LightLists::make(const LightInput& input, const GBuffer& gbuffer,
+                              const ClusterGrid& grid, StageTimer& timer) {
     const ActiveClusters active = active_of(gbuffer, grid, timer);
     const CoarseLighting coarse =
         coarse_.enqueue(input, gbuffer.view, grid, timer,
@@ -88,10 +99,11 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
     RefinedLists lists =
         refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, grid, timer);
     refine_room_ = lists.capacity;
-    if (coarse.lights.node_count > 0) {
+    has_cuts_ = coarse.lights.node_count > 0;
+    if (has_cuts_) {
         lists = cut_->enqueue({gbuffer, coarse.lights, active, bin_.total(), lists}, timer);
     }
-    return {grid, coarse.lights, coarse.boxes, coarse.lists, active, lists};
+    return {grid, coarse.lights, coarse.boxes, coarse.lists, active, lists, 0};
 }
 
 PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uint x, uint y,

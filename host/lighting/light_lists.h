@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,7 +12,7 @@
 
 namespace kilolux {
 
-/// The lists of one frame, on the device. Valid until the next LightLists::run().
+/// The lists of one frame, on the device. Valid until the next LightLists::enqueue().
 struct ListedLights {
     ClusterGrid grid{};
     PreparedLights lights;
@@ -21,6 +20,7 @@ struct ListedLights {
     CoarseLists coarse;
     ActiveClusters clusters;
     RefinedLists refined;
+    std::uint64_t version = 0;  // the same only where the lists are; 0: none
 
     /// With the G-buffer that they were made for.
     LitPixels at(const GBuffer& gbuffer) const {
@@ -47,8 +47,14 @@ struct PixelLists {
 
 /// Finds out which lights each pixel needs. The stages in their order are BinPixels, PrepareLights,
 /// BuildClusters, CullLights, RefineLights, and CutLightTree for lights in a tree. Lists have as
-/// many entries as there are pairs: where the room of earlier frames is too little, it grows and
-/// the stages run again.
+/// many entries as there are pairs. The stages work with the room of earlier frames; where that was
+/// too little, fits() says so and they run again:
+///
+///     do {
+///         lists = {};  // arrays that grow must not be held twice
+///         lists = light_lists.enqueue(lights, gbuffer, grid, timer);
+///         ...          // what reads them
+///     } while (!light_lists.fits(timer));
 class LightLists {
  public:
     LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
@@ -57,33 +63,38 @@ class LightLists {
     /// no G-buffer.
     void list_everywhere() { everywhere_ = true; }
 
-    /// Makes the lists. `then` enqueues what reads them; it runs before the lists are known to be
-    /// complete, and once more for each time that they had to grow, so the frame waits for the
-    /// device once. Active clusters are kept while gbuffer.version and the grid stay, lists while
-    /// input.version and its seed do, too. Blocks. Throws Error when the device cannot hold the
-    /// lists.
-    ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
-                     StageTimer& timer, const std::function<void(const ListedLights&)>& then = {});
+    /// Enqueues the stages. Active clusters are kept while gbuffer.version and the grid stay, lists
+    /// while input.version and its seed do, too. Valid until the next call. Throws Error when the
+    /// device cannot hold the lists.
+    ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                         StageTimer& timer);
 
-    /// Counts of the last run().
+    /// False where the last enqueue()'s lists had no room; the next one makes it. Waits for the
+    /// device: asked once a frame, when the caller has nothing more to enqueue.
+    bool fits(StageTimer& timer);
+
+    /// Both until the lists are complete; the timer gets the stages of the last time. Blocks.
+    ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                     StageTimer& timer);
+
+    /// Counts of the last lists that fitted.
     const PairCounts& counts() const { return counts_; }
 
-    /// What the last run() listed for the pixel (x, y) of the G-buffer, which has depth z > 0.
-    /// Blocks.
+    /// What `lists` have for the pixel (x, y) of the G-buffer, which has depth z > 0. Blocks.
     PixelLists at_pixel(const ListedLights& lists, const View& view, uint x, uint y, float z) const;
 
-    /// The active clusters of the last run(). Blocks.
+    /// The active clusters of the last lists that fitted. Blocks.
     std::vector<ActiveCluster> active_clusters(const ListedLights& lists) const;
 
-    /// The coarse lists of the last run() on the host. Blocks.
+    /// The coarse lists on the host. Blocks.
     HostCoarseLists download_coarse(const ListedLights& lists) const;
 
  private:
-    ListedLights enqueue(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
-                         StageTimer& timer);
+    ListedLights make(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
+                      StageTimer& timer);
     ActiveClusters active_of(const GBuffer& gbuffer, const ClusterGrid& grid, StageTimer& timer);
     bool is_complete(const ListedLights& lists) const;
-    void grow(bool has_cuts);
+    void grow();
 
     Gpu gpu_;
     int index_bits_;
@@ -94,13 +105,18 @@ class LightLists {
     std::optional<CutLightTree> cut_;  // with a light tree
     CountPairs count_;
     PairCounts counts_{};
-    uint refine_room_ = 0;  // entries, of the last enqueue()
-    // Of the last run that was complete.
+    uint refine_room_ = 0;     // entries, of the last enqueue()
+    bool has_cuts_ = false;    // likewise
+    bool needs_room_ = false;  // more than there is
+    // Of the last clusters that were complete.
     std::uint64_t binned_version_ = 0;
     ClusterGrid binned_grid_{};
     ActiveClusters active_;
-    ListSource kept_of_;
-    std::optional<ListedLights> kept_;
+    // Of the last enqueue().
+    std::uint64_t version_ = 0;
+    ListSource made_of_;
+    std::optional<ListedLights> made_;
+    bool is_checked_ = false;  // made_ is complete
 };
 
 }  // namespace kilolux

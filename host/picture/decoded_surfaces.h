@@ -23,6 +23,10 @@ constexpr uint kBackground = ~0u;
 
 /// A decoded G-buffer on the host, with what is known of each pixel's lights.
 struct DecodedSurfaces {
+    /// Of a pixel at most, without the planes that only some AOVs have: surface and counts.
+    static constexpr std::size_t kPixelBytes =
+        SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 2 * sizeof(uint);
+
     View view{};
     std::vector<float> planes;    // [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]
     std::vector<uint> evaluated;  // [height][stride] k: lights evaluated at the pixel; kBackground

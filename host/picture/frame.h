@@ -57,8 +57,10 @@ struct FrameStats : PairCounts {
 
     std::uint64_t lights_given = 0;
     std::uint64_t lights_used = 0;
-    std::uint64_t lights_rejected = 0;     // unusable: not finite, no range, no intensity
-    std::uint64_t directional_lights = 0;  // of those used
+    std::uint64_t lights_rejected = 0;      // unusable: not finite, no range, no intensity
+    std::uint64_t directional_lights = 0;   // of those used
+    std::uint64_t lights_uploaded = 0;      // rows that the host sent to the device
+    std::uint64_t shadow_scenes_built = 0;  // hierarchies of what casts shadows
     std::uint64_t zero_normals =
         0;  // vertices of the scene whose normal has no direction: drawn as +Z of the view
     // That OpenCL draws; 0 where OpenGL does.

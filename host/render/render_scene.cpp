@@ -8,7 +8,7 @@ namespace kilolux {
 
 RenderScene::RenderScene(const Scene& scene, bool own_context)
     : scene_(scene),
-      revision_(scene.revision),
+      revisions_(scene.revisions),
       box_(bounds(scene)),
       zero_normals_(zero_normal_count(scene)),
       own_context_(own_context) {}
@@ -28,9 +28,9 @@ void RenderScene::make_current_or_lost() const noexcept {
 }
 
 void RenderScene::take_up_changes() {
-    if (revision_ == scene_.revision) return;
-    revision_ = scene_.revision;
-    box_ = bounds(scene_);
+    const SceneRevisions before = std::exchange(revisions_, scene_.revisions);
+    if (before.surfaces() != revisions_.surfaces()) box_ = bounds(scene_);
+    if (before.geometry == revisions_.geometry) return;
     for (auto& [use, meshes] : meshes_) meshes.refresh();
 }
 

@@ -43,7 +43,7 @@ class RenderScene {
 
  private:
     const Scene& scene_;
-    std::uint32_t revision_;  // of the scene that was taken up
+    SceneRevisions revisions_;  // of the scene that was taken up
     Box box_;
     std::size_t zero_normals_;
     bool own_context_;

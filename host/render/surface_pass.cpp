@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "host/base/log.h"
-#include "host/render/grid_request.h"
 #include "host/render/host_stages.h"
 
 namespace kilolux {
@@ -25,7 +24,7 @@ Gpu resolving(const Gpu& gpu) { return gpu.info.is_cpu ? gpu : gpu.with_lanes(1)
 
 // Work-groups take a tile each, and the slowest tile keeps all others waiting: a picture that has
 // few tiles for every unit of the device gets smaller ones.
-Tuning raster_tuning(const PathContext& context) {
+Tuning raster_tuning(const RenderContext& context) {
     constexpr std::int64_t kTilesOfUnit = 64;
     Tuning out = context.tuning;
     const std::int64_t pixels = std::int64_t{context.settings.width} * context.settings.height;
@@ -52,25 +51,14 @@ std::uint64_t count_seen_triangles(std::span<const uint> ids, const View& view) 
 
 }  // namespace
 
-int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device) {
-    constexpr int kGpuAnisotropy = 8;
-    if (settings.anisotropy > 0) return settings.anisotropy;
-    return device.is_cpu ? 1 : kGpuAnisotropy;
-}
-
-SurfaceFeatures path_surfaces(const PathContext& context) {
-    return surface_features(context.scene.scene(), context.plan.gbuffer,
-                            chosen_anisotropy(context.settings, context.gpu.info));
-}
-
-SurfacePass::SurfacePass(const PathContext& context) : context_(context), bridge_(context.gpu) {
+SurfacePass::SurfacePass(RenderContext& context) : context_(context), bridge_(context.gpu) {
     if (!context.resolves()) {
         planes_.emplace(context.meshes(), context.plan.gbuffer);
         return;
     }
     const Gpu gpu = resolving(context.gpu);
-    const Scene& scene = context.scene.scene();
-    const SurfaceFeatures features = path_surfaces(context);
+    const Scene& scene = context.scene->scene();
+    const SurfaceFeatures features = context.surface_features();
     if (!context.surfaces) {
         context.surfaces =
             std::make_shared<SurfaceScene>(context.gpu, context.tuning, scene, features);
@@ -91,13 +79,13 @@ SurfacePass::SurfacePass(const PathContext& context) : context_(context), bridge
     }
 }
 
-GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
+GBuffer SurfacePass::enqueue(const Sample& sample, Measured out) {
     const RenderSettings& settings = context_.settings;
     const Source source{sample.camera,
                         sample.band,
                         settings.width,
                         settings.height,
-                        context_.scene.scene().revision,
+                        context_.scene->scene().revisions.surfaces(),
                         sample.needed != nullptr};
     const bool is_kept = is_checked_ && !settings.no_reuse && !source.masked;
     if (is_kept && source_ == source) return gbuffer_;
@@ -114,18 +102,18 @@ GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
     return gbuffer_;
 }
 
-bool SurfacePass::is_whole(FrameStats& stats) {
+bool SurfacePass::fits(FrameStats& stats) {
     if (is_checked_) return true;
     is_checked_ = triangles_->fits();
     stats.triangle_pairs = triangles_->pairs();
     return is_checked_;
 }
 
-GBuffer SurfacePass::draw_whole(const Sample& sample, Measured out) {
+GBuffer SurfacePass::draw(const Sample& sample, Measured out) {
     GBuffer gbuffer;
     do {
-        gbuffer = draw(sample, out);
-    } while (!is_whole(out.stats));
+        gbuffer = enqueue(sample, out);
+    } while (!fits(out.stats));
     return gbuffer;
 }
 
@@ -206,7 +194,9 @@ void SurfacePass::count(const DeviceArray<uint>& ids, const SurfaceBuffers& scen
 void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                                 const GBuffer& gbuffer, const Sample& sample, Measured out) {
     const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t built = context_.shadows->built();
     shadows_.casters = context_.shadows->casters();
+    out.stats.shadow_scenes_built += context_.shadows->built() - built;
     const std::chrono::duration<double, std::milli> spent =
         std::chrono::steady_clock::now() - start;
     add_host_time(out, kShadowSceneStage, spent.count());
@@ -224,60 +214,6 @@ ShadowInput SurfacePass::shadows(const Sample& sample) const {
     out.rays = static_cast<float>(context_.settings.shadow_rays);
     out.seed = context_.settings.shadow_seed * kSeedStep + sample.number;
     return out;
-}
-
-DecodeGBuffer& SurfacePass::decoder() {
-    if (!decode_) decode_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
-    return *decode_;
-}
-
-DecodedSurfaces SurfacePass::decode(const GBuffer& gbuffer, const ClusterGrid& grid) {
-    StageTimer untimed;
-    const View& view = gbuffer.view;
-    DecodedSurfaces out;
-    out.view = view;
-    out.grid = grid;
-    out.specular = context_.plan.gbuffer.specular;
-    out.unlit = context_.plan.gbuffer.unlit;
-    DecodeGBuffer& decode = decoder();
-    out.planes = download<float>(context_.gpu, decode.enqueue(gbuffer, untimed),
-                                 std::size_t{decode.plane_count()} * view.stride * view.height);
-    return out;
-}
-
-PixelProbe SurfacePass::probe(const GBuffer& gbuffer, const ClusterGrid& grid, int x, int y) {
-    StageTimer untimed;
-    const View& view = gbuffer.view;
-    DecodeGBuffer& decode = decoder();
-    const cl::Buffer planes = decode.enqueue(gbuffer, untimed);
-    const std::size_t plane = std::size_t{view.stride} * view.height;
-    const std::size_t pixel =
-        static_cast<std::size_t>(y) * view.stride + static_cast<std::size_t>(x);
-    PixelProbe out;
-    out.grid = grid;
-    out.specular = context_.plan.gbuffer.specular;
-    out.unlit = context_.plan.gbuffer.unlit;
-    for (std::size_t i = 0; i < decode.plane_count(); ++i) {
-        out.surface[i] = download<float>(context_.gpu, planes, 1, i * plane + pixel).front();
-    }
-    const float z = out.surface[SURFACE_DEPTH];
-    out.tile_x = static_cast<uint>(x) / grid.tile_width;
-    out.tile_y = static_cast<uint>(y) / grid.tile_height;
-    out.slice = slice_of_depth(grid, z);
-    return out;
-}
-
-ClusterGrid coarse_grid(const PathContext& context, const Camera& camera, FrameStats& stats) {
-    const RenderSettings& settings = context.settings;
-    const uint layout = is_forward(settings.renderer) ? GBUFFER_PACKED : settings.gbuffer;
-    const GridRequest request = grid_request(settings.grid, camera, context.scene.box(),
-                                             position_pad(layout, context.scene.box(), camera));
-    const ClusterGrid grid = make_cluster_grid(request, static_cast<uint>(settings.width),
-                                               static_cast<uint>(settings.height));
-    stats.grid[0] = grid.tiles_x;
-    stats.grid[1] = grid.tiles_y;
-    stats.grid[2] = grid.slices;
-    return grid;
 }
 
 }  // namespace kilolux

@@ -4,51 +4,40 @@
 #include <optional>
 
 #include "host/interop/gbuffer_bridge.h"
-#include "host/picture/decoded_surfaces.h"
-#include "host/picture/pixel_probe.h"
-#include "host/render/path.h"
+#include "host/render/lit_band.h"
+#include "host/render/render_context.h"
 #include "host/stages/lists/mask_tiles.h"
 #include "host/stages/shadows/shadow_origins.h"
 #include "host/stages/surfaces/count_texels.h"
-#include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/surfaces/triangle_ids.h"
 #include "raster/geometry_pass.h"
 #include "raster/ids_pass.h"
 
 namespace kilolux {
 
-/// Texture samples along a footprint's longer side at most.
-int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device);
-
 /// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL or OpenCL draws triangle ids
 /// that OpenCL resolves, or OpenGL the planes themselves (RenderSettings::geometry).
 class SurfacePass {
  public:
-    explicit SurfacePass(const PathContext& context);
+    explicit SurfacePass(RenderContext& context);
 
     /// Draws the band's raster tile, unless it is there from the last call, and makes the band's
     /// G-buffer on the device, valid until the next call; lights are not read. Waits for OpenGL.
     /// Adds the stages geometry and gbuffer_bridge; resolve_surfaces goes to the timer. Does
     /// nothing where the last call made the same, unless settings.no_reuse. Where OpenCL draws,
-    /// triangles may be lacking: is_whole() tells.
+    /// triangles may be lacking: fits() tells.
+    GBuffer enqueue(const Sample& sample, Measured out);
+
+    /// False where the last enqueue() lacks triangles, as there was no room to list them; the next
+    /// call has it. Waits for the device: asked when the caller has nothing more to enqueue.
+    bool fits(FrameStats& stats);
+
+    /// Both until the surfaces are whole.
     GBuffer draw(const Sample& sample, Measured out);
 
-    /// False where the last draw() lacks triangles, as there was no room to list them; the next
-    /// call has it. Waits for the device: asked when the caller has nothing more to enqueue.
-    bool is_whole(FrameStats& stats);
-
-    /// draw() until it is whole.
-    GBuffer draw_whole(const Sample& sample, Measured out);
-
-    /// What casts shadows onto the last draw()'s surfaces, and where their rays end; empty without
-    /// shadows.
+    /// What casts shadows onto the last enqueue()'s surfaces, and where their rays end; empty
+    /// without shadows.
     ShadowInput shadows(const Sample& sample) const;
-
-    /// The surfaces of the last draw() on the host. Blocks.
-    DecodedSurfaces decode(const GBuffer& gbuffer, const ClusterGrid& grid);
-
-    /// The surface and the coarse cluster of one pixel of the last draw(). Blocks.
-    PixelProbe probe(const GBuffer& gbuffer, const ClusterGrid& grid, int x, int y);
 
     /// What OpenGL drew; not where OpenCL draws.
     const GBufferTargets& targets() const { return planes_ ? planes_->targets() : ids_->targets(); }
@@ -59,11 +48,10 @@ class SurfacePass {
         Camera camera;
         Band band;
         int width, height;
-        std::uint32_t revision;  // of the scene
-        bool masked;             // some tiles are background though surfaces cover them
+        std::array<std::uint32_t, 2> revision;  // of the scene's surfaces
+        bool masked;  // some tiles are background though surfaces cover them
         bool operator==(const Source&) const = default;
     };
-    DecodeGBuffer& decoder();
     GBuffer draw_planes(const Sample& sample, Measured out);
     GBuffer draw_ids(const Sample& sample, Measured out);
     GBuffer draw_in_opencl(const Sample& sample, Measured out);
@@ -74,7 +62,7 @@ class SurfacePass {
     void place_origins(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                        const GBuffer& gbuffer, const Sample& sample, Measured out);
 
-    PathContext context_;
+    RenderContext& context_;
     std::optional<GeometryPass> planes_;
     std::optional<IdsPass> ids_;              // else
     std::optional<TriangleIds> triangles_;    // else
@@ -82,18 +70,11 @@ class SurfacePass {
     std::optional<CountTexels> texels_;       // of the same, made when first asked for
     std::optional<ShadowOrigins> origins_;    // with shadows
     std::optional<MaskTiles> mask_;           // made when first asked for
-    std::optional<DecodeGBuffer> decode_;     // the same
     GBufferBridge bridge_;
     ShadowInput shadows_;
     std::optional<Source> source_;  // of gbuffer_
     bool is_checked_ = true;        // gbuffer_ is whole
     GBuffer gbuffer_;
 };
-
-/// What resolve_surfaces, and what casts shadows, reads of the scene's materials.
-SurfaceFeatures path_surfaces(const PathContext& context);
-
-/// The coarse grid of a frame.
-ClusterGrid coarse_grid(const PathContext& context, const Camera& camera, FrameStats& stats);
 
 }  // namespace kilolux

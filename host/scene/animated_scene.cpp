@@ -17,9 +17,12 @@ struct AnimatedScene::File {
     GltfDocument document;
     GltfMaterials materials;
     std::vector<PrimitiveJob> jobs;
-    std::vector<int> mesh_of_job;  // index into Scene::meshes; -1: has no triangles
-    double line_width_m = 0.0;     // of points and lines
-    double time = 0.0;             // [s] of the scene
+    std::vector<int> mesh_of_job;   // index into Scene::meshes; -1: has no triangles
+    std::vector<MeshShape> shapes;  // of the scene's time
+    // By job, of shapes that move: decoded and listed once.
+    std::vector<std::optional<PrimitiveArrays>> arrays;
+    double line_width_m = 0.0;  // of points and lines
+    double time = 0.0;          // [s] of the scene
 };
 
 namespace {
@@ -47,7 +50,30 @@ std::vector<Instance> place_instances(const GltfDocument& document, const ShapeP
     return instances;
 }
 
+// Whether `next` is another value.
+template <typename T>
+bool replace(std::vector<T>& values, std::vector<T>&& next) {
+    const bool differs = values != next;
+    values = std::move(next);
+    return differs;
+}
+
 }  // namespace
+
+// The meshes of jobs whose shape is another than before, the others empty.
+std::vector<Mesh> AnimatedScene::build_moved(File& file, const ShapePlan& plan, bool first) {
+    std::vector<Mesh> meshes(file.jobs.size());
+    parallel_each(meshes.size(), [&](std::size_t j) {
+        const PrimitiveJob& job = file.jobs[j];
+        const MeshShape& shape = plan.shapes[job.shape];
+        if (!first && (!shape.moves || shape == file.shapes[job.shape])) return;
+        std::optional<PrimitiveArrays>& kept = file.arrays[j];
+        if (!kept) kept = open_job(file.document, shape, job.primitive);
+        meshes[j] = build_primitive(file.document, file.materials, shape, job.primitive, *kept);
+        if (!shape.moves) kept.reset();
+    });
+    return meshes;
+}
 
 // Gives points and lines their width, which is that of the whole scene when it is made.
 void AnimatedScene::make_solids_of_lines(File& file, const ShapePlan& plan,
@@ -120,7 +146,7 @@ void AnimatedScene::see_from(SeenFrom from) {
 void AnimatedScene::add_lights(const std::vector<SceneLight>& lights) {
     added_lights_.insert(added_lights_.end(), lights.begin(), lights.end());
     scene_.lights.insert(scene_.lights.end(), lights.begin(), lights.end());
-    ++scene_.lights_revision;
+    ++scene_.revisions.lights;
 }
 
 void AnimatedScene::replace_lights(const std::vector<SceneLight>& lights) {
@@ -135,7 +161,6 @@ void AnimatedScene::set_time(double time) {
     file_->document.budget->refill();
     place();
     file_->time = time;
-    ++scene_.revision;
 }
 
 // Makes the scene of the document at its options' time: all of it, or what can have moved. Changes
@@ -144,14 +169,12 @@ void AnimatedScene::place() {
     File& file = *file_;
     const bool first = file.mesh_of_job.empty();
     const PlacedNodes nodes = place_nodes(file.document);
-    const ShapePlan plan = plan_shapes(file.document, nodes);
-    if (first) file.jobs = list_primitives(file.document, plan);
-    std::vector<Mesh> meshes(file.jobs.size());
-    parallel_each(meshes.size(), [&](std::size_t j) {
-        const MeshShape& shape = plan.shapes[file.jobs[j].shape];
-        if (!first && !shape.moves) return;
-        meshes[j] = build_primitive(file.document, file.materials, shape, file.jobs[j].primitive);
-    });
+    ShapePlan plan = plan_shapes(file.document, nodes);
+    if (first) {
+        file.jobs = list_primitives(file.document, plan);
+        file.arrays.resize(file.jobs.size());
+    }
+    std::vector<Mesh> meshes = build_moved(file, plan, first);
     make_solids_of_lines(file, plan, meshes, first);
     if (first) {
         for (const Mesh& mesh : meshes) {
@@ -164,17 +187,35 @@ void AnimatedScene::place() {
         place_instances(file.document, plan, file.jobs, file.mesh_of_job);
     std::vector<SceneLight> lights = convert_lights(file.document, nodes);
     std::vector<SceneCamera> cameras = convert_cameras(file.document, nodes);
+    set_lights(nodes, std::move(lights));
+    set_meshes(std::move(meshes));
+    SceneRevisions& revisions = scene_.revisions;
+    if (replace(scene_.instances, std::move(instances))) ++revisions.placement;
+    if (replace(scene_.cameras, std::move(cameras))) ++revisions.cameras;
+    if (first) revisions = {};
+    file.shapes = std::move(plan.shapes);
+}
+
+// The file's lights, those with profiles, and the added ones.
+void AnimatedScene::set_lights(const PlacedNodes& nodes, std::vector<SceneLight> lights) {
+    std::swap(scene_.lights, lights);
+    const std::vector<SceneProfile> profiles = scene_.aimed_profiles;
+    add_profile_lights(file_->document, nodes, scene_);
+    scene_.lights.insert(scene_.lights.end(), added_lights_.begin(), added_lights_.end());
+    if (scene_.lights != lights || scene_.aimed_profiles != profiles) ++scene_.revisions.lights;
+}
+
+// Those that are not empty, one a job.
+void AnimatedScene::set_meshes(std::vector<Mesh> meshes) {
+    bool has_changed = false;
     for (std::size_t j = 0; j < meshes.size(); ++j) {
         if (meshes[j].indices.empty()) continue;
-        Mesh& mesh = scene_.meshes[static_cast<std::size_t>(file.mesh_of_job[j])];
-        if (!first) meshes[j].revision = mesh.revision + 1;
+        Mesh& mesh = scene_.meshes[static_cast<std::size_t>(file_->mesh_of_job[j])];
+        if (!mesh.indices.empty()) meshes[j].revision = mesh.revision + 1;
         mesh = std::move(meshes[j]);
+        has_changed = true;
     }
-    scene_.instances = std::move(instances);
-    scene_.lights = std::move(lights);
-    add_profile_lights(file.document, nodes, scene_);
-    scene_.lights.insert(scene_.lights.end(), added_lights_.begin(), added_lights_.end());
-    scene_.cameras = std::move(cameras);
+    if (has_changed) ++scene_.revisions.geometry;
 }
 
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "host/scene/framing.h"
 #include "host/scene/gltf/load_scene.h"
@@ -9,13 +10,14 @@
 
 namespace kilolux {
 
+struct PlacedNodes;
 struct ShapePlan;
 
 /// A scene that can be set to any time: what moves is evaluated again, the rest is kept.
 ///
 /// The scene at a time is what load_scene() gives for that time, bit for bit, whatever times came
-/// before. Its address does not change, so renderers may keep a reference; its revision grows with
-/// every change.
+/// before. Its address does not change, so renderers may keep a reference; its revisions say which
+/// parts changed.
 class AnimatedScene {
  public:
     /// A scene without animation.
@@ -58,7 +60,10 @@ class AnimatedScene {
     struct File;
     static void make_solids_of_lines(File& file, const ShapePlan& plan, std::vector<Mesh>& meshes,
                                      bool first);
+    static std::vector<Mesh> build_moved(File& file, const ShapePlan& plan, bool first);
     void place();
+    void set_lights(const PlacedNodes& nodes, std::vector<SceneLight> lights);
+    void set_meshes(std::vector<Mesh> meshes);
     void survey();
 
     Scene scene_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/scene.h"
 
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,6 +24,8 @@ bool has_own_reflectance(const Material& material) {
 
 namespace {
 
+constexpr std::size_t kVerticesOfTask = 4096;
+
 // Whether a scale of 0 leaves nothing of an instance but a point or a line.
 bool is_hidden(const Instance& instance) {
     const glm::dmat3 axes(instance.world_from_object);
@@ -30,17 +34,39 @@ bool is_hidden(const Instance& instance) {
            glm::cross(axes[2], axes[0]) == glm::dvec3(0.0);
 }
 
+Box joined(Box a, const Box& b) {
+    a.min = glm::min(a.min, b.min);
+    a.max = glm::max(a.max, b.max);
+    return a;
+}
+
+Box bounds(const Mesh& mesh, const glm::dmat4& world_from_object) {
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto add = [&](const Range& range, Box box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            box.add(glm::dvec3(world_from_object * glm::dvec4(mesh.positions[i], 1.0)));
+        }
+        return box;
+    };
+    return tbb::parallel_reduce(Range(0, mesh.positions.size(), kVerticesOfTask), Box{}, add,
+                                joined);
+}
+
 }  // namespace
 
+// Which vertex comes first changes no box: minima and maxima are exact.
 Box bounds(const Scene& scene) {
-    Box box;
-    for (const Instance& instance : scene.instances) {
-        if (is_hidden(instance)) continue;
-        for (const glm::vec3& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
-            box.add(glm::dvec3(instance.world_from_object * glm::dvec4(p, 1.0)));
+    using Range = tbb::blocked_range<std::size_t>;
+    const auto add = [&](const Range& range, Box box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const Instance& instance = scene.instances[i];
+            if (is_hidden(instance)) continue;
+            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            box = joined(box, bounds(mesh, instance.world_from_object));
         }
-    }
-    return box;
+        return box;
+    };
+    return tbb::parallel_reduce(Range(0, scene.instances.size()), Box{}, add, joined);
 }
 
 std::size_t zero_normal_count(const Scene& scene) {

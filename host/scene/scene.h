@@ -98,6 +98,7 @@ struct Mesh {
 struct Instance {
     int mesh = -1;
     glm::dmat4 world_from_object{1.0};
+    bool operator==(const Instance&) const = default;
 };
 
 enum class LightType { point, spot, directional };
@@ -113,6 +114,7 @@ struct SceneLight {
     bool has_own_range = true;         // false: it got one, see light_ranges.h
     bool follows_camera = false;       // position and direction are in the camera's space
     int profile = -1;                  // index into Scene::aimed_profiles; -1: none
+    bool operator==(const SceneLight&) const = default;
 };
 
 /// A light's photometric web: its vertical angle 0 is along the light's direction, whatever its
@@ -121,6 +123,7 @@ struct SceneProfile {
     std::size_t web = 0;       // index into Scene::webs
     glm::dvec3 side{1, 0, 0};  // unit, across the direction: vertical 90, horizontal 0 degrees
     bool mirrored = false;     // horizontal angles turn the other way
+    bool operator==(const SceneProfile&) const = default;
 };
 
 /// A camera of the scene: at world_from_camera's origin, looking down its -Z.
@@ -133,6 +136,7 @@ struct SceneCamera {
     double aspect = 0.0;                                     // width / height; 0: the image's
     double z_near = 0.1;                                     // [m]
     double z_far = std::numeric_limits<double>::infinity();  // [m]
+    bool operator==(const SceneCamera&) const = default;
 };
 
 /// Axis-aligned box in world space [m]; empty when min > max.
@@ -170,6 +174,19 @@ enum class SceneKind {
     interior,  // walls that face it
 };
 
+/// The parts of a scene that may change while it is rendered. Each number grows with every change
+/// of its part.
+struct SceneRevisions {
+    std::uint32_t geometry = 0;   // vertices of some mesh, see Mesh::revision
+    std::uint32_t placement = 0;  // instances
+    std::uint32_t lights = 0;     // lights and their aimed profiles
+    std::uint32_t cameras = 0;
+    bool operator==(const SceneRevisions&) const = default;
+
+    /// Those that decide where surfaces are.
+    std::array<std::uint32_t, 2> surfaces() const { return {geometry, placement}; }
+};
+
 /// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts
 /// them.
 struct Scene {
@@ -188,8 +205,7 @@ struct Scene {
     Box light_box;                      // where generated lights go; empty: see light_region()
     Box still_box;                      // its bounds at time 0; empty: those of now
     SceneKind kind = SceneKind::open;
-    std::uint32_t revision = 0;  // grows whenever instances, lights, cameras or vertices change
-    std::uint32_t lights_revision = 0;  // grows when only lights change
+    SceneRevisions revisions;
 };
 
 /// Box of all instances' vertices in world space.

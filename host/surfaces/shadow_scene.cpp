@@ -140,7 +140,8 @@ ShadowScene::ShadowScene(const Gpu& gpu, const Scene& scene, bool masks)
 }
 
 void ShadowScene::build() {
-    revision_ = scene_.revision;
+    revision_ = scene_.revisions.surfaces();
+    ++built_;
     const std::uint64_t count = caster_count(scene_);
     if (count > SHADOW_NUMBER) {
         throw Error(fmt::format("shadows: scene '{}' has {} triangles; at most {} can cast shadows",
@@ -159,7 +160,7 @@ void ShadowScene::build() {
 }
 
 ShadowCasters ShadowScene::casters() {
-    if (revision_ != scene_.revision) build();
+    if (revision_ != scene_.revisions.surfaces()) build();
     ShadowCasters out;
     out.nodes = nodes_.get();
     out.triangles = triangles_.get();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,9 +22,12 @@ class ShadowScene {
     /// its alpha.
     ShadowScene(const Gpu& gpu, const Scene& scene, bool masks);
 
-    /// The casters as the scene has them now; built anew where its revision says that something
+    /// The casters as the scene has them now; built anew where its revisions say that surfaces
     /// moved. Materials and textures are not set. Valid until the next call.
     ShadowCasters casters();
+
+    /// How often the hierarchy was built.
+    std::uint64_t built() const { return built_; }
 
     /// From the camera's view space to shadow space.
     ShadowView view(const Camera& camera) const;
@@ -34,7 +38,8 @@ class ShadowScene {
     Gpu gpu_;
     const Scene& scene_;
     bool masks_;
-    std::uint32_t revision_ = 0;
+    std::array<std::uint32_t, 2> revision_{};  // of the surfaces
+    std::uint64_t built_ = 0;
     glm::dvec3 anchor_{0.0};  // shadow space's origin in the world [m]
     float extent_ = 0.0f;
     GrowingArray<ShadowNode> nodes_;

@@ -5,7 +5,7 @@
 
 #include "host/base/error.h"
 #include "host/base/version.h"
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/kernel_choice.h"
 #include "present/cli/commit.h"
 #include "present/cli/names.h"
 #include "present/cli/stats_json.h"

@@ -7,7 +7,7 @@
 #include "host/base/error.h"
 #include "host/measure/bench/feature_cost.h"
 #include "host/measure/roofline/independent_limits.h"
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/kernel_choice.h"
 #include "host/render/renderer.h"
 #include "host/scene/gltf/files.h"
 #include "present/cli/frame_summary.h"

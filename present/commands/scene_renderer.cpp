@@ -10,7 +10,7 @@
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/measure/roofline/roofline.h"
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/kernel_choice.h"
 #include "present/cli/scene_choice.h"
 #include "present/commands/bench.h"
 #include "present/image/automatic_exposure.h"

@@ -10,7 +10,7 @@
 #include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
 #include "host/lighting/deferred_lighting.h"
-#include "host/render/light_rows.h"
+#include "host/render/lights/light_rows.h"
 #include "host/scene/lights/light_ranges.h"
 #include "host/stages/lists/build_clusters.h"
 #include "host/stages/lists/count_lights.h"

@@ -5,10 +5,10 @@
 
 #include "host/lighting/coarse_light_lists.h"
 #include "host/measure/roofline/roofline.h"
-#include "host/render/grid_request.h"
-#include "host/render/kernel_choice.h"
-#include "host/render/light_order.h"
-#include "host/render/light_rows.h"
+#include "host/render/lights/light_order.h"
+#include "host/render/lights/light_rows.h"
+#include "host/render/plan/grid_request.h"
+#include "host/render/plan/kernel_choice.h"
 
 namespace kilolux {
 namespace {

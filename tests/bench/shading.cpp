@@ -10,7 +10,7 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/measure/roofline/limit_kernels.h"
 #include "host/measure/roofline/roofline.h"
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/kernel_choice.h"
 #include "host/scene/camera.h"
 #include "host/stages/shading/shade.h"
 

@@ -10,7 +10,7 @@
 #include "host/measure/report/error_sheets.h"
 #include "host/measure/report/picture_errors.h"
 #include "host/measure/report/tables.h"
-#include "host/render/scene_plan.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/support/render_fixture.h"
 

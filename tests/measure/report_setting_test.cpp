@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
-#include "host/render/light_source.h"
-#include "host/render/scene_plan.h"
+#include "host/render/lights/light_source.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/scene/generated/scenes.h"
 
 namespace kilolux {

@@ -19,7 +19,7 @@ TEST(Animation, ARendererFollowsItsScene) {
         Mesh& mesh = scene.meshes.back();
         for (glm::vec3& position : mesh.positions) position *= 1.5f;
         ++mesh.revision;
-        ++scene.revision;
+        scene.revisions = {1, 1, 1, 0};
         scene.light_box = resting_bounds(scene);
         const Frame moved = renderer.render(camera, 0.0);
         EXPECT_NE(moved.radiance, before.radiance);

@@ -201,7 +201,7 @@ TEST(AutoSamples, ForwardRenderersAndPlanesHaveThem) {
     EXPECT_LT(std::sqrt(squared_error(forward.radiance, frame.radiance)), 0.1);
 }
 
-// Called between samples, so that a long picture can be left; what fails leaves nothing behind.
+// A long picture can be left between its samples; that leaves nothing behind.
 TEST(AutoSamples, CanBeLeftBetweenSamples) {
     const Scene scene = make_generated_scene("grid");
     const Camera camera = first_camera(scene);

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/kernel_choice.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order in which kernels go through lights.
-#include "host/render/light_order.h"
+#include "host/render/lights/light_order.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "host/render/generated_lights.h"
+#include "host/render/lights/generated_lights.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/support/test_gpu.h"
 

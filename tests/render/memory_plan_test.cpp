@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/memory_plan.h"
+#include "host/render/plan/memory_plan.h"
 
 #include <gtest/gtest.h>
 

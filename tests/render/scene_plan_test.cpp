@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // "Model only what a scene needs": a scene without a feature compiles kernels without it, and its
 // picture is the one that kernels with it make, bit for bit.
-#include "host/render/scene_plan.h"
+#include "host/render/plan/scene_plan.h"
 
 #include "host/base/error.h"
 #include "kernels/shared/evaluate_modes.h"

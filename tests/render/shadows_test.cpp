@@ -176,7 +176,7 @@ TEST(Shadows, FollowWhatMoves) {
     Renderer renderer(scenario.scene, settings);
     const Frame before = renderer.render(scenario.camera, 0.0);
     scenario.scene.instances[3].world_from_object[3].x += 1.5;
-    ++scenario.scene.revision;
+    ++scenario.scene.revisions.placement;
     const Frame after = renderer.render(scenario.camera, 0.0);
     EXPECT_NE(after.radiance, before.radiance);
     EXPECT_EQ(after.radiance,
@@ -242,18 +242,18 @@ void expect_kept_until_something_moves(const RenderSettings& settings) {
     KeptShadows kept(settings);
     kept.expect_cast_after("a light that moves", [](ShadowScenario& s) {
         s.scene.lights[0].position.x += 0.7;
-        ++s.scene.lights_revision;
+        ++s.scene.revisions.lights;
     });
     kept.expect_cast_after("a camera that moves",
                            [](ShadowScenario& s) { s.camera.position.x += 0.1; });
     kept.expect_cast_after("an instance that moves", [](ShadowScenario& s) {
         s.scene.instances.back().world_from_object[3].x += 0.5;
-        ++s.scene.revision;
+        ++s.scene.revisions.placement;
     });
     kept.expect_cast_after("a mesh that changes", [](ShadowScenario& s) {
         for (glm::vec3& p : s.scene.meshes.back().positions) p.x += 0.4f;
         ++s.scene.meshes.back().revision;
-        ++s.scene.revision;
+        ++s.scene.revisions.geometry;
     });
 }
 

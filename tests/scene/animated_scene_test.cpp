@@ -77,14 +77,38 @@ TEST(AnimatedScene, RevisionsSayWhatChanged) {
     write_file(folder.path() / "m.glb", moving_file().glb());
     AnimatedScene scene(folder.path() / "m.glb", {});
     ASSERT_EQ(scene.scene().meshes.size(), 3u);
-    const std::uint32_t before = scene.scene().revision;
+    const SceneRevisions before = scene.scene().revisions;
     scene.set_time(0.0);
-    EXPECT_EQ(scene.scene().revision, before) << "the time is the same";
+    EXPECT_EQ(scene.scene().revisions, before) << "the time is the same";
     scene.set_time(2.0);
-    EXPECT_NE(scene.scene().revision, before);
+    EXPECT_EQ(scene.scene().revisions, (SceneRevisions{1, 0, 1, 1}));
     EXPECT_EQ(scene.scene().meshes[0].revision, 1u) << "skinned";
     EXPECT_EQ(scene.scene().meshes[1].revision, 1u) << "morphed";
     EXPECT_EQ(scene.scene().meshes[2].revision, 0u) << "stands still";
+}
+
+TEST(AnimatedScene, RevisionsGrowOneByOne) {
+    // Channels of moving_file() in turn, and what the node of each carries.
+    const struct {
+        int channel, node;
+        const char* path;
+        SceneRevisions expected;
+    } cases[] = {
+        {0, 2, "translation", {1, 0, 0, 0}},  // a joint
+        {1, 3, "weights", {1, 0, 0, 0}},
+        {0, 4, "translation", {0, 1, 0, 0}},  // a mesh that stands still
+        {0, 5, "translation", {0, 0, 1, 1}},  // a lamp with a camera
+        {0, 6, "translation", {0, 1, 0, 0}},
+    };
+    const TempFolder folder;
+    for (const auto& c : cases) {
+        GltfBuilder file = moving_file();
+        file.root["animations"][0]["channels"] = {channel(c.channel, c.node, c.path)};
+        write_file(folder.path() / "m.glb", file.glb());
+        AnimatedScene scene(folder.path() / "m.glb", {});
+        scene.set_time(1.0);
+        EXPECT_EQ(scene.scene().revisions, c.expected) << "node " << c.node;
+    }
 }
 
 TEST(AnimatedScene, TheStillBoxIsThatOfTheTimeAskedForAtAnyTime) {
@@ -132,9 +156,9 @@ TEST(AnimatedScene, StaysAtItsTimeWhereAnotherOneFails) {
     const auto path = folder.path() / "m.glb";
     write_file(path, file.glb());
     AnimatedScene scene(path, {0.5});
-    const std::uint32_t revision = scene.scene().revision;
+    const SceneRevisions before = scene.scene().revisions;
     for (int repeat = 0; repeat < 2; ++repeat) EXPECT_THROW(scene.set_time(3.0), Error);
-    EXPECT_EQ(scene.scene().revision, revision);
+    EXPECT_EQ(scene.scene().revisions, before);
     EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {0.5})), "");
     scene.set_time(0.75);
     EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {0.75})), "");
@@ -148,7 +172,7 @@ TEST(AnimatedScene, StandsStillWithoutAnimations) {
     for (AnimatedScene* scene : {&file, &generated}) {
         EXPECT_FALSE(scene->moves());
         scene->set_time(7.0);
-        EXPECT_EQ(scene->scene().revision, 0u);
+        EXPECT_EQ(scene->scene().revisions, SceneRevisions{});
         EXPECT_EQ(scene->scene().still_box, bounds(scene->scene()));
     }
 }

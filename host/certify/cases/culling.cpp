@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "host/certify/cases.h"
-#include "host/render/light_rows.h"
+#include "host/render/lights/light_rows.h"
 
 namespace kilolux {
 namespace {

@@ -20,7 +20,7 @@
 #include "host/certify/cases.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
-#include "host/render/light_rows.h"
+#include "host/render/lights/light_rows.h"
 
 namespace kilolux {
 namespace {

@@ -9,8 +9,8 @@
 #include "host/certify/cases.h"
 #include "host/certify/scene_case.h"
 #include "host/gpu/buffer.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/render/renderer.h"
-#include "host/render/scene_plan.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {

@@ -9,7 +9,7 @@
 
 #include "host/certify/cases.h"
 #include "host/certify/scene_case.h"
-#include "host/render/light_source.h"
+#include "host/render/lights/light_source.h"
 #include "host/render/renderer.h"
 #include "host/scene/generated/scenes.h"
 

@@ -6,7 +6,7 @@
 #include "host/certify/scene_case.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/gpu/buffer.h"
-#include "host/render/grid_request.h"
+#include "host/render/plan/grid_request.h"
 #include "host/render/renderer.h"
 #include "host/scene/camera.h"
 #include "host/scene/generated/scenes.h"

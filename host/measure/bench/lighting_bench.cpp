@@ -5,8 +5,8 @@
 #include <array>
 
 #include "host/base/hash.h"
-#include "host/render/grid_request.h"
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/grid_request.h"
+#include "host/render/plan/kernel_choice.h"
 #include "host/render/surface_pass.h"
 #include "host/stages/picture/tonemap.h"
 
@@ -60,20 +60,16 @@ struct LightingBench::Stages {
 
 // What makes the G-buffer, and all that it refers to.
 struct LightingBench::Drawing {
-    Drawing(const RenderScene& scene, const LightingRequest& the_request,
-            const RenderSettings& asked, const Gpu& the_gpu)
+    Drawing(std::shared_ptr<RenderScene> scene, const LightingRequest& the_request,
+            const RenderSettings& asked, const Gpu& gpu)
         : request(the_request),
-          settings(drawn_settings(asked, request.drawn_by)),
-          gpu(the_gpu),
-          context{settings, request.plan, gpu, request.tuning.tuning, scene, surfaces, shadows},
+          context{std::move(scene),      drawn_settings(asked, request.drawn_by),
+                  request.plan,          gpu,
+                  request.tuning.tuning, {}},
           pass(context) {}
 
     LightingRequest request;
-    RenderSettings settings;
-    Gpu gpu;
-    std::shared_ptr<SurfaceScene> surfaces;
-    std::shared_ptr<ShadowScene> shadows;
-    PathContext context;
+    RenderContext context;
     SurfacePass pass;
 };
 
@@ -85,7 +81,7 @@ LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
       box_(bounds(scene)),
       gpu_(open_device(settings)),
       device_(describe(gpu_.device)),
-      render_scene_(scene, true),
+      render_scene_(std::make_shared<RenderScene>(scene, true)),
       light_source_(gpu_, choose_tuning(device_, settings.kernels).tuning, scene, settings_) {
     in_stage("lighting bench", [&] {
         StageTimer untimed;
@@ -94,7 +90,7 @@ LightingBench::LightingBench(const Scene& scene, const RenderSettings& settings,
     });
 }
 
-LightingBench::~LightingBench() { render_scene_.make_current_or_lost(); }
+LightingBench::~LightingBench() { render_scene_->make_current_or_lost(); }
 
 LightingRequest LightingBench::request() const {
     const std::uint64_t lights = settings_.lights.count + scene_.lights.size();
@@ -114,8 +110,8 @@ void LightingBench::set_drawing(const LightingRequest& request) {
 
 void LightingBench::draw(FrameStats& stats) {
     const LightRows no_rows;
-    gbuffer_ = drawing_->pass.draw_whole({camera_, no_rows, lights_, {0, settings_.height}, true},
-                                         {timer_, stats});
+    gbuffer_ =
+        drawing_->pass.draw({camera_, no_rows, lights_, {0, settings_.height}}, {timer_, stats});
     gbuffer_.version = 0;  // so that every run bins its pixels
 }
 
@@ -125,21 +121,27 @@ LightingInput LightingBench::input() const {
         make_cluster_grid(grid_request(settings_.grid, camera_, box_, static_cast<float>(pad)),
                           gbuffer_.view.width, gbuffer_.view.height);
     const LightRows no_rows;
-    return {gbuffer_, lights_, grid, drawing_->pass.shadows({camera_, no_rows, lights_, {}, true})};
+    return {gbuffer_, lights_, grid, drawing_->pass.shadows({camera_, no_rows, lights_, {}})};
 }
 
 Radiance LightingBench::light(Stages& stages) {
-    return stages.lighting.light(input(), timer_, [&](const Radiance& radiance) {
+    const LightingInput from = input();
+    const StageTimer before = timer_;
+    Radiance radiance;
+    do {
+        timer_ = before;  // without lists that had no room
+        radiance = stages.lighting.enqueue(from, timer_);
         stages.tonemap.enqueue(radiance, settings_.exposure, timer_);
-    });
+    } while (!stages.lighting.fits(timer_));
+    return radiance;
 }
 
 LightingRun LightingBench::run(const LightingRequest& request) {
     return in_stage("lighting bench", [&] {
-        render_scene_.make_current();
+        render_scene_->make_current();
         set_drawing(request);
         Stages stages(gpu_.with_lanes(request.tuning.lanes), request, settings_,
-                      path_surfaces(drawing_->context));
+                      drawing_->context.surface_features());
         LightingRun out;
         out.stats = light_stats_;
         Radiance radiance = light(stages);
@@ -151,7 +153,7 @@ LightingRun LightingBench::run(const LightingRequest& request) {
         out.stats.useful_evaluations_per_pixel = -1.0;
         if (request.counts && request.plan.kernels.shadows) {
             CastShadows counting(gpu_.with_lanes(request.tuning.lanes), request.tuning.tuning,
-                                 request.plan.kernels, path_surfaces(drawing_->context), true);
+                                 request.plan.kernels, drawing_->context.surface_features(), true);
             out.stats.shadows = stages.lighting.count_shadows(input(), counting);
         }
         for (int i = 0; i < std::max(request.runs, 1); ++i) {

@@ -8,9 +8,9 @@
 #include "host/gpu/tuning_store.h"
 #include "host/lighting/deferred_lighting.h"
 #include "host/picture/frame.h"
-#include "host/render/light_source.h"
+#include "host/render/lights/light_source.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/render/render_scene.h"
-#include "host/render/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
 
@@ -71,7 +71,7 @@ class LightingBench {
     Box box_;
     Gpu gpu_;
     DeviceInfo device_;
-    RenderScene render_scene_;
+    std::shared_ptr<RenderScene> render_scene_;
     std::unique_ptr<Drawing> drawing_;  // of the last request's kind
     GBuffer gbuffer_;
     LightSource light_source_;

@@ -4,10 +4,10 @@
 #include <fmt/core.h>
 
 #include "host/measure/reference/decoded_samples.h"
-#include "host/render/light_rows.h"
-#include "host/render/light_source.h"
+#include "host/render/lights/light_rows.h"
+#include "host/render/lights/light_source.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/render/renderer.h"
-#include "host/render/scene_plan.h"
 
 namespace kilolux {
 namespace {

@@ -10,8 +10,8 @@
 #include "host/base/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/reference/reference.h"
-#include "host/render/kernel_choice.h"
-#include "host/render/scene_plan.h"
+#include "host/render/plan/kernel_choice.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/scene/lights/light_tree.h"
 
 namespace kilolux {

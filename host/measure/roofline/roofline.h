@@ -4,7 +4,7 @@
 #include "host/gpu/stage_info.h"
 #include "host/measure/roofline/device_limits.h"
 #include "host/picture/frame.h"
-#include "host/render/scene_plan.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/render/settings.h"
 
 /// A lower bound for each stage's time: the work that it declares, at the device's measured rates.

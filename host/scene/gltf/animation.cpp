@@ -14,7 +14,7 @@ enum class Interpolation { step, linear, cubic };
 
 // A channel's key times and values.
 struct Track {
-    std::vector<float> times;  // [s], ascending, at least one
+    std::span<const float> times;  // [s], ascending, at least one
     ElementArray output;
     Interpolation interpolation = Interpolation::linear;
     std::size_t per_key = 1;  // output elements of one value
@@ -28,7 +28,11 @@ struct Span {
     double length = 0.0;    // [s]
 };
 
-std::vector<float> read_times(const GltfDocument& document, int accessor) {
+// Read once: a clip that plays evaluates its tracks at every frame.
+const std::vector<float>& read_times(const GltfDocument& document, int accessor) {
+    if (const auto read = document.key_times.find(accessor); read != document.key_times.end()) {
+        return read->second;
+    }
     const ElementArray input = open_accessor(document, accessor);
     expect_components(input, {1}, "an animation's input");
     document.budget->charge(input.count, sizeof(float), input.where);
@@ -40,7 +44,7 @@ std::vector<float> read_times(const GltfDocument& document, int accessor) {
                           "key time {} is {}, must not be before its predecessor", i, times[i]);
         }
     }
-    return times;
+    return document.key_times.emplace(accessor, std::move(times)).first->second;
 }
 
 Track open_track(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
@@ -63,7 +67,7 @@ Track open_track(const GltfDocument& document, const tinygltf::AnimationSampler&
     return track;
 }
 
-Span find_span(const std::vector<float>& times, double time) {
+Span find_span(std::span<const float> times, double time) {
     const auto after = std::upper_bound(times.begin(), times.end(), time,
                                         [](double t, float key) { return t < key; });
     if (after == times.begin()) return {};

@@ -8,6 +8,7 @@
 #include <tiny_gltf.h>
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -78,6 +79,8 @@ struct GltfDocument {
     std::vector<Bytes> owned;                      // what buffers and views point into
     std::vector<std::size_t> clips;                // animations that play, first one first
     std::unique_ptr<LoadBudget> budget;
+    // Key times that apply_animations() has read, by accessor.
+    mutable std::map<int, std::vector<float>> key_times;
 
     /// Tells what of the file the picture lacks or shows otherwise: a warning, or an Error where
     /// the options are strict.

@@ -12,6 +12,7 @@ struct MeshShape {
     Deformation deformation;
     bool moves = false;            // a skin, or morph weights that an animation drives
     double metres_per_unit = 1.0;  // of object space, where the shape is placed first
+    bool operator==(const MeshShape&) const = default;
 };
 
 /// A shape put into the world.
@@ -45,8 +46,12 @@ std::vector<PrimitiveJob> list_primitives(const GltfDocument& document, const Sh
 double line_width_m(const GltfDocument& document, const ShapePlan& plan,
                     const std::vector<PrimitiveJob>& jobs, const std::vector<Mesh>& meshes);
 
-/// The mesh of one primitive in its shape; see build_mesh() for points and lines.
+/// The arrays of one primitive of a shape, which do not depend on the time.
+PrimitiveArrays open_job(const GltfDocument& document, const MeshShape& shape,
+                         std::size_t primitive);
+
+/// The mesh that its arrays make in its shape; see build_mesh() for points and lines.
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,
-                     const MeshShape& shape, std::size_t primitive);
+                     const MeshShape& shape, std::size_t primitive, const PrimitiveArrays& arrays);
 
 }  // namespace kilolux

@@ -28,6 +28,9 @@ DriftBox drift_box(const std::array<double, 3>& min, const std::array<double, 3>
 /// which neighbours in space are beside each other.
 class DriftLights {
  public:
+    /// Of a light: its path staged, given and in order; its place in their order, twice.
+    static constexpr std::size_t kLightBytes = 3 * sizeof(LightDrift) + 2 * sizeof(std::uint64_t);
+
     DriftLights(const Gpu& gpu, const Tuning& tuning);
 
     /// Room for `count` lights, which the caller fills before upload(); they stay inside `boxes`.

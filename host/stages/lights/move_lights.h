@@ -22,6 +22,9 @@ WorldLight world_light(const PointPair& position, const Light& light);
 /// Lights of the world, kept on the device -> camera-relative lights.
 class MoveLights {
  public:
+    /// Of a light: staged, in the world, relative to the eye.
+    static constexpr std::size_t kLightBytes = 2 * sizeof(WorldLight) + sizeof(Light);
+
     MoveLights(const Gpu& gpu, const Tuning& tuning);
 
     /// Room for `count` lights, which the caller fills before upload(). Blocks until the last

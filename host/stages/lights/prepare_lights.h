@@ -17,6 +17,10 @@ inline constexpr StageInfo kPrepareLightsStage = {"prepare_lights", StageGroup::
 /// Moves lights into view space and finds the part of the coarse grid that each can touch.
 class PrepareLights {
  public:
+    /// Of a light or node.
+    static constexpr std::size_t kLightBytes =
+        sizeof(ShadeLight) + sizeof(float4) + sizeof(LightExtent);
+
     PrepareLights(const Gpu& gpu, const Tuning& tuning);
 
     /// Enqueues only.

@@ -16,6 +16,10 @@ inline constexpr StageInfo kBinPixelsStage = {"bin_pixels", StageGroup::lists, b
 /// And puts the tile's pixels in their order.
 class BinPixels {
  public:
+    /// Of a pixel: its place in the tile's order; and its share of the active clusters, about two a
+    /// tile, with their lists and the sums of both.
+    static constexpr std::size_t kPixelBytes = 2;
+
     BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only.

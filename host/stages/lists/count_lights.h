@@ -16,6 +16,8 @@ struct LightCounts {
 /// Counts what shading evaluates and what it needs. For statistics and views.
 class CountLights {
  public:
+    static constexpr std::size_t kPixelBytes = 2 * sizeof(uint);
+
     CountLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only.

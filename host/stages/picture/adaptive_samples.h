@@ -16,6 +16,11 @@ inline constexpr StageInfo kAdaptiveSamplesStage = {"adaptive_samples", StageGro
 /// half's spread decides where the other's mean ends: so a mean is right on average.
 class AdaptiveSamples {
  public:
+    static constexpr std::size_t kStatePlanes = 5;  // of a half: STATE_PLANES of the kernel
+    /// Of a pixel: both halves, the mean and its variance; and taken().
+    static constexpr std::size_t kPixelBytes =
+        (2 * kStatePlanes + 3 + 1) * sizeof(float) + sizeof(uint);
+
     AdaptiveSamples(const Gpu& gpu, const Tuning& tuning);
 
     /// Forgets all pictures.

@@ -25,7 +25,7 @@ WorkSize SumSamples::work_size() const { return items(floats_of(view_) / lanes_,
 void SumSamples::add(const Radiance& radiance, StageTimer& timer) {
     view_ = radiance.view;
     const uint size = floats_of(view_);
-    const DeviceArray<float> sums = sums_.reserve(std::size_t{3} * size);
+    const DeviceArray<float> sums = sums_.reserve(kSumFloats * size);
     add_.enqueue(work_size(), timer, size, count_ == 0 ? 1u : 0u, radiance.planes, sums);
     ++count_;
 }

@@ -13,6 +13,10 @@ inline constexpr StageInfo kSumSamplesStage = {"sum_samples", StageGroup::pictur
 /// Mean of pictures, summed with more bits than float64 has and rounded once.
 class SumSamples {
  public:
+    static constexpr std::size_t kSumFloats = 3;  // of a value
+    /// Of a pixel: the sums and the mean.
+    static constexpr std::size_t kPixelBytes = 3 * (kSumFloats + 1) * sizeof(float);
+
     SumSamples(const Gpu& gpu, const Tuning& tuning);
 
     /// Forgets all pictures.

@@ -19,6 +19,11 @@ inline constexpr StageInfo kFillBackgroundStage = {"fill_background", StageGroup
 /// level whose texels are at most about as large as a pixel in the picture's middle.
 class FillBackground {
  public:
+    /// Of an image of so many texels: all levels.
+    static constexpr std::uint64_t bytes(std::uint64_t texels) {
+        return texels * 3 * sizeof(float) * 4 / 3;
+    }
+
     FillBackground(const Gpu& gpu, const Tuning& tuning);
 
     /// The environment: float[height][width][3], longitude by latitude, its middle column towards

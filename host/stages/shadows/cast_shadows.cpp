@@ -13,7 +13,8 @@ constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room
 // PoCL 3.1 reads through wild pointers in the work-group form, which loses values across barriers;
 // oclgrind finds no fault in it. A CPU would not gain by it.
 Tuning usable_for_shadows(Tuning tuning, const DeviceInfo& device) {
-    if (device.is_cpu && device.platform != "Oclgrind") {
+    const bool is_pocl = device.platform == "Portable Computing Language";
+    if ((device.is_cpu || is_pocl) && device.platform != "Oclgrind") {
         tuning.shadow_group = std::min(tuning.shadow_group, 1);
     }
     return tuning;

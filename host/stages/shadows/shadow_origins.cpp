@@ -4,7 +4,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::size_t kPlanes = 4;
 
 }  // namespace
 

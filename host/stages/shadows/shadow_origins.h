@@ -15,6 +15,9 @@ inline constexpr StageInfo kShadowOriginsStage = {"shadow_origins", StageGroup::
 /// Where every pixel's shadow rays end.
 class ShadowOrigins {
  public:
+    static constexpr std::size_t kPlanes = 4;
+    static constexpr std::size_t kPixelBytes = kPlanes * sizeof(float);
+
     ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Of a G-buffer made of `ids`, which number the triangles of `scene`'s instances. Background

@@ -8,7 +8,6 @@ namespace kilolux {
 namespace {
 
 constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room for from the start
-constexpr std::size_t kBoxWords = 4;                       // of a triangle's box of tiles
 
 // Work-items that share their triangles' tiles: many, so that large triangles are shared by many.
 // 1: each has a chunk of its own.

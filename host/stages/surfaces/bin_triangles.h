@@ -18,6 +18,10 @@ inline constexpr StageInfo kBinTrianglesStage = {"bin_triangles", StageGroup::su
 /// the room of the last call, and fits() says whether that was enough.
 class BinTriangles {
  public:
+    /// Of a triangle: its row and its box of tiles. Lists are like those of lights.
+    static constexpr std::size_t kBoxWords = 4;
+    static constexpr std::size_t kTriangleBytes = sizeof(RasterRow) + kBoxWords * sizeof(uint);
+
     BinTriangles(const Gpu& gpu, const Tuning& tuning);
 
     /// The next enqueue() leaves tiles empty where `closed`, [tiles], is 1; empty: none.

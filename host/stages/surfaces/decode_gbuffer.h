@@ -4,12 +4,16 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "kernels/shared/surface_planes.h"
 
 namespace kilolux {
 
 /// The G-buffer as shading sees it, as float planes: for AOVs, views and references.
 class DecodeGBuffer {
  public:
+    /// Of a pixel at most.
+    static constexpr std::size_t kPixelBytes = SURFACE_PLANES_WITH_SPECULAR * sizeof(float);
+
     DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Returns float[plane_count()][height][stride], see kernels/shared/surface_planes.h. Enqueues

@@ -6,7 +6,7 @@
 
 #include "host/measure/roofline/device_limits.h"
 #include "host/measure/roofline/stage_report.h"
-#include "host/render/scene_plan.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/scene/scene.h"
 #include "present/window/app/view_state.h"
 #include "present/window/overlay/error_measurement.h"

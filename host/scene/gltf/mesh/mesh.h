@@ -10,6 +10,7 @@ struct Deformation {
     std::vector<double> weights;               // one per morph target; missing ones are 0
     std::vector<glm::dmat4> object_from_bind;  // one per joint; empty without a skin
     bool empty() const { return weights.empty() && object_from_bind.empty(); }
+    bool operator==(const Deformation&) const = default;
 };
 
 /// What a primitive's material decides about its mesh.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/light_source.h"
+#include "host/render/lights/light_source.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 
-#include "host/render/light_order.h"
+#include "host/render/lights/light_order.h"
 #include "host/scene/lights/rig.h"
 #include "kernels/shared/hash.h"
 
@@ -14,9 +14,6 @@ namespace {
 
 // Within this of the origin [m] no light is too far from the camera to be used.
 constexpr double kNear = 4e14;
-
-// Grows with every change of the scene that may be one of its lights.
-std::uint32_t lights_revision(const Scene& scene) { return scene.revision + scene.lights_revision; }
 
 std::vector<std::size_t> headlights_of(const std::vector<SceneLight>& lights) {
     std::vector<std::size_t> out;
@@ -57,7 +54,8 @@ LightSource::LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scen
                          const RenderSettings& settings)
     : gpu_(gpu),
       scene_(scene),
-      revision_(lights_revision(scene)),
+      revision_(scene.revisions.lights),
+      surfaces_(scene.revisions.surfaces()),
       tails_(tails_for(scene.lights, settings.tails, settings.range_budget)),
       range_budget_(settings.range_budget),
       options_(settings.lights),
@@ -93,8 +91,11 @@ void LightSource::set_tails(const RenderSettings& settings) {
 
 // The scene's own lights anew where they moved.
 void LightSource::take_up_changes() {
-    if (revision_ == lights_revision(scene_)) return;
-    revision_ = lights_revision(scene_);
+    const SceneRevisions& now = scene_.revisions;
+    // Generated lights may be placed by the surfaces' box.
+    if (std::exchange(surfaces_, now.surfaces()) != now.surfaces()) time_.reset();
+    if (revision_ == now.lights) return;
+    revision_ = now.lights;
     own_ = scene_.lights;
     fill_missing_ranges(own_, tails_, range_budget_);
     headlights_ = headlights_of(own_);
@@ -201,7 +202,7 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
     const bool has_moved = time_ != time;
     if (has_moved) {
         time_.reset();  // until it is done
-        generated_.set(options_, scene_, time);
+        if (generated_.set(options_, scene_, time)) stats.lights_uploaded += options_.count;
         time_ = time;
         input_camera_.reset();
         is_drifted_ = false;
@@ -218,6 +219,7 @@ void LightSource::update(double time, const Camera& camera, FrameStats& stats) {
         find_order(camera.position);
         upload();
         is_ordered_ = true;
+        stats.lights_uploaded += row_count() - drifting() + directional_order_.size();
     }
     stats.lights_given = own_.size() + options_.count;
     stats.lights_used = list_count() + tree_members_.size() + directional_order_.size();

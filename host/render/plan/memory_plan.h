@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "host/gpu/device.h"
-#include "host/render/scene_plan.h"
+#include "host/render/plan/scene_plan.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/kernel_choice.h"
+#include "host/render/plan/kernel_choice.h"
 
 namespace kilolux {
 namespace {

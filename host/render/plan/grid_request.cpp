@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/grid_request.h"
+#include "host/render/plan/grid_request.h"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include "host/gpu/buffer.h"
 #include "host/gpu/flow.h"
 #include "host/picture/frame.h"
-#include "host/render/generated_lights.h"
-#include "host/render/light_rows.h"
+#include "host/render/lights/generated_lights.h"
+#include "host/render/lights/light_rows.h"
 #include "host/render/settings.h"
 #include "host/scene/camera.h"
 #include "host/scene/lights/light_ranges.h"
@@ -44,7 +44,8 @@ class LightSource {
     /// Other ranges of lights that lack one from now on.
     void set_tails(const RenderSettings& settings);
 
-    /// The lights at `time` [s] of the scene as it is now; sets their counts. The camera has the
+    /// The lights at `time` [s] of the scene as it is now; sets their counts, and how many rows
+    /// went to the device. The camera has the
     /// headlights, and its place decides which lights are too far away to be used.
     void update(double time, const Camera& camera, FrameStats& stats);
 
@@ -71,7 +72,8 @@ class LightSource {
 
     Gpu gpu_;
     const Scene& scene_;
-    std::optional<std::uint32_t> revision_;  // of the scene that own_ are of; none: out of date
+    std::optional<std::uint32_t> revision_;  // of the scene's lights; none: own_ are out of date
+    std::array<std::uint32_t, 2> surfaces_;  // of the scene that generated lights are placed in
     Tails tails_;
     double range_budget_;
     LightOptions options_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/scene_plan.h"
+#include "host/render/plan/scene_plan.h"
 
 #include <algorithm>
 #include <numbers>

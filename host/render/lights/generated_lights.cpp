@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/generated_lights.h"
+#include "host/render/lights/generated_lights.h"
 
 #include <tbb/parallel_for.h>
 
@@ -20,14 +20,15 @@ std::array<double, 3> axes(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-void GeneratedLights::set(const LightOptions& options, const Scene& scene, double time) {
+bool GeneratedLights::set(const LightOptions& options, const Scene& scene, double time) {
     time_ = time;
     generator_.emplace(options, scene, time);
     const double start = floor_to(time, kPathInterval);
-    if (staged_ && start_ == start && staged_->has_paths_of(*generator_)) return;
+    if (staged_ && start_ == start && staged_->has_paths_of(*generator_)) return false;
     staged_.reset();  // a failure leaves nothing staged
     stage(LightGenerator(options, scene, start), options.count);
     start_ = start;
+    return true;
 }
 
 void GeneratedLights::stage(const LightGenerator& paths, std::size_t count) {

@@ -15,8 +15,8 @@ class GeneratedLights {
  public:
     GeneratedLights(const Gpu& gpu, const Tuning& tuning) : drift_(gpu, tuning) {}
 
-    /// Those of `options` in the scene as it is now, at `time` [s].
-    void set(const LightOptions& options, const Scene& scene, double time);
+    /// Those of `options` in the scene as it is now, at `time` [s]. Whether paths were uploaded.
+    bool set(const LightOptions& options, const Scene& scene, double time);
 
     std::size_t count() const { return count_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/light_order.h"
+#include "host/render/lights/light_order.h"
 
 #include <tbb/parallel_sort.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/memory_plan.h"
+#include "host/render/plan/memory_plan.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -7,12 +7,22 @@
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/picture/bands.h"
+#include "host/render/forward_shading.h"
+#include "host/stages/lights/drift_lights.h"
+#include "host/stages/lights/move_lights.h"
+#include "host/stages/lights/prepare_lights.h"
+#include "host/stages/lists/bin_pixels.h"
+#include "host/stages/lists/count_lights.h"
+#include "host/stages/picture/adaptive_samples.h"
+#include "host/stages/picture/bloom.h"
+#include "host/stages/picture/sum_samples.h"
+#include "host/stages/shading/fill_background.h"
+#include "host/stages/shadows/shadow_origins.h"
+#include "host/stages/surfaces/bin_triangles.h"
+#include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/surfaces/shadow_scene.h"
 #include "host/surfaces/surface_scene.h"
 #include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/light_drift.h"
-#include "kernels/shared/raster_row.h"
-#include "kernels/shared/surface_planes.h"
 
 namespace kilolux {
 namespace {
@@ -21,19 +31,15 @@ using Bytes = std::uint64_t;
 
 // The program with its drivers and their compilers: resident size of a 16x16 picture, rounded up.
 constexpr Bytes kProgram = Bytes{256} << 20;
-// Of one light: twice as the scene has it, rows on the host and on the device, prepared; its path,
-// three times, and its place in their order, twice.
-constexpr Bytes kLight =
-    2 * sizeof(SceneLight) + 4 * 48 + 48 + 3 * sizeof(LightDrift) + 2 * sizeof(std::uint64_t);
-// Radiance and display picture, and as much again while a file is made of them.
-constexpr Bytes kHostPixel = 2 * (3 * sizeof(float) + 4);
-// Radiance and display picture on the device, and twice on the host: as planes and pixels.
-constexpr Bytes kBandPixel = 3 * (3 * sizeof(float) + 4);
-// Active clusters, their lists and the sums of both, about two clusters a fine tile; and the order
-// of the tiles' pixels.
-constexpr Bytes kListsPixel = 2;
-// Where a pixel's shadow rays end.
-constexpr Bytes kShadowPixel = 4 * sizeof(float);
+// Of one light: twice as the scene has it, and its rows.
+constexpr Bytes kLight = 2 * sizeof(SceneLight) + MoveLights::kLightBytes +
+                         PrepareLights::kLightBytes + DriftLights::kLightBytes;
+// Radiance and display picture.
+constexpr Bytes kPicturePixel = Radiance::kPixelBytes + DisplayTarget::kPixelBytes;
+// As much again while a file is made of them.
+constexpr Bytes kHostPixel = 2 * kPicturePixel;
+// On the device, and twice on the host: as planes and pixels.
+constexpr Bytes kBandPixel = 3 * kPicturePixel;
 // Kernels count the elements of a picture's planes in 32 bits.
 constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULAR - 1;
 // No texture takes more memory for it.
@@ -90,17 +96,49 @@ Bytes layer_bytes(const RenderSettings& settings) {
 // What the whole picture takes on the host, and where stages need all of it, there too.
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
-    if (settings.want.view != ViewKind::lit)
-        bytes += SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 8;
+    if (settings.want.view != ViewKind::lit) bytes += DecodedSurfaces::kPixelBytes;
     if (settings.want.view == ViewKind::difference) bytes *= 2;
     return bytes;
 }
 
-// Of bloom, which mixes the whole picture: light, its copy, the smaller levels, the display
-// picture.
+// Of bloom, which mixes the whole picture, and of the display picture of that.
 Bytes bloom_pixel_bytes(const RenderSettings& settings) {
-    constexpr Bytes kLightPixel = 3 * sizeof(float);
-    return settings.bloom > 0.0f ? 2 * kLightPixel + kLightPixel / 3 + 4 : 0;
+    if (settings.bloom <= 0.0f) return 0;
+    return Radiance::kPixelBytes + Bloom::kPixelBytes + DisplayTarget::kPixelBytes;
+}
+
+// What the scene takes on the device, whatever the picture's size.
+Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
+                         bool ids) {
+    const std::size_t nodes = plan.kernels.light_tree ? 2 * scene.lights.size() : 0;
+    Bytes bytes = (settings.lights.count + scene.lights.size() + nodes) * kLight;
+    if (ids) {
+        bytes += surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
+    }
+    if (settings.background) bytes += FillBackground::bytes(settings.background->rows.size());
+    if (settings.reflections) bytes += settings.reflections->texels.size() * sizeof(float);
+    if (ids && settings.geometry != Geometry::ids) {  // `automatic` may draw in OpenCL, too
+        bytes += BinTriangles::kTriangleBytes * triangle_count(scene);
+    }
+    if (plan.kernels.shadows) bytes += shadow_scene_bytes(scene);
+    return bytes;
+}
+
+// What each pixel of a band takes.
+Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bool blends) {
+    const bool decodes = settings.want.pixels();
+    Bytes bytes =
+        static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + BinPixels::kPixelBytes;
+    if (plan.kernels.shadows) bytes += ShadowOrigins::kPixelBytes;
+    if (settings.auto_samples.on) {
+        bytes += AdaptiveSamples::kPixelBytes;
+    } else if (settings.samples > 1) {
+        bytes += SumSamples::kPixelBytes;
+    }
+    if (decodes || settings.want.counts) bytes += 2 * CountLights::kPixelBytes;  // and on the host
+    if (decodes) bytes += 2 * DecodeGBuffer::kPixelBytes + layer_bytes(settings);
+    if (blends) bytes += BlendedPass::kPixelBytes;
+    return bytes;
 }
 
 Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan) {
@@ -109,51 +147,20 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     const Bytes tile_rows =
         is_forward(settings.renderer) ? height : std::min<Bytes>(height, kRasterRows);
     const bool blends = has_blended_surfaces(scene);
-    const bool decodes = settings.want.pixels();
-    Need need;
     const bool ids = resolves_ids(settings.geometry) && !is_forward(settings.renderer);
-    const std::size_t nodes = plan.kernels.light_tree ? 2 * scene.lights.size() : 0;
-    need.device_fixed = (settings.lights.count + scene.lights.size() + nodes) * kLight +
-                        width * height * bloom_pixel_bytes(settings);
-    if (ids) {
-        need.device_fixed +=
-            surface_scene_bytes(scene, surface_features(scene, plan.gbuffer, kAnyAnisotropy));
-    }
-    // Texels of all levels.
-    if (settings.background) {
-        need.device_fixed += settings.background->rows.size() * sizeof(glm::vec3) * 4 / 3;
-    }
-    if (settings.reflections) {
-        need.device_fixed += settings.reflections->texels.size() * sizeof(float);
-    }
-    // Each triangle's row and box of tiles; the tiles' lists are like those of lights.
-    if (settings.geometry == Geometry::compute) {
-        need.device_fixed +=
-            (sizeof(RasterRow) + 4 * sizeof(std::uint32_t)) * triangle_count(scene);
-    }
-    if (plan.kernels.shadows) need.device_fixed += shadow_scene_bytes(scene);
+    Need need;
+    const Bytes on_device = scene_device_bytes(scene, settings, plan, ids);
+    need.device_fixed = on_device + width * height * bloom_pixel_bytes(settings);
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
+    if (settings.want.view == ViewKind::difference) need.fixed += on_device;  // the reference's
     constexpr Bytes kForwardTarget = 20;
     if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
     if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
-    need.band_pixel = static_cast<Bytes>(plan.gbuffer_bytes_per_pixel) + kBandPixel + kListsPixel;
-    if (plan.kernels.shadows) need.band_pixel += kShadowPixel;
-    if (settings.auto_samples.on) {
-        constexpr Bytes kPlanes = 2 * 5 + 3 + 1;  // of AdaptiveSamples
-        need.band_pixel += kPlanes * sizeof(float) + sizeof(uint);
-    } else if (settings.samples > 1) {
-        need.band_pixel += 3 * (sizeof(double) + 2 * sizeof(float));
-    }
-    if (decodes || settings.want.counts) need.band_pixel += 4 * sizeof(std::uint32_t);
-    if (decodes) {
-        need.band_pixel += 2 * SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + layer_bytes(settings);
-    }
-    if (blends) need.band_pixel += 3 * 3 * sizeof(float);
+    need.band_pixel = band_pixel_bytes(settings, plan, blends);
     need.largest_element =
-        decodes ? SURFACE_PLANES_WITH_SPECULAR * sizeof(float) : 3 * sizeof(float);
-    need.largest_element =
-        std::max(need.largest_element, static_cast<Bytes>(plan.gbuffer_bytes_per_pixel));
+        std::max<Bytes>(settings.want.pixels() ? DecodeGBuffer::kPixelBytes : Radiance::kPixelBytes,
+                        static_cast<Bytes>(plan.gbuffer_bytes_per_pixel));
     return need;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/light_rows.h"
+#include "host/render/lights/light_rows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/render/blended_pass.h"
+#include "host/render/forward_shading.h"
+
+#include "host/render/host_stages.h"
 
 #include "host/render/host_stages.h"
 
@@ -30,7 +32,32 @@ ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoar
     return out;
 }
 
-BlendedPass::BlendedPass(const PathContext& context, bool clustered)
+ForwardShading::ForwardShading(const RenderContext& context)
+    : context_(context),
+      pass_(context.meshes(),
+            forward_features(context.plan, context.settings.renderer == RendererKind::forward_plus,
+                             true)),
+      radiance_(context.gpu, kForwardStage) {}
+
+Radiance ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists,
+                              EnvironmentLight& environment, Measured out) {
+    const RenderSettings& settings = context_.settings;
+    const View view = view_of(sample.camera, settings.width, settings.height);
+    const std::size_t size = std::size_t{3} * view.stride * view.height;
+    const Radiance radiance{radiance_.reserve(size), view};
+    std::vector<float> background;
+    if (settings.background) {
+        environment.fill(radiance, out.timer);
+        background = download<float>(context_.gpu, radiance.planes, size);
+    }
+    pass_.draw(sample.camera, settings.width, settings.height,
+               forward_lights(sample, settings.ambient, lists), background);
+    upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
+    add_host_time(out, lists ? kForwardPlusStage : kForwardStage, pass_.last_ms());
+    return radiance;
+}
+
+BlendedPass::BlendedPass(const RenderContext& context, bool clustered)
     : context_(context),
       pass_(context.meshes(), forward_features(context.plan, clustered, false)) {}
 

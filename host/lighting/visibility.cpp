@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/lighting/visibility.h"
+
+namespace kilolux {
+namespace {
+
+KernelFeatures without_shadows(KernelFeatures features) {
+    features.shadows = features.sampled_shadows = false;
+    return features;
+}
+
+}  // namespace
+
+Visibility::Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                       const SurfaceFeatures& surfaces)
+    : cast_(gpu, tuning, features, surfaces) {
+    if (!features.sampled_shadows) return;
+    draw_.emplace(gpu, tuning, features);
+    unshadowed_.emplace(gpu, tuning, without_shadows(features));
+}
+
+void Visibility::set_ambient(float ambient) {
+    ambient_ = ambient;
+    if (unshadowed_) unshadowed_->set_ambient(ambient);
+}
+
+SeenLights Visibility::enqueue(const ListedLights& lists, const GBuffer& gbuffer,
+                               const ShadowInput& shadows, StageTimer& timer) {
+    const Source source =
+        draw_ ? Source{lists.version, shadows.rays, ambient_, shadows.seed} : Source{lists.version};
+    if (source_ == source) return seen_;
+    source_.reset();
+    seen_ = {};  // arrays that grow must not be held twice
+    const LitPixels lit = lists.at(gbuffer);
+    seen_.words = cast_.reserve(lists.lights, lists.clusters, timer);
+    if (draw_) {
+        seen_.samples = {unshadowed_->enqueue(lit, timer).planes, shadows.rays, shadows.seed};
+        draw_->enqueue(lit, seen_.words, seen_.samples, timer);
+    }
+    cast_.enqueue(shadows, lit, seen_.words, timer);
+    source_ = source;
+    return seen_;
+}
+
+ShadowCounts Visibility::count(const ListedLights& lists, const GBuffer& gbuffer,
+                               const ShadowInput& shadows, const SeenLights& seen,
+                               CastShadows& counting) {
+    StageTimer untimed;
+    const LitPixels lit = lists.at(gbuffer);
+    if (draw_) draw_->enqueue(lit, seen.words, seen.samples, untimed);
+    counting.enqueue(shadows, lit, seen.words, untimed);
+    ShadowCounts out = counting.counts();
+    out.words = cast_.words();
+    return out;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "host/gpu/surface_flow.h"
+#include "host/lighting/light_lists.h"
+#include "host/stages/shading/shade.h"
+#include "host/stages/shadows/cast_shadows.h"
+
+namespace kilolux {
+
+/// Which pixels see which lights of their lists; with sampled shadows, what the rays were drawn by.
+struct SeenLights {
+    ShadowWords words;
+    ShadowSamples samples;
+};
+
+/// Finds out which of the lights in its list each pixel sees: by CastShadows, after DrawShadows
+/// with sampled ones.
+class Visibility {
+ public:
+    /// `features` have shadows. `surfaces`: what of the casters' materials is read.
+    Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+               const SurfaceFeatures& surfaces);
+
+    /// Casts the rays; kept while the version of the lists stays and the rays are drawn alike.
+    /// Blocks for the number of words. Valid until the next call.
+    SeenLights enqueue(const ListedLights& lists, const GBuffer& gbuffer,
+                       const ShadowInput& shadows, StageTimer& timer);
+
+    /// What it took to cast `seen`, the last enqueue()'s, by `counting` kernels, which cast them
+    /// again. Blocks.
+    ShadowCounts count(const ListedLights& lists, const GBuffer& gbuffer,
+                       const ShadowInput& shadows, const SeenLights& seen, CastShadows& counting);
+
+    /// Radiance that falls in from everywhere, which sampled shadows weigh lights against.
+    void set_ambient(float ambient);
+
+ private:
+    // What the last enqueue() was of.
+    struct Source {
+        std::uint64_t lists = 0;
+        float rays = 0.0f, ambient = 0.0f;  // of sampled shadows
+        uint seed = 0;
+        bool operator==(const Source&) const = default;
+    };
+
+    CastShadows cast_;
+    std::optional<DrawShadows> draw_;  // with sampled shadows
+    std::optional<Shade> unshadowed_;  // likewise
+    float ambient_ = 0.0f;
+    std::optional<Source> source_;
+    SeenLights seen_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/band_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kilolux {
+namespace {
+
+// The first `count` rows, and those of single lights among the nodes after them.
+template <typename Row>
+std::vector<Row> single_lights(std::vector<Row> rows, uint count,
+                               const std::vector<TreeNode>& nodes) {
+    std::size_t end = count;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].next == i + 1) rows[end++] = rows[count + i];
+    }
+    rows.resize(end);
+    return rows;
+}
+
+// Pixels of the band's planes.
+std::size_t plane_size(const LitBand& band) {
+    return std::size_t{band.surfaces.view.stride} * band.surfaces.view.height;
+}
+
+}  // namespace
+
+void BandReader::count(const LastSample& last, FrameStats& stats) {
+    const FrameRequest& want = context_.settings.want;
+    const RendererKind kind = context_.settings.renderer;
+    stats.useful_evaluations_per_pixel = -1.0;
+    if (is_forward(kind)) {
+        stats.evaluations_per_pixel = want.counts ? mean_of_drawn(pixels(last).evaluated) : -1.0;
+        return;
+    }
+    if (kind == RendererKind::deferred_all) {
+        stats.evaluations_per_pixel = last.band.lights.count;
+        return;
+    }
+    stats.evaluations_per_pixel = mean_list_length(stats);
+    if (want.counts) {
+        stats.useful_evaluations_per_pixel = mean_of_drawn(
+            download<uint>(context_.gpu, count_lights(last).covering, plane_size(last.band)));
+    }
+    if (!want.shadow_counts || !last.stages.visibility()) return;
+    if (!counting_) {
+        counting_.emplace(context_.gpu, context_.tuning, context_.plan.kernels,
+                          context_.surface_features(), true);
+    }
+    const LitBand& band = last.band;
+    stats.shadows = last.stages.visibility()->count(band.lists, band.surfaces, band.shadows,
+                                                    band.visible, *counting_);
+}
+
+DecodedSurfaces BandReader::pixels(const LastSample& last) {
+    last.stages.draw_missing_surfaces(last.camera, last.band);
+    const LitBand& band = last.band;
+    StageTimer untimed;
+    DecodedSurfaces out;
+    out.view = band.surfaces.view;
+    out.grid = band.grid;
+    out.specular = context_.plan.gbuffer.specular;
+    out.unlit = context_.plan.gbuffer.unlit;
+    out.planes = download<float>(context_.gpu, decoder().enqueue(band.surfaces, untimed),
+                                 decoder().plane_count() * plane_size(band));
+    count_evaluated(last, out);
+    return out;
+}
+
+void BandReader::count_evaluated(const LastSample& last, DecodedSurfaces& out) {
+    const KernelFeatures& kernels = context_.plan.kernels;
+    const RendererKind kind = context_.settings.renderer;
+    if (is_forward(kind)) {
+        out.evaluated = forward_evaluated(last, out);
+    } else if (kind == RendererKind::deferred_all) {
+        if (kernels.sampled_shadows) out.variance = download(context_.gpu, last.stages.variance());
+        for (std::size_t i = 0; i < plane_size(last.band); ++i) {
+            out.evaluated.push_back(out.planes[i] == 0.0f ? kBackground
+                                                          : last.stages.all_lights().count);
+        }
+    } else {
+        const LightCounts counts = count_lights(last);
+        out.evaluated = download<uint>(context_.gpu, counts.evaluated, plane_size(last.band));
+        out.covering = download<uint>(context_.gpu, counts.covering, plane_size(last.band));
+        if (kernels.shadows && !kernels.sampled_shadows) count_seen(last, out);
+        out.variance = variance(last);
+        if (context_.settings.want.has_aov("error-bound")) out.bound = bound(last);
+    }
+}
+
+LightCounts BandReader::count_lights(const LastSample& last) {
+    if (!count_lights_) {
+        count_lights_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
+    }
+    StageTimer untimed;
+    return count_lights_->enqueue(last.band.lists.at(last.band.surfaces), untimed);
+}
+
+std::vector<float> BandReader::overdraw(const Camera& camera, DrawOrder order) {
+    if (!overdraw_) overdraw_.emplace(context_.meshes());
+    return overdraw_->count(camera, context_.settings.width, context_.settings.height, order);
+}
+
+// For forward, lights times fragments shaded at a pixel.
+std::vector<uint> BandReader::forward_evaluated(const LastSample& last,
+                                                const DecodedSurfaces& surfaces) {
+    const View& view = surfaces.view;
+    const HostCoarseLists& lists = last.band.coarse;
+    std::vector<uint> out(std::size_t{view.stride} * view.height, kBackground);
+    std::vector<float> fragments;
+    const bool clustered = !lists.offsets.empty();
+    if (!clustered) fragments = overdraw(last.camera, DrawOrder::scene);
+    for (std::size_t y = 0; y < view.height; ++y) {
+        for (std::size_t x = 0; x < view.width; ++x) {
+            const std::size_t pixel = y * view.stride + x;
+            const std::optional<uint> cluster = coarse_cluster_at(surfaces, pixel);
+            if (!cluster) continue;
+            out[pixel] = clustered
+                             ? lists.offsets[*cluster + 1] - lists.offsets[*cluster]
+                             : last.band.lights.count *
+                                   static_cast<uint>(std::lround(fragments[y * view.width + x]));
+        }
+    }
+    return out;
+}
+
+void BandReader::count_seen(const LastSample& last, DecodedSurfaces& out) {
+    const Gpu& gpu = context_.gpu;
+    const LitBand& band = last.band;
+    if (!count_seen_) count_seen_.emplace(gpu, context_.tuning, context_.plan.kernels);
+    StageTimer untimed;
+    const SeenCounts counts =
+        count_seen_->enqueue(band.lists.at(band.surfaces), band.visible.words, untimed);
+    out.facing = download<uint>(gpu, counts.facing, plane_size(band));
+    out.seen = download<uint>(gpu, counts.seen, plane_size(band));
+}
+
+TailErrors& BandReader::tail_errors() {
+    if (!tail_errors_) {
+        tail_errors_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
+    }
+    return *tail_errors_;
+}
+
+std::vector<float> BandReader::variance(const LastSample& last) {
+    const KernelFeatures& kernels = context_.plan.kernels;
+    const LitBand& band = last.band;
+    if (!context_.settings.want.has_aov("error-standard")) return {};
+    if (kernels.drawn_ranges == 0.0f) {
+        if (kernels.sampled_shadows) return download(context_.gpu, last.stages.variance());
+        return std::vector<float>(plane_size(band));
+    }
+    StageTimer untimed;
+    return download(context_.gpu,
+                    tail_errors().variance(band.lists.at(band.surfaces), band.visible.words,
+                                           band.visible.samples, last.stages.variance(), untimed));
+}
+
+std::vector<float> BandReader::bound(const LastSample& last) {
+    StageTimer untimed;
+    const LitBand& band = last.band;
+    const LitPixels lit = band.lists.at(band.surfaces);
+    if (context_.plan.kernels.light_tree) {
+        return download(context_.gpu, tail_errors().tree_bound(lit, untimed));
+    }
+    return download(context_.gpu,
+                    tail_errors().bound(lit, band.lights.lights, band.lists.boxes, untimed));
+}
+
+LitSurfaces BandReader::lit_surfaces(const LastSample& last) {
+    if (is_forward(context_.settings.renderer)) {
+        throw Error("renderer: the forward renderers keep no G-buffer to look at");
+    }
+    const Gpu& gpu = context_.gpu;
+    const PreparedLights& lights =
+        last.stages.lists() ? last.band.lists.lights : last.stages.all_lights();
+    const auto nodes = download(gpu, lights.nodes, lights.node_count);
+    LitSurfaces out{pixels(last),
+                    single_lights(download(gpu, lights.lights, lights.rows()), lights.count, nodes),
+                    download(gpu, lights.directional, lights.directional_count),
+                    {}};
+    if (lights.profiles.lights) {
+        const auto rows = download(gpu, *lights.profiles.lights, lights.rows());
+        out.webs = webs_in_view(single_lights(rows, lights.count, nodes), context_.scene->scene());
+    }
+    return out;
+}
+
+PixelProbe BandReader::probe(const LastSample& last, int x, int y) {
+    last.stages.draw_missing_surfaces(last.camera, last.band);
+    const LitBand& band = last.band;
+    PixelProbe out = surface_at(band, x, y);
+    if (!out.drawn()) return out;
+    if (last.stages.lists()) {
+        probe_lists(last, x, y, out);
+    } else if (!band.coarse.offsets.empty()) {
+        const uint cluster = cluster_index(band.grid, out.tile_x, out.tile_y, out.slice);
+        out.has_list = true;
+        for (uint i = band.coarse.offsets[cluster]; i < band.coarse.offsets[cluster + 1]; ++i) {
+            out.lights.push_back({band.coarse.lists[i], {}, {}, {}, {}});
+        }
+        out.coarse_count = static_cast<uint>(out.lights.size());
+    }
+    return out;
+}
+
+// The surface and the coarse cluster of a pixel.
+PixelProbe BandReader::surface_at(const LitBand& band, int x, int y) {
+    StageTimer untimed;
+    const ClusterGrid& grid = band.grid;
+    const cl::Buffer planes = decoder().enqueue(band.surfaces, untimed);
+    const std::size_t pixel =
+        static_cast<std::size_t>(y) * band.surfaces.view.stride + static_cast<std::size_t>(x);
+    PixelProbe out;
+    out.grid = grid;
+    out.specular = context_.plan.gbuffer.specular;
+    out.unlit = context_.plan.gbuffer.unlit;
+    for (std::size_t i = 0; i < decoder().plane_count(); ++i) {
+        const std::size_t first = i * plane_size(band) + pixel;
+        out.surface[i] = download<float>(context_.gpu, planes, 1, first).front();
+    }
+    out.tile_x = static_cast<uint>(x) / grid.tile_width;
+    out.tile_y = static_cast<uint>(y) / grid.tile_height;
+    out.slice = slice_of_depth(grid, out.surface[SURFACE_DEPTH]);
+    return out;
+}
+
+DecodeGBuffer& BandReader::decoder() {
+    if (!decode_) decode_.emplace(context_.gpu, context_.tuning, context_.plan.kernels);
+    return *decode_;
+}
+
+// The lists of `deferred` at a pixel, and with shadows which of their lights it sees.
+void BandReader::probe_lists(const LastSample& last, int x, int y, PixelProbe& out) {
+    const LitBand& band = last.band;
+    const auto column = static_cast<uint>(x), row = static_cast<uint>(y);
+    PixelLists found = last.stages.lists()->at_pixel(band.lists, band.surfaces.view, column, row,
+                                                     out.surface[SURFACE_DEPTH]);
+    out.coarse_count = found.coarse_count;
+    out.active = found.active;
+    out.has_list = found.active.has_value();
+    for (const uint light : found.lights) out.lights.push_back({light, {}, {}, {}, {}});
+    const KernelFeatures& kernels = context_.plan.kernels;
+    if (!kernels.shadows || kernels.sampled_shadows || !found.active) return;
+    const std::vector<bool> seen = seen_lights(band, *found.active, column, row);
+    for (std::size_t i = 0; i < out.lights.size(); ++i) out.lights[i].seen = seen[i];
+}
+
+// Of the point and spot lights in the cluster's list, those that pixel (x, y) sees.
+std::vector<bool> BandReader::seen_lights(const LitBand& band, const ActiveCluster& cluster, uint x,
+                                          uint y) {
+    const Gpu& gpu = context_.gpu;
+    const ListedLights& lists = band.lists;
+    const uint tile = fine_tile_of(band.surfaces.view, x, y);
+    const auto order = download(gpu, lists.clusters.order, cluster.pixel_count,
+                                std::size_t{tile} * FINE_TILE_PIXELS + cluster.first_pixel);
+    const auto code = static_cast<std::uint8_t>(y % FINE_TILE * FINE_TILE + x % FINE_TILE);
+    const auto found = static_cast<uint>(std::ranges::find(order, code) - order.begin());
+    const uint place = cluster.first_pixel + found;
+    const uint last = cluster.first_pixel + cluster.pixel_count;
+    const std::size_t stride = (last + 31) / 32 - cluster.first_pixel / 32;
+    const std::size_t directional = lists.lights.directional_count;
+    const auto offset = download(gpu, band.visible.words.offsets, 1, tile).front();
+    const auto words = download(gpu, band.visible.words.words, stride * cluster.list_count,
+                                std::size_t{offset} + cluster.first_word + stride * directional);
+    std::vector<bool> out;
+    for (std::size_t i = 0; i < cluster.list_count; ++i) {
+        const uint word = words[i * stride + place / 32 - cluster.first_pixel / 32];
+        out.push_back((word >> place % 32 & 1u) != 0);
+    }
+    return out;
+}
+
+}  // namespace kilolux

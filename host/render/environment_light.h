@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "host/render/lit_band.h"
+#include "host/render/render_context.h"
+#include "host/stages/shading/fill_background.h"
+#include "host/stages/shading/reflect_environment.h"
+
+namespace kilolux {
+
+/// What an environment adds to lit surfaces: its reflections, and itself behind them.
+class EnvironmentLight {
+ public:
+    /// Takes up settings.background and settings.reflections where they changed. Throws Error; then
+    /// the one that failed stays as it was.
+    void set(const RenderContext& context);
+
+    /// Adds both to a band of the deferred renderers. Enqueues only.
+    void enqueue(const LitBand& band, StageTimer& timer);
+
+    /// The background at all pixels, before OpenGL draws over them. Enqueues only.
+    void fill(const Radiance& radiance, StageTimer& timer);
+
+ private:
+    std::shared_ptr<const Environment> image_;  // that background_ has
+    std::shared_ptr<const PrefilteredEnvironment> maps_;
+    std::optional<FillBackground> background_;
+    std::optional<ReflectEnvironment> reflections_;
+};
+
+}  // namespace kilolux

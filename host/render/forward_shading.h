@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "host/render/environment_light.h"
+#include "host/render/lit_band.h"
+#include "host/render/render_context.h"
+#include "raster/forward_pass.h"
+
+namespace kilolux {
+
+/// What forward shading compiles in for a plan. `opaque`: see ForwardFeatures.
+ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque);
+
+/// The lights as forward passes take them; with `lists`, by coarse cluster. Neither is owned.
+ForwardLights forward_lights(const Sample& sample, float ambient, const HostCoarseLists* lists);
+
+/// Shading of `forward` and `forward-plus`: OpenGL shades where it draws. Forward takes every light
+/// for every fragment, in the scene's order; forward-plus draws depth first and takes the coarse
+/// lists that OpenCL makes.
+class ForwardShading {
+ public:
+    explicit ForwardShading(const RenderContext& context);
+
+    /// Radiance before the environment's background. `lists`: null for every light. Blocks.
+    Radiance draw(const Sample& sample, const HostCoarseLists* lists, EnvironmentLight& environment,
+                  Measured out);
+
+ private:
+    const RenderContext& context_;
+    ForwardPass pass_;
+    GrowingArray<float> radiance_;
+};
+
+/// Surfaces that blend, drawn by OpenGL over a lit picture.
+class BlendedPass {
+ public:
+    /// Of a pixel on the host: the light before and after, and OpenGL's copy of it.
+    static constexpr std::size_t kPixelBytes = 3 * Radiance::kPixelBytes;
+
+    /// `clustered`: draw() gets lists.
+    BlendedPass(const RenderContext& context, bool clustered);
+
+    /// Draws them over `radiance`, behind what `targets` show. `lists`: null for every light.
+    /// Blocks.
+    void draw(const Sample& sample, const Radiance& radiance, const GBufferTargets& targets,
+              const HostCoarseLists* lists, Measured out);
+
+ private:
+    const RenderContext& context_;
+    ForwardPass pass_;
+};
+
+}  // namespace kilolux

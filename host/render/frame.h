@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/render/pipeline.h"
+
+namespace kilolux {
+
+/// What a frame shows, and how far it is made.
+struct Shot {
+    Camera camera;
+    double time = 0.0;        // [s]
+    DisplayMemory display{};  // see Renderer::render_to()
+    int samples = 0;          // likewise
+};
+
+/// Renders a frame: see Renderer::render().
+Frame render_frame(Pipeline& pipeline, const Shot& shot);
+
+}  // namespace kilolux

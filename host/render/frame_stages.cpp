@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/frame_stages.h"
+
+#include <algorithm>
+
+namespace kilolux {
+
+FrameStages::FrameStages(RenderContext& context) : context_(context) {
+    const Gpu& gpu = context.gpu;
+    const Tuning& tuning = context.tuning;
+    const KernelFeatures& features = context.plan.kernels;
+    const RendererKind kind = context.settings.renderer;
+    if (is_forward(kind)) {
+        forward_.emplace(context);
+        if (kind == RendererKind::forward_plus) coarse_.emplace(gpu, tuning, features);
+        return;
+    }
+    surfaces_.emplace(context);
+    if (kind == RendererKind::deferred) {
+        lists_.emplace(gpu, tuning, features);
+        if (features.shadows) {
+            visibility_.emplace(gpu, tuning, features, context.surface_features());
+        }
+        shade_.emplace(gpu, tuning, features);
+        if (context.shades_display()) {
+            shade_->build(static_cast<int>(context.settings.tone_curve));
+        } else {
+            shade_->build({});
+        }
+    } else {
+        shade_all_.emplace(gpu, tuning, features, context.surface_features());
+    }
+    if (!context.blends()) return;
+    if (lists_) lists_->list_everywhere();
+    blended_.emplace(context, lists_.has_value());
+}
+
+void FrameStages::draw_surfaces(const Sample& sample, LitBand& band, Measured out) {
+    band = {};
+    band.lights = sample.lights;
+    band.grid = context_.coarse_grid(sample.camera);
+    std::ranges::copy(std::array{band.grid.tiles_x, band.grid.tiles_y, band.grid.slices},
+                      out.stats.grid);
+    if (forward_) return;
+    band.surfaces = surfaces_->enqueue(sample, out);
+    band.shadows = surfaces_->shadows(sample);
+}
+
+void FrameStages::list_lights(const Sample& sample, LitBand& band, Measured out) {
+    if (lists_) band.lists = lists_->enqueue(sample.lights, band.surfaces, band.grid, out.timer);
+    if (!coarse_) return;
+    const View view =
+        view_of(sample.camera, context_.settings.width, context_.settings.height, sample.band);
+    band.coarse = coarse_->download(coarse_->run(sample.lights, view, band.grid, out.timer));
+}
+
+void FrameStages::find_visible(LitBand& band, Measured out) {
+    if (!visibility_) return;
+    visibility_->set_ambient(context_.settings.ambient);
+    band.visible = visibility_->enqueue(band.lists, band.surfaces, band.shadows, out.timer);
+}
+
+void FrameStages::shade(const Sample& sample, LitBand& band, EnvironmentLight& environment,
+                        Measured out) {
+    const float ambient = context_.settings.ambient;
+    if (shade_) {
+        shade_->set_ambient(ambient);
+        band.light = shade_->enqueue(band.lists.at(band.surfaces), out.timer, band.visible.words,
+                                     band.visible.samples, sample.display);
+    } else if (shade_all_) {
+        shade_all_->set_ambient(ambient);
+        band.light =
+            shade_all_->enqueue({band.surfaces, band.lights, band.grid, band.shadows}, out.timer);
+    } else {
+        band.light = forward_->draw(sample, coarse_ ? &band.coarse : nullptr, environment, out);
+    }
+}
+
+Room FrameStages::room(const LitBand& band, Measured out) {
+    Room out_room;
+    out_room.lists = !lists_ || lists_->fits(out.timer);
+    out_room.surfaces = forward_ || surfaces_->fits(out.stats);
+    if (coarse_) out.stats.coarse_pairs = band.coarse.offsets.back();
+    if (lists_) static_cast<PairCounts&>(out.stats) = lists_->counts();
+    return out_room;
+}
+
+void FrameStages::blend(const Sample& sample, LitBand& band, Measured out) {
+    if (!blended_) return;
+    if (lists_) band.coarse = lists_->download_coarse(band.lists);
+    blended_->draw(sample, band.light, surfaces_->targets(), lists_ ? &band.coarse : nullptr, out);
+}
+
+void FrameStages::draw_missing_surfaces(const Camera& camera, LitBand& band) {
+    if (!forward_) return;
+    if (!surfaces_) surfaces_.emplace(context_);
+    StageTimer timer;
+    FrameStats stats;
+    const LightRows no_rows;
+    band.surfaces =
+        surfaces_->draw({camera, no_rows, {}, {0, context_.settings.height}}, {timer, stats});
+}
+
+}  // namespace kilolux

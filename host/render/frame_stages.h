@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "host/lighting/deferred_lighting.h"
+#include "host/render/environment_light.h"
+#include "host/render/forward_shading.h"
+#include "host/render/lit_band.h"
+#include "host/render/surface_pass.h"
+
+namespace kilolux {
+
+/// What of a sample had room.
+struct Room {
+    bool surfaces = false, lists = false;
+    bool enough() const { return surfaces && lists; }
+};
+
+/// The stages from surfaces to radiance, of each renderer those that it has:
+///
+///     deferred      surfaces, lists, visibility with shadows, shading by lists, blended surfaces
+///     deferred-all  surfaces,                                 shading by all,   blended surfaces
+///     forward-plus            coarse lists,                   OpenGL's fragments
+///     forward                                                 OpenGL's fragments
+///
+/// Each function fills its part of the band; without such a stage it does nothing.
+class FrameStages {
+ public:
+    /// Of context.settings.renderer.
+    explicit FrameStages(RenderContext& context);
+
+    /// A new band: the G-buffer, what casts shadows onto it, and the coarse grid.
+    void draw_surfaces(const Sample& sample, LitBand& band, Measured out);
+
+    /// The lists of lights of its pixels.
+    void list_lights(const Sample& sample, LitBand& band, Measured out);
+
+    /// Which pixels see which lights of their lists.
+    void find_visible(LitBand& band, Measured out);
+
+    /// Radiance, or with sample.display the display picture.
+    void shade(const Sample& sample, LitBand& band, EnvironmentLight& environment, Measured out);
+
+    /// What of the last calls had room; the others must run again, and then have it. Waits for the
+    /// device where stages count what they need. Sets the counts of lists.
+    Room room(const LitBand& band, Measured out);
+
+    /// OpenGL's surfaces that blend, over the lit ones. Blocks.
+    void blend(const Sample& sample, LitBand& band, Measured out);
+    bool blends() const { return blended_.has_value(); }
+
+    /// Draws the G-buffer of the forward renderers, which only what asks afterwards needs.
+    void draw_missing_surfaces(const Camera& camera, LitBand& band);
+
+    /// The lists of `deferred`; null for the others.
+    const LightLists* lists() const { return lists_ ? &*lists_ : nullptr; }
+    /// The visibility of `deferred` with shadows; null else.
+    Visibility* visibility() { return visibility_ ? &*visibility_ : nullptr; }
+    /// The lights of `deferred-all`, as it shades them.
+    const PreparedLights& all_lights() const { return shade_all_->lights(); }
+
+    /// With sampled shadows: see Shade::variance().
+    DeviceArray<float> variance() const {
+        return shade_ ? shade_->variance() : shade_all_->variance();
+    }
+
+ private:
+    RenderContext& context_;
+    std::optional<SurfacePass> surfaces_;  // of the forward renderers when first asked for
+    std::optional<LightLists> lists_;
+    std::optional<CoarseLightLists> coarse_;
+    std::optional<Visibility> visibility_;
+    std::optional<Shade> shade_;
+    std::optional<AllLightsLighting> shade_all_;
+    std::optional<ForwardShading> forward_;
+    std::optional<BlendedPass> blended_;
+};
+
+}  // namespace kilolux

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "host/gpu/surface_flow.h"
+#include "host/lighting/light_lists.h"
+#include "host/lighting/visibility.h"
+#include "host/picture/bands.h"
+#include "host/picture/frame.h"
+#include "host/render/lights/light_rows.h"
+#include "host/scene/open_tiles.h"
+
+namespace kilolux {
+
+/// The fine tiles of a band that need a sample; the others' pixels may be background.
+struct NeededTiles {
+    TileCounts done;
+    OpenTiles open;
+};
+
+/// One sample of a band of a frame to light: the lights on the host and, uploaded, on the device.
+struct Sample {
+    Camera camera;  // of the whole picture
+    const LightRows& rows;
+    LightInput lights;
+    Band band;
+    bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
+    uint number = 0;     // of the pixel's samples
+    const NeededTiles* needed = nullptr;  // none: all of the band
+    // Where the picture goes in place of radiance, which is not made then.
+    std::optional<DisplayTarget> display = {};
+};
+
+/// What the stages leave of a sample, on the device: what AOVs, views, counts and probes read.
+/// Valid until the next sample.
+struct LitBand {
+    GBuffer surfaces;     // none of the forward renderers
+    ShadowInput shadows;  // that are cast onto the surfaces
+    LightInput lights;
+    ClusterGrid grid{};
+    ListedLights lists;      // of `deferred`
+    HostCoarseLists coarse;  // of `forward-plus`
+    SeenLights visible;      // with shadows, of `deferred`
+    Radiance light;
+
+    /// Arrays that grow must not be held twice.
+    void drop_lists() {
+        lists = {};
+        visible = {};
+    }
+};
+
+/// What stages add to while they make a sample.
+struct Measured {
+    StageTimer& timer;  // the device's stages
+    FrameStats& stats;  // counts, and the host's stages
+};
+
+/// Adds a stage that the host or OpenGL has just ended.
+inline void add_host_time(Measured out, std::string_view stage, double ms) {
+    out.timer.record_host(ms);
+    add_stage_time(out.stats.stages, stage, ms);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/picture_output.h"
+
+#include "host/render/renderer.h"
+#include "host/render/samples.h"
+
+namespace kilolux {
+
+PictureOutput::PictureOutput(const RenderContext& context)
+    : context_(context),
+      tone_curve_(static_cast<int>(context.settings.tone_curve)),
+      tonemap_(context.gpu, context.tuning, tone_curve_),
+      whole_light_(context.gpu, "bloom"),
+      reader_(context.gpu),
+      shown_(context.gpu) {
+    set(context.settings);
+}
+
+void PictureOutput::set(const RenderSettings& settings) {
+    if (settings.bloom > 0.0f && !bloom_) bloom_.emplace(context_.gpu);
+    const int tone_curve = static_cast<int>(settings.tone_curve);
+    if (tone_curve != tone_curve_) tonemap_ = Tonemap(context_.gpu, context_.tuning, tone_curve);
+    tone_curve_ = tone_curve;
+}
+
+void PictureOutput::begin(DisplayMemory memory, Frame& frame) {
+    reader_.reset();
+    memory_ = memory;
+    const RenderSettings& settings = context_.settings;
+    const FrameRequest& want = settings.want;
+    frame.width = settings.width;
+    frame.height = settings.height;
+    const auto pixels =
+        static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+    const bool shown_only = !memory.empty();
+    if (want.display && !shown_only) frame.display.resize(4 * pixels);
+    if ((want.radiance && !shown_only) || want.view == ViewKind::difference) {
+        frame.radiance.resize(3 * pixels);
+    }
+    if (want.bloomed && settings.bloom > 0.0f) frame.bloomed.resize(3 * pixels);
+    display_ = {reinterpret_cast<uint*>(frame.display.data()), frame.display.size() / sizeof(uint)};
+    if (blooms_at_end()) {
+        const View view = view_of(Camera{}, settings.width, settings.height);
+        whole_light_.reserve(std::size_t{3} * view.stride * view.height);
+    }
+}
+
+// A CPU device's kernels write to the caller's memory themselves.
+DisplayTarget PictureOutput::target(const View& view) {
+    const float exposure = context_.settings.exposure;
+    if (!is_written_by_device()) return tonemap_.target(view, exposure);
+    const cl::Buffer pixels(context_.gpu.context, CL_MEM_WRITE_ONLY | CL_MEM_USE_HOST_PTR,
+                            memory_.size_bytes(), memory_.data());
+    return tonemap_.target({pixels, memory_.size()}, view, exposure);
+}
+
+bool PictureOutput::gathers(const Radiance& light) {
+    if (!blooms_at_end()) return false;
+    const View& view = light.view;
+    const std::size_t row = sizeof(float) * view.stride;
+    context_.gpu.queue.enqueueCopyBufferRect(
+        light.planes, whole_light_.get().buffer(), {0, 0, 0}, {0, view.first_row, 0},
+        {row, view.height, 3}, row, row * view.height, row,
+        row * static_cast<std::size_t>(context_.settings.height));
+    return true;
+}
+
+std::optional<Radiance> PictureOutput::gathered(const Camera& camera) {
+    if (!blooms_at_end()) return {};
+    const RenderSettings& settings = context_.settings;
+    return Radiance{whole_light_.get(), view_of(camera, settings.width, settings.height)};
+}
+
+Radiance PictureOutput::bloom(const Radiance& light, StageTimer& timer) {
+    const float share = context_.settings.bloom;
+    return share > 0.0f ? bloom_->enqueue(light, share, timer) : light;
+}
+
+std::optional<DisplayTarget> PictureOutput::tonemap(const Radiance& light, StageTimer& timer) {
+    if (memory_.empty() && display_.empty()) return {};
+    const DisplayTarget display = target(light.view);
+    tonemap_.enqueue(light, display, timer);
+    return display;
+}
+
+void PictureOutput::read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer) {
+    if (!to.empty()) reader_.read_light(light, to, timer);
+}
+
+void PictureOutput::read_display(const DisplayTarget& display, StageTimer& timer) {
+    const cl::CommandQueue& queue = context_.gpu.queue;
+    if (is_written_by_device()) {
+        void* mapped =
+            queue.enqueueMapBuffer(display.pixels, CL_FALSE, CL_MAP_READ, 0, memory_.size_bytes());
+        queue.enqueueUnmapMemObject(display.pixels, mapped);
+    } else if (!memory_.empty() && memory_.data() == shown_.data<uint>()) {
+        cl::Event event;
+        queue.enqueueReadBuffer(display.pixels, CL_FALSE, 0, memory_.size_bytes(), memory_.data(),
+                                nullptr, &event);
+        timer.record(kReadBackStage, event);
+    } else if (!memory_.empty()) {
+        reader_.read_display(display.pixels, display.view, memory_, display.view.stride, timer);
+    } else {
+        reader_.read_display(display.pixels, display.view, display_,
+                             static_cast<std::size_t>(context_.settings.width), timer);
+    }
+}
+
+void PictureOutput::finish(StageTimer& timer, FrameStats& stats) {
+    const double placed_ms = reader_.finish();
+    if (placed_ms > 0.0) timer.record_host(placed_ms);
+    add_times(timer, stats);
+    add_stage_time(stats.stages, kReadBackStage, placed_ms);
+}
+
+DisplayMemory PictureOutput::display_memory() {
+    const RenderSettings& settings = context_.settings;
+    const std::size_t pixels =
+        display_stride(settings.width) * static_cast<std::size_t>(settings.height);
+    if (!context_.gpu.info.is_cpu) {
+        shown_.reserve(pixels * sizeof(uint));
+        return {shown_.data<uint>(), pixels};
+    }
+    host_shown_.resize(pixels);
+    return host_shown_;
+}
+
+}  // namespace kilolux

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/picture/frame_reader.h"
+#include "host/render/lit_band.h"
+#include "host/render/render_context.h"
+#include "host/stages/picture/bloom.h"
+#include "host/stages/picture/tonemap.h"
+
+namespace kilolux {
+
+/// Where a frame's display picture goes in place of Frame::display: the caller's memory, see
+/// Renderer::render_to(); none where it is empty.
+using DisplayMemory = std::span<uint>;
+
+/// From radiance to the pictures on the host: bloom, tone mapping, reading back.
+class PictureOutput {
+ public:
+    explicit PictureOutput(const RenderContext& context);
+
+    /// Takes up other settings. Throws Error.
+    void set(const RenderSettings& settings);
+
+    /// Makes the frame's pictures as large as what is wanted of them.
+    void begin(DisplayMemory memory, Frame& frame);
+
+    /// Where shading puts the band's display picture.
+    DisplayTarget target(const View& view);
+
+    /// Keeps the light of a band for bloom, which mixes that of all bands, where there are several;
+    /// false else.
+    bool gathers(const Radiance& light);
+    /// What gathers() kept; none where it kept nothing.
+    std::optional<Radiance> gathered(const Camera& camera);
+
+    /// The light with bloom.
+    Radiance bloom(const Radiance& light, StageTimer& timer);
+
+    /// The display picture of the light; none where no one wants it.
+    std::optional<DisplayTarget> tonemap(const Radiance& light, StageTimer& timer);
+
+    /// Enqueues the read of what the frame wants of the light, with bloom and without, and of the
+    /// display picture.
+    void read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer);
+    void read_display(const DisplayTarget& display, StageTimer& timer);
+
+    /// Waits for what was read; then it is in the frame. Adds its time to the frame's stages.
+    void finish(StageTimer& timer, FrameStats& stats);
+
+    /// See Renderer::display_memory().
+    DisplayMemory display_memory();
+
+ private:
+    bool is_written_by_device() const { return context_.gpu.info.is_cpu && !memory_.empty(); }
+    bool blooms_at_end() const { return context_.settings.bloom > 0.0f && !context_.is_whole(); }
+
+    const RenderContext& context_;
+    std::optional<Bloom> bloom_;  // none at a share of 0
+    int tone_curve_;
+    Tonemap tonemap_;
+    GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
+    FrameReader reader_;
+    PinnedMemory shown_;            // display_memory() of a device with memory of its own
+    std::vector<uint> host_shown_;  // else
+    // Of the frame.
+    DisplayMemory memory_;
+    std::span<uint> display_;  // Frame::display
+};
+
+}  // namespace kilolux

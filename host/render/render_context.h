@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "host/gpu/features.h"
+#include "host/render/plan/memory_plan.h"
+#include "host/render/plan/scene_plan.h"
+#include "host/render/render_scene.h"
+#include "host/render/settings.h"
+#include "host/surfaces/shadow_scene.h"
+#include "host/surfaces/surface_scene.h"
+
+namespace kilolux {
+
+/// What a renderer is made for: its parts refer to it, and it outlives them.
+struct RenderContext {
+    std::shared_ptr<RenderScene> scene;  // first: the last to go
+    RenderSettings settings;
+    ScenePlan plan;
+    Gpu gpu;
+    Tuning tuning;
+    MemoryPlan memory;
+    // Made when first asked for: the scene on the device, and what of it casts shadows.
+    std::shared_ptr<SurfaceScene> surfaces{};
+    std::shared_ptr<ShadowScene> shadows{};
+
+    /// Whether shading makes the display picture itself: where nothing else reads or changes the
+    /// light after it, and its kernels' arithmetic is that of tone mapping.
+    bool shades_display() const;
+
+    /// Whether OpenCL makes the surfaces of OpenGL's ids: not for what OpenGL's fragments light.
+    bool resolves() const {
+        return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
+    }
+    /// Whether OpenCL draws the triangles, too: not where OpenGL blends surfaces over them.
+    bool draws_in_opencl() const;
+
+    /// Whether some surfaces blend over others.
+    bool blends() const { return has_blended_surfaces(scene->scene()); }
+
+    /// Whether OpenGL's fragments are lit, from lights on the host.
+    bool lights_on_host() const { return is_forward(settings.renderer) || blends(); }
+
+    /// Whether the picture is made in one band.
+    bool is_whole() const;
+
+    /// The scene as this way's OpenGL passes need it.
+    const GpuScene& meshes() const;
+
+    /// The coarse grid of a frame.
+    ClusterGrid coarse_grid(const Camera& camera) const;
+
+    /// What resolve_surfaces, and what casts shadows, reads of the scene's materials.
+    SurfaceFeatures surface_features() const;
+};
+
+/// The plan for a scene with its own lights and the generated ones.
+ScenePlan plan_of(const Scene& scene, const RenderSettings& settings);
+
+/// Throws Error as Renderer does. Buffers of everything that is made with its Gpu are held within
+/// the memory plan.
+RenderContext make_context(std::shared_ptr<RenderScene> scene, const RenderSettings& settings,
+                           const Gpu& opened);
+
+}  // namespace kilolux
