@@ -19,25 +19,18 @@ namespace {
     throw UsageError(fmt::format("{}: '{}' is not {}", option, text, wanted));
 }
 
+// "+5" is 5.
+std::string_view without_plus(std::string_view text) {
+    return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
+}
+
 template <typename Number>
 std::optional<Number> number_of(std::string_view text) {
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    text = without_plus(text);
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
-}
-
-// Also "5k", "2M", "1e6": a whole number that a double holds exactly.
-std::optional<std::uint64_t> count_of(std::string_view text) {
-    if (const auto value = number_of<std::uint64_t>(text)) return value;
-    double unit = 1.0;
-    if (text.ends_with('k')) unit = 1e3;
-    if (text.ends_with('M')) unit = 1e6;
-    if (unit > 1.0) text.remove_suffix(1);
-    const double value = unit * number_of<double>(text).value_or(-1.0);
-    const bool whole = value >= 0.0 && value <= 0x1p53 && value == std::floor(value);
-    return whole ? std::optional(static_cast<std::uint64_t>(value)) : std::nullopt;
 }
 
 std::string describe(const NumberRange& range) {
@@ -108,14 +101,14 @@ double parse_number_or_auto(const std::string& option, std::string_view text,
 
 std::uint64_t parse_count(const std::string& option, std::string_view text,
                           const CountRange& range) {
-    const auto value = count_of(text);
+    const auto value = count_of(without_plus(text));
     if (!value || *value < range.min || *value > range.max) refuse(option, text, describe(range));
     return *value;
 }
 
 std::uint64_t parse_count_or_auto(const std::string& option, std::string_view text,
                                   const CountRange& range) {
-    const auto value = count_of(text);
+    const auto value = count_of(without_plus(text));
     if (value && *value >= range.min && *value <= range.max) return *value;
     if (text != "auto") refuse(option, text, "'auto' or " + describe(range));
     return 0;
