@@ -23,6 +23,8 @@ ScenePass shaded_pass(const ForwardFeatures& features, bool blended) {
     pass.defines.emplace_back("SHADING", fmt::to_string(features.shading));
     pass.defines.emplace_back("LIGHT_TEXTURES", textures ? "1" : "0");
     pass.defines.emplace_back("CLUSTERED", features.clustered ? "1" : "0");
+    pass.defines.emplace_back("BLENDED", blended ? "1" : "0");
+    pass.uses = kept_uses(features);
     return pass;
 }
 
@@ -53,13 +55,12 @@ void load_radiance(const GBufferTargets& targets, std::span<const float> planes)
 }  // namespace
 
 ForwardPass::ForwardPass(const GpuScene& scene, const ForwardFeatures& features)
-    : scene_(scene),
-      draw_list_(scene.scene()),
+    : draw_list_(scene.scene()),
       blended_(scene, shaded_pass(features, true)),
       light_buffers_(light_access(features)) {
     if (features.opaque) opaque_.emplace(scene, shaded_pass(features, false));
     if (features.opaque && features.clustered) {
-        depth_.emplace(scene, coverage_pass("raster/shaders/depth.frag"));
+        depth_.emplace(scene, coverage_pass(Coverage::depth));
     }
     check_gl_errors("forward pass");
 }
@@ -75,36 +76,36 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
                        std::span<const float> background) {
     prepare(width, height);
     light_buffers_.upload(lights, view_of(camera, width, height));
+    const CameraRow row = camera_row(camera, view_of(camera, width, height), width, height);
     timer_.begin();
     {
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
         targets_->clear();
         if (!background.empty()) load_radiance(*targets_, background);
-        draw_opaque(camera);
-        draw_transparent(camera);
+        draw_opaque(camera, row);
+        draw_transparent(camera, row);
     }
     timer_.end();
     check_gl_errors("forward pass");
 }
 
-void ForwardPass::draw_opaque(const Camera& camera) const {
+void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) const {
     const int width = targets_->width();
     const int height = targets_->height();
-    const glm::mat4 clip(clip_from_view(camera, width, height));
     const DrawOrder order = depth_ ? DrawOrder::front_to_back : DrawOrder::scene;
     const std::vector<Draw> draws = draw_list_.visible(camera, width, height, false, order);
     if (depth_) {
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        depth_->draw(scene_, draws, clip);
+        depth_->draw(draws, row);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
     }
-    opaque_->draw(scene_, draws, clip);
+    opaque_->draw(draws, row);
 }
 
-void ForwardPass::draw_transparent(const Camera& camera) const {
+void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) const {
     const int width = targets_->width();
     const int height = targets_->height();
     const std::vector<Draw> draws =
@@ -115,7 +116,7 @@ void ForwardPass::draw_transparent(const Camera& camera) const {
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    blended_.draw(scene_, draws, glm::mat4(clip_from_view(camera, width, height)));
+    blended_.draw(draws, row);
 }
 
 void ForwardPass::draw_blended(const Camera& camera, const View& view,
@@ -132,7 +133,7 @@ void ForwardPass::draw_blended(const Camera& camera, const View& view,
     {
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
-        draw_transparent(camera);
+        draw_transparent(camera, camera_row(camera, view, width, height));
     }
     timer_.end();
     check_gl_errors("blended surfaces");

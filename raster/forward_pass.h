@@ -50,10 +50,9 @@ class ForwardPass {
 
  private:
     void prepare(int width, int height);
-    void draw_opaque(const Camera& camera) const;
-    void draw_transparent(const Camera& camera) const;
+    void draw_opaque(const Camera& camera, const CameraRow& row) const;
+    void draw_transparent(const Camera& camera, const CameraRow& row) const;
 
-    const GpuScene& scene_;
     DrawList draw_list_;
     std::optional<ScenePrograms> depth_, opaque_;
     ScenePrograms blended_;

@@ -6,7 +6,7 @@
 #include "host/picture/pixel_probe.h"
 #include "host/render/blended_pass.h"
 #include "host/render/surface_pass.h"
-#include "raster/overdraw_pass.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
 

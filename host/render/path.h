@@ -21,6 +21,9 @@
 
 namespace kilolux {
 
+/// Texture samples along a footprint's longer side at most.
+int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device);
+
 /// What the way from surfaces to radiance is made for; outlives it.
 struct PathContext {
     const RenderSettings& settings;
@@ -64,7 +67,7 @@ struct PathContext {
     /// The scene as this way's OpenGL passes need it.
     const GpuScene& meshes() const {
         return scene.meshes(resolves() ? GpuSceneUse::covered : GpuSceneUse::shaded,
-                            settings.anisotropy);
+                            chosen_anisotropy(settings, gpu.info));
     }
 };
 

@@ -18,7 +18,7 @@
 #include "host/stages/picture/bloom.h"
 #include "host/stages/picture/sum_samples.h"
 #include "host/stages/picture/tonemap.h"
-#include "raster/overdraw_pass.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
 

@@ -12,13 +12,9 @@
 #include "host/stages/surfaces/count_texels.h"
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/surfaces/triangle_ids.h"
-#include "raster/geometry_pass.h"
-#include "raster/ids_pass.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
-
-/// Texture samples along a footprint's longer side at most.
-int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device);
 
 /// The scene's surfaces in a G-buffer on the OpenCL device: OpenGL or OpenCL draws triangle ids
 /// that OpenCL resolves, or OpenGL the planes themselves (RenderSettings::geometry).

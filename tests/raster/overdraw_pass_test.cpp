@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raster/overdraw_pass.h"
+#include "raster/solid_pass.h"
 
 #include "tests/raster/gl_fixture.h"
 
