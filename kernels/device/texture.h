@@ -11,10 +11,23 @@ typedef struct TextureBuffers {
     global const ulong* texels;  // 16 bits a channel, linear, red lowest
 } TextureBuffers;
 
-#define TEXTURE_ROW(buffers, map) (buffers).rows[(map).texture]
+// What a use of a material reads.
+typedef struct Map {
+    global const TextureRow* row;
+    global const ulong* texels;
+} Map;
 
-static inline UV level_offsets(TextureBuffers buffers, Map map, UV level) {
-    global const uint* offsets = TEXTURE_ROW(buffers, map).level_offset;
+static inline Map make_map(TextureBuffers buffers, uint texture, uint use) {
+    Map map;
+    map.row = buffers.rows + texture;
+    map.texels = buffers.texels + map.row->first_texel;
+    return map;
+}
+
+#define TEXTURE_ROW(map) (*(map).row)
+
+static inline UV level_offsets(Map map, UV level) {
+    global const uint* offsets = map.row->level_offset;
 #if VW == 1
     return offsets[level];
 #else
@@ -57,9 +70,7 @@ static inline Texels gather_texels(global const ulong* texels, UV place) {
     return out;
 }
 
-static inline Texels fetch_texels(TextureBuffers buffers, Map map, UV place) {
-    return gather_texels(buffers.texels + TEXTURE_ROW(buffers, map).first_texel, place);
-}
+static inline Texels fetch_texels(Map map, UV place) { return gather_texels(map.texels, place); }
 
 #include "kernels/shared/texture.h"
 
@@ -78,9 +89,8 @@ static inline void prefetch_level(global const ulong* texels, const LevelLookup*
 #endif
 }
 
-static inline void prefetch_map(TextureBuffers buffers, Map map, const Lookup* at) {
-    global const ulong* texels = buffers.texels + TEXTURE_ROW(buffers, map).first_texel;
-    prefetch_level(texels, &at->level);
-    if (at->two_levels) prefetch_level(texels, &at->coarser);
+static inline void prefetch_map(Map map, const Lookup* at) {
+    prefetch_level(map.texels, &at->level);
+    if (at->two_levels) prefetch_level(map.texels, &at->coarser);
 }
 #endif

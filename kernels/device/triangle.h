@@ -21,14 +21,22 @@ typedef struct SurfaceScene {
     global const ulong* texels;
 } SurfaceScene;
 
-#define INSTANCE(scene, i) (scene).instances[i]
+typedef global const InstanceRow* InstanceRef;
+typedef global const SurfaceMaterial* MaterialRef;
+typedef global const float* VertexRef;
+
+#define INSTANCE(instance) (*(instance))
+#define MATERIAL(material) (*(material))
 #define MESH(scene, i) (scene).meshes[i]
-#define MATERIAL(scene, i) (scene).materials[i]
 #define vertex_index(scene, i) (scene).indices[i]
-#define vertex_float(scene, i) (scene).vertices[i]
-#define vertex_float2(scene, i) vload2(0, (scene).vertices + (i))
-#define vertex_float3(scene, i) vload3(0, (scene).vertices + (i))
-#define vertex_float4(scene, i) vload4(0, (scene).vertices + (i))
+#define vertex_float(vertex, place) (vertex)[place]
+#define vertex_float2(vertex, place) vload2(0, (vertex) + (place))
+#define vertex_float3(vertex, place) vload3(0, (vertex) + (place))
+#define vertex_float4(vertex, place) vload4(0, (vertex) + (place))
+
+static inline VertexRef vertex_row(SurfaceScene scene, MeshRow mesh, uint index) {
+    return scene.vertices + mesh.first_float + (size_t)index * mesh.vertex_floats;
+}
 
 static inline TextureBuffers textures_of_scene(SurfaceScene scene) {
     TextureBuffers buffers = {scene.textures, scene.texels};
@@ -53,8 +61,8 @@ static inline uint instance_of(SurfaceScene scene, uint triangle) {
 }
 
 static inline Triangle fetch_triangle(SurfaceScene scene, uint id) {
-    uint instance = instance_of(scene, id - 1u);
-    return mesh_triangle(scene, instance, id - 1u - scene.instances[instance].first_triangle);
+    InstanceRef instance = scene.instances + instance_of(scene, id - 1u);
+    return mesh_triangle(scene, instance, id - 1u - instance->first_triangle);
 }
 
 // The number in the first lane of `mask`.
@@ -73,7 +81,7 @@ static inline Fragment interpolate_fragment(SurfaceScene scene, View view, Pixel
     for (MASK left = drawn; lane_any(left);) {
         uint id = first_of(ids, left);
         MASK mask = lane_mask(ids == (UV)(id)) & drawn;
-        interpolate_triangle(scene, view, pixels, fetch_triangle(scene, id), mask, &fragment);
+        interpolate_triangle(view, pixels, fetch_triangle(scene, id), mask, &fragment);
         left &= ~mask;
     }
     return fragment;

@@ -44,9 +44,8 @@ static inline MASK is_opaque_at(MaskedScene scene, uint number, FV u0, FV u1, FV
         t = fma(fv(y.x), s, fma(fv(y.y), t, fv(y.z)));
         s = u;
 #endif
-        Map map = make_map(texture, USE_BASE_COLOR);
-        alpha *=
-            fetch_alpha(scene.textures, map, make_lookup(scene.textures, map, s, t, fv(-1.0f)));
+        Map map = make_map(scene.textures, texture, USE_BASE_COLOR);
+        alpha *= fetch_alpha(map, make_lookup(map, s, t, fv(-1.0f)));
     }
     return lane_mask(!(alpha < fv(material->row.emissive_cutoff.w)));
 }

@@ -2,9 +2,10 @@
 // A fragment's surface, for OpenCL C and GLSL: factors times textures, as glTF 2.0 defines them.
 //
 // Each language defines before, beside what texture.h and triangle.h need:
-//   MATERIAL(scene, i)               the row of a material
-//   textures_of_scene(scene)         its TextureBuffers
-//   prefetch_map(buffers, map, REF(at))   asks the caches for what a Lookup reads
+//   MaterialRef, MATERIAL(material)         a material and its row
+//   textures_of_scene(scene)                where the maps are, and
+//   make_map(textures, texture, use)        one of them by its TextureRow's number
+//   prefetch_map(map, at)                   asks the caches for what a Lookup reads
 //
 // TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
 // G-buffer keeps. HAS_SPECULAR, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some are unlit.
@@ -19,18 +20,18 @@
 
 #if HAS_TEXCOORDS
 // Where a use's texture is read: texture coordinates, transformed.
-SHARED_FN Footprint footprint_of(SurfaceScene scene, uint material, IN(Fragment) f, uint use) {
+SHARED_FN Footprint footprint_of(MaterialRef material, IN(Fragment) f, uint use) {
 #if HAS_TEXCOORD0 && HAS_TEXCOORD1
     Footprint t = AT(f).texcoord0;
-    if ((MATERIAL(scene, material).flags & (1u << use)) != 0u) t = AT(f).texcoord1;
+    if ((MATERIAL(material).flags & (1u << use)) != 0u) t = AT(f).texcoord1;
 #elif HAS_TEXCOORD1
     Footprint t = AT(f).texcoord1;
 #else
     Footprint t = AT(f).texcoord0;
 #endif
 #if HAS_UV_TRANSFORM
-    float4 x = MATERIAL(scene, material).row.uv_x[use];
-    float4 y = MATERIAL(scene, material).row.uv_y[use];
+    float4 x = MATERIAL(material).row.uv_x[use];
+    float4 y = MATERIAL(material).row.uv_y[use];
     Footprint at;
     at.u = fma(fv(x.x), t.u, fma(fv(x.y), t.v, fv(x.z)));
     at.v = fma(fv(y.x), t.u, fma(fv(y.y), t.v, fv(y.z)));
@@ -44,31 +45,30 @@ SHARED_FN Footprint footprint_of(SurfaceScene scene, uint material, IN(Fragment)
 #endif
 }
 
-SHARED_FN Map map_of(SurfaceScene scene, uint material, uint use) {
-    return make_map(MATERIAL(scene, material).textures[use], use);
+SHARED_FN Map map_of(SurfaceScene scene, MaterialRef material, uint use) {
+    return make_map(textures_of_scene(scene), MATERIAL(material).textures[use], use);
 }
 #endif
 
 // A material's textures at the fragments.
 SHARED_PLAIN_STRUCT(Textures) {
-    uint material;
+    MaterialRef material;
 #if MAX_ANISOTROPY == 1 && HAS_TEXCOORDS
     Lookup lookup;  // that of the material's lookup_use
 #endif
 };
 
-SHARED_FN Textures textures_of(SurfaceScene scene, uint material, IN(Fragment) f) {
+SHARED_FN Textures textures_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) {
     Textures textures;
     textures.material = material;
 #if MAX_ANISOTROPY == 1 && HAS_TEXCOORDS
-    uint first = MATERIAL(scene, material).lookup_use;
+    uint first = MATERIAL(material).lookup_use;
     if (first != SURFACE_ABSENT) {
-        TextureBuffers buffers = textures_of_scene(scene);
-        textures.lookup = lookup_isotropic(buffers, map_of(scene, material, first),
-                                           footprint_of(scene, material, f, first));
+        textures.lookup =
+            lookup_isotropic(map_of(scene, material, first), footprint_of(material, f, first));
         for (uint use = 0u; use < USE_COUNT; ++use) {
-            if ((MATERIAL(scene, material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
-                prefetch_map(buffers, map_of(scene, material, use), REF(textures.lookup));
+            if ((MATERIAL(material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
+                prefetch_map(map_of(scene, material, use), REF(textures.lookup));
             }
         }
     }
@@ -81,36 +81,33 @@ SHARED_FN FV4 sample_use(SurfaceScene scene, IN(Textures) textures, IN(Fragment)
     FV4 texel;
     texel.x = texel.y = texel.z = texel.w = fv(1.0f);
 #if HAS_TEXCOORDS
-    uint material = AT(textures).material;
-    TextureBuffers buffers = textures_of_scene(scene);
+    MaterialRef material = AT(textures).material;
+    if (MATERIAL(material).textures[use] == SURFACE_ABSENT) return texel;
     Map map = map_of(scene, material, use);
-    if (map.texture == SURFACE_ABSENT) return texel;
 #if MAX_ANISOTROPY > 1
-    if (is_anisotropic(buffers, map)) {
-        return sample_anisotropic(buffers, map, footprint_of(scene, material, f, use));
+    if (is_anisotropic(map)) {
+        return sample_anisotropic(map, footprint_of(material, f, use));
     }
 #else
-    if ((MATERIAL(scene, material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
-        return fetch_map(buffers, map, REF(AT(textures).lookup));
+    if ((MATERIAL(material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
+        return fetch_map(map, REF(AT(textures).lookup));
     }
 #endif
-    Lookup at = lookup_isotropic(buffers, map, footprint_of(scene, material, f, use));
-    texel = fetch_map(buffers, map, REF(at));
+    Lookup at = lookup_isotropic(map, footprint_of(material, f, use));
+    texel = fetch_map(map, REF(at));
 #endif
     return texel;
 }
 
 // The share of the fragments that their material covers: glTF's alpha, with one sample of its
 // texture a pixel, whatever the anisotropy.
-SHARED_FN FV alpha_of(SurfaceScene scene, uint material, IN(Fragment) f) {
-    FV alpha = fv(MATERIAL(scene, material).row.base_color.w);
+SHARED_FN FV alpha_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) {
+    FV alpha = fv(MATERIAL(material).row.base_color.w);
 #if HAS_USE(USE_BASE_COLOR)
-    Map map = map_of(scene, material, USE_BASE_COLOR);
-    if (map.texture != SURFACE_ABSENT) {
-        TextureBuffers buffers = textures_of_scene(scene);
-        Lookup at =
-            lookup_isotropic(buffers, map, footprint_of(scene, material, f, USE_BASE_COLOR));
-        alpha *= fetch_alpha(buffers, map, REF(at));
+    if (MATERIAL(material).textures[USE_BASE_COLOR] != SURFACE_ABSENT) {
+        Map map = map_of(scene, material, USE_BASE_COLOR);
+        Lookup at = lookup_isotropic(map, footprint_of(material, f, USE_BASE_COLOR));
+        alpha *= fetch_alpha(map, REF(at));
     }
 #endif
 #if HAS_VERTEX_COLOR
@@ -120,8 +117,8 @@ SHARED_FN FV alpha_of(SurfaceScene scene, uint material, IN(Fragment) f) {
 }
 
 // Where alphaMode MASK leaves the fragments.
-SHARED_FN MASK passes_cutoff(SurfaceScene scene, uint material, FV alpha) {
-    return lane_mask(!(alpha < fv(MATERIAL(scene, material).row.emissive_cutoff.w)));
+SHARED_FN MASK passes_cutoff(MaterialRef material, FV alpha) {
+    return lane_mask(!(alpha < fv(MATERIAL(material).row.emissive_cutoff.w)));
 }
 
 // The unit vector along v; +z, towards the viewer, where v has none.
@@ -135,13 +132,13 @@ SHARED_FN FV3 unit_or_z(FV3 v) {
 }
 
 SHARED_FN FV3 shading_normal(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f) {
-    uint material = AT(textures).material;
+    MaterialRef material = AT(textures).material;
     FV3 n = AT(f).normal;
 #if HAS_USE(USE_NORMAL)
-    if (MATERIAL(scene, material).textures[USE_NORMAL] != SURFACE_ABSENT) {
+    if (MATERIAL(material).textures[USE_NORMAL] != SURFACE_ABSENT) {
         // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
         FV4 texel = sample_use(scene, textures, f, USE_NORMAL);
-        float scale = MATERIAL(scene, material).row.factors.z;
+        float scale = MATERIAL(material).row.factors.z;
         FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
         FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
         FV z = fma(texel.z, fv(2.0f), fv(-1.0f));
@@ -152,7 +149,7 @@ SHARED_FN FV3 shading_normal(SurfaceScene scene, IN(Textures) textures, IN(Fragm
         n = select3(lane_mask(AT(f).handedness != fv(0.0f)), mapped, n);
     }
 #endif
-    if ((MATERIAL(scene, material).flags & MATERIAL_DOUBLE_SIDED) != 0u) {
+    if ((MATERIAL(material).flags & MATERIAL_DOUBLE_SIDED) != 0u) {
         n = select3(AT(f).front, n, fv3(-n.x, -n.y, -n.z));
     }
     return unit_or_z(n);
@@ -166,9 +163,9 @@ SHARED_FN FV3 color_of(float4 c) { return fv3(fv(c.x), fv(c.y), fv(c.z)); }
 // KHR_materials_specular: min(f0 * colour, 1) * weight, and the weight.
 SHARED_FN Surface with_specular(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f,
                                 Surface s) {
-    uint material = AT(textures).material;
-    FV3 f0 = color_of(MATERIAL(scene, material).row.specular);
-    FV weight = fv(MATERIAL(scene, material).row.specular.w);
+    MaterialRef material = AT(textures).material;
+    FV3 f0 = color_of(MATERIAL(material).row.specular);
+    FV weight = fv(MATERIAL(material).row.specular.w);
 #if HAS_USE(USE_SPECULAR_COLOR)
     f0 = times_color(f0, sample_use(scene, textures, f, USE_SPECULAR_COLOR));
 #endif
@@ -183,11 +180,11 @@ SHARED_FN Surface with_specular(SurfaceScene scene, IN(Textures) textures, IN(Fr
 #endif
 
 // KHR_materials_unlit: the base colour is what leaves the surface, whatever the lights.
-SHARED_FN Surface with_unlit(SurfaceScene scene, uint material, Surface s) {
+SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 #if HAS_UNLIT
     s.roughness = max(s.roughness, fv(1.0f / 255.0f));  // 0 says unlit
 #endif
-    if ((MATERIAL(scene, material).flags & MATERIAL_UNLIT) == 0u) return s;
+    if ((MATERIAL(material).flags & MATERIAL_UNLIT) == 0u) return s;
     s.emissive = s.albedo;
     s.albedo = zero3();
     s.metallic = fv(0.0f);
@@ -209,11 +206,11 @@ SHARED_FN Surface background_surface() {
 
 // The surface of the textures' material at the fragments; its position is not set.
 SHARED_FN Surface surface_of_material(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f) {
-    uint material = AT(textures).material;
+    MaterialRef material = AT(textures).material;
     Surface s;
     s.position = zero3();
     s.normal = shading_normal(scene, textures, f);
-    s.albedo = color_of(MATERIAL(scene, material).row.base_color);
+    s.albedo = color_of(MATERIAL(material).row.base_color);
 #if HAS_USE(USE_BASE_COLOR)
     s.albedo = times_color(s.albedo, sample_use(scene, textures, f, USE_BASE_COLOR));
 #endif
@@ -221,9 +218,9 @@ SHARED_FN Surface surface_of_material(SurfaceScene scene, IN(Textures) textures,
     s.albedo =
         fv3(s.albedo.x * AT(f).color.x, s.albedo.y * AT(f).color.y, s.albedo.z * AT(f).color.z);
 #endif
-    s.emissive = color_of(MATERIAL(scene, material).row.emissive_cutoff);
-    s.metallic = fv(MATERIAL(scene, material).row.factors.x);
-    s.roughness = fv(MATERIAL(scene, material).row.factors.y);
+    s.emissive = color_of(MATERIAL(material).row.emissive_cutoff);
+    s.metallic = fv(MATERIAL(material).row.factors.x);
+    s.roughness = fv(MATERIAL(material).row.factors.y);
     s.occlusion = fv(1.0f);
 #if HAS_USE(USE_METALLIC_ROUGHNESS)
     FV4 maps = sample_use(scene, textures, f, USE_METALLIC_ROUGHNESS);
@@ -232,7 +229,7 @@ SHARED_FN Surface surface_of_material(SurfaceScene scene, IN(Textures) textures,
 #endif
 #if HAS_USE(USE_OCCLUSION)
     FV occlusion = sample_use(scene, textures, f, USE_OCCLUSION).x;
-    s.occlusion = fma(fv(MATERIAL(scene, material).row.factors.w), occlusion - 1.0f, fv(1.0f));
+    s.occlusion = fma(fv(MATERIAL(material).row.factors.w), occlusion - 1.0f, fv(1.0f));
 #endif
 #if HAS_USE(USE_EMISSIVE)
     s.emissive = times_color(s.emissive, sample_use(scene, textures, f, USE_EMISSIVE));
@@ -241,7 +238,7 @@ SHARED_FN Surface surface_of_material(SurfaceScene scene, IN(Textures) textures,
     s = with_specular(scene, textures, f, s);
 #endif
 #if HAS_UNLIT || HAS_UNLIT_MATERIALS
-    s = with_unlit(scene, material, s);
+    s = with_unlit(material, s);
 #endif
     return s;
 }

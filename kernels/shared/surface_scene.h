@@ -88,19 +88,6 @@ SHARED_STRUCT(TextureRow) {
 SHARED_ASSERT(texture_row_size, sizeof(TextureRow) == 96);
 
 #if !defined(__cplusplus)
-// What a material's use reads.
-SHARED_PLAIN_STRUCT(Map) {
-    uint texture;  // row
-    uint use;      // USE_*
-};
-
-SHARED_FN Map make_map(uint texture_row, uint use) {
-    Map map;
-    map.texture = texture_row;
-    map.use = use;
-    return map;
-}
-
 // Texels of 64 bits in lanes, as their low and high halves.
 SHARED_PLAIN_STRUCT(Texels) { UV low, high; };
 #endif

@@ -6,10 +6,10 @@
 // size and wrapping share it. Places are relative to a texture's first texel.
 //
 // Each language defines before (kernels/device/texture.h, raster/shaders/scene.glsl):
-//   TextureBuffers                        where TextureRows and texels are
-//   TEXTURE_ROW(buffers, map)             the row of a map
-//   level_offsets(buffers, map, levels)   TextureRow::level_offset of each lane's level
-//   fetch_texels(buffers, map, places)    Texels at places from the map's first texel on
+//   Map                          what a use of a material reads
+//   TEXTURE_ROW(map)             its row
+//   level_offsets(map, levels)   TextureRow::level_offset of each lane's level
+//   fetch_texels(map, places)    Texels at places from its first texel on
 //
 // Compile-time switches, each 1 where some texture of the scene needs it: HAS_NEAREST (filters
 // other than linear between texels and levels), HAS_WRAPS (other than repeat), HAS_UV_TRANSFORM.
@@ -108,13 +108,12 @@ SHARED_FN Taps taps_of(FV coordinate, UV size, uint wrap, FV nearest) {
 }
 
 // The texels about (u, v) in the mip levels `level`.
-SHARED_FN LevelLookup lookup_level(TextureBuffers buffers, Map map, UV level, FV u, FV v,
-                                   FV nearest) {
-    UV width = max(lane_uint(TEXTURE_ROW(buffers, map).width) >> level, lane_uint(1u));
-    UV height = max(lane_uint(TEXTURE_ROW(buffers, map).height) >> level, lane_uint(1u));
-    Taps s = taps_of(u, width, TEXTURE_ROW(buffers, map).wrap_s, nearest);
-    Taps t = taps_of(v, height, TEXTURE_ROW(buffers, map).wrap_t, nearest);
-    UV first = level_offsets(buffers, map, level);
+SHARED_FN LevelLookup lookup_level(Map map, UV level, FV u, FV v, FV nearest) {
+    UV width = max(lane_uint(TEXTURE_ROW(map).width) >> level, lane_uint(1u));
+    UV height = max(lane_uint(TEXTURE_ROW(map).height) >> level, lane_uint(1u));
+    Taps s = taps_of(u, width, TEXTURE_ROW(map).wrap_s, nearest);
+    Taps t = taps_of(v, height, TEXTURE_ROW(map).wrap_t, nearest);
+    UV first = level_offsets(map, level);
     UV top = first + t.first * width;
     UV bottom = first + t.second * width;
     LevelLookup result;
@@ -128,12 +127,12 @@ SHARED_FN LevelLookup lookup_level(TextureBuffers buffers, Map map, UV level, FV
 }
 
 // The texels about (u, v); lambda: log2 of the footprint in texels.
-SHARED_FN Lookup make_lookup(TextureBuffers buffers, Map map, FV u, FV v, FV lambda) {
-    FV level = min(max(lambda, fv(0.0f)), fv(float_of(TEXTURE_ROW(buffers, map).levels - 1u)));
+SHARED_FN Lookup make_lookup(Map map, FV u, FV v, FV lambda) {
+    FV level = min(max(lambda, fv(0.0f)), fv(float_of(TEXTURE_ROW(map).levels - 1u)));
     FV nearest = fv(0.0f);
 #if HAS_NEAREST
     MASK magnified = lane_mask(!(lambda > fv(0.0f)));
-    uint filters = TEXTURE_ROW(buffers, map).filters;
+    uint filters = TEXTURE_ROW(map).filters;
     FV magnify = fv((filters & FILTER_MAGNIFY_NEAREST) != 0u ? 1.0f : 0.0f);
     FV minify = fv((filters & FILTER_MINIFY_NEAREST) != 0u ? 1.0f : 0.0f);
     nearest = lane_select(magnified, magnify, minify);
@@ -147,11 +146,11 @@ SHARED_FN Lookup make_lookup(TextureBuffers buffers, Map map, FV u, FV v, FV lam
     Lookup result;
     result.coarser_share = level - finer;
     result.two_levels = lane_any(lane_mask(result.coarser_share > fv(0.0f)));
-    result.level = lookup_level(buffers, map, number, u, v, nearest);
+    result.level = lookup_level(map, number, u, v, nearest);
     result.coarser = result.level;
     if (result.two_levels) {
-        UV next = min(number + 1u, lane_uint(TEXTURE_ROW(buffers, map).levels - 1u));
-        result.coarser = lookup_level(buffers, map, next, u, v, nearest);
+        UV next = min(number + 1u, lane_uint(TEXTURE_ROW(map).levels - 1u));
+        result.coarser = lookup_level(map, next, u, v, nearest);
     }
     return result;
 }
@@ -165,11 +164,11 @@ SHARED_FN FV mix_corners(UV a, UV b, UV c, UV d, IN(LevelLookup) at) {
 }
 
 // In 65535ths.
-SHARED_FN FV4 fetch_level(TextureBuffers buffers, Map map, IN(LevelLookup) at) {
-    Texels a = fetch_texels(buffers, map, AT(at).upper_left);
-    Texels b = fetch_texels(buffers, map, AT(at).upper_right);
-    Texels c = fetch_texels(buffers, map, AT(at).lower_left);
-    Texels d = fetch_texels(buffers, map, AT(at).lower_right);
+SHARED_FN FV4 fetch_level(Map map, IN(LevelLookup) at) {
+    Texels a = fetch_texels(map, AT(at).upper_left);
+    Texels b = fetch_texels(map, AT(at).upper_right);
+    Texels c = fetch_texels(map, AT(at).lower_left);
+    Texels d = fetch_texels(map, AT(at).lower_right);
     FV4 result;
     result.x = mix_corners(a.low & 0xffffu, b.low & 0xffffu, c.low & 0xffffu, d.low & 0xffffu, at);
     result.y = mix_corners(a.low >> 16, b.low >> 16, c.low >> 16, d.low >> 16, at);
@@ -190,10 +189,10 @@ SHARED_FN FV4 scale4(FV4 a, float s) {
 #define TEXEL_UNIT (1.0f / 65535.0f)
 
 // RGBA of a texture, linear.
-SHARED_FN FV4 fetch_map(TextureBuffers buffers, Map map, IN(Lookup) at) {
-    FV4 result = fetch_level(buffers, map, REF(AT(at).level));
+SHARED_FN FV4 fetch_map(Map map, IN(Lookup) at) {
+    FV4 result = fetch_level(map, REF(AT(at).level));
     if (AT(at).two_levels) {
-        FV4 coarser = fetch_level(buffers, map, REF(AT(at).coarser));
+        FV4 coarser = fetch_level(map, REF(AT(at).coarser));
         result.x = lane_mix(result.x, coarser.x, AT(at).coarser_share);
         result.y = lane_mix(result.y, coarser.y, AT(at).coarser_share);
         result.z = lane_mix(result.z, coarser.z, AT(at).coarser_share);
@@ -202,19 +201,19 @@ SHARED_FN FV4 fetch_map(TextureBuffers buffers, Map map, IN(Lookup) at) {
     return scale4(result, TEXEL_UNIT);
 }
 
-SHARED_FN FV fetch_level_alpha(TextureBuffers buffers, Map map, IN(LevelLookup) at) {
-    return mix_corners(fetch_texels(buffers, map, AT(at).upper_left).high >> 16,
-                       fetch_texels(buffers, map, AT(at).upper_right).high >> 16,
-                       fetch_texels(buffers, map, AT(at).lower_left).high >> 16,
-                       fetch_texels(buffers, map, AT(at).lower_right).high >> 16, at);
+SHARED_FN FV fetch_level_alpha(Map map, IN(LevelLookup) at) {
+    return mix_corners(fetch_texels(map, AT(at).upper_left).high >> 16,
+                       fetch_texels(map, AT(at).upper_right).high >> 16,
+                       fetch_texels(map, AT(at).lower_left).high >> 16,
+                       fetch_texels(map, AT(at).lower_right).high >> 16, at);
 }
 
 // The alpha of fetch_map().
-SHARED_FN FV fetch_alpha(TextureBuffers buffers, Map map, IN(Lookup) at) {
-    FV result = fetch_level_alpha(buffers, map, REF(AT(at).level));
+SHARED_FN FV fetch_alpha(Map map, IN(Lookup) at) {
+    FV result = fetch_level_alpha(map, REF(AT(at).level));
     if (AT(at).two_levels) {
-        result = lane_mix(result, fetch_level_alpha(buffers, map, REF(AT(at).coarser)),
-                          AT(at).coarser_share);
+        result =
+            lane_mix(result, fetch_level_alpha(map, REF(AT(at).coarser)), AT(at).coarser_share);
     }
     return result * TEXEL_UNIT;
 }
@@ -222,9 +221,9 @@ SHARED_FN FV fetch_alpha(TextureBuffers buffers, Map map, IN(Lookup) at) {
 // Squared lengths of a footprint's sides in texels.
 SHARED_PLAIN_STRUCT(Sides) { FV x2, y2; };
 
-SHARED_FN Sides sides_of(TextureBuffers buffers, Map map, Footprint at) {
-    FV width = fv(float_of(TEXTURE_ROW(buffers, map).width));
-    FV height = fv(float_of(TEXTURE_ROW(buffers, map).height));
+SHARED_FN Sides sides_of(Map map, Footprint at) {
+    FV width = fv(float_of(TEXTURE_ROW(map).width));
+    FV height = fv(float_of(TEXTURE_ROW(map).height));
     FV ux = at.u_dx * width;
     FV vx = at.v_dx * height;
     FV uy = at.u_dy * width;
@@ -238,14 +237,14 @@ SHARED_FN Sides sides_of(TextureBuffers buffers, Map map, Footprint at) {
 // Half of log2, of a length's square.
 SHARED_FN FV lambda_of(FV length2) { return 0.5f * lane_log2(max(length2, fv(1e-30f))); }
 
-SHARED_FN Lookup lookup_isotropic(TextureBuffers buffers, Map map, Footprint at) {
-    Sides sides = sides_of(buffers, map, at);
-    return make_lookup(buffers, map, at.u, at.v, lambda_of(max(sides.x2, sides.y2)));
+SHARED_FN Lookup lookup_isotropic(Map map, Footprint at) {
+    Sides sides = sides_of(map, at);
+    return make_lookup(map, at.u, at.v, lambda_of(max(sides.x2, sides.y2)));
 }
 
 #if MAX_ANISOTROPY > 1
-SHARED_FN bool is_anisotropic(TextureBuffers buffers, Map map) {
-    return (TEXTURE_ROW(buffers, map).filters & (FILTER_MINIFY_NEAREST | FILTER_NO_MIPMAPS)) == 0u;
+SHARED_FN bool is_anisotropic(Map map) {
+    return (TEXTURE_ROW(map).filters & (FILTER_MINIFY_NEAREST | FILTER_NO_MIPMAPS)) == 0u;
 }
 
 // Samples along the longer side of a footprint.
@@ -255,8 +254,8 @@ SHARED_PLAIN_STRUCT(Samples) {
     FV lambda;
 };
 
-SHARED_FN Samples samples_along(TextureBuffers buffers, Map map, Footprint at) {
-    Sides sides = sides_of(buffers, map, at);
+SHARED_FN Samples samples_along(Map map, Footprint at) {
+    Sides sides = sides_of(map, at);
     MASK along_x = lane_mask(sides.x2 >= sides.y2);
     FV longer = max(sides.x2, sides.y2);
     FV shorter = max(min(sides.x2, sides.y2), fv(1e-30f));
@@ -270,16 +269,16 @@ SHARED_FN Samples samples_along(TextureBuffers buffers, Map map, Footprint at) {
     return result;
 }
 
-SHARED_FN FV4 sample_anisotropic(TextureBuffers buffers, Map map, Footprint at) {
-    Samples s = samples_along(buffers, map, at);
+SHARED_FN FV4 sample_anisotropic(Map map, Footprint at) {
+    Samples s = samples_along(map, at);
     float most = lane_max(s.count);
     FV4 sum;
     sum.x = sum.y = sum.z = sum.w = fv(0.0f);
     for (float i = 0.0f; i < most; i += 1.0f) {
         FV along = fma(s.count, fv(-0.5f), fv(i + 0.5f));
-        Lookup tap = make_lookup(buffers, map, fma(s.step_u, along, at.u),
-                                 fma(s.step_v, along, at.v), s.lambda);
-        FV4 texel = fetch_map(buffers, map, REF(tap));
+        Lookup tap =
+            make_lookup(map, fma(s.step_u, along, at.u), fma(s.step_v, along, at.v), s.lambda);
+        FV4 texel = fetch_map(map, REF(tap));
         FV share = lane_select(fv(i) < s.count, s.weight, fv(0.0f));
         sum.x = fma(texel.x, share, sum.x);
         sum.y = fma(texel.y, share, sum.y);

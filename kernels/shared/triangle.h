@@ -12,11 +12,13 @@
 // With vertices rounded at 2^-24 of their distance r, weights err as a shift of the triangle by a
 // few 2^-24 r does: less than 1e-3 of a pixel up to 8192 pixels a side.
 //
-// Each language defines before (kernels/device/triangle.h, raster/shaders/scene.glsl):
-//   SurfaceScene, INSTANCE(scene, i), MESH(scene, i)    the rows of surface_scene.h
-//   vertex_index(scene, i)                              of the triangles' vertex numbers
-//   vertex_float(scene, i), and of 2, 3 and 4 floats    of the vertices' rows
-//   Pixels                                              x, y: centres [pixel]
+// Each language defines before (kernels/device/triangle.h, raster/shaders/surface.glsl):
+//   SurfaceScene, MESH(scene, i)           the scene, and a mesh's row
+//   InstanceRef, INSTANCE(instance)        a drawn instance, and its row
+//   vertex_index(scene, i)                 of the triangles' vertex numbers
+//   VertexRef, vertex_row(scene, mesh, i)  a vertex
+//   vertex_float(vertex, place), and of 2, 3 and 4 floats
+//   Pixels                                 x, y: centres [pixel]
 //
 // Compile-time switches: HAS_TEXCOORD0, HAS_TEXCOORD1, HAS_VERTEX_COLOR, HAS_TANGENT.
 #ifndef KILOLUX_SHARED_TRIANGLE_H
@@ -54,19 +56,19 @@ SHARED_PLAIN_STRUCT(Weights) {
 
 // A triangle's vertices on their way through.
 SHARED_PLAIN_STRUCT(Triangle) {
-    uint instance;
+    InstanceRef instance;
     MeshRow mesh;
-    uint vertex[3];  // each one's row: its first float
+    VertexRef vertex[3];
 };
 
 // Triangle `number` of the mesh of an instance.
-SHARED_FN Triangle mesh_triangle(SurfaceScene scene, uint instance, uint number) {
+SHARED_FN Triangle mesh_triangle(SurfaceScene scene, InstanceRef instance, uint number) {
     Triangle t;
     t.instance = instance;
-    t.mesh = MESH(scene, INSTANCE(scene, instance).mesh);
+    t.mesh = MESH(scene, INSTANCE(instance).mesh);
     uint first = t.mesh.first_index + 3u * number;
     for (uint i = 0u; i < 3u; ++i) {
-        t.vertex[i] = t.mesh.first_float + vertex_index(scene, first + i) * t.mesh.vertex_floats;
+        t.vertex[i] = vertex_row(scene, t.mesh, vertex_index(scene, first + i));
     }
     return t;
 }
@@ -80,26 +82,25 @@ SHARED_FN float3 rows_times(float4 x, float4 y, float4 z, float3 v) {
 }
 
 // As the instance turns normals, and other directions.
-SHARED_FN float3 turned_normal(SurfaceScene scene, uint instance, float3 v) {
-    return rows_times(INSTANCE(scene, instance).normal_from_object[0],
-                      INSTANCE(scene, instance).normal_from_object[1],
-                      INSTANCE(scene, instance).normal_from_object[2], v);
+SHARED_FN float3 turned_normal(InstanceRef instance, float3 v) {
+    return rows_times(INSTANCE(instance).normal_from_object[0],
+                      INSTANCE(instance).normal_from_object[1],
+                      INSTANCE(instance).normal_from_object[2], v);
 }
 
-SHARED_FN float3 turned_vector(SurfaceScene scene, uint instance, float3 v) {
-    return rows_times(INSTANCE(scene, instance).view_from_object[0],
-                      INSTANCE(scene, instance).view_from_object[1],
-                      INSTANCE(scene, instance).view_from_object[2], v);
+SHARED_FN float3 turned_vector(InstanceRef instance, float3 v) {
+    return rows_times(INSTANCE(instance).view_from_object[0],
+                      INSTANCE(instance).view_from_object[1],
+                      INSTANCE(instance).view_from_object[2], v);
 }
 
 // A vertex in view space [m].
-SHARED_FN float3 view_vertex(SurfaceScene scene, uint instance, float3 p) {
-    float3 from_eye =
-        (p - INSTANCE(scene, instance).eye_high.xyz) - INSTANCE(scene, instance).eye_low.xyz;
-    float3 turned = turned_vector(scene, instance, from_eye);
-    return make_float3(turned.x + INSTANCE(scene, instance).view_from_object[0].w,
-                       turned.y + INSTANCE(scene, instance).view_from_object[1].w,
-                       turned.z + INSTANCE(scene, instance).view_from_object[2].w);
+SHARED_FN float3 view_vertex(InstanceRef instance, float3 p) {
+    float3 from_eye = (p - INSTANCE(instance).eye_high.xyz) - INSTANCE(instance).eye_low.xyz;
+    float3 turned = turned_vector(instance, from_eye);
+    return make_float3(turned.x + INSTANCE(instance).view_from_object[0].w,
+                       turned.y + INSTANCE(instance).view_from_object[1].w,
+                       turned.z + INSTANCE(instance).view_from_object[2].w);
 }
 
 // The unit vector along v, also where squares would overflow or underflow; 0 for 0.
@@ -184,13 +185,13 @@ SHARED_FN FV3 interpolate3(Weights w, float3 a0, float3 a1, float3 a2) {
 SHARED_PLAIN_STRUCT(Texcoords) { float2 a0, d1, d2; };
 
 // An absent set is (0, 0).
-SHARED_FN Texcoords fetch_texcoords(SurfaceScene scene, Triangle t, uint place) {
+SHARED_FN Texcoords fetch_texcoords(Triangle t, uint place) {
     Texcoords c;
     c.a0 = c.d1 = c.d2 = make_float2(0.0f, 0.0f);
     if (place != SURFACE_ABSENT) {
-        c.a0 = vertex_float2(scene, t.vertex[0] + place);
-        c.d1 = vertex_float2(scene, t.vertex[1] + place) - c.a0;
-        c.d2 = vertex_float2(scene, t.vertex[2] + place) - c.a0;
+        c.a0 = vertex_float2(t.vertex[0], place);
+        c.d1 = vertex_float2(t.vertex[1], place) - c.a0;
+        c.d2 = vertex_float2(t.vertex[2], place) - c.a0;
     }
     return c;
 }
@@ -218,13 +219,13 @@ SHARED_FN Footprint take_texcoord(MASK mask, Footprint a, Footprint b) {
 }
 #endif
 
-SHARED_FN FV3 interpolate_normal(SurfaceScene scene, Weights w, Triangle t) {
+SHARED_FN FV3 interpolate_normal(Weights w, Triangle t) {
     if (t.mesh.normal == SURFACE_ABSENT) return fv3(fv(0.0f), fv(0.0f), fv(0.0f));
     float3 n[3];
     for (uint i = 0u; i < 3u; ++i) {
-        n[i] = turned_normal(scene, t.instance, vertex_float3(scene, t.vertex[i] + t.mesh.normal));
+        n[i] = turned_normal(t.instance, vertex_float3(t.vertex[i], t.mesh.normal));
     }
-    if (INSTANCE(scene, t.instance).is_similarity == 0u) {
+    if (INSTANCE(t.instance).is_similarity == 0u) {
         for (uint i = 0u; i < 3u; ++i) n[i] = unit_or_zero(n[i]);
     }
     return interpolate3(w, n[0], n[1], n[2]);
@@ -232,37 +233,36 @@ SHARED_FN FV3 interpolate_normal(SurfaceScene scene, Weights w, Triangle t) {
 
 #if HAS_TANGENT
 // Of mesh.tangent, which is there.
-SHARED_FN FV3 interpolate_tangent(SurfaceScene scene, Weights w, Triangle t) {
-    bool similar = INSTANCE(scene, t.instance).is_similarity != 0u;
+SHARED_FN FV3 interpolate_tangent(Weights w, Triangle t) {
+    bool similar = INSTANCE(t.instance).is_similarity != 0u;
     float3 tangent[3];
     for (uint i = 0u; i < 3u; ++i) {
-        float3 object = vertex_float3(scene, t.vertex[i] + t.mesh.tangent);
+        float3 object = vertex_float3(t.vertex[i], t.mesh.tangent);
         if (similar) {
-            tangent[i] = turned_normal(scene, t.instance, object);
+            tangent[i] = turned_normal(t.instance, object);
         } else {
-            tangent[i] = unit_or_zero(turned_vector(scene, t.instance, object));
+            tangent[i] = unit_or_zero(turned_vector(t.instance, object));
         }
     }
     return interpolate3(w, tangent[0], tangent[1], tangent[2]);
 }
 
 // A mirror turns a right-handed basis into a left-handed one.
-SHARED_FN FV interpolate_handedness(SurfaceScene scene, Weights w, Triangle t) {
+SHARED_FN FV interpolate_handedness(Weights w, Triangle t) {
     uint place = t.mesh.tangent + 3u;
-    return interpolate(w, vertex_float(scene, t.vertex[0] + place),
-                       vertex_float(scene, t.vertex[1] + place),
-                       vertex_float(scene, t.vertex[2] + place)) *
-           INSTANCE(scene, t.instance).normal_from_object[0].w;
+    return interpolate(w, vertex_float(t.vertex[0], place), vertex_float(t.vertex[1], place),
+                       vertex_float(t.vertex[2], place)) *
+           INSTANCE(t.instance).normal_from_object[0].w;
 }
 #endif
 
 #if HAS_VERTEX_COLOR
-SHARED_FN FV4 interpolate_color(SurfaceScene scene, Weights w, Triangle t) {
+SHARED_FN FV4 interpolate_color(Weights w, Triangle t) {
     float4 c[3];
     for (uint i = 0u; i < 3u; ++i) {
         c[i] = make_float4(1.0f, 1.0f, 1.0f, 1.0f);
         if (t.mesh.color != SURFACE_ABSENT) {
-            c[i] = vertex_float4(scene, t.vertex[i] + t.mesh.color);
+            c[i] = vertex_float4(t.vertex[i], t.mesh.color);
         }
     }
     FV4 color;
@@ -275,42 +275,40 @@ SHARED_FN FV4 interpolate_color(SurfaceScene scene, Weights w, Triangle t) {
 #endif
 
 // Sets the attributes of a triangle at the pixels of `mask`.
-SHARED_FN void interpolate_triangle(SurfaceScene scene, View view, Pixels pixels, Triangle t,
-                                    MASK mask, INOUT(Fragment) f) {
+SHARED_FN void interpolate_triangle(View view, Pixels pixels, Triangle t, MASK mask,
+                                    INOUT(Fragment) f) {
     float3 v[3];
     for (uint i = 0u; i < 3u; ++i) {
-        v[i] = view_vertex(scene, t.instance, vertex_float3(scene, t.vertex[i]));
+        v[i] = view_vertex(t.instance, vertex_float3(t.vertex[i], 0u));
     }
     TriangleEdges edges = triangle_edges(view, v[0], v[1], v[2]);
     MASK front = winds_forward(view, pixels, edges);
     Weights w = weights_of(view, pixels, edges);
-    if (INSTANCE(scene, t.instance).normal_from_object[0].w < 0.0f) front = lane_not(front);
+    if (INSTANCE(t.instance).normal_from_object[0].w < 0.0f) front = lane_not(front);
     AT(f).front = lane_select_mask(mask, front, AT(f).front);
     AT(f).z = lane_select(mask, interpolate(w, -v[0].z, -v[1].z, -v[2].z), AT(f).z);
-    AT(f).normal = select3(mask, interpolate_normal(scene, w, t), AT(f).normal);
+    AT(f).normal = select3(mask, interpolate_normal(w, t), AT(f).normal);
     AT(f).material = lane_select_uint(mask, lane_uint(t.mesh.material), AT(f).material);
 #if HAS_TANGENT
     FV3 tangent = fv3(fv(0.0f), fv(0.0f), fv(0.0f));
     FV handedness = fv(0.0f);
     if (t.mesh.tangent != SURFACE_ABSENT) {
-        tangent = interpolate_tangent(scene, w, t);
-        handedness = interpolate_handedness(scene, w, t);
+        tangent = interpolate_tangent(w, t);
+        handedness = interpolate_handedness(w, t);
     }
     AT(f).tangent = select3(mask, tangent, AT(f).tangent);
     AT(f).handedness = lane_select(mask, handedness, AT(f).handedness);
 #endif
 #if HAS_TEXCOORD0
-    AT(f).texcoord0 =
-        take_texcoord(mask, interpolate_texcoord(w, fetch_texcoords(scene, t, t.mesh.texcoord0)),
-                      AT(f).texcoord0);
+    AT(f).texcoord0 = take_texcoord(
+        mask, interpolate_texcoord(w, fetch_texcoords(t, t.mesh.texcoord0)), AT(f).texcoord0);
 #endif
 #if HAS_TEXCOORD1
-    AT(f).texcoord1 =
-        take_texcoord(mask, interpolate_texcoord(w, fetch_texcoords(scene, t, t.mesh.texcoord1)),
-                      AT(f).texcoord1);
+    AT(f).texcoord1 = take_texcoord(
+        mask, interpolate_texcoord(w, fetch_texcoords(t, t.mesh.texcoord1)), AT(f).texcoord1);
 #endif
 #if HAS_VERTEX_COLOR
-    FV4 color = interpolate_color(scene, w, t);
+    FV4 color = interpolate_color(w, t);
     AT(f).color.x = lane_select(mask, color.x, AT(f).color.x);
     AT(f).color.y = lane_select(mask, color.y, AT(f).color.y);
     AT(f).color.z = lane_select(mask, color.z, AT(f).color.z);

@@ -8,7 +8,7 @@
 #include "kernels/shared/surface_of.h"
 
 typedef struct MaskedTriangle {
-    uint material;
+    MaterialRef material;
     TriangleEdges edges;
 #if HAS_TEXCOORD0
     Texcoords texcoord0;
@@ -27,21 +27,20 @@ static inline MaskedTriangle fetch_masked_triangle(SurfaceScene scene, View view
     Triangle t = fetch_triangle(scene, number + 1u);
     float3 v[3];
     for (uint i = 0; i < 3; ++i) {
-        v[i] = view_vertex(scene, t.instance, vertex_float3(scene, t.vertex[i]));
+        v[i] = view_vertex(t.instance, vertex_float3(t.vertex[i], 0u));
     }
-    masked.material = t.mesh.material;
+    masked.material = scene.materials + t.mesh.material;
     masked.edges = triangle_edges(view, v[0], v[1], v[2]);
 #if HAS_TEXCOORD0
-    masked.texcoord0 = fetch_texcoords(scene, t, t.mesh.texcoord0);
+    masked.texcoord0 = fetch_texcoords(t, t.mesh.texcoord0);
 #endif
 #if HAS_TEXCOORD1
-    masked.texcoord1 = fetch_texcoords(scene, t, t.mesh.texcoord1);
+    masked.texcoord1 = fetch_texcoords(t, t.mesh.texcoord1);
 #endif
 #if HAS_VERTEX_COLOR
     for (uint i = 0; i < 3; ++i) {
-        masked.alpha[i] = t.mesh.color == SURFACE_ABSENT
-                              ? 1.0f
-                              : vertex_float(scene, t.vertex[i] + t.mesh.color + 3u);
+        masked.alpha[i] =
+            t.mesh.color == SURFACE_ABSENT ? 1.0f : vertex_float(t.vertex[i], t.mesh.color + 3u);
     }
 #endif
     return masked;
@@ -61,6 +60,6 @@ static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriang
 #if HAS_VERTEX_COLOR
     f.color.w = interpolate(w, t->alpha[0], t->alpha[1], t->alpha[2]);
 #endif
-    return passes_cutoff(scene, t->material, alpha_of(scene, t->material, &f));
+    return passes_cutoff(t->material, alpha_of(scene, t->material, &f));
 }
 #endif

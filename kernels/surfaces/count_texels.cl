@@ -12,15 +12,14 @@ static inline UV texels_of_lookup(Lookup at) {
     return select((UV)(4u), (UV)(8u), two_levels);
 }
 
-static inline UV texels_of_use(TextureBuffers buffers, Map map, Footprint at) {
+static inline UV texels_of_use(Map map, Footprint at) {
 #if MAX_ANISOTROPY > 1
-    if (is_anisotropic(buffers, map)) {
-        Samples s = samples_along(buffers, map, at);
-        return texels_of_lookup(make_lookup(buffers, map, at.u, at.v, s.lambda)) *
-               lane_to_uint(s.count);
+    if (is_anisotropic(map)) {
+        Samples s = samples_along(map, at);
+        return texels_of_lookup(make_lookup(map, at.u, at.v, s.lambda)) * lane_to_uint(s.count);
     }
 #endif
-    return texels_of_lookup(lookup_isotropic(buffers, map, at));
+    return texels_of_lookup(lookup_isotropic(map, at));
 }
 
 // Whether an earlier use reads the texture, too.
@@ -31,14 +30,13 @@ static inline bool is_read(global const SurfaceMaterial* material, uint use) {
     return false;
 }
 
-static inline UV texels_of_material(SurfaceScene scene, uint material, const Fragment* f) {
+static inline UV texels_of_material(SurfaceScene scene, uint number, const Fragment* f) {
+    MaterialRef material = scene.materials + number;
     UV texels = (UV)(0u);
     for (uint use = 0; use < USE_COUNT; ++use) {
-        Map map = map_of(scene, material, use);
-        if (!HAS_USE(use) || map.texture == SURFACE_ABSENT) continue;
-        if (is_read(scene.materials + material, use)) continue;
-        texels +=
-            texels_of_use(textures_of_scene(scene), map, footprint_of(scene, material, f, use));
+        if (!HAS_USE(use) || material->textures[use] == SURFACE_ABSENT) continue;
+        if (is_read(material, use)) continue;
+        texels += texels_of_use(map_of(scene, material, use), footprint_of(material, f, use));
     }
     return texels;
 }

@@ -3,43 +3,49 @@
 // kernels/shared/surface_of.h; HAS_MASKS: alpha cuts the material.
 #include "raster/shaders/scene.glsl"
 
-struct TextureBuffers {
-    uint unused0;
-};
+// Everything is in buffers of its own: references are numbers.
 struct SurfaceScene {
     uint unused0;
 };
 struct Pixels {
     float x, y;
 };
+struct Map {
+    uint texture_row;
+    uint use;
+};
+#define InstanceRef uint
+#define MaterialRef uint
+#define VertexRef uint  // its first float
 
-#define INSTANCE(scene, i) scene_instances[i]
+#define INSTANCE(instance) scene_instances[instance]
+#define MATERIAL(material) scene_materials[material]
 #define MESH(scene, i) scene_meshes[i]
-#define MATERIAL(scene, i) scene_materials[i]
-#define TEXTURE_ROW(buffers, map) scene_textures[(map).texture]
-#define level_offsets(buffers, map, level) scene_textures[(map).texture].level_offset[level]
-#define textures_of_scene(scene) TextureBuffers(0u)
-#define prefetch_map(buffers, map, at)
+#define TEXTURE_ROW(map) scene_textures[(map).texture_row]
+#define level_offsets(map, level) scene_textures[(map).texture_row].level_offset[level]
+#define textures_of_scene(scene) 0u
+#define make_map(textures, number, use) Map(number, use)
+#define prefetch_map(map, at)
+#define vertex_index(scene, i) texelFetch(scene_indices, int(i)).x
+#define vertex_row(scene, mesh, i) ((mesh).first_float + (i) * (mesh).vertex_floats)
 
-uint vertex_index(SurfaceScene scene, uint i) { return texelFetch(scene_indices, int(i)).x; }
-
-float vertex_float(SurfaceScene scene, uint i) { return texelFetch(scene_vertices, int(i)).x; }
-
-float2 vertex_float2(SurfaceScene scene, uint i) {
-    return float2(vertex_float(scene, i), vertex_float(scene, i + 1u));
+float vertex_float(VertexRef vertex, uint place) {
+    return texelFetch(scene_vertices, int(vertex + place)).x;
 }
 
-float3 vertex_float3(SurfaceScene scene, uint i) {
-    return float3(vertex_float2(scene, i), vertex_float(scene, i + 2u));
+float2 vertex_float2(VertexRef vertex, uint place) {
+    return float2(vertex_float(vertex, place), vertex_float(vertex, place + 1u));
 }
 
-float4 vertex_float4(SurfaceScene scene, uint i) {
-    return float4(vertex_float3(scene, i), vertex_float(scene, i + 3u));
+float3 vertex_float3(VertexRef vertex, uint place) {
+    return float3(vertex_float2(vertex, place), vertex_float(vertex, place + 2u));
 }
 
-#include "kernels/shared/surface_scene.h"
+float4 vertex_float4(VertexRef vertex, uint place) {
+    return float4(vertex_float3(vertex, place), vertex_float(vertex, place + 3u));
+}
 
-Texels fetch_texels(TextureBuffers buffers, Map map, uint place) {
+Texels fetch_texels(Map map, uint place) {
     uvec2 words = texelFetch(scene_maps[map.use], int(place)).xy;
     Texels texels;
     texels.low = words.x;
@@ -57,7 +63,7 @@ Pixels fragment_pixels() {
 Fragment drawn_fragment(SurfaceScene scene) {
     Triangle t = mesh_triangle(scene, drawn_instance, uint(gl_PrimitiveID));
     Fragment f = no_fragment();
-    interpolate_triangle(scene, camera.view, fragment_pixels(), t, true, f);
+    interpolate_triangle(camera.view, fragment_pixels(), t, true, f);
     return f;
 }
 
@@ -71,7 +77,7 @@ Surface drawn_surface(SurfaceScene scene, Fragment f) {
 // Whether the material's alpha mask leaves the fragment.
 bool is_covered(SurfaceScene scene, Fragment f) {
 #if HAS_MASKS
-    return passes_cutoff(scene, f.material, alpha_of(scene, f.material, f));
+    return passes_cutoff(f.material, alpha_of(scene, f.material, f));
 #else
     return true;
 #endif

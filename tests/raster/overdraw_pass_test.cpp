@@ -10,7 +10,7 @@ using OverdrawPassTest = GlTest;
 
 float count_at_center(const Scene& scene, double camera_z) {
     const GpuScene gpu(scene);
-    const OverdrawPass pass(gpu);
+    OverdrawPass pass(gpu);
     return pass.count(front_camera(camera_z), 9, 7)[3 * 9 + 4];
 }
 
