@@ -77,8 +77,8 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
     prepare(width, height);
     light_buffers_.upload(lights, view_of(camera, width, height));
     const CameraRow row = camera_row(camera, view_of(camera, width, height), width, height);
-    timer_.begin();
     {
+        const GlTimer::Scope timed(timer_);
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
         targets_->clear();
@@ -86,11 +86,10 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
         draw_opaque(camera, row);
         draw_transparent(camera, row);
     }
-    timer_.end();
     check_gl_errors("forward pass");
 }
 
-void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) const {
+void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) {
     const int width = targets_->width();
     const int height = targets_->height();
     const DrawOrder order = depth_ ? DrawOrder::front_to_back : DrawOrder::scene;
@@ -102,10 +101,10 @@ void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) const 
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
     }
-    opaque_->draw(draws, row);
+    parts_.draw(width, height, [&] { opaque_->draw(draws, row); });
 }
 
-void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) const {
+void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
     const int width = targets_->width();
     const int height = targets_->height();
     const std::vector<Draw> draws =
@@ -116,7 +115,7 @@ void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) c
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    blended_.draw(draws, row);
+    parts_.draw(width, height, [&] { blended_.draw(draws, row); });
 }
 
 void ForwardPass::draw_blended(const Camera& camera, const View& view,
@@ -126,16 +125,15 @@ void ForwardPass::draw_blended(const Camera& camera, const View& view,
     const int height = gbuffer.height();
     prepare(width, height);
     light_buffers_.upload(lights, view);
-    timer_.begin();
-    load_radiance(*targets_, radiance);
-    glBlitNamedFramebuffer(gbuffer.framebuffer(), targets_->framebuffer(), 0, 0, width, height, 0,
-                           0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
     {
+        const GlTimer::Scope timed(timer_);
+        load_radiance(*targets_, radiance);
+        glBlitNamedFramebuffer(gbuffer.framebuffer(), targets_->framebuffer(), 0, 0, width, height,
+                               0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
         draw_transparent(camera, camera_row(camera, view, width, height));
     }
-    timer_.end();
     check_gl_errors("blended surfaces");
 }
 

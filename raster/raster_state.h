@@ -33,6 +33,7 @@ class RasterState {
         glUseProgram(0);
         glBindVertexArray(0);
         glDisable(GL_BLEND);
+        glDisable(GL_SCISSOR_TEST);
         glDisable(GL_FRAMEBUFFER_SRGB);
         glDisable(GL_CULL_FACE);
         glFrontFace(GL_CCW);

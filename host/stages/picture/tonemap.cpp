@@ -7,12 +7,6 @@
 #include "host/base/srgb.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kTonemapStage = "tonemap";
-
-}  // namespace
-
 Tonemap::Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve)
     : gpu_(gpu),
       tuning_(tuning),
@@ -48,6 +42,12 @@ DisplayTarget Tonemap::target(const View& view, float exposure_ev) {
 DisplayTarget Tonemap::target(DeviceArray<uint> pixels, const View& view, float exposure_ev) const {
     return {std::move(pixels), view,       tone_curve_, std::exp2(exposure_ev),
             boundary_.get(),   code_.get()};
+}
+
+StageWork tonemap_work(const StageCounts& c) {
+    return {.bytes_read = kRadianceBytes * c.pixels,
+            .bytes_written = kDisplayBytes * c.pixels,
+            .launches = 1};
 }
 
 }  // namespace kilolux

@@ -4,7 +4,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kShadowOriginsStage = "shadow_origins";
 constexpr std::size_t kPlanes = 4;
 
 }  // namespace
@@ -26,6 +25,12 @@ DeviceArray<float> ShadowOrigins::enqueue(const DeviceArray<uint>& ids, const Su
                     gbuffer.bytes, gbuffer.layout, view, shadow, scene.instances,
                     scene.instance_blocks, casters.triangles, out);
     return out;
+}
+
+StageWork shadow_origins_work(const StageCounts& c) {
+    return {.bytes_read = sizeof(uint) * c.pixels + sizeof(float) * c.drawn_pixels,
+            .bytes_written = kRowBytes * c.drawn_pixels,
+            .launches = 1};
 }
 
 }  // namespace kilolux

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/raster_triangles.h"
 
+#include "kernels/shared/raster_row.h"
+
 namespace kilolux {
 namespace {
-
-constexpr std::string_view kRasterTrianglesStage = "raster_triangles";
 
 // NVIDIA's compiler takes so many registers for setting up that few work-groups fit into a unit,
 // which then waits for memory: half of the time on an H200.
 constexpr std::string_view kFewerRegisters = "-cl-nv-maxrregcount=64";
 
-cl::Program program_of(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
+cl::Program raster_program(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
     features.anisotropy = 1;
     features.texture_uses &= 1u << USE_BASE_COLOR;
     BuildOptions options;
@@ -28,7 +28,8 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures fea
 RasterTriangles::RasterTriangles(const Gpu& gpu, const Tuning& tuning,
                                  const SurfaceFeatures& features)
     : tuning_(tuning),
-      kernel_(gpu, program_of(gpu, tuning, features), kRasterTrianglesStage, "raster_triangles"),
+      kernel_(gpu, raster_program(gpu, tuning, features), kRasterTrianglesStage,
+              "raster_triangles"),
       ids_(gpu, kRasterTrianglesStage) {}
 
 DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
@@ -39,6 +40,12 @@ DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const Tr
                     scene.materials, scene.textures, scene.texels, lists.triangles, lists.offsets,
                     lists.lists, lists.capacity, ids);
     return ids;
+}
+
+StageWork raster_triangles_work(const StageCounts& c) {
+    return {.bytes_read = (sizeof(uint) + sizeof(RasterRow)) * c.triangle_pairs,
+            .bytes_written = sizeof(uint) * c.pixels,
+            .launches = 1};
 }
 
 }  // namespace kilolux

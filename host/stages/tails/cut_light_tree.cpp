@@ -6,7 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kCutStage = "cut_light_tree";
 constexpr std::size_t kConeBytes = 32;  // ClusterCone of kernels/tails/tree_cut.h
 constexpr std::size_t kFirstCutEntries = std::size_t{1} << 20;
 
@@ -17,14 +16,14 @@ CutLightTree::CutLightTree(const Gpu& gpu, const Tuning& tuning, const KernelFea
       tuning_(tuning),
       share_(features.tree_share),
       cones_(gpu, build_program(gpu.with_lanes(1), "tree_cones", feature_options(features)),
-             kCutStage, "tree_cones"),
-      count_(gpu, build_program(gpu, kCutStage, feature_options(features)), kCutStage,
-             "cut_light_tree_count"),
-      fill_(gpu, build_program(gpu, kCutStage, feature_options(features)), kCutStage,
-            "cut_light_tree_fill"),
-      lists_(gpu, tuning, kCutStage, light_index_bytes(features)),
-      srgb_(gpu, kCutStage),
-      cone_rows_(gpu, kCutStage) {
+             kCutLightTreeStage, "tree_cones"),
+      count_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)),
+             kCutLightTreeStage, "cut_light_tree_count"),
+      fill_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)),
+            kCutLightTreeStage, "cut_light_tree_fill"),
+      lists_(gpu, tuning, kCutLightTreeStage, light_index_bytes(features)),
+      srgb_(gpu, kCutLightTreeStage),
+      cone_rows_(gpu, kCutLightTreeStage) {
     lists_.reserve(kFirstCutEntries);
     const auto table = srgb_to_linear_table();
     upload<float>(gpu_, srgb_.reserve(table.size()), table);
@@ -50,6 +49,14 @@ RefinedLists CutLightTree::enqueue(const CutInput& input, StageTimer& timer) {
                   lights.nodes, lights.bounds, lights.count, lights.node_count, share_,
                   input.refined.lists, offsets, out.lists, out.capacity);
     return out;
+}
+
+StageWork cut_light_tree_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.active_clusters);
+    work.bytes_read += 2.0 * sizeof(ActiveCluster) * c.active_clusters;
+    work.bytes_written += c.index_bytes() * c.refined_pairs;
+    work.launches += 3;
+    return work;
 }
 
 }  // namespace kilolux
