@@ -80,7 +80,6 @@ void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) 
         directional.push_back({rotated(view, light.to_light, 0.0f), light.color});
     }
     ForwardRow frame{};
-    frame.view = view;
     frame.grid = lights.grid;
     frame.light_count = static_cast<uint>(local.size());
     frame.directional_count = static_cast<uint>(directional.size());
@@ -100,7 +99,7 @@ void ForwardLightBuffers::upload(const ForwardLights& lights, const View& view) 
 }
 
 void ForwardLightBuffers::bind() const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 1, frame_.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, FORWARD_BLOCK, frame_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, directional_.name());
     lights_.bind(1, LIGHTS_UNIT);
     cluster_offsets_.bind(2, CLUSTER_OFFSETS_UNIT);

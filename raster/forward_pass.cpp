@@ -23,6 +23,8 @@ ScenePass shaded_pass(const ForwardFeatures& features, bool blended) {
     pass.defines.emplace_back("SHADING", fmt::to_string(features.shading));
     pass.defines.emplace_back("LIGHT_TEXTURES", textures ? "1" : "0");
     pass.defines.emplace_back("CLUSTERED", features.clustered ? "1" : "0");
+    pass.defines.emplace_back("BLENDED", blended ? "1" : "0");
+    pass.uses = kept_uses(features);
     return pass;
 }
 
@@ -53,13 +55,12 @@ void load_radiance(const GBufferTargets& targets, std::span<const float> planes)
 }  // namespace
 
 ForwardPass::ForwardPass(const GpuScene& scene, const ForwardFeatures& features)
-    : scene_(scene),
-      draw_list_(scene.scene()),
+    : draw_list_(scene.scene()),
       blended_(scene, shaded_pass(features, true)),
       light_buffers_(light_access(features)) {
     if (features.opaque) opaque_.emplace(scene, shaded_pass(features, false));
     if (features.opaque && features.clustered) {
-        depth_.emplace(scene, coverage_pass("raster/shaders/depth.frag"));
+        depth_.emplace(scene, coverage_pass(Coverage::depth));
     }
     check_gl_errors("forward pass");
 }
@@ -75,35 +76,35 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
                        std::span<const float> background) {
     prepare(width, height);
     light_buffers_.upload(lights, view_of(camera, width, height));
+    const CameraRow row = camera_row(camera, view_of(camera, width, height), width, height);
     {
         const GlTimer::Scope timed(timer_);
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
         targets_->clear();
         if (!background.empty()) load_radiance(*targets_, background);
-        draw_opaque(camera);
-        draw_transparent(camera);
+        draw_opaque(camera, row);
+        draw_transparent(camera, row);
     }
     check_gl_errors("forward pass");
 }
 
-void ForwardPass::draw_opaque(const Camera& camera) {
+void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) {
     const int width = targets_->width();
     const int height = targets_->height();
-    const glm::mat4 clip(clip_from_view(camera, width, height));
     const DrawOrder order = depth_ ? DrawOrder::front_to_back : DrawOrder::scene;
     const std::vector<Draw> draws = draw_list_.visible(camera, width, height, false, order);
     if (depth_) {
         glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        depth_->draw(scene_, draws, clip);
+        depth_->draw(draws, row);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
     }
-    parts_.draw(width, height, [&] { opaque_->draw(scene_, draws, clip); });
+    parts_.draw(width, height, [&] { opaque_->draw(draws, row); });
 }
 
-void ForwardPass::draw_transparent(const Camera& camera) {
+void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
     const int width = targets_->width();
     const int height = targets_->height();
     const std::vector<Draw> draws =
@@ -114,8 +115,7 @@ void ForwardPass::draw_transparent(const Camera& camera) {
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    const glm::mat4 clip(clip_from_view(camera, width, height));
-    parts_.draw(width, height, [&] { blended_.draw(scene_, draws, clip); });
+    parts_.draw(width, height, [&] { blended_.draw(draws, row); });
 }
 
 void ForwardPass::draw_blended(const Camera& camera, const View& view,
@@ -132,7 +132,7 @@ void ForwardPass::draw_blended(const Camera& camera, const View& view,
                                0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
-        draw_transparent(camera);
+        draw_transparent(camera, camera_row(camera, view, width, height));
     }
     check_gl_errors("blended surfaces");
 }

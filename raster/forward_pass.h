@@ -51,10 +51,9 @@ class ForwardPass {
 
  private:
     void prepare(int width, int height);
-    void draw_opaque(const Camera& camera);
-    void draw_transparent(const Camera& camera);
+    void draw_opaque(const Camera& camera, const CameraRow& row);
+    void draw_transparent(const Camera& camera, const CameraRow& row);
 
-    const GpuScene& scene_;
     DrawList draw_list_;
     std::optional<ScenePrograms> depth_, opaque_;
     ScenePrograms blended_;

@@ -16,80 +16,18 @@
 namespace kilolux {
 namespace {
 
-// An attachment and the planes that it or its components are. The macro that tells geometry.frag
-// its index is for those that not every G-buffer has.
-struct Attachment {
-    GLenum internal_format = 0;
-    std::vector<PlaneRead> reads;
-    std::string_view location = {};
+constexpr std::size_t kMostTargets = 8;  // that every OpenGL draws to at once
+
+// A plane's elements as OpenGL stores them: codes, whatever they mean.
+struct ElementFormat {
+    GLenum one, four;  // component formats of a target
+    GLenum type;
 };
 
-// An attachment that is one plane.
-Attachment one_plane(uint id, GLenum internal_format, GLenum format, GLenum type,
-                     std::string_view location = {}) {
-    return {internal_format, {{id, 0, format, type}}, location};
-}
-
-// An attachment whose red, green and blue are three planes with ids in a row.
-Attachment three_planes(uint first, GLenum internal_format, GLenum type,
-                        std::string_view location = {}) {
-    return {
-        internal_format,
-        {{first, 0, GL_RED, type}, {first + 1, 0, GL_GREEN, type}, {first + 2, 0, GL_BLUE, type}},
-        location};
-}
-
-constexpr std::string_view kMaterialLocation = "MATERIAL_LOCATION";
-constexpr std::string_view kOcclusionLocation = "OCCLUSION_LOCATION";
-constexpr std::string_view kSpecularLocation = "SPECULAR_LOCATION";
-constexpr std::string_view kGrazingLocation = "GRAZING_LOCATION";
-
-// Only red, green and blue are used: reading alpha alone is not in OpenGL's core profile.
-std::vector<Attachment> full_attachments(const GBufferNeeds& needs) {
-    Attachment parameters = one_plane(PLANE_ROUGHNESS, GL_RGBA32F, GL_RED, GL_FLOAT);
-    if (needs.material) parameters.reads.push_back({PLANE_METALLIC, 0, GL_GREEN, GL_FLOAT});
-    if (needs.occlusion) parameters.reads.push_back({PLANE_OCCLUSION_F, 0, GL_BLUE, GL_FLOAT});
-    std::vector<Attachment> out = {three_planes(PLANE_POSITION_X, GL_RGBA32F, GL_FLOAT),
-                                   three_planes(PLANE_NORMAL_X, GL_RGBA32F, GL_FLOAT),
-                                   three_planes(PLANE_ALBEDO_R, GL_RGBA32F, GL_FLOAT), parameters};
-    if (needs.material) {
-        out.push_back(three_planes(PLANE_EMISSIVE_R, GL_RGBA32F, GL_FLOAT, kMaterialLocation));
-    }
-    if (needs.specular) {
-        out.push_back(three_planes(PLANE_SPECULAR_R, GL_RGBA32F, GL_FLOAT, kSpecularLocation));
-        out.push_back(one_plane(PLANE_SPECULAR_F90, GL_R32F, GL_RED, GL_FLOAT, kGrazingLocation));
-    }
-    return out;
-}
-
-// What every G-buffer of the layout has.
-std::vector<Attachment> common_attachments(uint layout) {
-    if (layout == GBUFFER_HALF) {  // position and normal of the world; albedo without sRGB's curve
-        return {three_planes(PLANE_POSITION_X, GL_RGBA16F, GL_HALF_FLOAT),
-                three_planes(PLANE_NORMAL_X, GL_RGBA16F, GL_HALF_FLOAT),
-                one_plane(PLANE_ALBEDO, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE)};
-    }
-    if (layout == GBUFFER_OCT_2X4) {
-        return {one_plane(PLANE_ROW_0, GL_RGBA32F, GL_RGBA, GL_FLOAT),
-                one_plane(PLANE_ROW_1, GL_RGBA32F, GL_RGBA, GL_FLOAT)};
-    }
-    // normal-xy differs from packed in what the shader writes.
-    return {one_plane(PLANE_NORMAL, GL_RG16, GL_RG, GL_UNSIGNED_SHORT),
-            one_plane(PLANE_ALBEDO, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE)};
-}
-
-// All layouts but `full` have the same optional planes, of 8 bits a channel.
-std::vector<Attachment> attachments_of(const GBufferNeeds& needs) {
-    if (needs.layout == GBUFFER_FULL) return full_attachments(needs);
-    std::vector<Attachment> out = common_attachments(needs.layout);
-    const auto add = [&out](uint id, GLenum internal_format, GLenum format,
-                            std::string_view location) {
-        out.push_back(one_plane(id, internal_format, format, GL_UNSIGNED_BYTE, location));
-    };
-    if (needs.material) add(PLANE_MATERIAL, GL_SRGB8_ALPHA8, GL_RGBA, kMaterialLocation);
-    if (needs.occlusion) add(PLANE_OCCLUSION, GL_R8, GL_RED, kOcclusionLocation);
-    if (needs.specular) add(PLANE_SPECULAR, GL_RGBA8, GL_RGBA, kSpecularLocation);
-    return out;
+ElementFormat element_format(uint bytes) {
+    if (bytes == 1) return {GL_R8UI, GL_RGBA8UI, GL_UNSIGNED_BYTE};
+    if (bytes == 2) return {GL_R16UI, GL_RGBA16UI, GL_UNSIGNED_SHORT};
+    return {GL_R32UI, GL_RGBA32UI, GL_UNSIGNED_INT};
 }
 
 GlTexture make_target(GLenum format, int width, int height) {
@@ -102,36 +40,40 @@ GlTexture make_target(GLenum format, int width, int height) {
 
 }  // namespace
 
+// Each plane has a target of its own; where there are more than eight, up to three of one size
+// share one. Reading a target's fourth component alone is not in OpenGL's core profile.
 TargetPlan plan_targets(const GBufferNeeds& needs) {
-    const std::vector<Attachment> attachments = attachments_of(needs);
+    constexpr std::array<GLenum, 3> kComponents = {GL_RED_INTEGER, GL_GREEN_INTEGER,
+                                                   GL_BLUE_INTEGER};
+    const GBufferLayout layout = make_gbuffer_layout(needs, 16, 1);
+    const auto planes = static_cast<std::size_t>(
+        std::ranges::count_if(layout.offset_bytes, [](uint o) { return o != PLANE_ABSENT; }));
+    const uint room = planes > kMostTargets ? 3 : 1;
     TargetPlan plan;
-    plan.reads_position = needs.layout == GBUFFER_FULL || needs.layout == GBUFFER_HALF ||
-                          needs.layout == GBUFFER_OCT_2X4;
-    plan.defines = {{"GBUFFER_LAYOUT", fmt::to_string(needs.layout)},
-                    {"HAS_SPECULAR", needs.specular ? "1" : "0"},
-                    {"HAS_UNLIT", needs.unlit ? "1" : "0"}};
-    plan.reads = {{PLANE_DEPTH, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT, GL_FLOAT}};
-    for (const Attachment& attachment : attachments) {
-        const auto index = static_cast<GLenum>(plan.color_formats.size());
-        plan.color_formats.push_back(attachment.internal_format);
-        for (PlaneRead read : attachment.reads) {
-            read.source = GL_COLOR_ATTACHMENT0 + index;
-            plan.reads.push_back(read);
+    std::string slots;
+    uint component = 0;
+    uint last_bytes = 0;
+    for (uint plane = 0; plane < PLANE_COUNT; ++plane) {
+        uint slot = 0;
+        if (layout.offset_bytes[plane] != PLANE_ABSENT) {
+            const uint bytes = plane_element_bytes(needs.layout, plane);
+            const ElementFormat format = element_format(bytes);
+            const bool whole = bytes > sizeof(uint);
+            if (whole || bytes != last_bytes || ++component == room) {
+                plan.color_formats.push_back(whole || room > 1 ? format.four : format.one);
+                component = 0;
+                last_bytes = bytes;
+            }
+            const auto target = static_cast<uint>(plan.color_formats.size()) - 1;
+            plan.reads.push_back({plane, GL_COLOR_ATTACHMENT0 + target,
+                                  whole ? GL_RGBA_INTEGER : kComponents[component], format.type});
+            slot = 4 * target + component;
         }
+        slots += fmt::format("{}{}u", plane == 0 ? "" : ", ", slot);
     }
-    std::ranges::stable_sort(plan.reads, {}, &PlaneRead::plane);
-    for (const std::string_view location :
-         {kMaterialLocation, kOcclusionLocation, kSpecularLocation, kGrazingLocation}) {
-        const auto found = std::ranges::find(attachments, location, &Attachment::location);
-        std::optional<std::string> index;
-        if (found != attachments.end()) index = fmt::to_string(found - attachments.begin());
-        define_optional(plan.defines, std::string(location), index);
-    }
+    plan.defines = {{"ATTACHMENTS", fmt::to_string(plan.color_formats.size())},
+                    {"PLANE_SLOTS", fmt::format("uint[PLANE_COUNT]({})", slots)}};
     return plan;
-}
-
-TargetPlan plan_id_targets() {
-    return {{GL_R32UI}, {{0, GL_COLOR_ATTACHMENT0, GL_RED_INTEGER, GL_UNSIGNED_INT}}};
 }
 
 GBufferTargets::GBufferTargets(const TargetPlan& plan, int width, int height)
@@ -165,7 +107,7 @@ void GBufferTargets::clear() const {
     constexpr std::array<GLuint, 4> kNone = {};
     for (std::size_t i = 0; i < colors_.size(); ++i) {
         const auto drawbuffer = static_cast<GLint>(i);
-        if (formats_[i] == GL_R32UI) {
+        if (formats_[i] != GL_RGBA32F && formats_[i] != GL_R32F) {
             glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, drawbuffer, kNone.data());
         } else {
             glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, drawbuffer, kZero.data());

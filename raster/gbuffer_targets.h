@@ -24,15 +24,11 @@ struct PlaneRead {
 struct TargetPlan {
     std::vector<GLenum> color_formats;  // of GL_COLOR_ATTACHMENT0, 1, ...
     std::vector<PlaneRead> reads;
-    Defines defines{};            // for geometry.frag
-    bool reads_position = false;  // geometry.frag does
+    Defines defines{};  // for planes.frag
 };
 
 /// What the geometry pass draws into for these needs. Depth is always DEPTH_COMPONENT32F.
 TargetPlan plan_targets(const GBufferNeeds& needs);
-
-/// What the ids pass draws into: a uint a pixel, 0 where nothing is drawn.
-TargetPlan plan_id_targets();
 
 /// The G-buffer's textures in one framebuffer.
 class GBufferTargets {

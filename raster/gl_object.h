@@ -34,7 +34,6 @@ class GlObject {
 
 namespace gl_delete {
 inline void texture(GLuint name) { glDeleteTextures(1, &name); }
-inline void sampler(GLuint name) { glDeleteSamplers(1, &name); }
 inline void buffer(GLuint name) { glDeleteBuffers(1, &name); }
 inline void framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 inline void vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
@@ -44,7 +43,6 @@ inline void program(GLuint name) { glDeleteProgram(name); }
 }  // namespace gl_delete
 
 using GlTexture = GlObject<gl_delete::texture>;
-using GlSampler = GlObject<gl_delete::sampler>;
 using GlBuffer = GlObject<gl_delete::buffer>;
 using GlFramebuffer = GlObject<gl_delete::framebuffer>;
 using GlVertexArray = GlObject<gl_delete::vertex_array>;
@@ -69,7 +67,6 @@ Object made_by(Create create) {
     create(1, &name);
     return Object(name);
 }
-inline GlSampler make_sampler() { return made_by<GlSampler>(glCreateSamplers); }
 inline GlBuffer make_buffer() { return made_by<GlBuffer>(glCreateBuffers); }
 inline GlFramebuffer make_framebuffer() { return made_by<GlFramebuffer>(glCreateFramebuffers); }
 inline GlVertexArray make_vertex_array() { return made_by<GlVertexArray>(glCreateVertexArrays); }

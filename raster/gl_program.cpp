@@ -70,12 +70,6 @@ ShaderText load_shader(GLenum stage, std::string_view path, const Defines& defin
 
 }  // namespace
 
-void define_optional(Defines& defines, const std::string& name,
-                     const std::optional<std::string>& value) {
-    defines.emplace_back("HAS_" + name, value ? "1" : "0");
-    if (value) defines.emplace_back(name, *value);
-}
-
 GlProgram link_program(std::span<const ShaderText> stages) {
     GlProgram program(glCreateProgram());
     std::string names;

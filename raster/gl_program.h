@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,10 +20,6 @@ struct ShaderText {
 
 /// Preprocessor names and their values, put after the #version line.
 using Defines = std::vector<std::pair<std::string, std::string>>;
-
-/// Adds a value that not every variant has: HAS_<name> is 1 with it and 0 without.
-void define_optional(Defines& defines, const std::string& name,
-                     const std::optional<std::string>& value);
 
 /// Compiles and links. Throws Error that starts with the file's name and holds the driver's log,
 /// its file numbers replaced by names.

@@ -1,82 +1,157 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/gpu_scene.h"
 
-#include <cstring>
+#include <fmt/format.h>
 
-#include "raster/gl_context.h"
+#include <algorithm>
+#include <array>
+
+#include "host/base/error.h"
+#include "host/base/srgb.h"
+#include "host/scene/rows/mip_levels.h"
+#include "host/scene/rows/texture_table.h"
+#include "host/scene/rows/vertex_rows.h"
+#include "raster/gl_debug.h"
+#include "raster/shaders/draw_rows.h"
 
 namespace kilolux {
 namespace {
 
-// Trilinear filtering alone on the CPU: 8 samples cost llvmpipe 3.4 times the geometry pass.
-constexpr float kHardwareAnisotropy = 8.0f;
-
-float chosen_anisotropy(float anisotropy) {
-    if (anisotropy > 0.0f) return anisotropy;
-    return is_software_renderer() ? 1.0f : kHardwareAnisotropy;
+// Never empty, since an empty buffer cannot be bound.
+GlBuffer filled_buffer(std::span<const std::byte> bytes) {
+    constexpr std::array<std::byte, sizeof(SurfaceMaterial)> kNothing{};
+    if (bytes.empty()) bytes = kNothing;
+    GlBuffer buffer = make_buffer();
+    glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
+                         GL_DYNAMIC_STORAGE_BIT);
+    return buffer;
 }
 
-uint used_features(const Mesh& mesh, const Material& material, GpuSceneUse use) {
-    const uint features = features_of(mesh, material);
-    const bool shaded = use == GpuSceneUse::shaded || material.alpha_mode == AlphaMode::blend;
-    if (shaded) return features;
-    if (material.alpha_mode == AlphaMode::opaque) return kFeatureNoSurface;
-    return (features & coverage_features()) | kFeatureNoSurface;
+template <typename Row>
+std::span<const std::byte> bytes_of(const std::vector<Row>& rows) {
+    return std::as_bytes(std::span(rows));
 }
 
-std::size_t uniform_stride_bytes() {
-    GLint alignment = 1;
-    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
-    const auto unit = static_cast<std::size_t>(std::max(alignment, 16));
-    return (sizeof(MaterialRow) + unit - 1) / unit * unit;
+// As encode_srgb() of planes.frag reads it: boundaries, then codes.
+GlBuffer srgb_table() {
+    const SrgbBuckets buckets = srgb_buckets();
+    std::vector<uint> words;
+    for (const float boundary : buckets.boundary) words.push_back(float_bits(boundary));
+    words.insert(words.end(), buckets.code.begin(), buckets.code.end());
+    return filled_buffer(bytes_of(words));
 }
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, float anisotropy, GpuSceneUse use)
-    : scene_(scene), textures_(scene, chosen_anisotropy(anisotropy)) {
-    const std::size_t row_count = scene.materials.size() + 1;
-    const std::size_t stride = uniform_stride_bytes();
-    std::vector<std::byte> rows(row_count * stride);
-    for (std::size_t i = 0; i < row_count; ++i) {
-        const MaterialRow row = material_row(material(static_cast<int>(i)));
-        std::memcpy(rows.data() + i * stride, &row, sizeof(row));
+GpuScene::Texels GpuScene::make_texels(const char* what, GLenum format, std::size_t texel_bytes,
+                                       std::span<const std::byte> bytes) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    const std::size_t texels = bytes.size() / texel_bytes;
+    if (texels > static_cast<std::size_t>(most)) {
+        throw Error(fmt::format("{}: {} texels of a buffer texture; OpenGL has at most {} here",
+                                what, texels, most));
     }
-    material_stride_bytes_ = static_cast<GLintptr>(stride);
-    material_rows_ = make_buffer();
-    glNamedBufferStorage(material_rows_.name(), static_cast<GLsizeiptr>(rows.size()), rows.data(),
-                         0);
-    for (const Mesh& mesh : scene.meshes) {
-        const int row = mesh.material < 0 ? static_cast<int>(row_count) - 1 : mesh.material;
-        const uint features = used_features(mesh, material(row), use);
-        textures_.upload(scene, material(row), features);
-        meshes_.push_back(upload_mesh(mesh, row, features));
-    }
+    Texels out{filled_buffer(bytes), make_texture(GL_TEXTURE_BUFFER)};
+    glTextureBuffer(out.texture.name(), format, out.buffer.name());
+    return out;
+}
+
+GpuScene::GpuScene(const Scene& scene, int anisotropy, GpuSceneUse use)
+    : scene_(scene),
+      anisotropy_(anisotropy),
+      use_(use),
+      srgb_(srgb_table()),
+      instances_(make_buffer()),
+      vertex_array_(make_vertex_array()) {
+    const TextureTable table(scene, features());
+    rows_ = surface_rows(scene, features(), table);
+    meshes_ = filled_buffer(bytes_of(rows_.meshes));
+    materials_ = filled_buffer(bytes_of(rows_.materials));
+    textures_ = filled_buffer(std::as_bytes(table.rows()));
+    vertices_ = make_texels("vertices", GL_R32F, sizeof(float), bytes_of(rows_.vertices));
+    indices_ = make_texels("triangles", GL_R32UI, sizeof(uint), bytes_of(rows_.indices));
+    rows_.vertices = {};
+    rows_.indices = {};
+    upload_images(table);
+    const GLuint array = vertex_array_.name();
+    glEnableVertexArrayAttrib(array, 0);
+    glVertexArrayAttribFormat(array, 0, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(array, 0, 0);
+    glVertexArrayElementBuffer(array, indices_.buffer.name());
     check_gl_errors("upload of scene '" + scene.name + "'");
 }
 
-void GpuScene::refresh() {
-    for (std::size_t i = 0; i < meshes_.size(); ++i) {
-        const Mesh& mesh = scene_.meshes[i];
-        GpuMesh& old = meshes_[i];
-        if (old.revision == mesh.revision) continue;
-        old = upload_mesh(mesh, old.material, old.features);
+MeshFeatures GpuScene::features() const {
+    return [this](const Mesh& mesh) -> std::optional<SurfaceFeatures> {
+        const bool blends = material_of(scene_, mesh).alpha_mode == AlphaMode::blend;
+        if (use_ == GpuSceneUse::covered && !blends) return coverage_features(scene_, mesh);
+        return mesh_features(scene_, mesh, ~0u, anisotropy_);
+    };
+}
+
+void GpuScene::upload_images(const TextureTable& table) {
+    std::vector<std::size_t> first_texels;
+    for (const auto& [encoded, first] : table.images()) {
+        const Image& image = scene_.images[static_cast<std::size_t>(encoded.first)];
+        const auto levels = mip_levels(image.rgba, static_cast<uint>(image.width),
+                                       static_cast<uint>(image.height), encoded.second);
+        images_.push_back(
+            make_texels(image.name.c_str(), GL_RG32UI, sizeof(std::uint64_t), bytes_of(levels)));
+        first_texels.push_back(first);
     }
+    for (const TextureRow& row : table.rows()) {
+        const auto found = std::ranges::find(first_texels, std::size_t{row.first_texel});
+        image_of_texture_.push_back(static_cast<std::size_t>(found - first_texels.begin()));
+    }
+}
+
+void GpuScene::refresh() {
+    rewrite_vertices(rows_, scene_, features(), [&](std::size_t first, std::span<const float> v) {
+        glNamedBufferSubData(vertices_.buffer.name(), static_cast<GLintptr>(first * sizeof(float)),
+                             static_cast<GLsizeiptr>(v.size_bytes()), v.data());
+    });
     check_gl_errors("new vertices of scene '" + scene_.name + "'");
 }
 
-const Material& GpuScene::material(int row) const {
-    const auto index = static_cast<std::size_t>(row);
-    return index < scene_.materials.size() ? scene_.materials[index] : default_material_;
+const Material& GpuScene::material_of_mesh(std::size_t mesh) const {
+    return material_of(scene_, scene_.meshes[mesh]);
 }
 
-void GpuScene::bind_material(int row, uint features) const {
-    glBindBufferRange(GL_UNIFORM_BUFFER, 0, material_rows_.name(), row * material_stride_bytes_,
-                      sizeof(MaterialRow));
-    for (int use = 0; use < USE_COUNT; ++use) {
-        if ((features & (kFeatureTexture << use)) == 0) continue;
-        textures_.bind(scene_, texture_use(material(row), use), use);
+void GpuScene::bind(std::span<const Draw> draws) const {
+    std::vector<InstanceRow> instances;
+    for (const Draw& draw : draws) instances.push_back(draw.row);
+    instances.emplace_back();
+    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(bytes_of(instances).size()),
+                      instances.data(), GL_STREAM_DRAW);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INSTANCES_BLOCK, instances_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, MESHES_BLOCK, meshes_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, MATERIALS_BLOCK, materials_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TEXTURES_BLOCK, textures_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SRGB_BLOCK, srgb_.name());
+    glBindTextureUnit(VERTICES_UNIT, vertices_.texture.name());
+    glBindTextureUnit(INDICES_UNIT, indices_.texture.name());
+    glBindVertexArray(vertex_array_.name());
+}
+
+void GpuScene::bind_maps(std::size_t mesh, uint uses) const {
+    const SurfaceMaterial& material = rows_.materials[rows_.meshes[mesh].material];
+    for (uint use = 0; use < USE_COUNT; ++use) {
+        const uint texture = material.textures[use];
+        if ((uses & (1u << use)) == 0 || texture == SURFACE_ABSENT) continue;
+        glBindTextureUnit(use, images_[image_of_texture_[texture]].texture.name());
     }
+}
+
+void GpuScene::draw(std::size_t mesh) const {
+    const MeshRow& row = rows_.meshes[mesh];
+    const std::size_t first_byte = std::size_t{row.first_index} * sizeof(uint);
+    glVertexArrayVertexBuffer(vertex_array_.name(), 0, vertices_.buffer.name(),
+                              static_cast<GLintptr>(std::size_t{row.first_float} * sizeof(float)),
+                              static_cast<GLsizei>(row.vertex_floats * sizeof(float)));
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(scene_.meshes[mesh].indices.size()),
+                   GL_UNSIGNED_INT,
+                   reinterpret_cast<void*>(first_byte));  // NOLINT(performance-no-int-to-ptr)
 }
 
 }  // namespace kilolux

@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "host/scene/scene.h"
+#include "host/scene/draw_list.h"
+#include "host/scene/rows/surface_rows.h"
 #include "raster/gl_object.h"
-#include "raster/gpu_textures.h"
-#include "raster/material_features.h"
 
 namespace kilolux {
-
-/// A mesh's vertices and triangles in OpenGL buffers.
-struct GpuMesh {
-    GlBuffer vertices;
-    GlBuffer indices;
-    GlVertexArray vertex_array;
-    GLsizei index_count = 0;
-    int material = 0;            // index of the material's row
-    uint features = 0;           // of the mesh with its material
-    std::uint32_t revision = 0;  // of the vertices that were uploaded
-};
-
-/// Uploads the attributes of a mesh that `features` reads, interleaved, with its triangles.
-/// `material`: its row.
-GpuMesh upload_mesh(const Mesh& mesh, int material, uint features);
 
 /// What OpenGL draws of surfaces that do not blend.
 enum class GpuSceneUse {
@@ -31,39 +16,58 @@ enum class GpuSceneUse {
     covered,  // where they are: positions, and what alpha masks read
 };
 
-/// A scene's meshes, materials and textures in the current context. Only the attributes and
-/// textures that the use reads are there; surfaces that blend have all of theirs.
+/// A scene's rows and mips in the current context, the same as kernels read: see
+/// kernels/shared/surface_scene.h. Only what the use reads is there; surfaces that blend have all.
 class GpuScene {
  public:
     /// The scene must outlive this; its materials and textures must stay as they are and its meshes
-    /// as many, its instances may move, and vertices may change before a refresh(). `anisotropy`: 0
-    /// chooses 8, or 1 where the CPU does the filtering.
-    explicit GpuScene(const Scene& scene, float anisotropy = 0.0f,
+    /// as many, its instances may move, and vertices may change before a refresh(). `anisotropy`:
+    /// samples along a footprint's longer side at most. Throws Error where the rows or an image
+    /// exceed what this OpenGL's buffer textures hold.
+    explicit GpuScene(const Scene& scene, int anisotropy = 1,
                       GpuSceneUse use = GpuSceneUse::shaded);
 
-    /// Uploads meshes anew whose revision says that their vertices changed.
+    /// Uploads vertices anew of meshes whose revision says that they changed.
     void refresh();
 
     const Scene& scene() const { return scene_; }
-    const GpuMesh& mesh(int mesh) const { return meshes_[static_cast<std::size_t>(mesh)]; }
-    std::span<const GpuMesh> meshes() const { return meshes_; }
+    int anisotropy() const { return anisotropy_; }
+    const Material& material_of_mesh(std::size_t mesh) const;
 
-    /// The material of a row: the scene's, or the default one after the last.
-    const Material& material(int row) const;
+    /// Binds everything for these draws, in the order of their numbers; see draw_rows.h.
+    void bind(std::span<const Draw> draws) const;
 
-    /// Binds a material's row (uniform block 0) and those of its textures that `features` names.
-    void bind_material(int row, uint features) const;
+    /// Binds the maps of a mesh's material that `uses` names, as bits 1 << USE_*.
+    void bind_maps(std::size_t mesh, uint uses) const;
 
-    /// Texture objects: images, counted twice where both sRGB and linear.
-    std::size_t texture_count() const { return textures_.texture_count(); }
+    /// Draws a mesh with the current program.
+    void draw(std::size_t mesh) const;
+
+    /// Images with their mips, counted twice where both sRGB and linear.
+    std::size_t image_count() const { return images_.size(); }
 
  private:
+    // An array that shaders read as texels.
+    struct Texels {
+        GlBuffer buffer;
+        GlTexture texture;
+    };
+    static Texels make_texels(const char* what, GLenum format, std::size_t texel_bytes,
+                              std::span<const std::byte> bytes);
+    void upload_images(const TextureTable& table);
+    MeshFeatures features() const;
+
     const Scene& scene_;
-    std::vector<GpuMesh> meshes_;
-    GpuTextures textures_;
-    GlBuffer material_rows_;
-    GLintptr material_stride_bytes_ = 0;
-    Material default_material_;
+    int anisotropy_;
+    GpuSceneUse use_;
+    SurfaceRows rows_;  // without vertices and triangles
+    GlBuffer meshes_, materials_, textures_;
+    GlBuffer srgb_;  // codes of linear light
+    GlBuffer instances_;
+    Texels vertices_, indices_;
+    std::vector<Texels> images_;
+    std::vector<std::size_t> image_of_texture_;  // by TextureRow
+    GlVertexArray vertex_array_;
 };
 
 }  // namespace kilolux

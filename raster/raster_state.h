@@ -32,7 +32,6 @@ class RasterState {
     ~RasterState() {
         glUseProgram(0);
         glBindVertexArray(0);
-        for (GLuint unit = 0; unit < 8; ++unit) glBindSampler(unit, 0);
         glDisable(GL_BLEND);
         glDisable(GL_SCISSOR_TEST);
         glDisable(GL_FRAMEBUFFER_SRGB);

@@ -1,87 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raster/scene_programs.h"
 
-#include <glm/gtc/type_ptr.hpp>
-
 namespace kilolux {
 namespace {
 
-// Uniform locations of geometry.vert.
-constexpr GLint kViewFromObject = 0;
-constexpr GLint kNormalFromObject = 3;
-constexpr GLint kClipFromView = 6;
-constexpr GLint kFirstTriangle = 9;
-constexpr GLint kEyeHigh = 10;
-constexpr GLint kEyeLow = 11;
-
-void set_object(const InstanceRow& row) {
-    glUniform4fv(kViewFromObject, 3, &row.view_from_object[0].x);
-    glUniform4fv(kNormalFromObject, 3, &row.normal_from_object[0].x);
-    glUniform1ui(kFirstTriangle, row.first_triangle);
-    glUniform3fv(kEyeHigh, 1, &row.eye_high.x);
-    glUniform3fv(kEyeLow, 1, &row.eye_low.x);
-}
-
-void draw_triangles(const GpuMesh& mesh) {
-    glBindVertexArray(mesh.vertex_array.name());
-    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
-}
+constexpr GLint kDrawnInstance = 0;  // uniform of scene.glsl
 
 // Of a surface that blends, the far side comes first.
-void draw_faces(const GpuMesh& mesh, const Material& material) {
-    if (!material.double_sided) {
-        glEnable(GL_CULL_FACE);
-        draw_triangles(mesh);
-    } else if (material.alpha_mode != AlphaMode::blend) {
+void draw_faces(const GpuScene& scene, std::size_t mesh) {
+    const Material& material = scene.material_of_mesh(mesh);
+    if (material.double_sided && material.alpha_mode != AlphaMode::blend) {
         glDisable(GL_CULL_FACE);
-        draw_triangles(mesh);
-    } else {
-        glEnable(GL_CULL_FACE);
-        glCullFace(GL_FRONT);
-        draw_triangles(mesh);
-        glCullFace(GL_BACK);
-        draw_triangles(mesh);
+        scene.draw(mesh);
+        return;
     }
+    glEnable(GL_CULL_FACE);
+    if (material.double_sided) {
+        glCullFace(GL_FRONT);
+        scene.draw(mesh);
+        glCullFace(GL_BACK);
+    }
+    scene.draw(mesh);
+}
+
+Defines variant_defines(const SurfaceFeatures& features, const ScenePass& pass) {
+    Defines defines = surface_macros(features);
+    defines.emplace_back("HAS_MASKS", features.masks ? "1" : "0");
+    defines.emplace_back("HAS_UNLIT_MATERIALS", "1");
+    defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+    return defines;
 }
 
 }  // namespace
 
-ScenePass coverage_pass(const std::string& fragment, bool ids) {
-    return {fragment, {}, {.surface = false, .ids = ids}, coverage_features()};
+ScenePass coverage_pass(Coverage writes) {
+    ScenePass pass{.fragment = "raster/shaders/coverage.frag",
+                   .defines = feature_macros({}),
+                   .coverage = true};
+    pass.defines.emplace_back("WRITES_IDS", writes == Coverage::ids ? "1" : "0");
+    pass.defines.emplace_back("WRITES_COUNT", writes == Coverage::count ? "1" : "0");
+    return pass;
 }
 
-ScenePrograms::ScenePrograms(const GpuScene& scene, const ScenePass& pass) : mask_(pass.mask) {
-    for (const GpuMesh& mesh : scene.meshes()) {
-        const bool blends = scene.material(mesh.material).alpha_mode == AlphaMode::blend;
+CameraRow camera_row(const Camera& camera, const View& view, int width, int height) {
+    const glm::mat4 clip(clip_from_view(camera, width, height));
+    CameraRow out{view, {}};
+    for (int i = 0; i < 4; ++i) {
+        out.clip_from_view[i] = {clip[i].x, clip[i].y, clip[i].z, clip[i].w};
+    }
+    return out;
+}
+
+ScenePrograms::ScenePrograms(const GpuScene& scene, const ScenePass& pass)
+    : scene_(scene), camera_(make_buffer()) {
+    for (std::size_t i = 0; i < scene.scene().meshes.size(); ++i) {
+        const Mesh& mesh = scene.scene().meshes[i];
+        features_.push_back(
+            pass.coverage ? coverage_features(scene.scene(), mesh)
+                          : mesh_features(scene.scene(), mesh, pass.uses, scene.anisotropy()));
+        const bool blends = scene.material_of_mesh(i).alpha_mode == AlphaMode::blend;
         if (blends != pass.blended) continue;
-        GlProgram& program = programs_[mesh.features & mask_];
+        GlProgram& program = programs_[features_.back()];
         if (program) continue;
-        Defines defines = feature_defines(mesh.features & mask_, pass.inputs);
-        defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
-        program = load_program("raster/shaders/geometry.vert", pass.fragment, defines);
+        program = load_program("raster/shaders/scene.vert", pass.fragment,
+                               variant_defines(features_.back(), pass));
     }
 }
 
-void ScenePrograms::draw(const GpuScene& scene, std::span<const Draw> draws,
-                         const glm::mat4& clip) const {
-    for_each([&](GLuint program) {
-        glProgramUniformMatrix4fv(program, kClipFromView, 1, GL_FALSE, glm::value_ptr(clip));
-    });
+void ScenePrograms::draw(std::span<const Draw> draws, const CameraRow& camera) const {
+    glNamedBufferData(camera_.name(), sizeof(camera), &camera, GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, CAMERA_BLOCK, camera_.name());
+    scene_.bind(draws);
     GLuint current = 0;
-    int material = -1;
-    for (const Draw& draw : draws) {
-        const GpuMesh& mesh = scene.mesh(draw.mesh);
-        if (mesh.index_count == 0) continue;
-        const GLuint program = programs_.at(mesh.features & mask_).name();
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const auto mesh = static_cast<std::size_t>(draws[i].mesh);
+        const GLuint program = programs_.at(features_[mesh]).name();
         if (program != current) glUseProgram(program);
-        if (program != current || mesh.material != material) {
-            scene.bind_material(mesh.material, mesh.features & mask_);
-        }
         current = program;
-        material = mesh.material;
-        glFrontFace(draw.mirrored ? GL_CW : GL_CCW);
-        set_object(draw.row);
-        draw_faces(mesh, scene.material(mesh.material));
+        scene_.bind_maps(mesh, features_[mesh].texture_uses);
+        glUniform1ui(kDrawnInstance, static_cast<GLuint>(i));
+        glFrontFace(draws[i].mirrored ? GL_CW : GL_CCW);
+        draw_faces(scene_, mesh);
     }
 }
 

@@ -1,47 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
 
-#include "host/scene/draw_list.h"
+#include "host/scene/camera.h"
+#include "raster/gl_program.h"
 #include "raster/gpu_scene.h"
+#include "raster/shaders/draw_rows.h"
 
 namespace kilolux {
 
 /// How a pass draws a scene.
 struct ScenePass {
-    std::string fragment;  // file of the shader
-    Defines defines{};     // of every variant, beside feature_defines()
-    PassInputs inputs{};   // of that shader
-    uint mask = ~0u;       // features that it looks at
-    bool blended = false;  // the materials that blend, or those that do not
+    std::string fragment;   // file of the shader
+    Defines defines{};      // of every variant, beside surface_macros()
+    uint uses = ~0u;        // textures that it reads, bits 1 << USE_*
+    bool coverage = false;  // only where surfaces are
+    bool blended = false;   // the materials that blend, or those that do not
 };
 
-/// A pass that draws coverage alone.
-ScenePass coverage_pass(const std::string& fragment, bool ids = false);
+/// What a pass writes that only draws where surfaces are; depth in any case.
+enum class Coverage { depth, ids, count };
+ScenePass coverage_pass(Coverage writes);
 
-/// The variants of one fragment shader that a scene needs, by feature bits; all are compiled when
-/// this is made.
+/// What a pass draws with: `view` is the picture's, perhaps with rows of a band, and `camera` sees
+/// what the target holds.
+CameraRow camera_row(const Camera& camera, const View& view, int width, int height);
+
+/// The variants of one fragment shader that a scene's meshes need; all are compiled when this is
+/// made.
 class ScenePrograms {
  public:
+    /// The GpuScene must outlive this.
     ScenePrograms(const GpuScene& scene, const ScenePass& pass);
 
     std::size_t size() const { return programs_.size(); }
 
     /// Draws in the given order with the current framebuffer and state.
-    void draw(const GpuScene& scene, std::span<const Draw> draws, const glm::mat4& clip) const;
-
-    /// Calls set(program name) for every variant, to set uniforms.
-    template <typename Set>
-    void for_each(Set set) const {
-        for (const auto& entry : programs_) set(entry.second.name());
-    }
+    void draw(std::span<const Draw> draws, const CameraRow& camera) const;
 
  private:
-    std::map<uint, GlProgram> programs_;
-    uint mask_;
+    const GpuScene& scene_;
+    std::map<SurfaceFeatures, GlProgram> programs_;
+    std::vector<SurfaceFeatures> features_;  // by mesh
+    GlBuffer camera_;
 };
 
 }  // namespace kilolux

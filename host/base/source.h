@@ -8,7 +8,7 @@
 namespace kilolux {
 
 /// Text of an embedded source file by its path from the root ("kernels/shading/shade.cl",
-/// "raster/shaders/geometry.vert"). With KILOLUX_SOURCE_DIR set it is read from that folder
+/// "raster/shaders/scene.vert"). With KILOLUX_SOURCE_DIR set it is read from that folder
 /// instead, for development; that is said on stderr. Throws Error when there is no such file.
 std::string embedded_text(std::string_view path);
 

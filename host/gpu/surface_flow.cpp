@@ -4,16 +4,8 @@
 namespace kilolux {
 
 void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning) {
-    options.define("TEXTURE_USES", static_cast<int>(surfaces.texture_uses))
-        .define("HAS_TEXCOORD0", surfaces.texcoord0)
-        .define("HAS_TEXCOORD1", surfaces.texcoord1)
-        .define("HAS_VERTEX_COLOR", surfaces.vertex_color)
-        .define("PREFETCH", tuning.shade_prefetch)
-        .define("HAS_NEAREST", surfaces.nearest)
-        .define("HAS_WRAPS", surfaces.wraps)
-        .define("HAS_UV_TRANSFORM", surfaces.uv_transform)
-        .define("HAS_TANGENT", (surfaces.texture_uses & (1u << USE_NORMAL)) != 0)
-        .define("MAX_ANISOTROPY", surfaces.anisotropy);
+    for (const auto& [macro, value] : surface_macros(surfaces)) options.define(macro, value);
+    options.define("PREFETCH", tuning.shade_prefetch);
 }
 
 void define_casters(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/base/surface_features.h"
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "kernels/shared/raster_row.h"
@@ -9,20 +10,6 @@
 
 /// What passes between the stages that make surfaces.
 namespace kilolux {
-
-/// What of a scene's surfaces is compiled into resolve_surfaces.
-struct SurfaceFeatures {
-    uint texture_uses = 0;  // bits 1 << USE_*
-    bool texcoord0 = false;
-    bool texcoord1 = false;
-    bool vertex_color = false;
-    bool nearest = false;       // filters other than linear between texels and between mip levels
-    bool wraps = false;         // other than repeat
-    bool uv_transform = false;  // KHR_texture_transform
-    bool masks = false;         // cut by alpha
-    int anisotropy = 1;         // samples along a footprint's longer side at most
-    bool operator==(const SurfaceFeatures&) const = default;
-};
 
 /// What kernels that read surfaces are compiled with.
 void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning);

@@ -11,7 +11,7 @@
 #include "host/stages/shadows/count_seen.h"
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/stages/tails/tail_errors.h"
-#include "raster/overdraw_pass.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
 

@@ -43,7 +43,7 @@ bool RenderContext::is_whole() const {
 
 const GpuScene& RenderContext::meshes() const {
     return scene->meshes(resolves() ? GpuSceneUse::covered : GpuSceneUse::shaded,
-                         settings.anisotropy);
+                         chosen_anisotropy(settings, gpu.info));
 }
 
 SurfaceFeatures RenderContext::surface_features() const {

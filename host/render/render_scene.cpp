@@ -48,8 +48,7 @@ bool RenderScene::has_opengl() const {
 
 const GpuScene& RenderScene::meshes(GpuSceneUse use, int anisotropy) const {
     if (own_context_ && !context_) context_.emplace(GlContext::headless());
-    return meshes_.try_emplace({use, anisotropy}, scene_, static_cast<float>(anisotropy), use)
-        .first->second;
+    return meshes_.try_emplace({use, anisotropy}, scene_, anisotropy, use).first->second;
 }
 
 }  // namespace kilolux

@@ -36,7 +36,7 @@ class RenderScene {
     const Box& box() const { return box_; }  // world space [m]
     /// The meshes for this use, uploaded when first asked for. `anisotropy`: see GpuScene. Throws
     /// Error where there is no OpenGL.
-    const GpuScene& meshes(GpuSceneUse use, int anisotropy = 0) const;
+    const GpuScene& meshes(GpuSceneUse use, int anisotropy) const;
     /// Whether OpenGL can be used. Makes the context; a warning says why there is none.
     bool has_opengl() const;
     std::size_t zero_normals() const { return zero_normals_; }  // vertices

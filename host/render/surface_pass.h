@@ -10,8 +10,7 @@
 #include "host/stages/shadows/shadow_origins.h"
 #include "host/stages/surfaces/count_texels.h"
 #include "host/surfaces/triangle_ids.h"
-#include "raster/geometry_pass.h"
-#include "raster/ids_pass.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
 

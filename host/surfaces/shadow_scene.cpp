@@ -7,9 +7,9 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "host/scene/material_row.h"
+#include "host/scene/rows/material_row.h"
+#include "host/scene/rows/vertex_rows.h"
 #include "host/surfaces/shadow_hierarchy.h"
-#include "host/surfaces/vertex_rows.h"
 
 namespace kilolux {
 namespace {

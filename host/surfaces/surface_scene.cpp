@@ -5,101 +5,42 @@
 #include <cmath>
 #include <limits>
 
-#include "host/surfaces/texture_table.h"
-#include "host/surfaces/vertex_rows.h"
+#include "host/base/mips.h"
+#include "host/scene/rows/texture_table.h"
+#include "host/scene/rows/vertex_rows.h"
+#include "host/stages/surfaces/build_mips.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::string_view kOwner = "surfaces";
 
-bool keeps_use(int use, const GBufferNeeds& needs) {
-    switch (use) {
-        case USE_METALLIC_ROUGHNESS:
-            return needs.gloss;
-        case USE_EMISSIVE:
-            return needs.material;
-        case USE_OCCLUSION:
-            return needs.occlusion;
-        case USE_SPECULAR:
-        case USE_SPECULAR_COLOR:
-            return needs.specular;
-        default:
-            return true;
+// The surfaces that blend are not there.
+MeshFeatures solid_features(const Scene& scene, const SurfaceFeatures& features) {
+    return [&scene, features](const Mesh& mesh) -> std::optional<SurfaceFeatures> {
+        if (material_of(scene, mesh).alpha_mode == AlphaMode::blend) return {};
+        return features;
+    };
+}
+
+void upload_texels(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
+                   const TextureTable& table, const DeviceArray<std::uint64_t>& texels) {
+    if (table.rows().empty()) return;
+    BuildMips mips(gpu, tuning);
+    for (const auto& [encoded, first] : table.images()) {
+        const Image& image = scene.images[static_cast<std::size_t>(encoded.first)];
+        TextureRow row{};
+        place_mips(row, static_cast<uint>(image.width), static_cast<uint>(image.height), first);
+        mips.enqueue(image.rgba, encoded.second, row, texels);
     }
-}
-
-bool is_trilinear(const Sampler& sampler) {
-    return sampler.magnify == Filter::linear && sampler.minify == Filter::linear &&
-           sampler.mipmaps && sampler.between_mipmaps == Filter::linear;
-}
-
-bool same_lookup(const TextureUse& a, const TextureRow& row_a, const TextureUse& b,
-                 const TextureRow& row_b) {
-    return a.uv_set == b.uv_set && a.uv_from_texcoord == b.uv_from_texcoord &&
-           row_a.width == row_b.width && row_a.height == row_b.height &&
-           row_a.wrap_s == row_b.wrap_s && row_a.wrap_t == row_b.wrap_t &&
-           row_a.filter == row_b.filter;
-}
-
-// The first use's lookup serves all that read from the same places.
-void share_lookup(const Material& material, const TextureTable& textures, SurfaceMaterial& out) {
-    out.lookup_use = SURFACE_ABSENT;
-    for (uint use = 0; use < USE_COUNT; ++use) {
-        if (out.textures[use] == SURFACE_ABSENT) continue;
-        if (out.lookup_use == SURFACE_ABSENT) out.lookup_use = use;
-        const uint first = out.lookup_use;
-        if (same_lookup(texture_use(material, static_cast<int>(first)),
-                        textures.rows()[out.textures[first]],
-                        texture_use(material, static_cast<int>(use)),
-                        textures.rows()[out.textures[use]])) {
-            out.flags |= MATERIAL_SHARES_LOOKUP << use;
-        }
-    }
-}
-
-SurfaceMaterial surface_material(const Material& material, const TextureTable& textures) {
-    SurfaceMaterial out{};
-    out.row = material_row(material);
-    if (material.double_sided) out.flags |= MATERIAL_DOUBLE_SIDED;
-    if (material.unlit) out.flags |= MATERIAL_UNLIT;
-    if (material.alpha_mode == AlphaMode::mask) out.flags |= MATERIAL_MASKED;
-    for (int use = 0; use < USE_COUNT; ++use) {
-        out.textures[use] = textures.number_of(material, use);
-        if (texture_use(material, use).uv_set == 1) out.flags |= 1u << use;
-    }
-    share_lookup(material, textures, out);
-    return out;
+    gpu.queue.finish();
 }
 
 }  // namespace
 
-SurfaceFeatures surface_features(const Scene& scene, const GBufferNeeds& needs, int anisotropy) {
-    SurfaceFeatures out;
-    out.anisotropy = anisotropy;
-    for (const Mesh& mesh : scene.meshes) {
-        const Material& material = material_of(scene, mesh);
-        if (material.alpha_mode == AlphaMode::blend) continue;
-        out.masks |= material.alpha_mode == AlphaMode::mask;
-        out.vertex_color |= !mesh.colors.empty();
-        for (int use = 0; use < USE_COUNT; ++use) {
-            const TextureUse& texture = texture_use(material, use);
-            if (!texture.present() || !keeps_use(use, needs)) continue;
-            if (use == USE_NORMAL && mesh.tangents.empty()) continue;
-            out.texture_uses |= 1u << use;
-            (texture.uv_set == 1 ? out.texcoord1 : out.texcoord0) = true;
-            out.uv_transform |= texture.uv_from_texcoord != glm::mat3(1.0f);
-            const Sampler& sampler =
-                scene.textures[static_cast<std::size_t>(texture.texture)].sampler;
-            out.nearest |= !is_trilinear(sampler);
-            out.wraps |= sampler.wrap_s != Wrap::repeat || sampler.wrap_t != Wrap::repeat;
-        }
-    }
-    return out;
-}
-
 std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& features) {
-    std::uint64_t bytes = TextureTable(scene, features).texels() * sizeof(std::uint64_t);
+    std::uint64_t bytes =
+        TextureTable(scene, solid_features(scene, features)).texels() * sizeof(std::uint64_t);
     for (const Mesh& mesh : scene.meshes) {
         bytes += vertex_floats(mesh, features) * mesh.positions.size() * sizeof(float) +
                  mesh.indices.size() * sizeof(uint) + sizeof(MeshRow);
@@ -124,6 +65,7 @@ SurfaceScene::SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& sc
     : gpu_(gpu),
       scene_(scene),
       features_(features),
+      solid_(solid_features(scene, features)),
       instances_(gpu, kOwner),
       blocks_(gpu, kOwner),
       meshes_(gpu, kOwner),
@@ -132,62 +74,31 @@ SurfaceScene::SurfaceScene(const Gpu& gpu, const Tuning& tuning, const Scene& sc
       materials_(gpu, kOwner),
       textures_(gpu, kOwner),
       texels_(gpu, kOwner) {
-    upload_materials(tuning);
-    upload_meshes();
+    upload_rows(tuning);
 }
 
 SurfaceScene::~SurfaceScene() {
     if (drawn_.read()) clWaitForEvents(1, &drawn_.read());
 }
 
-void SurfaceScene::upload_materials(const Tuning& tuning) {
-    const TextureTable table(scene_, features_);
-    std::vector<SurfaceMaterial> materials;
-    for (const Material& material : scene_.materials) {
-        materials.push_back(surface_material(material, table));
-    }
-    materials.push_back(surface_material(Material{}, table));
-    upload<SurfaceMaterial>(gpu_, materials_.reserve(materials.size()), materials);
+void SurfaceScene::upload_rows(const Tuning& tuning) {
+    const TextureTable table(scene_, solid_);
+    rows_ = surface_rows(scene_, solid_, table);
+    upload<SurfaceMaterial>(gpu_, materials_.reserve(rows_.materials.size()), rows_.materials);
     upload<TextureRow>(gpu_, textures_.reserve(table.rows().size()), table.rows());
-    table.upload(gpu_, tuning, texels_.reserve(table.texels()));
-}
-
-void SurfaceScene::upload_meshes() {
-    std::vector<float> vertices;
-    std::vector<uint> indices;
-    for (const Mesh& mesh : scene_.meshes) {
-        MeshRow row = vertex_layout(mesh, features_);
-        row.first_float = checked_count(vertices.size(), scene_);
-        row.first_index = checked_count(indices.size(), scene_);
-        row.material = static_cast<uint>(
-            mesh.material < 0 ? scene_.materials.size() : static_cast<std::size_t>(mesh.material));
-        if (material_of(scene_, mesh).alpha_mode != AlphaMode::blend) {
-            append_vertices(mesh, row, vertices);
-            indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
-        }
-        rows_.push_back(row);
-        revisions_.push_back(mesh.revision);
-    }
-    checked_count(vertices.size(), scene_);
-    checked_count(indices.size(), scene_);
-    upload<MeshRow>(gpu_, meshes_.reserve(rows_.size()), rows_);
-    upload<float>(gpu_, vertices_.reserve(vertices.size()), vertices);
-    upload<uint>(gpu_, indices_.reserve(indices.size()), indices);
+    upload<MeshRow>(gpu_, meshes_.reserve(rows_.meshes.size()), rows_.meshes);
+    upload<float>(gpu_, vertices_.reserve(rows_.vertices.size()), rows_.vertices);
+    upload<uint>(gpu_, indices_.reserve(rows_.indices.size()), rows_.indices);
+    rows_.vertices = {};
+    rows_.indices = {};
+    upload_texels(gpu_, tuning, scene_, table, texels_.reserve(table.texels()));
 }
 
 void SurfaceScene::refresh_vertices() {
-    std::vector<float> vertices;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-        const Mesh& mesh = scene_.meshes[i];
-        if (revisions_[i] == mesh.revision) continue;
-        revisions_[i] = mesh.revision;
-        if (material_of(scene_, mesh).alpha_mode == AlphaMode::blend) continue;
-        vertices.clear();
-        append_vertices(mesh, rows_[i], vertices);
-        gpu_.queue.enqueueWriteBuffer(vertices_.get(), CL_TRUE,
-                                      std::size_t{rows_[i].first_float} * sizeof(float),
-                                      vertices.size() * sizeof(float), vertices.data());
-    }
+    rewrite_vertices(rows_, scene_, solid_, [&](std::size_t first, std::span<const float> rows) {
+        gpu_.queue.enqueueWriteBuffer(vertices_.get(), CL_TRUE, first * sizeof(float),
+                                      rows.size_bytes(), rows.data());
+    });
 }
 
 SurfaceBuffers SurfaceScene::at(std::span<const Draw> draws) {

@@ -5,15 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "host/base/gbuffer_layout.h"
 #include "host/scene/draw_list.h"
+#include "host/scene/rows/surface_rows.h"
 #include "host/scene/scene.h"
 #include "host/stages/surfaces/resolve_surfaces.h"
 
 namespace kilolux {
-
-/// What resolve_surfaces needs to read of a scene for a G-buffer. `anisotropy` at least 1.
-SurfaceFeatures surface_features(const Scene& scene, const GBufferNeeds& needs, int anisotropy);
 
 /// Bytes that a SurfaceScene takes on the device.
 std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& features);
@@ -40,15 +37,14 @@ class SurfaceScene {
     const SurfaceFeatures& features() const { return features_; }
 
  private:
-    void upload_meshes();
-    void upload_materials(const Tuning& tuning);
+    void upload_rows(const Tuning& tuning);
     void refresh_vertices();
 
     Gpu gpu_;
     const Scene& scene_;
     SurfaceFeatures features_;
-    std::vector<MeshRow> rows_;             // by mesh
-    std::vector<std::uint32_t> revisions_;  // of the vertices on the device, by mesh
+    MeshFeatures solid_;
+    SurfaceRows rows_;  // on the device
     // What the device reads without being waited for.
     struct Drawn {
         std::vector<InstanceRow> rows;

@@ -52,22 +52,6 @@
 #define lane_mask(m) (m)
 #endif
 
-// 1 / x within 2^-22, by sums and products alone: the same bits on every device. For the magnitudes
-// from 1e-37 to 1e37.
-static inline FV lane_reciprocal(FV x) {
-    UV bits = lane_bits(x);
-    UV guess = (0x7ef311c7u - (bits & 0x7fffffffu)) | (bits & 0x80000000u);  // within an eighth
-    FV r = lane_from_bits(guess);
-    r = fma(r, fma(-x, r, fv(1.0f)), r);
-    r = fma(r, fma(-x, r, fv(1.0f)), r);
-    return fma(r, fma(-x, r, fv(1.0f)), r);
-}
-
-static inline FV3 select3(MASK mask, FV3 a, FV3 b) {
-    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
-               lane_select(mask, a.z, b.z));
-}
-
 static inline float lane_min(FV v) {
 #if VW == 16
     float8 a = min(v.lo, v.hi);

@@ -44,9 +44,8 @@ static inline MASK is_opaque_at(MaskedScene scene, uint number, FV u0, FV u1, FV
         t = fma(fv(y.x), s, fma(fv(y.y), t, fv(y.z)));
         s = u;
 #endif
-        global const TextureRow* row = scene.textures.rows + texture;
-        Lookup at = make_lookup(row, s, t, fv(-1.0f));
-        alpha *= fetch_alpha(scene.textures, row, &at);
+        Map map = make_map(scene.textures, texture, USE_BASE_COLOR);
+        alpha *= fetch_alpha(map, make_lookup(map, s, t, fv(-1.0f)));
     }
     return lane_mask(!(alpha < fv(material->row.emissive_cutoff.w)));
 }

@@ -67,7 +67,7 @@ SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == 336);
 #define WRAP_CLAMP 1u
 #define WRAP_MIRROR 2u
 
-// Bits of TextureRow::filter.
+// Bits of TextureRow::filters.
 #define FILTER_MAGNIFY_NEAREST 1u
 #define FILTER_MINIFY_NEAREST 2u
 #define FILTER_NO_MIPMAPS 4u
@@ -79,13 +79,18 @@ SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == 336);
 SHARED_STRUCT(TextureRow) {
     uint width, height;  // of level 0 [texel]
     uint levels;
-    uint filter;
+    uint filters;  // FILTER_*
     uint wrap_s, wrap_t;
     uint first_texel;  // of level 0
     uint unused0;
     uint level_offset[TEXTURE_LEVELS];  // of each level's first texel from level 0's
 };
 SHARED_ASSERT(texture_row_size, sizeof(TextureRow) == 96);
+
+#if !defined(__cplusplus)
+// Texels of 64 bits in lanes, as their low and high halves.
+SHARED_PLAIN_STRUCT(Texels) { UV low, high; };
+#endif
 
 #if defined(__cplusplus)
 }  // namespace kilolux

@@ -9,6 +9,9 @@
 // function uses only + - * /, fma, min, max and the functions of this file, so that its text means
 // the same in the three languages. Operations on lanes are called lane_*; UV is a uint for each.
 //
+// A large struct is a parameter IN(T) p, read as AT(p).member and given as REF(x): a pointer in
+// OpenCL C, whose compilers copy what is passed by value.
+//
 // Two switches choose other instructions where a device has faster ones:
 // FAST_RSQRT   lane_rsqrt is one instruction (GPUs) rather than a root and a division (CPUs)
 // NATIVE_MATH  roots and quotients as the hardware makes them, of unstated accuracy (OpenCL only)
@@ -32,6 +35,10 @@
 #define SHARED_ASSERT(tag, cond) typedef char shared_assert_##tag[(cond) ? 1 : -1]
 #define SHARED_FN static inline
 #define SHARED_CONSTANT(type, name, value) __constant type name = value
+#define IN(T) const T*
+#define INOUT(T) T*
+#define AT(p) (*(p))
+#define REF(x) (&(x))
 #ifndef VW
 #define VW 1
 #endif
@@ -63,8 +70,14 @@
 #endif
 #define float_of(x) ((float)(x))
 #define uint_of(x) ((uint)(x))
+#define make_float2(x, y) ((float2)(x, y))
+#define make_float3(x, y, z) ((float3)(x, y, z))
 #define make_float4(x, y, z, w) ((float4)(x, y, z, w))
 #define lane_uint(s) ((UV)(s))
+#define lane_select_uint(mask, a, b) select((UV)(b), (UV)(a), (MASK)(mask))
+#define lane_select_mask(mask, a, b) (((mask) & (a)) | (~(mask) & (b)))
+#define lane_not(mask) (~(mask))
+#define lane_and(a, b) ((a) & (b))
 #define lane_bits(x) KX_CONCAT(as_, UV)(x)
 #define lane_from_bits(x) KX_CONCAT(as_, FV)(x)
 // Truncated to an integer (two's complement), and back.
@@ -144,6 +157,10 @@ inline float lane_from_int(uint x) { return static_cast<float>(static_cast<int>(
 #define SHARED_ASSERT(tag, cond)
 #define SHARED_FN
 #define SHARED_CONSTANT(type, name, value) const type name = value
+#define IN(T) T
+#define INOUT(T) inout T
+#define AT(p) p
+#define REF(x) x
 #define FV float
 #define MASK bool
 #define fv(s) float(s)
@@ -154,7 +171,12 @@ inline float lane_from_int(uint x) { return static_cast<float>(static_cast<int>(
 #define lane_divide(a, b) ((a) / (b))
 #define float_of(x) float(x)
 #define uint_of(x) uint(x)
+#define float2 vec2
+#define float3 vec3
+#define make_float2 vec2
+#define make_float3 vec3
 #define make_float4 vec4
+#define fabs abs
 #define float_bits floatBitsToUint
 #define bits_float uintBitsToFloat
 #define UV uint
@@ -163,6 +185,14 @@ inline float lane_from_int(uint x) { return static_cast<float>(static_cast<int>(
 #define lane_from_bits uintBitsToFloat
 #define lane_truncate(x) uint(int(x))
 #define lane_from_int(x) float(int(x))
+#define lane_to_float(u) float(u)
+#define lane_to_uint(x) uint(x)
+#define lane_mask(m) (m)
+#define lane_not(mask) (!(mask))
+#define lane_and(a, b) ((a) && (b))
+#define lane_select_uint(mask, a, b) ((mask) ? (a) : (b))
+#define lane_select_mask(mask, a, b) ((mask) ? (a) : (b))
+#define lane_max(x) (x)
 #endif
 
 #if defined(__cplusplus)
@@ -180,6 +210,9 @@ SHARED_FN FV3 fv3(FV x, FV y, FV z) {
     return v;
 }
 
+// Four: a colour and its alpha.
+SHARED_PLAIN_STRUCT(FV4) { FV x, y, z, w; };
+
 SHARED_FN FV dot3(FV3 a, FV3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
 
 SHARED_FN FV3 add3(FV3 a, FV3 b) { return fv3(a.x + b.x, a.y + b.y, a.z + b.z); }
@@ -192,6 +225,24 @@ SHARED_FN FV3 cross3(FV3 a, FV3 b) {
     return fv3(fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)),
                fma(a.x, b.y, -(a.y * b.x)));
 }
+
+#if !defined(__cplusplus)
+SHARED_FN FV3 select3(MASK mask, FV3 a, FV3 b) {
+    return fv3(lane_select(mask, a.x, b.x), lane_select(mask, a.y, b.y),
+               lane_select(mask, a.z, b.z));
+}
+
+// 1 / x within 2^-22, by sums and products alone: the same bits on every device. For the magnitudes
+// from 1e-37 to 1e37.
+SHARED_FN FV lane_reciprocal(FV x) {
+    UV bits = lane_bits(x);
+    UV guess = (0x7ef311c7u - (bits & 0x7fffffffu)) | (bits & 0x80000000u);  // within an eighth
+    FV r = lane_from_bits(guess);
+    r = fma(r, fma(-x, r, fv(1.0f)), r);
+    r = fma(r, fma(-x, r, fv(1.0f)), r);
+    return fma(r, fma(-x, r, fv(1.0f)), r);
+}
+#endif
 
 #if defined(__cplusplus)
 }  // namespace kilolux

@@ -4,10 +4,11 @@
 // every device.
 #ifndef KILOLUX_DEVICE_ALPHA_MASK_H
 #define KILOLUX_DEVICE_ALPHA_MASK_H
-#include "kernels/surfaces/footprint.h"
+#include "kernels/device/triangle.h"
+#include "kernels/shared/surface_of.h"
 
 typedef struct MaskedTriangle {
-    global const SurfaceMaterial* material;
+    MaterialRef material;
     TriangleEdges edges;
 #if HAS_TEXCOORD0
     Texcoords texcoord0;
@@ -22,51 +23,43 @@ typedef struct MaskedTriangle {
 
 // `number`: along the instances.
 static inline MaskedTriangle fetch_masked_triangle(SurfaceScene scene, View view, uint number) {
-    MaskedTriangle out;
+    MaskedTriangle masked;
     Triangle t = fetch_triangle(scene, number + 1u);
     float3 v[3];
-    for (uint i = 0; i < 3; ++i) v[i] = view_vertex(t.instance, vload3(0, t.vertex[i]));
-    out.material = scene.materials + t.mesh.material;
-    out.edges = triangle_edges(view, v);
+    for (uint i = 0; i < 3; ++i) {
+        v[i] = view_vertex(t.instance, vertex_float3(t.vertex[i], 0u));
+    }
+    masked.material = scene.materials + t.mesh.material;
+    masked.edges = triangle_edges(view, v[0], v[1], v[2]);
 #if HAS_TEXCOORD0
-    out.texcoord0 = fetch_texcoords(t, t.mesh.texcoord0);
+    masked.texcoord0 = fetch_texcoords(t, t.mesh.texcoord0);
 #endif
 #if HAS_TEXCOORD1
-    out.texcoord1 = fetch_texcoords(t, t.mesh.texcoord1);
+    masked.texcoord1 = fetch_texcoords(t, t.mesh.texcoord1);
 #endif
 #if HAS_VERTEX_COLOR
     for (uint i = 0; i < 3; ++i) {
-        out.alpha[i] = t.mesh.color == SURFACE_ABSENT ? 1.0f : t.vertex[i][t.mesh.color + 3];
+        masked.alpha[i] =
+            t.mesh.color == SURFACE_ABSENT ? 1.0f : vertex_float(t.vertex[i], t.mesh.color + 3u);
     }
 #endif
-    return out;
+    return masked;
 }
 
 // The pixels that alpha leaves; said of all, covered or not.
 static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriangle* t,
                                Pixels pixels) {
-    MASK front;
-    Weights w = weights_of(view, pixels, t->edges, &front);
-    FV alpha = fv(t->material->row.base_color.w);
-#if HAS_TEXCOORD0 || HAS_TEXCOORD1
-    uint texture = t->material->textures[USE_BASE_COLOR];
-    if (texture != SURFACE_ABSENT) {
-        Fragment f;
+    Weights w = weights_of(view, pixels, t->edges);
+    Fragment f;
 #if HAS_TEXCOORD0
-        f.texcoord0 = interpolate_texcoord(w, t->texcoord0);
+    f.texcoord0 = interpolate_texcoord(w, t->texcoord0);
 #endif
 #if HAS_TEXCOORD1
-        f.texcoord1 = interpolate_texcoord(w, t->texcoord1);
-#endif
-        TextureBuffers buffers = {scene.textures, scene.texels};
-        global const TextureRow* row = scene.textures + texture;
-        Lookup at = lookup_isotropic(row, footprint_of(t->material, &f, USE_BASE_COLOR));
-        alpha *= fetch_alpha(buffers, row, &at);
-    }
+    f.texcoord1 = interpolate_texcoord(w, t->texcoord1);
 #endif
 #if HAS_VERTEX_COLOR
-    alpha *= interpolate(w, t->alpha[0], t->alpha[1], t->alpha[2]);
+    f.color.w = interpolate(w, t->alpha[0], t->alpha[1], t->alpha[2]);
 #endif
-    return lane_mask(!(alpha < fv(t->material->row.emissive_cutoff.w)));
+    return passes_cutoff(t->material, alpha_of(scene, t->material, &f));
 }
 #endif

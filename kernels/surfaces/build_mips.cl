@@ -3,14 +3,7 @@
 // A mip level averages the level before it: 2x2 texels, or for odd sizes the linear filter's value
 // at the new texel's centre. One work-item makes one texel.
 
-static inline uint4 channels_of(ulong texel) {
-    return (uint4)((uint)texel & 0xffffu, (uint)(texel >> 16) & 0xffffu,
-                   (uint)(texel >> 32) & 0xffffu, (uint)(texel >> 48));
-}
-
-static inline ulong texel_of(uint4 c) {
-    return (ulong)(c.x | (c.y << 16)) | ((ulong)(c.z | (c.w << 16)) << 32);
-}
+#include "kernels/shared/mips.h"
 
 // Level 0 from an 8-bit image.
 kernel void mip_first(global const uchar4* restrict image,    // [count]
@@ -24,23 +17,7 @@ kernel void mip_first(global const uchar4* restrict image,    // [count]
     uchar4 code = image[i];
     // 257: 255 is 65535.
     texels[first + i] =
-        texel_of((uint4)(decoded[code.x], decoded[code.y], decoded[code.z], 257u * (uint)code.w));
-}
-
-// Neighbours of a coordinate in a level and their weights.
-typedef struct MipTaps {
-    uint first, second;
-    float share;
-} MipTaps;
-
-static inline MipTaps mip_taps(uint at, uint size, uint above) {
-    float centre = ((float)at + 0.5f) * ((float)above / (float)size) - 0.5f;
-    float whole = floor(centre);
-    MipTaps out;
-    out.share = centre - whole;
-    out.first = (uint)max(whole, 0.0f);
-    out.second = min((uint)(whole + 1.0f), above - 1u);
-    return out;
+        make_texel(decoded[code.x], decoded[code.y], decoded[code.z], 257u * (uint)code.w);
 }
 
 kernel void mip_next(global ulong* texels,  // in and out
@@ -53,12 +30,6 @@ kernel void mip_next(global ulong* texels,  // in and out
     MipTaps t = mip_taps(i / width, height, above_height);
     global const ulong* top = texels + above_first + t.first * above_width;
     global const ulong* bottom = texels + above_first + t.second * above_width;
-    float4 a = convert_float4(channels_of(top[s.first]));
-    float4 b = convert_float4(channels_of(top[s.second]));
-    float4 c = convert_float4(channels_of(bottom[s.first]));
-    float4 d = convert_float4(channels_of(bottom[s.second]));
-    float4 upper = fma((float4)(s.share), b - a, a);
-    float4 lower = fma((float4)(s.share), d - c, c);
-    float4 mean = fma((float4)(t.share), lower - upper, upper);
-    texels[first + i] = texel_of(convert_uint4(mean + 0.5f));
+    texels[first + i] = mean_texel(top[s.first], top[s.second], bottom[s.first], bottom[s.second],
+                                   s.share, t.share);
 }

@@ -3,7 +3,8 @@
 // Four for each mip level and each sample along a footprint; a texture that several uses read
 // counts once. For limits; no part of a frame otherwise.
 // One work-item counts for VW neighbouring pixels of a row.
-#include "kernels/surfaces/footprint.h"
+#include "kernels/device/triangle.h"
+#include "kernels/shared/surface_of.h"
 
 #if HAS_TEXCOORD0 || HAS_TEXCOORD1
 static inline UV texels_of_lookup(Lookup at) {
@@ -11,14 +12,14 @@ static inline UV texels_of_lookup(Lookup at) {
     return select((UV)(4u), (UV)(8u), two_levels);
 }
 
-static inline UV texels_of_use(global const TextureRow* row, Footprint at) {
+static inline UV texels_of_use(Map map, Footprint at) {
 #if MAX_ANISOTROPY > 1
-    if (is_anisotropic(row)) {
-        Samples s = samples_along(row, at);
-        return texels_of_lookup(make_lookup(row, at.u, at.v, s.lambda)) * lane_to_uint(s.count);
+    if (is_anisotropic(map)) {
+        Samples s = samples_along(map, at);
+        return texels_of_lookup(make_lookup(map, at.u, at.v, s.lambda)) * lane_to_uint(s.count);
     }
 #endif
-    return texels_of_lookup(lookup_isotropic(row, at));
+    return texels_of_lookup(lookup_isotropic(map, at));
 }
 
 // Whether an earlier use reads the texture, too.
@@ -30,17 +31,17 @@ static inline bool is_read(global const SurfaceMaterial* material, uint use) {
 }
 
 static inline UV texels_of_material(SurfaceScene scene, uint number, const Fragment* f) {
-    global const SurfaceMaterial* material = scene.materials + number;
+    MaterialRef material = scene.materials + number;
     UV texels = (UV)(0u);
     for (uint use = 0; use < USE_COUNT; ++use) {
-        uint texture = material->textures[use];
-        if (!HAS_USE(use) || texture == SURFACE_ABSENT || is_read(material, use)) continue;
-        texels += texels_of_use(scene.textures + texture, footprint_of(material, f, use));
+        if (!HAS_USE(use) || material->textures[use] == SURFACE_ABSENT) continue;
+        if (is_read(material, use)) continue;
+        texels += texels_of_use(map_of(scene, material, use), footprint_of(material, f, use));
     }
     return texels;
 }
 #else
-static inline UV texels_of_material(SurfaceScene scene, uint number, const Fragment* f) {
+static inline UV texels_of_material(SurfaceScene scene, uint material, const Fragment* f) {
     return (UV)(0u);
 }
 #endif

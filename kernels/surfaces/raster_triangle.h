@@ -50,7 +50,7 @@ static inline ExactTriangle exact_triangle(SurfaceScene scene, View view, uint n
     Triangle t = fetch_triangle(scene, number + 1u);
     float3 seen[3];
     for (uint i = 0; i < 3; ++i) {
-        seen[i] = view_vertex(t.instance, vload3(0, t.vertex[i]));
+        seen[i] = view_vertex(t.instance, vertex_float3(t.vertex[i], 0u));
         if (view.orthographic != 0u) seen[i].z = -1.0f;
     }
     ExactTriangle out;

@@ -50,7 +50,7 @@ const Choices& choices_of(Geometry) {
         {"auto", "ids; compute where bench --tune found it faster, or without OpenGL"},
         {"ids", "OpenGL draws triangle ids, OpenCL makes the surfaces"},
         {"compute", "OpenCL draws them, too: no OpenGL, the same ids on every device"},
-        {"planes", "OpenGL's fragments write the surfaces, filtered as its driver likes"}};
+        {"planes", "OpenGL's fragments write the surfaces"}};
     return choices;
 }
 

@@ -1,32 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the raster shaders read of a material and of a frame, declared once for C++ and GLSL.
+// What the raster shaders read of a frame, and where they find it, declared once for C++ and GLSL.
 #ifndef KILOLUX_RASTER_DRAW_ROWS_H
 #define KILOLUX_RASTER_DRAW_ROWS_H
 #include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/material.h"
+#include "kernels/shared/surface_scene.h"
 #include "kernels/shared/types.h"
 #include "kernels/shared/view.h"
 #if defined(__cplusplus)
 namespace kilolux {
 #endif
 
-// Texture units of what forward shading reads of lights, where it does so from textures.
+// Texture units: a material's maps come first, by USE_*; then what forward shading reads of lights,
+// where it does so from textures.
 #define LIGHTS_UNIT 8
 #define CLUSTER_OFFSETS_UNIT 9
 #define LIGHT_LISTS_UNIT 10
 #define LIGHT_PROFILES_UNIT 11
 #define PROFILE_TABLES_UNIT 12
+#define VERTICES_UNIT 13
+#define INDICES_UNIT 14
 
-// What forward shading needs beside materials and lights.
-SHARED_STRUCT(ForwardRow) {
+// Storage blocks of the scene, after the six of forward lights; the last is the G-buffer pass's.
+#define INSTANCES_BLOCK 6
+#define MESHES_BLOCK 7
+#define MATERIALS_BLOCK 8
+#define TEXTURES_BLOCK 9
+#define SRGB_BLOCK 10
+
+// Uniform blocks.
+#define CAMERA_BLOCK 0
+#define FORWARD_BLOCK 1
+
+// The camera of a pass.
+SHARED_STRUCT(CameraRow) {
     View view;
+    float4 clip_from_view[4];  // columns
+};
+SHARED_ASSERT(camera_row_size, sizeof(CameraRow) == 192);
+
+// What forward shading needs beside surfaces and lights.
+SHARED_STRUCT(ForwardRow) {
     ClusterGrid grid;  // forward-plus only
     uint light_count;
     uint directional_count;
     float ambient;  // radiance that falls in from everywhere
     uint unused0;
 };
-SHARED_ASSERT(forward_row_size, sizeof(ForwardRow) == 192);
+SHARED_ASSERT(forward_row_size, sizeof(ForwardRow) == 64);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

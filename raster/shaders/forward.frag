@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
 // cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_UNLIT, HAS_LIGHT_PROFILES as in evaluate.h;
-// HAS_DIRECTIONAL_LIGHTS.
+// HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
+#include "raster/shaders/surface.glsl"
 #include "kernels/shared/evaluate.h"
-#include "raster/shaders/material.glsl"
 
-layout(std140, binding = 1) uniform ForwardBlock { ForwardRow frame; };
+layout(std140, binding = FORWARD_BLOCK) uniform ForwardBlock { ForwardRow frame; };
 layout(std430, binding = 0) readonly buffer DirectionalLights {
     DirectionalLight directional_lights[];
 };
@@ -62,38 +62,11 @@ float profile_head(LightProfiles from, uint i) { return profile_value(from, i); 
 
 layout(location = 0) out vec4 out_radiance;  // linear; alpha for materials that blend
 
-// In the picture, of which the target may hold a band.
-vec2 fragment_pixel() {
-    return vec2(gl_FragCoord.x, gl_FragCoord.y + float(frame.view.first_row));
-}
-
-// Where the deferred renderer finds the fragment too: from pixel and depth, not from a varying.
-float depth_of_fragment() {
-    vec2 pixel = fragment_pixel();
-    return view_depth(frame.view, pixel.x, pixel.y, gl_FragCoord.z);
-}
-
-Surface surface_of(MaterialSample m, float z) {
-    Surface s;
-    vec2 pixel = fragment_pixel();
-    s.position = view_position(frame.view, pixel.x, pixel.y, z);
-    s.normal = fv3(m.normal.x, m.normal.y, m.normal.z);
-    s.albedo = fv3(m.base_color.r, m.base_color.g, m.base_color.b);
-    s.emissive = fv3(m.emissive.r, m.emissive.g, m.emissive.b);
-    s.roughness = m.roughness;
-    s.metallic = m.metallic;
-    s.occlusion = m.occlusion;
-#if HAS_SPECULAR
-    s.specular = fv3(m.specular.r, m.specular.g, m.specular.b);
-    s.specular_f90 = m.specular.a;
-#endif
-    return s;
-}
-
 // First and end of the fragment's lights in light_lists, or in lights.
 uvec2 light_range(float z) {
 #if CLUSTERED
-    uvec2 tile = uvec2(fragment_pixel()) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
+    Pixels pixels = fragment_pixels();
+    uvec2 tile = uvec2(pixels.x, pixels.y) / uvec2(frame.grid.tile_width, frame.grid.tile_height);
     uint cluster = cluster_index(frame.grid, tile.x, tile.y, slice_of_depth(frame.grid, z));
     return uvec2(cluster_offset(cluster), cluster_offset(cluster + 1u));
 #else
@@ -120,17 +93,23 @@ LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
 }
 
 void main() {
-    MaterialSample m = sample_material();
-    float z = depth_of_fragment();
-    Surface s = surface_of(m, z);
-    ShadingPoint p = make_shading_point(s, frame.view.orthographic != 0u);
+    SurfaceScene scene = SurfaceScene(0u);
+    Fragment f = drawn_fragment(scene);
+    if (!is_covered(scene, f)) discard;
+    Surface s = drawn_surface(scene, f);
+    ShadingPoint p = make_shading_point(s, camera.view.orthographic != 0u);
     LightSum sum = zero_sum();
 #if HAS_DIRECTIONAL_LIGHTS
     for (uint i = 0u; i < frame.directional_count; ++i) {
         sum = evaluate_directional(sum, p, directional_lights[i]);
     }
 #endif
-    sum = sum_lights(sum, p, light_range(z));
+    sum = sum_lights(sum, p, light_range(f.z));
     FV3 radiance = finish_shading(s, sum, frame.ambient);
-    out_radiance = vec4(radiance.x, radiance.y, radiance.z, m.base_color.a);
+    #if BLENDED
+    float alpha = alpha_of(scene, f.material, f);
+#else
+    float alpha = 1.0;
+#endif
+    out_radiance = vec4(radiance.x, radiance.y, radiance.z, alpha);
 }

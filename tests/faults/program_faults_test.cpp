@@ -168,8 +168,8 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
     fs::remove(elsewhere_ / "kernels/shading/shade.cl");
     expect_refused(developer, "kernels/shading/shade.cl: cannot be read");
     write_text(elsewhere_ / "kernels/shading/shade.cl", shade);
-    write_text(elsewhere_ / "raster/shaders/ids.frag", "#version 450\nthis is no GLSL\n");
-    expect_refused(developer, "raster/shaders/ids.frag");
+    write_text(elsewhere_ / "raster/shaders/coverage.frag", "#version 450\nthis is no GLSL\n");
+    expect_refused(developer, "raster/shaders/coverage.frag");
 }
 
 TEST_F(Faults, FileSizeLimitAndFullDisk) {

@@ -13,7 +13,7 @@
 #include "host/stages/surfaces/decode_gbuffer.h"
 #include "host/surfaces/surface_scene.h"
 #include "raster/gl_context.h"
-#include "raster/ids_pass.h"
+#include "raster/solid_pass.h"
 #include "tests/support/paths.h"
 #include "tests/support/quad_scene.h"
 #include "tests/support/render_fixture.h"
@@ -25,7 +25,7 @@ namespace {
 class Resolving {
  public:
     Resolving(const Scene& scene, uint layout = GBUFFER_FULL)
-        : scene_(scene), gpu_scene_(scene, 0.0f, GpuSceneUse::covered), ids_(gpu_scene_) {
+        : scene_(scene), gpu_scene_(scene, 1, GpuSceneUse::covered), ids_(gpu_scene_) {
         needs_.layout = layout;
         needs_.material = needs_.occlusion = needs_.gloss = true;
         features_.gbuffer = layout;

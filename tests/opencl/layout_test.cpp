@@ -67,7 +67,7 @@ std::vector<Measure> surface_measures() {
             OFFSET_OF(SurfaceMaterial, flags),
             OFFSET_OF(SurfaceMaterial, lookup_use),
             SIZE_OF(TextureRow),
-            OFFSET_OF(TextureRow, filter),
+            OFFSET_OF(TextureRow, filters),
             OFFSET_OF(TextureRow, first_texel),
             OFFSET_OF(TextureRow, level_offset)};
 }

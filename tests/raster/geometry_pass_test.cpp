@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raster/geometry_pass.h"
+#include "raster/solid_pass.h"
 
 #include <random>
 
@@ -205,7 +205,7 @@ TEST_F(GeometryPassTest, CullsInstancesOutsideTheFrustumOnly) {
     const GpuScene gpu(scene);
     GeometryPass pass(gpu, {});
     pass.draw(front_camera(2), 32, 32);
-    EXPECT_EQ(pass.drawn_instances(), 4u);
+    EXPECT_EQ(pass.draws().size(), 4u);
     EXPECT_GT(pass.last_ms(), 0.0);
 }
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "host/base/gbuffer_layout.h"
-#include "raster/geometry_pass.h"
 #include "raster/gl_context.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
 
@@ -140,12 +140,12 @@ inline glm::dmat4 translation(const glm::dvec3& t) {
     return m;
 }
 
-/// A G-buffer with the material and occlusion planes.
+/// A G-buffer with the material and occlusion planes, of surfaces that are not all matt.
 inline GBufferNeeds make_needs(uint layout, float emissive_scale = 1.0f) {
     GBufferNeeds needs;
     needs.layout = layout;
     needs.emissive_scale = emissive_scale;
-    needs.material = needs.occlusion = true;
+    needs.material = needs.occlusion = needs.gloss = true;
     return needs;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "raster/overdraw_pass.h"
+#include "raster/solid_pass.h"
 
 #include "tests/raster/gl_fixture.h"
 
@@ -10,7 +10,7 @@ using OverdrawPassTest = GlTest;
 
 float count_at_center(const Scene& scene, double camera_z) {
     const GpuScene gpu(scene);
-    const OverdrawPass pass(gpu);
+    OverdrawPass pass(gpu);
     return pass.count(front_camera(camera_z), 9, 7)[3 * 9 + 4];
 }
 

@@ -146,7 +146,7 @@ TEST_F(SamplerTest, BelongsToTheTextureNotToTheImage) {
     const HostGBuffer g = draw_gbuffer(scene, front_camera(1), kPixels, kPixels, kFull);
     EXPECT_EQ(g.vector(PLANE_ALBEDO_R, 20, 8), glm::dvec3(1, 0, 0)) << "repeats";
     EXPECT_EQ(g.vector(PLANE_EMISSIVE_R, 20, 8), glm::dvec3(0, 1, 0)) << "stays at its edge";
-    EXPECT_EQ(GpuScene(scene).texture_count(), 1u);
+    EXPECT_EQ(GpuScene(scene).image_count(), 1u);
 }
 
 // A floor of stripes that run away from the camera, seen at a grazing angle.
@@ -156,7 +156,7 @@ class AnisotropyTest : public GlTest {
 
     // Draws stripes of 4 texels that vary with u or v, where a pixel is about 1.5 texels wide and
     // 12 deep; the standard deviation of what is seen.
-    double contrast(float anisotropy, bool along_u, Filter filter = Filter::linear) {
+    double contrast(int anisotropy, bool along_u, Filter filter = Filter::linear) {
         std::vector<int> codes;
         for (int i = 0; i < kSide * kSide; ++i) {
             codes.push_back(((along_u ? i : i / kSide) / 4) % 2 == 0 ? 255 : 0);
@@ -200,35 +200,24 @@ class AnisotropyTest : public GlTest {
 };
 
 TEST_F(AnisotropyTest, KeepsStripesThatRunAway) {
-    GLfloat largest = 1.0f;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY, &largest);
-    if (glGetError() != GL_NO_ERROR || largest < 8.0f) GTEST_SKIP() << "no anisotropic filtering";
-    const double isotropic = contrast(1.0f, true);
-    const double filtered = contrast(8.0f, true);
+    const double isotropic = contrast(1, true);
+    const double filtered = contrast(8, true);
     EXPECT_NEAR(mean_, 0.5, 0.05);
     EXPECT_LT(isotropic, 0.1);
     EXPECT_GT(filtered, 0.3);
-    EXPECT_GE(contrast(1e6f, true), filtered) << "limited to what the driver has";
 }
 
 TEST_F(AnisotropyTest, StillBlursStripesThatLieAcross) {
-    EXPECT_LT(contrast(1.0f, false), 0.15);
+    EXPECT_LT(contrast(1, false), 0.15);
     EXPECT_NEAR(mean_, 0.5, 0.1);
-    EXPECT_LT(contrast(8.0f, false), 0.4);
+    EXPECT_LT(contrast(8, false), 0.4);
 }
 
 TEST_F(AnisotropyTest, LeavesNearestLookupsAlone) {
-    contrast(1.0f, true, Filter::nearest);
+    contrast(1, true, Filter::nearest);
     const std::vector<std::byte> without = picture_.bytes;
-    contrast(8.0f, true, Filter::nearest);
+    contrast(8, true, Filter::nearest);
     EXPECT_TRUE(without == picture_.bytes);
-}
-
-TEST_F(AnisotropyTest, IsOffByDefaultWhereTheCpuFilters) {
-    contrast(is_software_renderer() ? 1.0f : 8.0f, true);
-    const std::vector<std::byte> chosen = picture_.bytes;
-    contrast(0.0f, true);
-    EXPECT_TRUE(chosen == picture_.bytes);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include "host/render/plan/scene_plan.h"
 
 #include "host/base/error.h"
+#include "host/scene/rows/surface_rows.h"
 #include "kernels/shared/evaluate_modes.h"
-#include "raster/material_features.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -150,33 +150,30 @@ TEST(ScenePlan, AddedBytesAreThoseOfThePlanWithTheFeature) {
 
 // Features of the raster shaders: each material's variant has its own.
 TEST(ScenePlan, ShaderVariantsHoldWhatTheirMaterialNeeds) {
-    const auto names_of = [](const Material& material, bool tangents) {
-        Mesh mesh;
-        mesh.positions.resize(1);
-        if (tangents) mesh.tangents.resize(1);
-        std::vector<std::string> names;
-        const PassInputs none{.surface = false};
-        for (const auto& [name, value] : feature_defines(features_of(mesh, material), none)) {
-            if (value != "0") names.push_back(name);
-        }
-        return names;
+    const auto features_of = [](const Material& material, bool tangents) {
+        Scene scene;
+        scene.textures.resize(1);
+        scene.materials = {material};
+        scene.meshes.resize(1);
+        scene.meshes[0].material = 0;
+        scene.meshes[0].positions.resize(1);
+        if (tangents) scene.meshes[0].tangents.resize(1);
+        return mesh_features(scene, scene.meshes[0], ~0u, 1);
     };
     const Material plain;
-    EXPECT_TRUE(names_of(plain, true).empty()) << names_of(plain, true).front();
+    EXPECT_EQ(features_of(plain, true), SurfaceFeatures{});
     Material m;
     m.normal_texture.texture = 0;
-    EXPECT_TRUE(has(names_of(m, true), "TANGENT") && has(names_of(m, true), "NORMAL_UV"));
-    EXPECT_FALSE(has(names_of(m, false), "TANGENT")) << "a mesh without tangents";
+    EXPECT_EQ(features_of(m, true).texture_uses, 1u << USE_NORMAL);
+    EXPECT_EQ(features_of(m, false), SurfaceFeatures{}) << "a mesh without tangents";
     m = {};
     m.alpha_mode = AlphaMode::mask;
-    EXPECT_EQ(names_of(m, false), std::vector<std::string>{"ALPHA_MASK"});
-    m = {};
-    m.unlit = true;
-    EXPECT_EQ(names_of(m, false), std::vector<std::string>{"UNLIT"});
+    EXPECT_TRUE(features_of(m, false).masks);
     m = {};
     m.specular_color_texture.texture = 0;
-    EXPECT_EQ(names_of(m, false), (std::vector<std::string>{"HAS_SPECULAR_COLOR_UV",
-                                                            "SPECULAR_COLOR_UV", "TEXCOORD0"}));
+    const SurfaceFeatures coloured = features_of(m, false);
+    EXPECT_EQ(coloured.texture_uses, 1u << USE_SPECULAR_COLOR);
+    EXPECT_TRUE(coloured.texcoord0 && !coloured.texcoord1 && !coloured.uv_transform);
 }
 
 TEST(ScenePlan, RefusesToForceWhatCostsNothingWhereItIsAbsent) {

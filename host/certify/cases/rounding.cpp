@@ -14,7 +14,7 @@
 #include "host/certify/synthetic/probe.h"
 #include "host/stages/picture/tonemap.h"
 #include "kernels/shared/tone_curve.h"
-#include "raster/geometry_pass.h"
+#include "raster/solid_pass.h"
 
 namespace kilolux {
 namespace {

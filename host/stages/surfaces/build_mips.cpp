@@ -1,64 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/build_mips.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-
-#include "host/base/srgb.h"
+#include "host/base/mips.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::string_view kBuildMipsStage = "build_mips";
 
-using CodeTable = std::array<std::uint16_t, 256>;
-
-CodeTable srgb_codes() {
-    CodeTable out;
-    for (std::size_t code = 0; code < out.size(); ++code) {
-        const double linear = srgb_to_linear(static_cast<double>(code) / 255.0);
-        out[code] = static_cast<std::uint16_t>(std::lround(65535.0 * linear));
-    }
-    return out;
-}
-
-CodeTable linear_codes() {
-    CodeTable out;
-    for (std::size_t code = 0; code < out.size(); ++code) {
-        out[code] = static_cast<std::uint16_t>(257 * code);
-    }
-    return out;
-}
-
-uint halved(uint size) { return std::max(size / 2, 1u); }
-
 }  // namespace
-
-std::size_t mip_texels(uint width, uint height) {
-    std::size_t texels = std::size_t{width} * height;
-    while (width > 1 || height > 1) {
-        width = halved(width);
-        height = halved(height);
-        texels += std::size_t{width} * height;
-    }
-    return texels;
-}
-
-void place_mips(TextureRow& row, uint width, uint height, std::size_t first_texel) {
-    row.width = width;
-    row.height = height;
-    row.levels = static_cast<uint>(std::bit_width(std::max(width, height)));
-    row.first_texel = static_cast<uint>(first_texel);
-    std::size_t offset = 0;
-    for (uint level = 0; level < row.levels; ++level) {
-        row.level_offset[level] = static_cast<uint>(offset);
-        offset += std::size_t{width} * height;
-        width = halved(width);
-        height = halved(height);
-    }
-}
 
 BuildMips::BuildMips(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
@@ -69,8 +19,8 @@ BuildMips::BuildMips(const Gpu& gpu, const Tuning& tuning)
       srgb_(gpu, kBuildMipsStage),
       linear_(gpu, kBuildMipsStage),
       image_(gpu, kBuildMipsStage) {
-    upload<std::uint16_t>(gpu_, srgb_.reserve(256), srgb_codes());
-    upload<std::uint16_t>(gpu_, linear_.reserve(256), linear_codes());
+    upload<std::uint16_t>(gpu_, srgb_.reserve(256), linear_codes(true));
+    upload<std::uint16_t>(gpu_, linear_.reserve(256), linear_codes(false));
 }
 
 void BuildMips::enqueue(std::span<const std::uint8_t> rgba, bool srgb, const TextureRow& row,

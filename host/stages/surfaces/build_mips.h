@@ -10,12 +10,6 @@
 
 namespace kilolux {
 
-/// Texels of an image with all its mip levels.
-std::size_t mip_texels(uint width, uint height);
-
-/// Sets size, levels and places of an image whose levels begin at `first_texel`.
-void place_mips(TextureRow& row, uint width, uint height, std::size_t first_texel);
-
 /// 8-bit images -> linear texels of 16 bits a channel, with mip levels.
 class BuildMips {
  public:

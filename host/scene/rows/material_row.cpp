@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/material_row.h"
+#include "host/scene/rows/material_row.h"
 
 #include "host/scene/material_table.h"
 

@@ -3,8 +3,9 @@
 
 #include <vector>
 
+#include "host/base/surface_features.h"
 #include "host/scene/scene.h"
-#include "host/stages/surfaces/resolve_surfaces.h"
+#include "kernels/shared/surface_scene.h"
 
 namespace kilolux {
 

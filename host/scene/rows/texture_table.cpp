@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/surfaces/texture_table.h"
+#include "host/scene/rows/texture_table.h"
 
 #include <fmt/format.h>
 #include <string>
 
 #include "host/base/error.h"
-#include "host/stages/surfaces/build_mips.h"
-#include "host/surfaces/vertex_rows.h"
+#include "host/base/mips.h"
+#include "host/scene/rows/vertex_rows.h"
 
 namespace kilolux {
 namespace {
@@ -22,7 +22,7 @@ uint wrap_of(Wrap wrap) {
     }
 }
 
-uint filter_of(const Sampler& sampler) {
+uint filters_of(const Sampler& sampler) {
     uint bits = 0;
     if (sampler.magnify == Filter::nearest) bits |= FILTER_MAGNIFY_NEAREST;
     if (sampler.minify == Filter::nearest) bits |= FILTER_MINIFY_NEAREST;
@@ -40,17 +40,13 @@ void check_size(const Image& image) {
 
 }  // namespace
 
-TextureTable::TextureTable(const Scene& scene, const SurfaceFeatures& features)
-    : scene_(scene), uses_(features.texture_uses) {
+TextureTable::TextureTable(const Scene& scene, const MeshFeatures& features) : scene_(scene) {
     for (const Mesh& mesh : scene.meshes) {
-        const Material& material = material_of(scene, mesh);
-        if (material.alpha_mode == AlphaMode::blend) continue;
-        for (int use = 0; use < USE_COUNT; ++use) {
-            if (use == USE_NORMAL && mesh.tangents.empty()) continue;
-            const TextureUse& texture = texture_use(material, use);
-            if (texture.present() && (uses_ & (1u << use)) != 0) {
-                add(texture.texture, is_srgb_use(use));
-            }
+        const auto read = features(mesh);
+        for (int use = 0; read && use < USE_COUNT; ++use) {
+            const TextureUse& texture = texture_use(material_of(scene, mesh), use);
+            if (!reads_use(scene, mesh, use) || (read->texture_uses & (1u << use)) == 0) continue;
+            add(texture.texture, is_srgb_use(use));
         }
     }
     checked_count(texels_, scene);
@@ -63,7 +59,7 @@ void TextureTable::add(int texture, bool srgb) {
     const Image& image = scene_.images[static_cast<std::size_t>(source.image)];
     check_size(image);
     TextureRow row{};
-    row.filter = filter_of(source.sampler);
+    row.filters = filters_of(source.sampler);
     row.wrap_s = wrap_of(source.sampler.wrap_s);
     row.wrap_t = wrap_of(source.sampler.wrap_t);
     place_mips(row, static_cast<uint>(image.width), static_cast<uint>(image.height),
@@ -86,19 +82,6 @@ uint TextureTable::number_of(const Material& material, int use) const {
     if (!texture.present()) return SURFACE_ABSENT;
     const auto found = numbers_.find({texture.texture, is_srgb_use(use)});
     return found == numbers_.end() ? SURFACE_ABSENT : found->second;
-}
-
-void TextureTable::upload(const Gpu& gpu, const Tuning& tuning,
-                          const DeviceArray<std::uint64_t>& texels) const {
-    if (rows_.empty()) return;
-    BuildMips mips(gpu, tuning);
-    for (const auto& [encoded, first] : first_texel_) {
-        const Image& image = scene_.images[static_cast<std::size_t>(encoded.first)];
-        TextureRow row{};
-        place_mips(row, static_cast<uint>(image.width), static_cast<uint>(image.height), first);
-        mips.enqueue(image.rgba, encoded.second, row, texels);
-    }
-    gpu.queue.finish();
 }
 
 }  // namespace kilolux

@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/gpu/features.h"
-#include "host/scene/material_row.h"
-#include "host/stages/surfaces/resolve_surfaces.h"
+#include "host/scene/rows/material_row.h"
+#include "host/scene/rows/surface_rows.h"
 
 namespace kilolux {
 
@@ -16,8 +15,8 @@ namespace kilolux {
 /// reads as sRGB and another as linear is there twice; textures of one image share its texels.
 class TextureTable {
  public:
-    /// Throws Error when an image is too large, or all are.
-    TextureTable(const Scene& scene, const SurfaceFeatures& features);
+    /// Those that `features` read. Throws Error when an image is too large, or all are.
+    TextureTable(const Scene& scene, const MeshFeatures& features);
 
     std::span<const TextureRow> rows() const { return rows_; }
 
@@ -27,17 +26,16 @@ class TextureTable {
     /// Texels of all images with their mip levels.
     std::size_t texels() const { return texels_; }
 
-    /// Makes all of them on the device.
-    void upload(const Gpu& gpu, const Tuning& tuning,
-                const DeviceArray<std::uint64_t>& texels) const;
+    using Encoded = std::pair<int, bool>;  // a texture or image, and whether it is sRGB
+
+    /// The images, with the place of each one's first texel.
+    const std::map<Encoded, std::size_t>& images() const { return first_texel_; }
 
  private:
-    using Encoded = std::pair<int, bool>;  // a texture or image, and whether it is sRGB
     void add(int texture, bool srgb);
     std::size_t place_image(int image, bool srgb);
 
     const Scene& scene_;
-    uint uses_;
     std::vector<TextureRow> rows_;
     std::map<Encoded, uint> numbers_;             // of textures
     std::map<Encoded, std::size_t> first_texel_;  // of images

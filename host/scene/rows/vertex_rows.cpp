@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/surfaces/vertex_rows.h"
+#include "host/scene/rows/vertex_rows.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -54,7 +54,7 @@ MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features) {
         floats += size;
         return floats - size;
     };
-    row.normal = attribute(!mesh.normals.empty(), 3);
+    row.normal = attribute(!features.coverage && !mesh.normals.empty(), 3);
     const bool maps = (features.texture_uses & (1u << USE_NORMAL)) != 0;
     row.tangent = attribute(maps && !mesh.tangents.empty(), 4);
     row.texcoord0 = attribute(features.texcoord0 && !mesh.texcoords[0].empty(), 2);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/base/scene_features.h"
+#include "host/base/surface_features.h"
+#include "host/scene/scene.h"
+#include "kernels/shared/surface_scene.h"
+
+namespace kilolux {
+
+class TextureTable;
+
+/// What is read of a mesh; none: nothing.
+using MeshFeatures = std::function<std::optional<SurfaceFeatures>(const Mesh&)>;
+
+/// Whether the material of a mesh has a texture for the use USE_* that can be read.
+bool reads_use(const Scene& scene, const Mesh& mesh, int use);
+
+/// The texture uses that reach what `needs` keeps, as bits 1 << USE_*.
+uint kept_uses(const SceneFeatures& needs);
+
+/// What the surfaces of a mesh read with these texture uses. `anisotropy` at least 1.
+SurfaceFeatures mesh_features(const Scene& scene, const Mesh& mesh, uint uses, int anisotropy);
+
+/// What decides where the surfaces of a mesh are: positions, and what alpha masks read.
+SurfaceFeatures coverage_features(const Scene& scene, const Mesh& mesh);
+
+/// What the surfaces of a scene that do not blend read.
+SurfaceFeatures surface_features(const Scene& scene, const SceneFeatures& needs, int anisotropy);
+
+/// The rows of a scene's surfaces, as kernels and shaders read them.
+struct SurfaceRows {
+    std::vector<MeshRow> meshes;
+    std::vector<float> vertices;
+    std::vector<uint> indices;
+    std::vector<SurfaceMaterial> materials;  // the scene's, and the default one
+    std::vector<std::uint32_t> revisions;    // of the meshes' vertices
+};
+
+/// Throws Error when there are more vertices than rows address.
+SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
+                         const TextureTable& textures);
+
+/// Calls write(first float, rows) for the meshes of `rows` whose vertices changed since.
+void rewrite_vertices(SurfaceRows& rows, const Scene& scene, const MeshFeatures& features,
+                      const std::function<void(std::size_t, std::span<const float>)>& write);
+
+}  // namespace kilolux

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fragment's surface, for OpenCL C and GLSL: factors times textures, as glTF 2.0 defines them.
+//
+// Each language defines before, beside what texture.h and triangle.h need:
+//   MaterialRef, MATERIAL(material)         a material and its row
+//   textures_of_scene(scene)                where the maps are, and
+//   make_map(textures, texture, use)        one of them by its TextureRow's number
+//   prefetch_map(map, at)                   asks the caches for what a Lookup reads
+//
+// TEXTURE_USES has the bit 1 << USE_* of every texture that some material of the scene has and the
+// G-buffer keeps. HAS_SPECULAR, HAS_UNLIT: see surface.h. HAS_UNLIT_MATERIALS: some are unlit.
+#ifndef KILOLUX_SHARED_SURFACE_OF_H
+#define KILOLUX_SHARED_SURFACE_OF_H
+#include "kernels/shared/surface.h"
+#include "kernels/shared/texture.h"
+#include "kernels/shared/triangle.h"
+
+#define HAS_USE(use) ((TEXTURE_USES & (1 << (use))) != 0)
+#define HAS_TEXCOORDS (HAS_TEXCOORD0 || HAS_TEXCOORD1)
+
+#if HAS_TEXCOORDS
+// Where a use's texture is read: texture coordinates, transformed.
+SHARED_FN Footprint footprint_of(MaterialRef material, IN(Fragment) f, uint use) {
+#if HAS_TEXCOORD0 && HAS_TEXCOORD1
+    Footprint t = AT(f).texcoord0;
+    if ((MATERIAL(material).flags & (1u << use)) != 0u) t = AT(f).texcoord1;
+#elif HAS_TEXCOORD1
+    Footprint t = AT(f).texcoord1;
+#else
+    Footprint t = AT(f).texcoord0;
+#endif
+#if HAS_UV_TRANSFORM
+    float4 x = MATERIAL(material).row.uv_x[use];
+    float4 y = MATERIAL(material).row.uv_y[use];
+    Footprint at;
+    at.u = fma(fv(x.x), t.u, fma(fv(x.y), t.v, fv(x.z)));
+    at.v = fma(fv(y.x), t.u, fma(fv(y.y), t.v, fv(y.z)));
+    at.u_dx = fma(fv(x.x), t.u_dx, t.v_dx * x.y);
+    at.v_dx = fma(fv(y.x), t.u_dx, t.v_dx * y.y);
+    at.u_dy = fma(fv(x.x), t.u_dy, t.v_dy * x.y);
+    at.v_dy = fma(fv(y.x), t.u_dy, t.v_dy * y.y);
+    return at;
+#else
+    return t;
+#endif
+}
+
+SHARED_FN Map map_of(SurfaceScene scene, MaterialRef material, uint use) {
+    return make_map(textures_of_scene(scene), MATERIAL(material).textures[use], use);
+}
+#endif
+
+// A material's textures at the fragments.
+SHARED_PLAIN_STRUCT(Textures) {
+    MaterialRef material;
+#if MAX_ANISOTROPY == 1 && HAS_TEXCOORDS
+    Lookup lookup;  // that of the material's lookup_use
+#endif
+};
+
+SHARED_FN Textures textures_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) {
+    Textures textures;
+    textures.material = material;
+#if MAX_ANISOTROPY == 1 && HAS_TEXCOORDS
+    uint first = MATERIAL(material).lookup_use;
+    if (first != SURFACE_ABSENT) {
+        textures.lookup =
+            lookup_isotropic(map_of(scene, material, first), footprint_of(material, f, first));
+        for (uint use = 0u; use < USE_COUNT; ++use) {
+            if ((MATERIAL(material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
+                prefetch_map(map_of(scene, material, use), REF(textures.lookup));
+            }
+        }
+    }
+#endif
+    return textures;
+}
+
+// What the texture use `use` reads at the fragments; 1 where it reads none.
+SHARED_FN FV4 sample_use(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f, uint use) {
+    FV4 texel;
+    texel.x = texel.y = texel.z = texel.w = fv(1.0f);
+#if HAS_TEXCOORDS
+    MaterialRef material = AT(textures).material;
+    if (MATERIAL(material).textures[use] == SURFACE_ABSENT) return texel;
+    Map map = map_of(scene, material, use);
+#if MAX_ANISOTROPY > 1
+    if (is_anisotropic(map)) {
+        return sample_anisotropic(map, footprint_of(material, f, use));
+    }
+#else
+    if ((MATERIAL(material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
+        return fetch_map(map, REF(AT(textures).lookup));
+    }
+#endif
+    Lookup at = lookup_isotropic(map, footprint_of(material, f, use));
+    texel = fetch_map(map, REF(at));
+#endif
+    return texel;
+}
+
+// The share of the fragments that their material covers: glTF's alpha, with one sample of its
+// texture a pixel, whatever the anisotropy.
+SHARED_FN FV alpha_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) {
+    FV alpha = fv(MATERIAL(material).row.base_color.w);
+#if HAS_USE(USE_BASE_COLOR)
+    if (MATERIAL(material).textures[USE_BASE_COLOR] != SURFACE_ABSENT) {
+        Map map = map_of(scene, material, USE_BASE_COLOR);
+        Lookup at = lookup_isotropic(map, footprint_of(material, f, USE_BASE_COLOR));
+        alpha *= fetch_alpha(map, REF(at));
+    }
+#endif
+#if HAS_VERTEX_COLOR
+    alpha *= AT(f).color.w;
+#endif
+    return alpha;
+}
+
+// Where alphaMode MASK leaves the fragments.
+SHARED_FN MASK passes_cutoff(MaterialRef material, FV alpha) {
+    return lane_mask(!(alpha < fv(MATERIAL(material).row.emissive_cutoff.w)));
+}
+
+// The unit vector along v; +z, towards the viewer, where v has none.
+SHARED_FN FV3 unit_or_z(FV3 v) {
+    FV square = dot3(v, v);
+    MASK has_length = lane_and(lane_mask(square > fv(1e-30f)), lane_mask(square < fv(1e30f)));
+    FV inv = fv(1.0f) / lane_sqrt(lane_select(has_length, square, fv(1.0f)));
+    return fv3(lane_select(has_length, v.x * inv, fv(0.0f)),
+               lane_select(has_length, v.y * inv, fv(0.0f)),
+               lane_select(has_length, v.z * inv, fv(1.0f)));
+}
+
+SHARED_FN FV3 shading_normal(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f) {
+    MaterialRef material = AT(textures).material;
+    FV3 n = AT(f).normal;
+#if HAS_USE(USE_NORMAL)
+    if (MATERIAL(material).textures[USE_NORMAL] != SURFACE_ABSENT) {
+        // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
+        FV4 texel = sample_use(scene, textures, f, USE_NORMAL);
+        float scale = MATERIAL(material).row.factors.z;
+        FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
+        FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
+        FV z = fma(texel.z, fv(2.0f), fv(-1.0f));
+        FV3 bitangent = scale3(cross3(AT(f).normal, AT(f).tangent), AT(f).handedness);
+        FV3 mapped = fv3(fma(z, n.x, fma(y, bitangent.x, x * AT(f).tangent.x)),
+                         fma(z, n.y, fma(y, bitangent.y, x * AT(f).tangent.y)),
+                         fma(z, n.z, fma(y, bitangent.z, x * AT(f).tangent.z)));
+        n = select3(lane_mask(AT(f).handedness != fv(0.0f)), mapped, n);
+    }
+#endif
+    if ((MATERIAL(material).flags & MATERIAL_DOUBLE_SIDED) != 0u) {
+        n = select3(AT(f).front, n, fv3(-n.x, -n.y, -n.z));
+    }
+    return unit_or_z(n);
+}
+
+SHARED_FN FV3 times_color(FV3 a, FV4 b) { return fv3(a.x * b.x, a.y * b.y, a.z * b.z); }
+
+SHARED_FN FV3 color_of(float4 c) { return fv3(fv(c.x), fv(c.y), fv(c.z)); }
+
+#if HAS_SPECULAR
+// KHR_materials_specular: min(f0 * colour, 1) * weight, and the weight.
+SHARED_FN Surface with_specular(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f,
+                                Surface s) {
+    MaterialRef material = AT(textures).material;
+    FV3 f0 = color_of(MATERIAL(material).row.specular);
+    FV weight = fv(MATERIAL(material).row.specular.w);
+#if HAS_USE(USE_SPECULAR_COLOR)
+    f0 = times_color(f0, sample_use(scene, textures, f, USE_SPECULAR_COLOR));
+#endif
+#if HAS_USE(USE_SPECULAR)
+    weight *= sample_use(scene, textures, f, USE_SPECULAR).w;
+#endif
+    FV one = fv(1.0f);
+    s.specular = scale3(fv3(min(f0.x, one), min(f0.y, one), min(f0.z, one)), weight);
+    s.specular_f90 = weight;
+    return s;
+}
+#endif
+
+// KHR_materials_unlit: the base colour is what leaves the surface, whatever the lights.
+SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
+#if HAS_UNLIT
+    s.roughness = max(s.roughness, fv(1.0f / 255.0f));  // 0 says unlit
+#endif
+    if ((MATERIAL(material).flags & MATERIAL_UNLIT) == 0u) return s;
+    s.emissive = s.albedo;
+    s.albedo = zero3();
+    s.metallic = fv(0.0f);
+    s.roughness = fv(1.0f - float_of(HAS_UNLIT));
+    return s;
+}
+
+SHARED_FN Surface background_surface() {
+    Surface s;
+    s.position = s.albedo = s.emissive = zero3();
+    s.normal = fv3(fv(0.0f), fv(0.0f), fv(1.0f));
+    s.roughness = s.metallic = s.occlusion = fv(0.0f);
+#if HAS_SPECULAR
+    s.specular = zero3();
+    s.specular_f90 = fv(0.0f);
+#endif
+    return s;
+}
+
+// The surface of the textures' material at the fragments; its position is not set.
+SHARED_FN Surface surface_of_material(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f) {
+    MaterialRef material = AT(textures).material;
+    Surface s;
+    s.position = zero3();
+    s.normal = shading_normal(scene, textures, f);
+    s.albedo = color_of(MATERIAL(material).row.base_color);
+#if HAS_USE(USE_BASE_COLOR)
+    s.albedo = times_color(s.albedo, sample_use(scene, textures, f, USE_BASE_COLOR));
+#endif
+#if HAS_VERTEX_COLOR
+    s.albedo =
+        fv3(s.albedo.x * AT(f).color.x, s.albedo.y * AT(f).color.y, s.albedo.z * AT(f).color.z);
+#endif
+    s.emissive = color_of(MATERIAL(material).row.emissive_cutoff);
+    s.metallic = fv(MATERIAL(material).row.factors.x);
+    s.roughness = fv(MATERIAL(material).row.factors.y);
+    s.occlusion = fv(1.0f);
+#if HAS_USE(USE_METALLIC_ROUGHNESS)
+    FV4 maps = sample_use(scene, textures, f, USE_METALLIC_ROUGHNESS);
+    s.metallic *= maps.z;
+    s.roughness *= maps.y;
+#endif
+#if HAS_USE(USE_OCCLUSION)
+    FV occlusion = sample_use(scene, textures, f, USE_OCCLUSION).x;
+    s.occlusion = fma(fv(MATERIAL(material).row.factors.w), occlusion - 1.0f, fv(1.0f));
+#endif
+#if HAS_USE(USE_EMISSIVE)
+    s.emissive = times_color(s.emissive, sample_use(scene, textures, f, USE_EMISSIVE));
+#endif
+#if HAS_SPECULAR
+    s = with_specular(scene, textures, f, s);
+#endif
+#if HAS_UNLIT || HAS_UNLIT_MATERIALS
+    s = with_unlit(material, s);
+#endif
+    return s;
+}
+
+SHARED_FN Surface take_surface(MASK mask, Surface a, Surface b) {
+    a.position = select3(mask, a.position, b.position);
+    a.normal = select3(mask, a.normal, b.normal);
+    a.albedo = select3(mask, a.albedo, b.albedo);
+    a.emissive = select3(mask, a.emissive, b.emissive);
+    a.roughness = lane_select(mask, a.roughness, b.roughness);
+    a.metallic = lane_select(mask, a.metallic, b.metallic);
+    a.occlusion = lane_select(mask, a.occlusion, b.occlusion);
+#if HAS_SPECULAR
+    a.specular = select3(mask, a.specular, b.specular);
+    a.specular_f90 = lane_select(mask, a.specular_f90, b.specular_f90);
+#endif
+    return a;
+}
+#endif

@@ -1,0 +1,62 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+// A fragment's surface to the G-buffer. GBUFFER names the layout; ATTACHMENTS are the targets of
+// its planes, and PLANE_SLOTS says where each plane goes: 4 * target + component. EMISSIVE_SCALE: see
+// GBufferLayout.
+#include "kernels/shared/gbuffer.h"
+#include "kernels/shared/tone_curve.h"
+#include "raster/shaders/surface.glsl"
+
+layout(std430, binding = SRGB_BLOCK) readonly buffer SrgbTable {
+    float srgb_boundary[SRGB_BUCKETS];
+    uint srgb_bucket_code[SRGB_BUCKETS];
+};
+layout(location = 0) out uvec4 out_planes[ATTACHMENTS];
+
+struct GBufferTarget {
+    View view;
+    Pixels pixels;
+};
+
+const uint kSlots[PLANE_COUNT] = PLANE_SLOTS;
+uvec4 stored[ATTACHMENTS];
+
+#define emissive_scale_of(to) EMISSIVE_SCALE
+
+// As srgb_code_by_table() of kernels/device/srgb.h.
+uint encode_srgb(GBufferTarget to, float v) {
+    float c = min(max(v, uintBitsToFloat(SRGB_FIRST_BITS)), 1.0);
+    uint bucket = (floatBitsToUint(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;
+    return srgb_bucket_code[bucket] + (c >= srgb_boundary[bucket] ? 1u : 0u);
+}
+
+void store_plane_uint(GBufferTarget to, uint plane, uint value) {
+    stored[kSlots[plane] / 4u][kSlots[plane] % 4u] = value;
+}
+
+void store_plane_byte(GBufferTarget to, uint plane, uint value) {
+    store_plane_uint(to, plane, value);
+}
+
+void store_plane_float(GBufferTarget to, uint plane, float value) {
+    store_plane_uint(to, plane, floatBitsToUint(value));
+}
+
+void store_plane_half(GBufferTarget to, uint plane, float value) {
+    store_plane_uint(to, plane, packHalf2x16(vec2(value, 0.0)));
+}
+
+void store_plane_row(GBufferTarget to, uint plane, float x, float y, float z, float w) {
+    stored[kSlots[plane] / 4u] = floatBitsToUint(vec4(x, y, z, w));
+}
+
+#include "kernels/shared/store.h"
+
+void main() {
+    SurfaceScene scene = SurfaceScene(0u);
+    Fragment f = drawn_fragment(scene);
+    if (!is_covered(scene, f)) discard;
+    GBufferTarget to = GBufferTarget(camera.view, fragment_pixels());
+    store_surface(to, drawn_surface(scene, f), f.z);
+    for (int i = 0; i < ATTACHMENTS; ++i) out_planes[i] = stored[i];
+}
