@@ -3,8 +3,6 @@
 
 #include "host/render/host_stages.h"
 
-#include "host/render/host_stages.h"
-
 namespace kilolux {
 
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque) {

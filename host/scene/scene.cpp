@@ -34,7 +34,7 @@ bool is_hidden(const Instance& instance) {
            glm::cross(axes[2], axes[0]) == glm::dvec3(0.0);
 }
 
-Box joined(Box a, const Box& b) {
+Box joined_boxes(Box a, const Box& b) {
     a.min = glm::min(a.min, b.min);
     a.max = glm::max(a.max, b.max);
     return a;
@@ -49,7 +49,7 @@ Box bounds(const Mesh& mesh, const glm::dmat4& world_from_object) {
         return box;
     };
     return tbb::parallel_reduce(Range(0, mesh.positions.size(), kVerticesOfTask), Box{}, add,
-                                joined);
+                                joined_boxes);
 }
 
 }  // namespace
@@ -62,11 +62,11 @@ Box bounds(const Scene& scene) {
             const Instance& instance = scene.instances[i];
             if (is_hidden(instance)) continue;
             const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-            box = joined(box, bounds(mesh, instance.world_from_object));
+            box = joined_boxes(box, bounds(mesh, instance.world_from_object));
         }
         return box;
     };
-    return tbb::parallel_reduce(Range(0, scene.instances.size()), Box{}, add, joined);
+    return tbb::parallel_reduce(Range(0, scene.instances.size()), Box{}, add, joined_boxes);
 }
 
 std::size_t zero_normal_count(const Scene& scene) {

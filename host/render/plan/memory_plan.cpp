@@ -7,6 +7,7 @@
 #include "host/base/error.h"
 #include "host/base/memory.h"
 #include "host/picture/bands.h"
+#include "host/picture/decoded_surfaces.h"
 #include "host/render/forward_shading.h"
 #include "host/stages/lights/drift_lights.h"
 #include "host/stages/lights/move_lights.h"
