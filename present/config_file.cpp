@@ -22,7 +22,7 @@
 namespace kilolux {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using Entries = std::vector<std::pair<std::string, std::string>>;  // option's name and text
 
 std::string read_text(const std::filesystem::path& file) {

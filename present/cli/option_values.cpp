@@ -33,7 +33,7 @@ std::optional<Number> number_of(std::string_view text) {
     return value;
 }
 
-std::string describe(const NumberRange& range) {
+std::string range_text(const NumberRange& range) {
     const bool bounded_above = range.max < NumberRange{}.max;
     if (range.min == NumberRange{}.min && !bounded_above) return "a finite number";
     if (!bounded_above) {
@@ -44,7 +44,7 @@ std::string describe(const NumberRange& range) {
     return fmt::format("a number from {:g} to {:g}", range.min, range.max);
 }
 
-std::string describe(const CountRange& range) {
+std::string range_text(const CountRange& range) {
     return fmt::format("a whole number from {} to {}", range.min, range.max);
 }
 
@@ -87,7 +87,7 @@ bool contains(const CountRange& range, double value) {
 
 double parse_number(const std::string& option, std::string_view text, const NumberRange& range) {
     const auto value = number_of<double>(text);
-    if (!value || !contains(range, *value)) refuse(option, text, describe(range));
+    if (!value || !contains(range, *value)) refuse(option, text, range_text(range));
     return *value;
 }
 
@@ -95,14 +95,14 @@ double parse_number_or_auto(const std::string& option, std::string_view text,
                             const NumberRange& range) {
     if (text == "auto") return 0.0;
     const auto value = number_of<double>(text);
-    if (!value || !contains(range, *value)) refuse(option, text, "'auto' or " + describe(range));
+    if (!value || !contains(range, *value)) refuse(option, text, "'auto' or " + range_text(range));
     return *value;
 }
 
 std::uint64_t parse_count(const std::string& option, std::string_view text,
                           const CountRange& range) {
     const auto value = count_of(without_plus(text));
-    if (!value || *value < range.min || *value > range.max) refuse(option, text, describe(range));
+    if (!value || *value < range.min || *value > range.max) refuse(option, text, range_text(range));
     return *value;
 }
 
@@ -110,7 +110,7 @@ std::uint64_t parse_count_or_auto(const std::string& option, std::string_view te
                                   const CountRange& range) {
     const auto value = count_of(without_plus(text));
     if (value && *value >= range.min && *value <= range.max) return *value;
-    if (text != "auto") refuse(option, text, "'auto' or " + describe(range));
+    if (text != "auto") refuse(option, text, "'auto' or " + range_text(range));
     return 0;
 }
 
@@ -139,7 +139,7 @@ std::vector<int> parse_counts(const std::string& option, std::string_view text,
             values.push_back(static_cast<int>(*value));
     }
     if (values.size() != wanted || parts.size() != wanted) {
-        refuse(option, text, fmt::format("{}, each {}", form, describe(range)));
+        refuse(option, text, fmt::format("{}, each {}", form, range_text(range)));
     }
     return values;
 }
