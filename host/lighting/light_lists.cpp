@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "host/lighting/check_input.h"
+
 namespace kilolux {
 
 LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
@@ -18,6 +20,7 @@ LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
                              const ClusterGrid& grid, StageTimer& timer,
                              const std::function<void(const ListedLights&)>& then) {
+    check_input(gbuffer, input);
     const ListSource source{gbuffer.version, input.version, input.seed, grid};
     if (kept_ && source.matches(kept_of_)) {
         if (then) then(*kept_);
@@ -85,8 +88,7 @@ ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer
     const CoarseLighting coarse =
         coarse_.enqueue(input, gbuffer.view, grid, timer,
                         everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
-    RefinedLists lists =
-        refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, grid, timer);
+    RefinedLists lists = refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, timer);
     refine_room_ = lists.capacity;
     if (coarse.lights.node_count > 0) {
         lists = cut_->enqueue({gbuffer, coarse.lights, active, bin_.total(), lists}, timer);
@@ -98,12 +100,11 @@ PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uin
                                 float z) const {
     const ClusterGrid& grid = lists.grid;
     PixelLists out;
-    const uint coarse =
-        cluster_index(grid, x / grid.tile_width, y / grid.tile_height, slice_of_depth(grid, z));
+    const uint row = (y + view.first_row) / grid.tile_height;
+    const uint coarse = cluster_index(grid, x / grid.tile_width, row, slice_of_depth(grid, z));
     const auto ends = download(gpu_, lists.coarse.offsets, 2, coarse);
     out.coarse_count = ends[1] - ends[0];
-    const uint tile = y / FINE_TILE * fine_tiles_x(view) + x / FINE_TILE;
-    const auto range = download(gpu_, lists.clusters.offsets, 2, tile);
+    const auto range = download(gpu_, lists.clusters.offsets, 2, fine_tile_of(view, x, y));
     for (const ActiveCluster& cluster :
          download(gpu_, lists.clusters.clusters, range[1] - range[0], range[0])) {
         if (cluster.slice != fine_slice_of_depth(grid, z)) continue;

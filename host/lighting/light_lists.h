@@ -23,9 +23,7 @@ struct ListedLights {
     RefinedLists refined;
 
     /// With the G-buffer that they were made for.
-    LitPixels at(const GBuffer& gbuffer) const {
-        return {gbuffer, lights, grid, clusters, refined};
-    }
+    LitPixels at(const GBuffer& gbuffer) const { return {gbuffer, lights, clusters, refined}; }
 };
 
 /// What lists are of.
@@ -55,7 +53,10 @@ class LightLists {
 
     /// Also lists the lights of coarse clusters without pixels: for blended surfaces, which are in
     /// no G-buffer.
-    void list_everywhere() { everywhere_ = true; }
+    void list_everywhere() {
+        everywhere_ = true;
+        kept_.reset();
+    }
 
     /// Makes the lists. `then` enqueues what reads them; it runs before the lists are known to be
     /// complete, and once more for each time that they had to grow, so the frame waits for the

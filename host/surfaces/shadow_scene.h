@@ -36,6 +36,7 @@ class ShadowScene {
     bool masks_;
     std::uint32_t revision_ = 0;
     glm::dvec3 anchor_{0.0};  // shadow space's origin in the world [m]
+    uint levels_ = 0;
     float extent_ = 0.0f;
     GrowingArray<ShadowNode> nodes_;
     GrowingArray<float> triangles_;
