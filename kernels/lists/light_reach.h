@@ -37,7 +37,8 @@ static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float cos_out = light.axis_cos.w;
     float sin_out = sqrt(max(1.0f - cos_out * cos_out, 0.0f));
     float slack = 1e-3f * (radius + sqrt(q2));  // more than float32 loses here
-    bool faces = cos_out < 0.0f || along >= -(radius + slack);
-    return faces && cos_out * across - sin_out * along <= radius + slack;
+    // Chosen, not branched on: PoCL 3.1 loses values across cull_lights' barriers otherwise.
+    float back = cos_out < 0.0f ? -1e30f : -(radius + slack);
+    return cos_out * across - sin_out * along <= radius + slack && along >= back;
 }
 #endif

@@ -56,7 +56,7 @@ TEST(Program, IncludesFollowConditions) {
     const SplicedSource source = splice_source("c.cl", false);
     unsetenv("KILOLUX_SOURCE_DIR");
     std::filesystem::remove_all(folder);
-    const std::string rest = source.text.substr(source.text.find("#endif\n#line 4"));
+    const std::string rest = source.text.substr(source.text.find("#line 3 \"c.cl\""));
     const auto count = [&](const std::string& line) {
         std::size_t found = 0;
         for (std::size_t at = rest.find(line); at != std::string::npos;

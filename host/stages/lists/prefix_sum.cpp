@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "host/stages/lists/list_size.h"
+
 namespace kilolux {
 namespace {
-
-constexpr uint kMostEntries = 0xfffffff0u;
 
 BuildOptions options_of(const Tuning& tuning) {
     return BuildOptions()
@@ -67,11 +67,7 @@ uint CountedList::capacity() const {
 }
 
 bool CountedList::fits(std::uint64_t entries) {
-    if (entries > kMostEntries) {
-        throw Error(stage_ + ": " + std::to_string(entries) + " " + name_ +
-                    " are more than 32 bits number");
-    }
-    const std::size_t needed = entries;
+    const std::size_t needed = checked_list_size(entries, stage_, name_);
     if (needed <= capacity()) return true;
     entries_.reserve(needed * entry_bytes_, needed / 8 * entry_bytes_);
     return false;

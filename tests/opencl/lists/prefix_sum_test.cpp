@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/random.h"
+#include "host/stages/lists/list_size.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -76,6 +77,7 @@ TEST(PrefixSum, TotalIsExactBeyond32Bits) {
 }
 
 TEST(CountedList, TooManyEntriesAreNamed) {
+    EXPECT_EQ(checked_list_size(kMostEntries, "cull_lights", "pairs"), kMostEntries);
     const Gpu gpu = test_gpu();
     CountedList list(gpu, default_tuning(gpu.info), "bin_triangles", "(triangle, tile) pairs", 4);
     try {
