@@ -75,8 +75,8 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
                        std::span<const float> background) {
     prepare(width, height);
     light_buffers_.upload(lights, view_of(camera, width, height));
-    timer_.begin();
     {
+        const GlTimer::Scope timed(timer_);
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
         targets_->clear();
@@ -84,11 +84,10 @@ void ForwardPass::draw(const Camera& camera, int width, int height, const Forwar
         draw_opaque(camera);
         draw_transparent(camera);
     }
-    timer_.end();
     check_gl_errors("forward pass");
 }
 
-void ForwardPass::draw_opaque(const Camera& camera) const {
+void ForwardPass::draw_opaque(const Camera& camera) {
     const int width = targets_->width();
     const int height = targets_->height();
     const glm::mat4 clip(clip_from_view(camera, width, height));
@@ -101,10 +100,10 @@ void ForwardPass::draw_opaque(const Camera& camera) const {
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
     }
-    opaque_->draw(scene_, draws, clip);
+    parts_.draw(width, height, [&] { opaque_->draw(scene_, draws, clip); });
 }
 
-void ForwardPass::draw_transparent(const Camera& camera) const {
+void ForwardPass::draw_transparent(const Camera& camera) {
     const int width = targets_->width();
     const int height = targets_->height();
     const std::vector<Draw> draws =
@@ -115,7 +114,8 @@ void ForwardPass::draw_transparent(const Camera& camera) const {
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    blended_.draw(scene_, draws, glm::mat4(clip_from_view(camera, width, height)));
+    const glm::mat4 clip(clip_from_view(camera, width, height));
+    parts_.draw(width, height, [&] { blended_.draw(scene_, draws, clip); });
 }
 
 void ForwardPass::draw_blended(const Camera& camera, const View& view,
@@ -125,16 +125,15 @@ void ForwardPass::draw_blended(const Camera& camera, const View& view,
     const int height = gbuffer.height();
     prepare(width, height);
     light_buffers_.upload(lights, view);
-    timer_.begin();
-    load_radiance(*targets_, radiance);
-    glBlitNamedFramebuffer(gbuffer.framebuffer(), targets_->framebuffer(), 0, 0, width, height, 0,
-                           0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
     {
+        const GlTimer::Scope timed(timer_);
+        load_radiance(*targets_, radiance);
+        glBlitNamedFramebuffer(gbuffer.framebuffer(), targets_->framebuffer(), 0, 0, width, height,
+                               0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
         const RasterState state(targets_->framebuffer(), width, height);
         light_buffers_.bind();
         draw_transparent(camera);
     }
-    timer_.end();
     check_gl_errors("blended surfaces");
 }
 

@@ -10,6 +10,7 @@
 #include "raster/forward_lights.h"
 #include "raster/gbuffer_targets.h"
 #include "raster/gl_timer.h"
+#include "raster/parted_draw.h"
 #include "raster/scene_programs.h"
 
 namespace kilolux {
@@ -50,8 +51,8 @@ class ForwardPass {
 
  private:
     void prepare(int width, int height);
-    void draw_opaque(const Camera& camera) const;
-    void draw_transparent(const Camera& camera) const;
+    void draw_opaque(const Camera& camera);
+    void draw_transparent(const Camera& camera);
 
     const GpuScene& scene_;
     DrawList draw_list_;
@@ -60,6 +61,7 @@ class ForwardPass {
     ForwardLightBuffers light_buffers_;
     std::unique_ptr<GBufferTargets> targets_;
     GlTimer timer_;
+    PartedDraw parts_;
 };
 
 }  // namespace kilolux

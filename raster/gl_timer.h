@@ -13,6 +13,18 @@ namespace kilolux {
 /// the time of day when a pass spans several of its internal scenes.
 class GlTimer {
  public:
+    /// begin() and end() of a scope, also where an exception leaves it.
+    class Scope {
+     public:
+        explicit Scope(GlTimer& timer) : timer_(timer) { timer_.begin(); }
+        ~Scope() { timer_.end(); }
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+     private:
+        GlTimer& timer_;
+    };
+
     void begin() {
         if (!query_) {
             query_ = make_query(GL_TIME_ELAPSED);

@@ -34,6 +34,7 @@ class RasterState {
         glBindVertexArray(0);
         for (GLuint unit = 0; unit < 8; ++unit) glBindSampler(unit, 0);
         glDisable(GL_BLEND);
+        glDisable(GL_SCISSOR_TEST);
         glDisable(GL_FRAMEBUFFER_SRGB);
         glDisable(GL_CULL_FACE);
         glFrontFace(GL_CCW);

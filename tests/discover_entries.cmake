@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Included by ctest: adds its entries for PROGRAM, a Google Test program, from LIST, a file made anew when PROGRAM is
 # newer. An entry is the cases whose full names begin alike: with what the regular expression ENTRY matches. What
-# follows the name's PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry.
+# follows the name's PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry; one whose name matches
+# SERIAL runs alone.
 cmake_minimum_required(VERSION 3.22)
 
 if(NOT EXISTS ${PROGRAM})
@@ -55,6 +56,9 @@ if(NOT EXISTS ${LIST} OR ${PROGRAM} IS_NEWER_THAN ${LIST} OR ${CMAKE_CURRENT_LIS
     foreach(word IN LISTS PROPERTIES)
       string(APPEND text " [==[${word}]==]")
     endforeach()
+    if("${PREFIX}${filter}" MATCHES "${SERIAL}")
+      string(APPEND text " RUN_SERIAL TRUE")
+    endif()
     string(APPEND text ")\n")
   endforeach()
   file(WRITE ${LIST} "${text}")

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "host/base/error.h"
 
@@ -22,6 +23,8 @@ struct SignalState {
     dev_t device = 0;
     ino_t inode = 0;
 };
+
+thread_local WorkWatch* watch_of_thread = nullptr;
 
 // Never destroyed: the thread that takes signals runs until the process ends.
 SignalState& state() {
@@ -74,9 +77,17 @@ void catch_signals() {
 
 bool interrupt_requested() { return state().requested; }
 
-void check_interrupt() {
+void check_interrupt() { check_interrupt_at(-1.0); }
+
+void check_interrupt_at(double share) {
     if (interrupt_requested()) throw Interrupted();
+    if (watch_of_thread != nullptr) watch_of_thread->call_(share);
 }
+
+WorkWatch::WorkWatch(Call call)
+    : call_(std::move(call)), outer_(std::exchange(watch_of_thread, this)) {}
+WorkWatch::~WorkWatch() { watch_of_thread = outer_; }
+bool WorkWatch::is_present() { return watch_of_thread != nullptr; }
 
 void set_unfinished_file(const std::filesystem::path& file) {
     SignalState& signals = state();

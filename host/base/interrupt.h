@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 namespace kilolux {
 
@@ -14,8 +15,31 @@ void catch_signals();
 /// Whether a signal has asked for the end. What fails from then on is taken to fail because of it.
 bool interrupt_requested();
 
-/// Throws Interrupted once a signal has asked for the end.
+/// Called between the parts of long work. Throws Interrupted once a signal has asked for the end,
+/// and asks this thread's WorkWatch.
 void check_interrupt();
+
+/// The same, with the share of the work that is done, 0 to 1.
+void check_interrupt_at(double share);
+
+/// Watches the long work of its thread while it lives: check_interrupt() calls it, and what it
+/// throws, as Interrupted, ends the work. The share is below 0 where it is unknown.
+class WorkWatch {
+ public:
+    using Call = std::function<void(double share)>;
+    explicit WorkWatch(Call call);
+    ~WorkWatch();
+    WorkWatch(const WorkWatch&) = delete;
+    WorkWatch& operator=(const WorkWatch&) = delete;
+
+    /// Whether this thread's work is watched: then it is worth splitting into short parts.
+    static bool is_present();
+
+ private:
+    friend void check_interrupt_at(double share);
+    Call call_;
+    WorkWatch* outer_;
+};
 
 /// Names the file that a killing signal must remove, which exists; an empty path: none. One at a
 /// time. The signal removes it only while that name still means the same file.

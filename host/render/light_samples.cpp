@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/interrupt.h"
 #include "host/picture/sample_pattern.h"
 #include "host/render/pipeline.h"
 
@@ -69,7 +70,7 @@ void Pipeline::keep_refined(const Camera& camera, double time) {
 // A jittered sample.
 Radiance Pipeline::light_sample(const Sample& band, uint number, const NeededTiles* needed,
                                 Measured out) {
-    between_();
+    check_interrupt();
     Camera jittered = band.camera;
     jittered.jitter += sample_offset(number);
     LightInput lights = band.lights;
@@ -84,7 +85,7 @@ Radiance Pipeline::light_sample(const Sample& band, uint number, const NeededTil
 void Pipeline::light_samples(const Sample& band, Measured out, const AfterShading& then) {
     if (settings.auto_samples.on) return light_until_error(band, out, then);
     if (settings.samples <= 1) {
-        between_();
+        check_interrupt();
         std::visit([&](auto& path) { path.light(band, out, then); }, path());
         return;
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,8 +45,7 @@ class Pipeline {
     static void change(std::unique_ptr<Pipeline>& pipeline,
                        const std::shared_ptr<RenderScene>& scene, const RenderSettings& settings);
 
-    Frame render(const Camera& camera, double time, const std::function<void()>& between,
-                 DisplayMemory memory, int samples);
+    Frame render(const Camera& camera, double time, DisplayMemory memory, int samples);
     PixelProbe probe(int x, int y);
     DisplayMemory display_memory();
     Path& path() { return paths_.at(settings.renderer); }
@@ -85,6 +83,7 @@ class Pipeline {
         bool operator==(const Refined&) const = default;
     };
 
+    Frame make_frame(const Camera& camera, double time, int samples);
     void refine(const Camera& camera, double time, int samples);
     void keep_refined(const Camera& camera, double time);
     LightInput begin(const Camera& camera, double time, Frame& frame);
@@ -122,7 +121,6 @@ class Pipeline {
     StageTimer timer_;
     bool is_sound_ = true;  // no render() has failed
     // Of the render() that runs.
-    std::function<void()> between_;  // called before every sample of every band
     DisplayMemory display_memory_;
     int refining_ = 0;  // samples of a picture that is refined; 0: it is made whole
     int summed_ = 0;    // of them in sum_ before

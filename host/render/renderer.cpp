@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/base/error.h"
 #include "host/picture/frame_bands.h"
 #include "host/picture/views.h"
 #include "host/render/pipeline.h"
@@ -22,11 +23,20 @@ double ms_since(Clock::time_point start) {
 }  // namespace
 
 // A frame: its lights, then band by band surfaces -> lighting -> bloom -> tonemap -> picture.
-Frame Pipeline::render(const Camera& camera, double time, const std::function<void()>& between,
-                       DisplayMemory display_memory, int samples) {
+Frame Pipeline::render(const Camera& camera, double time, DisplayMemory display_memory,
+                       int samples) {
     display_memory_ = display_memory;
-    between_ = between ? between : [] {};
-    const bool was_sound = std::exchange(is_sound_, false);  // until this one has not failed
+    try {
+        return make_frame(camera, time, samples);
+    } catch (const Interrupted&) {
+        throw;
+    } catch (...) {
+        is_sound_ = false;
+        throw;
+    }
+}
+
+Frame Pipeline::make_frame(const Camera& camera, double time, int samples) {
     refine(camera, time, samples);
     Frame frame;
     const QueueDrain drain(gpu.queue);
@@ -39,7 +49,6 @@ Frame Pipeline::render(const Camera& camera, double time, const std::function<vo
     if (settings.want.view != ViewKind::lit) show_view(time, frame);
     if (!settings.want.radiance) frame.radiance.clear();
     keep_refined(camera, time);
-    is_sound_ = was_sound;
     return frame;
 }
 
@@ -203,7 +212,7 @@ void Pipeline::show_view(double time, Frame& frame) {
         fragments = overdraw_->count(camera_, settings.width, settings.height);
     }
     if (view == ViewKind::difference) {
-        reference_light = reference_->render(camera_, time, {}, {}, 0).radiance;
+        reference_light = reference_->render(camera_, time, {}, 0).radiance;
     }
     frame.display = make_view(
         view, {surfaces_, camera_, scene->box(), fragments, frame.radiance, reference_light});
@@ -240,8 +249,8 @@ std::vector<DeviceInfo> list_devices() {
 
 std::size_t display_stride(int width) { return view_of(Camera{}, width, 1).stride; }
 
-Frame Renderer::render(const Camera& camera, double time, const std::function<void()>& between) {
-    return in_stage("render", [&] { return pipeline_->render(camera, time, between, {}, 0); });
+Frame Renderer::render(const Camera& camera, double time) {
+    return in_stage("render", [&] { return pipeline_->render(camera, time, {}, 0); });
 }
 
 Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double time, int samples) {
@@ -250,8 +259,7 @@ Frame Renderer::render_to(std::span<uint> pixels, const Camera& camera, double t
     pixels = pixels.first(stride * static_cast<std::size_t>(s.height));
     const bool direct = s.want.view == ViewKind::lit && pipeline_->is_whole();
     return in_stage("render", [&] {
-        Frame frame =
-            pipeline_->render(camera, time, {}, direct ? pixels : DisplayMemory(), samples);
+        Frame frame = pipeline_->render(camera, time, direct ? pixels : DisplayMemory(), samples);
         if (direct) return frame;
         const auto row = static_cast<std::size_t>(s.width);
         for (std::size_t y = 0; y < static_cast<std::size_t>(s.height); ++y) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -67,9 +66,9 @@ class Renderer {
     /// jittered samples (sample_pattern.h), or of settings.auto_samples. AOVs, views and counts are
     /// those of the sample through the pixels' centres; stage times are sums over the samples and
     /// bands. Blocks until it is on the host. The same arguments give the same bits on every call
-    /// and with any memory. `between` is called before every sample of every band, and what it
-    /// throws comes out.
-    Frame render(const Camera& camera, double time, const std::function<void()>& between = {});
+    /// and with any memory. Between samples, bands and parts of a slow pass it calls
+    /// check_interrupt().
+    Frame render(const Camera& camera, double time);
 
     /// As render(), but the display picture goes to `pixels` (R | G << 8 | B << 16 | A << 24, rows
     /// display_stride() apart, height rows) and the radiance stays on the device: Frame::display

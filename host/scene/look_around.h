@@ -8,7 +8,9 @@
 namespace kilolux {
 
 /// What a point sees along rays through the cells of a cube's faces. Surfaces that blend are looked
-/// through. The same on every machine and thread count up to the rounding of its compiler.
+/// through. The same on every machine and thread count up to the rounding of its compiler. It tests
+/// each triangle against the cells that it covers: building a hierarchy for 1536 rays takes Embree
+/// 2.3 to 3.3 times as long (0.26 and 2 million triangles, two cores).
 class LookAround {
  public:
     /// Cells of a face's edge: 1536 rays.

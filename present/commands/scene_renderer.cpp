@@ -28,7 +28,6 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
                              FirstPicture first)
     : options_(options),
-      between_(check_interrupt),
       camera_at_(std::move(first.camera)),
       scene_(first.made ? AnimatedScene(std::move(*first.made))
                         : open_animated_scene(options, first.time)) {
@@ -39,9 +38,9 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
     }
     rig_ = light_scene(options, scene_);
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
-    between_();
+    check_interrupt();
     renderer_.emplace(scene_.scene(), settings_of(budget, first.want, first.time));
-    between_();
+    check_interrupt();
 }
 
 // For the camera as it is.
@@ -72,7 +71,7 @@ void SceneRenderer::expose_automatically(double time, int frame, const std::stri
 Frame SceneRenderer::render(double time, int frame) {
     scene_.set_time(time);
     camera_ = camera_at_(scene_.scene(), frame, time);
-    return renderer_->render(camera_, time, between_);
+    return renderer_->render(camera_, time);
 }
 
 std::vector<float> SceneRenderer::coverage(const Frame& picture, double time, int frame) {

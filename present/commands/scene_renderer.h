@@ -54,9 +54,6 @@ class SceneRenderer {
     /// Lights in the world beside all others; none replaces the former ones.
     void set_lights(std::vector<SceneLight> lights);
 
-    /// Called within long work; what it throws comes out. As made: check_interrupt().
-    void set_between(std::function<void()> between) { between_ = std::move(between); }
-
     /// The document of --stats. `limits`: what each stage would take at the device's limits, which
     /// are measured once a device.
     nlohmann::ordered_json stats(FrameRecord record, bool limits);
@@ -72,7 +69,6 @@ class SceneRenderer {
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
-    std::function<void()> between_;
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
     std::vector<SceneLight> lights_;  // of set_lights()

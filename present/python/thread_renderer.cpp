@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/base/error.h"
+#include "host/base/interrupt.h"
 #include "host/base/text.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "present/program.h"
@@ -72,10 +73,24 @@ RendererOptions parse_renderer_options(const std::string& scene,
     return options;
 }
 
-// Runs `work` in the thread and returns what it does.
+void ThreadRenderer::check(const Call& call) const {
+    if (call.cancelled || thread_.is_stopping()) throw Interrupted();
+}
+
 template <typename Work>
-auto ThreadRenderer::run(Work work) {
-    auto result = thread_.ask(std::move(work));
+auto ThreadRenderer::begin(Work work, const std::shared_ptr<Call>& call) {
+    return thread_.ask([this, call, work = std::move(work)]() mutable {
+        Call::State waiting = Call::waiting;
+        if (!call->state.compare_exchange_strong(waiting, Call::running)) throw Interrupted();
+        const WorkWatch watch([this, &call](double) { check(*call); });
+        running_ = call.get();
+        return work();
+    });
+}
+
+template <typename Result>
+Result ThreadRenderer::wait_for(std::future<Result> result, const std::shared_ptr<Call>& call,
+                                bool to_end) {
     std::exception_ptr interruption;
     for (;;) {
         {
@@ -84,32 +99,41 @@ auto ThreadRenderer::run(Work work) {
         }
         if (interruption || PyErr_CheckSignals() == 0) continue;
         interruption = std::make_exception_ptr(py::error_already_set());
-        cancelled_ = true;
+        call->cancelled = true;
+        Call::State waiting = Call::waiting;
+        if (call->state.compare_exchange_strong(waiting, Call::dropped) || !to_end) break;
     }
-    cancelled_ = false;
     if (interruption) std::rethrow_exception(interruption);
     return result.get();
+}
+
+template <typename Work>
+auto ThreadRenderer::run(Work work) {
+    const auto call = std::make_shared<Call>();
+    return wait_for(begin(std::move(work), call), call, false);
+}
+
+template <typename Work>
+auto ThreadRenderer::run_to_end(Work work) {
+    const auto call = std::make_shared<Call>();
+    return wait_for(begin(std::move(work), call), call, true);
 }
 
 ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> made, Lights lights)
     : options_(std::move(options)),
       thread_(
           block_signals, [this] { pictures_.reset(); }, [] {}) {
-    run([&] {
+    run_to_end([&] {
         const SharedOptions& shared = options_.shared;
         pictures_.emplace(
             options_.shared, options_.budget,
             FirstPicture{request_of(shared, false, false), shared.time, 0, {}, std::move(made)});
-        pictures_->set_between([this] {
-            if (cancelled_) throw Interrupted();
-        });
         if (!lights.empty()) pictures_->set_lights(std::move(lights));
         if (shared.automatic_exposure) pictures_->expose_automatically(shared.time);
     });
 }
 
 ThreadRenderer::~ThreadRenderer() {
-    cancelled_ = true;
     const py::gil_scoped_release other_threads_run;
     thread_.stop(std::chrono::hours(1));
 }
@@ -119,7 +143,7 @@ void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) 
         throw UsageError("a renderer keeps its scene and how that is read; make a new one for '" +
                          next.shared.scene + "'");
     }
-    run([&] {
+    run_to_end([&] {
         rendered_ = false;
         const bool relights = next.light_words != options_.light_words;
         if (!relights) {  // what was settled for the lights stays
@@ -153,24 +177,20 @@ Frame ThreadRenderer::render_now(double time) {
 }
 
 ThreadRenderer::Rendered ThreadRenderer::render(std::optional<double> time, bool counts) {
-    return run([&] {
+    return run([this, time, counts] {
         const double at = time.value_or(options_.shared.time);
-        const auto want = [&](bool counted) {
-            RenderSettings settings = pictures_->renderer().settings();
-            settings.want.counts = counted;
-            pictures_->renderer().change(settings);
-        };
-        if (counts) want(true);
+        RenderSettings settings = pictures_->renderer().settings();
+        settings.want.counts = counts;
+        pictures_->renderer().change(settings);
         Frame frame = render_now(at);
         const std::string stats =
             pictures_->stats({0, at, "", frame.stats, std::nullopt}, counts).dump();
-        if (counts) want(false);
         return Rendered{std::make_shared<Frame>(std::move(frame)), stats};
     });
 }
 
 ThreadRenderer::Probed ThreadRenderer::probe(int x, int y) {
-    return run([&] {
+    return run([this, x, y] {
         RenderSettings settings = pictures_->renderer().settings();
         if (x < 0 || y < 0 || x >= settings.width || y >= settings.height) {
             throw UsageError(fmt::format("probe: pixel {},{} is not in the picture of {}x{}", x, y,
@@ -186,16 +206,14 @@ ThreadRenderer::Probed ThreadRenderer::probe(int x, int y) {
 }
 
 ReferencePicture ThreadRenderer::reference() {
-    return run([&] {
+    return run([this] {
         if (!rendered_) render_now(options_.shared.time);
         Renderer& renderer = pictures_->renderer();
         return shade_reference(renderer.lit_surfaces(),
                                {.shading = shading_of(renderer.plan().kernels),
                                 .ambient = static_cast<double>(renderer.settings().ambient),
                                 .orthographic = pictures_->camera().orthographic,
-                                .progress = [this](double) {
-                                    if (cancelled_) throw Interrupted();
-                                }});
+                                .progress = [this](double) { check(*running_); }});
     });
 }
 

@@ -25,8 +25,8 @@ RendererOptions parse_renderer_options(const std::string& scene,
                                        const std::vector<std::string>& words);
 
 /// A SceneRenderer in a thread of its own, which its OpenGL context belongs to: any thread of
-/// Python may use it. Whoever waits for it lets other threads of Python run; an interruption from
-/// the keyboard ends the work within a band.
+/// Python may use it, and other threads of Python run while one waits for it. An interruption from
+/// the keyboard ends the call of the thread that gets it, and no other's.
 class ThreadRenderer {
  public:
     using Lights = std::vector<SceneLight>;
@@ -58,12 +58,28 @@ class ThreadRenderer {
     ReferencePicture reference();
 
  private:
+    // A call of Python's on its way through the thread.
+    struct Call {
+        enum State { waiting, running, dropped };
+        std::atomic<State> state = waiting;
+        std::atomic<bool> cancelled = false;
+    };
+    // `work` holds what it needs itself: after an interruption it ends on its own.
     template <typename Work>
     auto run(Work work);
+    // The same, but `work` may refer to the caller's variables: a call that has begun is waited
+    // for.
+    template <typename Work>
+    auto run_to_end(Work work);
+    template <typename Result>
+    Result wait_for(std::future<Result> result, const std::shared_ptr<Call>& call, bool to_end);
+    template <typename Work>
+    auto begin(Work work, const std::shared_ptr<Call>& call);
+    void check(const Call& call) const;
     Frame render_now(double time);
 
     RendererOptions options_;
-    std::atomic<bool> cancelled_ = false;
+    const Call* running_ = nullptr;          // set in the thread
     double last_time_ = 0.0;                 // [s] of the last picture
     bool rendered_ = false;                  // whether there is one
     std::optional<SceneRenderer> pictures_;  // used in the thread only

@@ -10,7 +10,7 @@ import time
 import kilolux
 import numpy as np
 import pytest
-from conftest import SMALL
+from conftest import SMALL, read_image
 
 
 def same(a, b):
@@ -42,7 +42,7 @@ def test_a_change_that_fails_changes_nothing():
     renderer = kilolux.Renderer("grid", **SMALL)
     before = renderer.render()
     for bad in ({"exposure": "bright"}, {"camera_index": 9}, {"lights": 70, "rig": "none", "samples": 0},
-                {"clip": "walk"}, {"lights": kilolux.Lights([[0, 1, 0]], range=[1, 2])}):
+                {"clip": "walk"}, {"lights": kilolux.Lights([[0, 1, 0]], kind="area")}):
         with pytest.raises(kilolux.Error):
             renderer.change(**bad)
         assert same(renderer.render(), before), bad
@@ -73,7 +73,29 @@ def test_lights_in_arrays_replace_each_other():
     with_swarm = kilolux.render("grid", lights=arrays[0], rig="swarm", **options)
     assert with_swarm.stats["lights"]["given"] == 5050
     dark = kilolux.Lights([[0, 1, 0], [np.nan, 0, 0]], 1.0, 2.0)
-    assert kilolux.render("grid", lights=dark, **options).stats["lights"]["rejected"] == 1
+    with pytest.warns(UserWarning, match="position of light 1 is"):
+        assert kilolux.render("grid", lights=dark, **options).stats["lights"]["rejected"] == 1
+
+
+def test_lights_edited_in_place_count_when_they_are_given_again():
+    lights = kilolux.Lights(np.array([[0.0, 1.0, 0.0]]), 1.0, 3.0)
+    renderer = kilolux.Renderer("grid", lights=lights, resolution=(64, 48))
+    dim = renderer.render()
+    lights.intensity = 50.0
+    lights.position[0, 1] = 1.5
+    renderer.change(lights=lights)
+    bright = renderer.render()
+    assert bright.radiance.mean() > 2 * dim.radiance.mean()
+    assert same(bright, kilolux.render("grid", lights=lights, resolution=(64, 48)))
+
+
+def test_a_picture_shows_itself_in_a_notebook(tmp_path):
+    frame = kilolux.render("grid", aov=["depth"], **SMALL)
+    assert repr(frame).startswith("<Frame 64x48, ") and repr(frame).endswith(" ms, aovs: depth>")
+    (tmp_path / "frame.png").write_bytes(frame._repr_png_())
+    channels, codes = read_image(tmp_path / "frame.png", "uint8")
+    assert channels == ["R", "G", "B", "A"]
+    np.testing.assert_array_equal(codes, frame.display)
 
 
 def test_surfaces_stay_while_only_lights_change():
@@ -148,17 +170,6 @@ def test_one_renderer_serves_any_thread():
         np.testing.assert_array_equal(frame.radiance, expected)
 
 
-def test_python_runs_while_it_renders():
-    renderer = kilolux.Renderer("grid", resolution=(320, 240), lights=2000, renderer="deferred-all", samples=4)
-    thread = threading.Thread(target=renderer.render)
-    thread.start()
-    steps = 0
-    while thread.is_alive():
-        steps += 1
-        time.sleep(0.001)
-    assert steps > 3
-
-
 def test_an_interruption_from_the_keyboard_ends_the_work():
     script = ("import kilolux, sys\n"
               "r = kilolux.Renderer('grid', resolution=(64, 48), lights=60)\n"
@@ -173,3 +184,34 @@ def test_an_interruption_from_the_keyboard_ends_the_work():
         os.kill(child.pid, signal.SIGINT)
         assert child.stdout.read() == "(48, 64, 3)\n"
         assert child.wait(60) == 7
+
+
+def test_an_interruption_comes_at_once_and_ends_no_other_call():
+    """The picture takes seconds; another thread's is made meanwhile, and both renderers go on."""
+    script = ("import kilolux, sys, threading, time\n"
+              "slow = kilolux.Renderer('grid', resolution=(640, 480), lights=20000, renderer='deferred-all')\n"
+              "other = kilolux.Renderer('grid', resolution=(64, 48), lights=60)\n"
+              "made, failed, done = [other.render()], [], []\n"
+              "def work():\n"
+              "    try:\n"
+              "        while not done: made.append(other.render())\n"
+              "    except BaseException as error: failed.append(error)\n"
+              "thread = threading.Thread(target=work); thread.start()\n"
+              "print('ready', flush=True)\n"
+              "try:\n"
+              "    while True: slow.render()\n"
+              "except KeyboardInterrupt:\n"
+              "    print('stopped', len(made) > 1, flush=True)\n"
+              "done.append(1); thread.join()\n"
+              "slow.change(resolution=(32, 24), lights=60)\n"
+              "print(len(failed), slow.render().radiance.shape)\n")
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as child:
+        assert child.stdout.readline() == "ready\n"
+        time.sleep(2.0)
+        start = time.monotonic()
+        os.kill(child.pid, signal.SIGINT)
+        assert child.stdout.readline() == "stopped True\n"
+        taken = time.monotonic() - start
+        assert child.stdout.readline() == "0 (24, 32, 3)\n"
+        assert child.wait(120) == 0
+        assert taken < 1.0

@@ -86,12 +86,40 @@ def test_bad_meshes_are_refused_in_one_line(floor, mesh, words):
 @pytest.mark.parametrize("lights, words", [
     ({"position": [0, 1]}, r"position has the shape \(2,\), must be \(n, 3\)"),
     ({"position": [["a", 0, 1]]}, "position: could not convert"),
-    ({"range": [1, 2, 3]}, "2 positions, but"),
+    ({"range": [1, 2, 3]}, r"lights: range has the shape \(3,\), must be \(2,\) or one for all"),
+    ({"intensity": [1, 2, 3, 4]}, r"lights: intensity has the shape \(4, 1\), must be \(2, 3\)"),
+    ({"direction": [[0, 1], [1, 0]]}, r"lights: direction has the shape \(2, 2\)"),
     ({"kind": "area"}, "kind 'area' is none of point, spot, directional"),
     ({"kind": "spot", "direction": (0, 0, 0)}, "direction of light 0 is zero or not finite"),
     ({"kind": "spot", "inner_cone": 1.0, "outer_cone": 0.5}, "inner cone 1 of light 0 is not below the outer 0.5"),
 ])
 def test_bad_lights_are_refused_in_one_line(lights, words):
-    made = kilolux.Lights(**{"position": [[0, 1, 0], [0, 2, 0]], **lights})
     with pytest.raises(kilolux.Error, match=words):
+        made = kilolux.Lights(**{"position": [[0, 1, 0], [0, 2, 0]], **lights})
         kilolux.Renderer("grid", resolution=(64, 48), lights=made)
+
+
+def test_three_values_for_three_lights_have_two_meanings():
+    position = [[-1, 1, 0], [0, 1, 0], [1, 1, 0]]
+    with pytest.raises(kilolux.Error, match=r"3 lights: \(3, 1\) is a value for each, \(1, 3\) a colour for all"):
+        kilolux.Lights(position, [1, 2, 3])
+
+    def picture(intensity):
+        return kilolux.render("grid", resolution=(64, 48), lights=kilolux.Lights(position, intensity, 4.0)).radiance
+
+    for said, meant in (([[1], [2], [3]], [[1] * 3, [2] * 3, [3] * 3]), ([[1, 2, 3]], [[1, 2, 3]] * 3)):
+        np.testing.assert_array_equal(picture(said), picture(meant))
+
+
+@pytest.mark.parametrize("other, words", [
+    ({"range": [2.0, np.nan]}, "range of light 1 is nan; 1 of 2 lights are left out"),
+    ({"range": [-1.0, 2.0]}, "range of light 0 is -1.0"),
+    ({"position": [[0, 1, 0], [0, np.inf, 0]]}, "position of light 1"),
+])
+def test_lights_that_cannot_be_are_left_out_with_a_warning(other, words):
+    made = kilolux.Lights(**{"position": [[0, 1, 0], [0, 1, 0]], "range": 2.0, **other})
+    with pytest.warns(UserWarning, match=words):
+        frame = kilolux.render("grid", resolution=(64, 48), lights=made)
+    assert frame.stats["lights"]["used"] == 1 and frame.stats["lights"]["rejected"] == 1
+    alone = kilolux.render("grid", resolution=(64, 48), lights=kilolux.Lights([[0, 1, 0]], range=2.0))
+    np.testing.assert_array_equal(frame.radiance, alone.radiance)

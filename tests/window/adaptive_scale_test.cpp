@@ -56,6 +56,15 @@ TEST(AdaptiveScale, GrowsBackWhenThereIsRoom) {
     EXPECT_EQ(settle(scale, 5.0, 20.0), 1.0);
 }
 
+TEST(AdaptiveScale, APictureThatWasGivenUpCountsAtOnce) {
+    AdaptiveScale scale(80.0);
+    scale.picture_would_take(60'000.0, 1.0);
+    EXPECT_EQ(scale.scale(true), AdaptiveScale::kLeast);
+    AdaptiveScale fast(80.0);
+    fast.picture_would_take(0.0, 1.0);  // given up before anything was known
+    EXPECT_EQ(fast.scale(true), 1.0);
+}
+
 TEST(AdaptiveScale, IsFullAtRestAndNeverNothing) {
     AdaptiveScale scale(80.0);
     EXPECT_EQ(settle(scale, 1000.0, 1000.0), AdaptiveScale::kLeast);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/app/cluster_view.h"
+#include "present/window/overlay/cluster_view.h"
 
 #include <gtest/gtest.h>
 

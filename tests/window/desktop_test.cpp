@@ -90,6 +90,27 @@ TEST(Desktop, LeavesWhileAPictureIsMade) {
     leave(viewer);
 }
 
+// llvmpipe draws the window and the picture with the same threads: a picture that takes minutes
+// comes in parts, and the window has its turn between them.
+TEST(Desktop, AnswersWhileAForwardPictureIsMade) {
+    const Desktop desktop({"--manager"});
+    Viewer viewer(desktop, {"--renderer", "forward", "--lights", "60000"});
+    viewer.activate();
+    const auto frames = [&viewer](std::size_t more) {
+        const std::size_t swaps = viewer.count("swap");
+        wait_for("frames", [&] { return viewer.count("swap") >= swaps + more; });
+    };
+    frames(4);  // each counts the seconds
+    viewer.key("h");
+    viewer.wait_for_change();  // the help, while there is no picture yet
+    frames(2);
+    EXPECT_FALSE(viewer.program().has_ended());
+    viewer.key("1");  // another renderer: the picture is given up
+    viewer.key("h");
+    viewer.settled();
+    leave(viewer);
+}
+
 // So that a test that waits for rest sees the picture with all its samples.
 TEST(Desktop, DoesNotRestWhileAPictureIsMade) {
     const Desktop desktop({"--manager"});

@@ -7,7 +7,6 @@
 #include "host/render/renderer.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/camera_choice.h"
-#include "present/window/app/camera_rig.h"
 #include "tests/window/scripted_window.h"
 
 namespace kilolux {
@@ -17,7 +16,8 @@ class ExpectedPicture {
  public:
     ExpectedPicture() : renderer_(scene_, settings_of({})) {}
 
-    CameraRig rig() const { return {choose_camera({}, scene_), bounds(scene_)}; }
+    Camera camera() const { return choose_camera({}, scene_); }  // that the window begins with
+    Box box() const { return bounds(scene_); }
 
     ScenePart of(const Camera& camera, const std::function<void(RenderSettings&)>& change = {}) {
         renderer_.change(settings_of(change));
@@ -30,7 +30,7 @@ class ExpectedPicture {
         return out;
     }
     ScenePart of(const std::function<void(RenderSettings&)>& change = {}) {
-        return of(rig().camera(), change);
+        return of(camera(), change);
     }
 
  private:

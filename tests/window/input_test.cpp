@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/app/input.h"
+#include "present/window/screen/input.h"
 
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
@@ -45,6 +45,17 @@ TEST(InputState, AClickBetweenTwoFramesIsSeen) {
     EXPECT_TRUE(input.was_button_down(GLFW_MOUSE_BUTTON_LEFT));
     input.end_frame();
     EXPECT_FALSE(input.was_button_down(GLFW_MOUSE_BUTTON_LEFT));
+}
+
+TEST(InputState, KnowsBothKeysOfAModifier) {
+    for (const int key : {GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL}) {
+        InputState input;
+        input.take(KeyEvent{key, 0, GLFW_PRESS, GLFW_MOD_CONTROL});
+        EXPECT_TRUE(input.is_control_down());
+        EXPECT_FALSE(input.is_shift_down() || input.is_alt_down());
+        input.take(KeyEvent{key, 0, GLFW_RELEASE, 0});
+        EXPECT_FALSE(input.is_control_down());
+    }
 }
 
 }  // namespace

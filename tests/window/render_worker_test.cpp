@@ -62,6 +62,37 @@ TEST_F(RenderWorkerTest, GoesOnAfterAPictureThatCannotBeMade) {
     EXPECT_EQ(worker.render(request()).get().frame.width, 96);
 }
 
+// In a window's worker, forward passes are drawn in parts: they can be given up between, and say
+// how long the whole takes.
+TEST_F(RenderWorkerTest, APictureInPartsIsThatOfTheRenderer) {
+    settings_.renderer = RendererKind::forward;
+    RenderWorker worker = this->worker();
+    PictureRequest parts = request();
+    parts.progress = std::make_shared<PictureProgress>();
+    worker.render(parts).get();
+    EXPECT_GT(parts.progress->estimate(), 0.0);
+    EXPECT_GT(parts.progress->seconds(), 0.0);
+    Renderer renderer(scene_, settings_);
+    const Frame expected = renderer.render(choose_camera({}, scene_), 0.0);
+    const std::size_t stride = display_stride(96);
+    for (std::size_t y = 0; y < 64; ++y) {
+        ASSERT_EQ(std::memcmp(&pixels_[y * stride], &expected.display[4 * 96 * y], 4 * 96), 0) << y;
+    }
+}
+
+TEST_F(RenderWorkerTest, APictureThatIsGivenUpEndsAndTheNextIsWhole) {
+    settings_.renderer = RendererKind::forward;
+    RenderWorker worker = this->worker();
+    worker.render(request()).get();
+    const std::vector<uint> whole = pixels_;
+    PictureRequest unwanted = request();
+    unwanted.progress = std::make_shared<PictureProgress>();
+    unwanted.progress->give_up();
+    EXPECT_THROW(worker.render(unwanted).get(), Interrupted);
+    worker.render(request()).get();
+    EXPECT_EQ(pixels_, whole);
+}
+
 TEST_F(RenderWorkerTest, AProbeThatCannotBeIsAnswered) {
     settings_.band_rows = 16;
     RenderWorker worker = this->worker();

@@ -34,8 +34,7 @@ TEST(WindowRig, ShowsThePictureOfEveryRig) {
     Script script(folder);
     script.shot("start");
     const std::vector<std::string> order = {"studio", "none", "headlight", "swarm", "none", "auto"};
-    for (const std::string& name : order)
-        script.line("choose rig " + name).line("move 5 415").shot(name);
+    for (const std::string& name : order) script.line("choose rig " + name).line("away").shot(name);
     const ChildResult result = view_in_display({}, small_window(script.write()));
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");
@@ -56,7 +55,7 @@ TEST(WindowRig, ShowsThePictureOfEveryRig) {
 TEST(WindowRig, KeepsTheEnvironment) {
     const TemporaryFolder folder;
     Script script(folder);
-    script.shot("start").line("choose rig headlight").line("move 5 415").shot("headlight");
+    script.shot("start").line("choose rig headlight").line("away").shot("headlight");
     auto words = words_of(script);
     words.insert(words.end(), {"--fresh", "--environment", "sky", "--environment-lights", "7"});
     const ChildResult result = view_in_display({}, words);

@@ -14,6 +14,7 @@
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
 #include "tests/support/paths.h"
+#include "tests/window/desktop.h"
 
 namespace kilolux {
 
@@ -24,14 +25,20 @@ inline constexpr int kUnderlay = 120;  // [pixel] from the top: the overlay ends
 
 using Variables = std::vector<std::string>;  // "NAME=value"; "-uNAME" takes one away
 
-/// Runs the program in a virtual display of its own; `display`: what else with_display is told.
+/// Runs the program in the virtual display of this test program, or, where with_display is told
+/// something else (`display`), in one of its own.
 inline ChildResult view_in_display(const Variables& variables,
                                    const std::vector<std::string>& arguments,
                                    const std::vector<std::string>& display = {}) {
     std::vector<std::string> words = {"/usr/bin/env"};
     words.insert(words.end(), variables.begin(), variables.end());
-    words.emplace_back(source_root() + "/tests/window/with_display");
-    words.insert(words.end(), display.begin(), display.end());
+    if (display.empty()) {
+        static const Desktop shared({});
+        words.insert(words.begin() + 1, shared.variable());
+    } else {
+        words.emplace_back(source_root() + "/tests/window/with_display");
+        words.insert(words.end(), display.begin(), display.end());
+    }
     words.emplace_back(program_file());
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_child(words);

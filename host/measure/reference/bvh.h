@@ -32,7 +32,8 @@ struct RayHit {
     std::uint32_t index = 0;          // into Bvh::triangles()
 };
 
-/// A bounding volume hierarchy over triangles: finds the nearest hit of a ray.
+/// A bounding volume hierarchy over triangles: finds the nearest hit of a ray. Embree builds the
+/// hierarchy that the shadow kernels walk, in float32; this one shares no code with it.
 class Bvh {
  public:
     /// Leaves out triangles without area or with a coordinate that is not finite. Built top-down by

@@ -8,6 +8,18 @@
 #include "host/measure/reference/decoded_samples.h"
 
 namespace kilolux {
+namespace {
+
+// Why a light adds nothing, from what is known first. `in_reach`: by range and cone.
+const char* why_dark(const LightContribution& light, bool in_reach, bool seen, bool faces) {
+    if (light.radiance != glm::dvec3(0.0)) return "";
+    if (!(light.distance < light.range)) return "out of range";
+    if (!in_reach) return "outside its cone";
+    if (!faces) return "behind the surface";
+    return seen ? "too faint" : "hidden";
+}
+
+}  // namespace
 
 std::vector<LightContribution> light_contributions(const PixelProbe& probe,
                                                    const ReferenceOptions& model) {
@@ -20,16 +32,16 @@ std::vector<LightContribution> light_contributions(const PixelProbe& probe,
     for (const ProbedLight& light : probe.lights) {
         const ReferenceLights one =
             reference_lights(std::span(&light.shade, 1), {}, std::span(&light.web, 1));
-        RgbImage lit = shade_reference(surfaces, one, model).radiance;
-        const bool hidden = !light.seen.value_or(true);
-        if (hidden) lit.rgb.assign(3, 0.0);
-        const glm::dvec3 position = one.lights.front().position;
-        out.push_back(
-            {.index = light.index,
-             .distance = glm::length(position - surface.position),
-             .range = 1.0 / std::sqrt(std::abs(double{light.shade.position_inv_range2.w})),
-             .radiance = {lit.rgb[0], lit.rgb[1], lit.rgb[2]},
-             .hidden = hidden});
+        const ReferencePicture lit = shade_reference(surfaces, one, model);
+        const bool seen = light.seen.value_or(true);
+        const glm::dvec3 way = one.lights.front().position - surface.position;
+        LightContribution& next = out.emplace_back();
+        next.index = light.index;
+        next.distance = glm::length(way);
+        next.range = 1.0 / std::sqrt(std::abs(double{light.shade.position_inv_range2.w}));
+        if (seen) next.radiance = {lit.radiance.rgb[0], lit.radiance.rgb[1], lit.radiance.rgb[2]};
+        next.why_dark =
+            why_dark(next, lit.reaching.front() > 0, seen, glm::dot(way, surface.normal) > 0.0);
     }
     const auto brightness = [](const LightContribution& s) {
         return std::max({s.radiance.x, s.radiance.y, s.radiance.z});

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import struct
+import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from operator import index
@@ -15,7 +17,7 @@ from . import _native
 from .scene import Lights, Scene
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Frame:
     """A picture. Its arrays are views of the renderer's own memory, not copies, and stay valid.
 
@@ -30,6 +32,21 @@ class Frame:
     radiance: np.ndarray
     aovs: dict[str, np.ndarray]
     stats: dict[str, Any]
+
+    def __repr__(self) -> str:
+        height, width = self.display.shape[:2]
+        aovs = f", aovs: {', '.join(self.aovs)}" if self.aovs else ""
+        return f"<Frame {width}x{height}, {self.stats['frame_ms']:.1f} ms{aovs}>"
+
+    def _repr_png_(self) -> bytes:
+        """For notebooks, which show it."""
+        height, width = self.display.shape[:2]
+        rows = np.hstack([np.zeros((height, 1), np.uint8), self.display.reshape(height, -1)])  # filter 0
+        chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)),
+                  (b"IDAT", zlib.compress(rows.tobytes(), 6)), (b"IEND", b""))
+        return b"\x89PNG\r\n\x1a\n" + b"".join(
+            struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+            for name, data in chunks)
 
 
 @dataclass(frozen=True)
@@ -106,37 +123,37 @@ class Renderer:
              Renderer("atrium", lights=Lights(...), rig="swarm").
 
     Any thread may use it; calls of several threads come one after the other. Other Python threads
-    run meanwhile. Raises Error with the words of the command line.
+    run meanwhile; an interruption from the keyboard ends the call that gets it, and no other. Raises
+    Error with the words of the command line.
     """
 
     def __init__(self, scene: str | os.PathLike[str] | Scene = "atrium", **options: Any) -> None:
         self._scene = scene.name if isinstance(scene, Scene) else os.fspath(scene)
         if isinstance(scene, Scene) and options.get("lights") is None and scene.lights is not None:
             options["lights"] = scene.lights
-        self._options: dict[str, Any] = {}
-        words, lights = self._said(options)
+        words, lights = self._said(options, True)
         self._native = _native.Renderer(self._scene, words, scene._native if isinstance(scene, Scene) else None,
                                         _made_lights(lights or []))
         self._options = options
 
-    def _said(self, options: dict[str, Any]) -> tuple[list[str], list[Lights] | None]:
+    @staticmethod
+    def _said(options: dict[str, Any], reads_lights: bool) -> tuple[list[str], list[Lights] | None]:
         """The options' words, and their lights in arrays; None: those so far."""
         lights = _light_list(options.get("lights"))
         words = dict(options)
         if lights is not None:
             del words["lights"]
             words.setdefault("rig", "none")
-        if options.get("lights") is self._options.get("lights"):
-            return _words(words), lights if not self._options else None
-        return _words(words), lights or []
+        return _words(words), (lights or []) if reads_lights else None
 
     def change(self, **options: Any) -> None:
-        """Sets options: camera, lights, time, settings. None takes one back to its default.
+        """Sets options: camera, lights, time, settings. None takes one back to its default. Lights whose
+        arrays were edited count once they are given again: change(lights=lights).
 
         When it raises, everything stays as it was. The scene itself cannot change.
         """
         merged = {name: value for name, value in {**self._options, **options}.items() if value is not None}
-        words, lights = self._said(merged)
+        words, lights = self._said(merged, "lights" in options)
         self._native.change(self._scene, words, None if lights is None else _made_lights(lights))
         self._options = merged
 

@@ -2,6 +2,7 @@
 """Scenes, meshes, materials and lights from arrays."""
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,31 +13,20 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 
 
-def _rows(values: ArrayLike, count: int) -> np.ndarray:
-    """float64 [count, 3], a single row repeated."""
-    return np.ascontiguousarray(np.broadcast_to(values, (count, 3)))
-
-
-def _column(values: ArrayLike, count: int) -> np.ndarray:
-    return np.ascontiguousarray(np.broadcast_to(values, (count,)))
-
-
-def _text(values: ArrayLike) -> str:
-    return str(np.shape(values))
-
-
 @dataclass
 class Lights:
     """Lights of one kind.
 
     position   [n, 3], metres, world
-    intensity  [n, 3], [n] or one value: candela, for directional lights lux; linear Rec. 709
+    intensity  [n, 3], [n], one colour or one value: candela, for directional lights lux; linear
+               Rec. 709. Of three lights say [3, 1] for values and [1, 3] for one colour.
     range      [n] or one value, metres: beyond it a light is exactly 0; 0: from the intensity
     direction  [n, 3] or one row: the way the light travels (spot, directional); any length but 0
     inner_cone, outer_cone  [n] or one value: half angles of spot lights, radians
     kind       "point", "spot" or "directional"
 
-    Lights that cannot be used (not finite, no intensity) are counted as rejected in a frame's stats.
+    Arrays are read when the lights are given to Renderer(), change() or light(). Lights that cannot
+    be used (not finite, a negative range) are left out with a warning; a frame's stats count them.
     """
 
     position: ArrayLike
@@ -47,22 +37,47 @@ class Lights:
     outer_cone: ArrayLike = 0.7853981633974483
     kind: str = "point"
 
-    def _made(self) -> Any:
+    def __post_init__(self) -> None:
+        self._values()
+
+    def _values(self) -> dict[str, np.ndarray]:
+        """float64, one row a light."""
         position = np.atleast_2d(arrays.floats(self.position, "lights: position"))
         if position.ndim != 2 or position.shape[1] != 3:
-            raise _native.Error(f"lights: position has the shape {_text(self.position)}, must be (n, 3)")
+            raise _native.Error(f"lights: position has the shape {np.shape(self.position)}, must be (n, 3)")
         count = len(position)
-        others = {name: arrays.floats(getattr(self, name), f"lights: {name}") for name in
-                  ("range", "direction", "inner_cone", "outer_cone")}
         intensity = arrays.floats(self.intensity, "lights: intensity")
+        if intensity.shape == (3,) and count == 3:
+            raise _native.Error("lights: intensity has the shape (3,), and there are 3 lights: (3, 1) is a value for "
+                                "each, (1, 3) a colour for all")
         if intensity.ndim == 1 and intensity.shape != (3,):
             intensity = intensity[:, None]
-        try:
-            return _native.lights(
-                self.kind, position, _rows(others["direction"], count), _rows(intensity, count),
-                *(_column(others[name], count) for name in ("range", "inner_cone", "outer_cone")))
-        except ValueError as error:
-            raise _native.Error(f"lights: {count} positions, but {error}") from None
+        columns = {name: arrays.floats(getattr(self, name), f"lights: {name}")
+                   for name in ("range", "inner_cone", "outer_cone")}
+        direction = arrays.floats(self.direction, "lights: direction")
+        return {"position": position, "direction": _fill("direction", direction, (count, 3)),
+                "intensity": _fill("intensity", intensity, (count, 3)),
+                **{name: _fill(name, column, (count,)) for name, column in columns.items()}}
+
+    def _made(self) -> Any:
+        values = self._values()
+        bad = {name: ~np.isfinite(array).reshape(len(array), -1).all(axis=1)
+               for name, array in values.items() if name in ("position", "intensity")}
+        bad["range"] = ~(values["range"] >= 0)
+        for name, rows in bad.items():
+            if rows.any():
+                first = int(np.argmax(rows))
+                warnings.warn(f"lights: {name} of light {first} is {values[name][first]}; {rows.sum()} of {len(rows)} "
+                              "lights are left out for theirs", stacklevel=4)
+                values["intensity"] = np.where(rows[:, None], np.nan, values["intensity"])
+        return _native.lights(self.kind, *(np.ascontiguousarray(array) for array in values.values()))
+
+
+def _fill(name: str, values: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
+    try:
+        return np.broadcast_to(values, shape)
+    except ValueError:
+        raise _native.Error(f"lights: {name} has the shape {values.shape}, must be {shape} or one for all") from None
 
 
 @dataclass

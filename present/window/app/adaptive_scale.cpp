@@ -16,13 +16,20 @@ constexpr double kRoom = kStep * kStep * 0.9;
 
 void AdaptiveScale::picture_took(double ms, double scale) {
     if (!(ms > 0.0) || !(scale > 0.0)) return;
-    if (std::exchange(last_scale_, scale) != scale) return;
+    if (std::exchange(last_scale_, scale) == scale) choose(ms, scale, 6.0);
+}
+
+void AdaptiveScale::picture_would_take(double ms, double scale) {
+    if (ms > target_ms_ && scale > 0.0) choose(ms, scale, 1e3);
+}
+
+void AdaptiveScale::choose(double ms, double scale, double most_steps) {
     const double share = ms / target_ms_;
     double next = scale;
     if (share > 1.0) {
         // Assumes that time is proportional to the pixels. Later pictures correct the rest.
         const double steps = std::ceil(0.5 * std::log(share) / -std::log(kStep));
-        next = scale * std::pow(kStep, std::clamp(steps, 1.0, 6.0));
+        next = scale * std::pow(kStep, std::clamp(steps, 1.0, most_steps));
     } else if (share < kRoom) {
         next = share < 0.4 ? scale / (kStep * kStep) : scale / kStep;
     }

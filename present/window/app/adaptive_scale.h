@@ -20,10 +20,15 @@ class AdaptiveScale {
     /// count: it makes surfaces, which later ones keep while the camera stands.
     void picture_took(double ms, double scale);
 
+    /// A picture of scale `scale` was given up; it would have taken `ms`.
+    void picture_would_take(double ms, double scale);
+
     /// The scale of the next picture's edges, 0..1.
     double scale(bool moving) const { return moving ? moving_scale_ : 1.0; }
 
  private:
+    void choose(double ms, double scale, double most_steps);
+
     double target_ms_;
     double moving_scale_ = 1.0;
     double last_scale_ = 0.0;  // of picture_took()

@@ -13,25 +13,15 @@ PictureBuffers::~PictureBuffers() {
 }
 
 void PictureBuffers::allocate(Slot& slot, std::size_t pixels) {
-    slot = Slot{};
+    constexpr GLbitfield kAccess =
+        GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     const auto bytes = static_cast<GLsizeiptr>(pixels * sizeof(uint));
-    if (mapped_) {
-        constexpr GLbitfield kAccess =
-            GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-        slot.buffer = make_buffer();
-        glNamedBufferStorage(slot.buffer.name(), bytes, nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
-        void* mapping = glMapNamedBufferRange(slot.buffer.name(), 0, bytes, kAccess);
-        if (mapping != nullptr) {
-            slot.pixels = {static_cast<uint*>(mapping), pixels};
-            return;
-        }
-        while (glGetError() != GL_NO_ERROR) {
-        }
-        mapped_ = false;
-        slot.buffer = GlBuffer();
-    }
-    slot.memory.resize(pixels);
-    slot.pixels = slot.memory;
+    slot = Slot{make_buffer(), {}};
+    glNamedBufferStorage(slot.buffer.name(), bytes, nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
+    auto* mapping =
+        static_cast<uint*>(glMapNamedBufferRange(slot.buffer.name(), 0, bytes, kAccess));
+    check_gl_errors("picture buffer");
+    slot.pixels = {mapping, pixels};
 }
 
 bool PictureBuffers::is_free(Slot& slot) {
@@ -72,11 +62,11 @@ void PictureBuffers::show(std::size_t index, int width, int height) {
     }
     glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(display_stride(width)));
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, slot.buffer.name());
-    const void* source = slot.buffer ? nullptr : slot.memory.data();
-    glTextureSubImage2D(texture_.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, source);
+    glTextureSubImage2D(texture_.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        nullptr);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    if (slot.buffer) slot.read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    slot.read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     slot.used = false;
     check_gl_errors("picture texture");
 }

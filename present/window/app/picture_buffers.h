@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "kernels/shared/types.h"
 #include "raster/gl_object.h"
@@ -14,8 +13,7 @@ namespace kilolux {
 /// Pictures on their way from the renderer to a texture of the current OpenGL context.
 ///
 /// Each slot is a pixel buffer that stays mapped: the renderer writes to it from its own thread (a
-/// CPU device's kernel directly), and OpenGL copies it to the texture. Where a driver cannot map
-/// one persistently, slots are plain memory, which costs one more copy.
+/// CPU device's kernel directly), and OpenGL copies it to the texture.
 class PictureBuffers {
  public:
     PictureBuffers() = default;
@@ -23,7 +21,8 @@ class PictureBuffers {
     PictureBuffers(const PictureBuffers&) = delete;
     PictureBuffers& operator=(const PictureBuffers&) = delete;
 
-    /// A free slot, now in use, with room for `pixels`; none while all are in use.
+    /// A free slot, now in use, with room for `pixels`; none while all are in use. Throws Error
+    /// where the driver has no memory for it.
     std::optional<std::size_t> acquire(std::size_t pixels);
 
     /// Where to write the slot's picture.
@@ -39,14 +38,12 @@ class PictureBuffers {
     GLuint texture() const { return texture_.name(); }
     int width() const { return width_; }    // of the texture [pixel], 0 before the first picture
     int height() const { return height_; }  // [pixel]
-    bool is_mapped() const { return mapped_; }
 
  private:
     struct Slot {
-        GlBuffer buffer;  // none: `memory` instead
-        std::vector<uint> memory;
-        std::span<uint> pixels;
-        GLsync read = nullptr;  // signalled when OpenGL has read the picture
+        GlBuffer buffer;
+        std::span<uint> pixels;  // its memory
+        GLsync read = nullptr;   // signalled when OpenGL has read the picture
         bool used = false;
     };
     void allocate(Slot& slot, std::size_t pixels);
@@ -56,7 +53,6 @@ class PictureBuffers {
     GlTexture texture_;
     int width_ = 0;
     int height_ = 0;
-    bool mapped_ = true;
 };
 
 }  // namespace kilolux

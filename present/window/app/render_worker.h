@@ -6,20 +6,47 @@
 #include <memory>
 #include <span>
 
+#include "host/base/interrupt.h"
 #include "host/render/renderer.h"
 #include "host/scene/lights/rig.h"
 #include "present/window/app/task_thread.h"
 
 namespace kilolux {
 
+/// How far a picture is. The window reads it, and may give the picture up, while it is made.
+class PictureProgress {
+ public:
+    void give_up() { given_up_ = true; }
+    /// Since the picture was begun [s]; 0 before.
+    double seconds() const;
+    /// About how long the whole picture takes [s]; 0 while that is unknown.
+    double estimate() const { return estimate_; }
+
+    /// Called by the worker, when the picture is begun and with the share that is made. Throws
+    /// Interrupted once the picture is given up.
+    void begin();
+    void note(double share);
+
+ private:
+    static double now();
+
+    std::atomic<bool> given_up_ = false;
+    std::atomic<double> began_ = 0.0;     // [s] of a steady clock; 0: not yet
+    std::atomic<double> estimate_ = 0.0;  // [s]
+    // The end of the first part, which also compiles.
+    double first_share_ = 0.0;
+    double first_end_ = 0.0;  // [s] of the clock
+};
+
 /// A picture to render, and where to.
 struct PictureRequest {
     RenderSettings settings;
     Camera camera;
-    double time = 0.0;       // [s]
-    std::span<uint> pixels;  // rows display_stride() apart
-    int samples = 0;         // of settings.samples, the rest to come; 0: all
-    Rig rig{};               // whose lights the scene has
+    double time = 0.0;                               // [s]
+    std::span<uint> pixels;                          // rows display_stride() apart
+    int samples = 0;                                 // of settings.samples; 0: all
+    Rig rig{};                                       // whose lights the scene has
+    std::shared_ptr<PictureProgress> progress = {};  // none: nobody asks
 };
 
 /// What came with a rendered picture.
@@ -43,10 +70,17 @@ class RenderWorker {
     /// Renders after all tasks. Replaces the last request that has not begun.
     std::future<Picture> render(PictureRequest request);
 
-    /// Runs work(renderer) before the next picture.
+    /// Runs work(renderer) before the next picture. At stop() it ends with Interrupted, unless it
+    /// must finish.
     template <typename Work>
     auto ask(Work work, AtStop at_stop = AtStop::drop) {
-        return thread_.ask([this, work = std::move(work)] { return work(*renderer_); }, at_stop);
+        const bool may_end = at_stop == AtStop::drop;
+        return thread_.ask(
+            [this, may_end, work = std::move(work)] {
+                const WorkWatch watch([this, may_end](double) { end_at_stop(may_end); });
+                return work(*renderer_);
+            },
+            at_stop);
     }
 
     /// Throws what kept the renderer from being made.
@@ -55,6 +89,8 @@ class RenderWorker {
     bool stop(std::chrono::milliseconds patience) { return thread_.stop(patience); }
 
  private:
+    void end_at_stop(bool may_end) const;
+
     std::unique_ptr<Renderer> renderer_;  // used in the thread only
     TaskThread thread_;                   // last: it ends first
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/session.h"
 
-#include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 
 #include <algorithm>
@@ -9,17 +8,14 @@
 
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
-#include "host/base/log.h"
 #include "present/cli/scene_choice.h"
 #include "raster/gl_context.h"
 
 namespace kilolux {
 namespace {
 
-constexpr double kFrameSeconds = 1.0 / 60.0;
 constexpr double kIdleSeconds = 0.25;  // signals are looked for that often
 constexpr double kBusySeconds = 0.1;   // while a thread works; what it ends wakes the loop
-constexpr double kKeepSeconds = 0.5;   // a change has to last until it is written
 constexpr std::chrono::milliseconds kStopPatience(200);
 constexpr int kSmallestKept = 64;  // [pixel] of the window's edges, from run to run
 
@@ -32,30 +28,26 @@ std::string gl_text(GLenum name) {
 
 ViewSession::ViewSession(AnimatedScene& scene, SessionOptions options, StateFile& file,
                          Window& window, const Window& context)
-    : lit_scene_(scene),
-      scene_(scene.scene()),
+    : scene_(scene.scene()),
       options_(std::move(options)),
       file_(file),
       window_(window),
       state_(options_.state),
-      kept_(state_),
-      lit_by_(state_.rig),
       rig_(choose_camera(options_.shared, scene_), bounds(scene_)),
       time_(options_.shared.time),
       gui_(window),
+      scale_(state_.target_ms),
+      lights_(scene, std::move(options_.asked), options_.shared, state_.rig),
       facts_{.scene = scene_,
              .has_unranged_lights = std::ranges::any_of(scene_.lights, lacks_range),
              .triangles = triangle_count(scene_),
-             .opengl = gl_text(GL_RENDERER) + ", " + gl_text(GL_VERSION)},
-      scale_(state_.target_ms) {
-    window_.on_event([this](const InputEvent& event) { take_event(event); });
+             .opengl = gl_text(GL_RENDERER) + ", " + gl_text(GL_VERSION),
+             .error = error_} {
+    window_.on_event([this](const InputEvent& event) { events_.post(event); });
     worker_ = std::make_unique<RenderWorker>(
         scene_, wanted().settings,
-        [&context](bool use) { use ? context.make_current() : glfwMakeContextCurrent(nullptr); },
-        [this] {
-            woken_ = true;
-            wake_windows();
-        });
+        [&context](bool use) { use ? context.make_current() : Window::make_none_current(); },
+        [this] { wake(); });
     if (!options_.script.empty()) {
         script_ = std::make_unique<ScriptPlayer>(
             options_.script,
@@ -81,7 +73,7 @@ void ViewSession::run() {
         request_picture();
         if (draws) paint();
         input_.end_frame();
-        if (options_.exit_after > 0 && shown_ >= options_.exit_after) break;
+        if (options_.exit_after > 0 && pictures_.shown() >= options_.exit_after) break;
         if (script_ && script_->is_done()) break;
     }
     if (!options_.screenshot.empty()) save_window(options_.screenshot);
@@ -96,47 +88,40 @@ bool ViewSession::stop() {
 
 void ViewSession::redraw_soon(int frames) { frames_to_draw_ = std::max(frames_to_draw_, frames); }
 
+void ViewSession::wake() {
+    woken_ = true;
+    wake_windows();
+}
+
 // How long the loop may sleep while no event comes [s].
 double ViewSession::wait_seconds() {
     if (script_) return script_->is_settling() ? 0.01 : 0.0;
     if (is_resting()) return kIdleSeconds;
-    const bool steers = camera_motion().any();
-    if (steers || state_.lights_move || is_moving() || frames_to_draw_ > 0) return kFrameSeconds;
+    const bool moves = camera_motion().any() || state_.lights_move || pictures_.is_moving();
+    if (moves || frames_to_draw_ > 0 || !events_.empty()) return FrameClock::kUsualSeconds;
     return is_busy() ? kBusySeconds : kIdleSeconds;
 }
 
 void ViewSession::wait() {
     const double seconds = wait_seconds();
+    clock_.end_frame();
     window_.wait_events(seconds);
-    const Clock::time_point now = Clock::now();
-    frame_seconds_ = std::min(std::chrono::duration<double>(now - last_frame_).count(), 0.25);
-    last_frame_ = now;
-    if (script_) {
-        frame_seconds_ = ScriptPlayer::kFrameSeconds;
-        script_->advance();
-    } else {
-        keep_state();
+    if (script_) script_->advance();
+    clock_.begin_frame(seconds,
+                       script_ ? std::optional(ScriptPlayer::kFrameSeconds) : std::nullopt);
+    for (const InputEvent& event : events_.take(script_ ? 0.0 : clock_.busy_seconds())) {
+        input_.take(event);
+        gui_.take(event);
+        redraw_soon(4);  // the panel needs some frames until its layout is final
     }
-    clock_ += frame_seconds_;
-    // After a long wait: a key that ended it has been held for one frame at most.
-    if (seconds > kFrameSeconds) frame_seconds_ = std::min(frame_seconds_, kFrameSeconds);
+    if (!script_) {
+        remember_size();
+        file_.keep(state_, clock_.now());
+    }
     if (woken_.exchange(false)) redraw_soon();
-    fade_notice();
-}
-
-void ViewSession::notify(const std::string& text) {
-    constexpr double kNoticeSeconds = 6.0;
-    facts_.notice = text;
-    notice_until_ = clock_ + kNoticeSeconds;
-}
-
-// The notice fades during its last second.
-void ViewSession::fade_notice() {
-    if (facts_.notice.empty()) return;
-    const double left = notice_until_ - clock_;
-    if (left < 1.0) redraw_soon(1);
-    facts_.notice_alpha = static_cast<float>(std::clamp(left, 0.0, 1.0));
-    if (left <= 0.0) facts_.notice.clear();
+    if (notice_.fade(clock_.now())) redraw_soon(1);
+    const std::string waiting = waiting_line();
+    if (std::exchange(waiting_, waiting) != waiting) redraw_soon(1);
 }
 
 void ViewSession::remember_size() {
@@ -144,52 +129,38 @@ void ViewSession::remember_size() {
     state_.window_size = {std::max(size[0], kSmallestKept), std::max(size[1], kSmallestKept)};
 }
 
-// Writes a change that has lasted kKeepSeconds, so that a crash does not lose it.
-void ViewSession::keep_state() {
-    if (clock_ < next_keep_) return;
-    next_keep_ = clock_ + kKeepSeconds;
-    remember_size();
-    if (state_ != kept_ && state_ == seen_) {
-        kept_ = state_;
-        try {
-            file_.save(state_);
-        } catch (const Error& error) {
-            warn(error.what());
-        }
-    }
-    seen_ = state_;
-}
-
-void ViewSession::take_event(const InputEvent& event) {
-    input_.take(event);
-    gui_.take(event);
-    redraw_soon(4);  // the panel needs some frames until its layout is final
-}
-
 void ViewSession::take_results() {
-    std::erase_if(pending_, [this](PendingPicture& pending) { return take_picture(pending); });
-    take(limits_, [this](const DeviceLimits& limits) { facts_.limits = limits; });
-    if (!take(relighting_, [this](Relit relit) { take_lights(std::move(relit)); })) {
-        state_.rig = lit_by_;  // the former lights stay
-    }
-    if (!relighting_.valid()) obey_actions(std::exchange(held_back_, {}));
-    take(measuring_, [this](FrameError error) { take_error(std::move(error)); });
+    const OnFailure failed = [this](const std::string& what) { fail(what); };
+    pictures_.take({[this](const PictureRequest& request, Picture picture) {
+                        take_picture(request, std::move(picture));
+                    },
+                    [this](const PictureRequest& request, double seconds) {
+                        const double edge = std::max(area().width, 1);
+                        scale_.picture_would_take(1e3 * seconds, request.settings.width / edge);
+                    },
+                    failed});
+    limits_.take([this](const DeviceLimits& limits) { facts_.limits = limits; }, failed);
+    lights_.take(state_, failed);
+    if (!lights_.are_changing()) obey_actions(std::exchange(held_back_, {}));
+    // After these the renderer's last picture is not the window's.
+    if (error_.take(failed)) pictures_.forget_request();
     for (auto& saving : saving_) {
-        take(saving, [this](const std::string& what) {
-            notify(what);
-            requested_.reset();  // the renderer's last picture is the window's again
-        });
+        saving.take(
+            [this](const std::string& what) {
+                notice_.show(what, clock_.now());
+                pictures_.forget_request();
+            },
+            failed);
     }
-    std::erase_if(saving_, [](const auto& saving) { return !saving.valid(); });
-    facts_.measuring = measuring_.valid();
-    facts_.error_share = error_share_;
-    take_clusters();
+    std::erase_if(saving_, [](const auto& saving) { return !saving.is_open(); });
+    clusters_.take(state_, failed);
 }
 
 void ViewSession::fail(const std::string& what) {
     // A script ends with the message; without one the window shows it.
     if (script_) throw Error(what);
-    facts_.failure = what;
+    failure_ = what;
+    redraw_soon();
 }
 
 // Minimised, and no script or --exit-after waits for pictures.
@@ -197,9 +168,18 @@ bool ViewSession::is_resting() const {
     return window_.is_minimised() && !script_ && options_.exit_after == 0;
 }
 
-bool ViewSession::renders_always() const { return state_.continuous || options_.exit_after > 0; }
+// Whether a task or a picture is under way; where pictures never end, they do not count.
+bool ViewSession::is_busy() const {
+    return limits_.is_open() || clusters_.is_open() || error_.is_open() || lights_.are_changing() ||
+           !saving_.empty() || (!renders_always() && pictures_.is_busy());
+}
 
-float ViewSession::panel_width() const { return state_.show_panel ? gui_.scaled(360.0f) : 0.0f; }
+// Whether the last picture is what the window wants, in full size, and no task is left.
+Settled ViewSession::settled() const {
+    if (state_.lights_move) return Settled::never;
+    const bool shown = !pictures_.is_moving() && pictures_.has_settled(wanted());
+    return shown && !is_busy() ? Settled::yes : Settled::not_yet;
+}
 
 void ViewSession::paint() {
     if (frames_to_draw_ > 0) --frames_to_draw_;

@@ -2,25 +2,25 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <deque>
 #include <filesystem>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "host/scene/animated_scene.h"
-#include "present/cli/options.h"
 #include "present/window/app/adaptive_scale.h"
 #include "present/window/app/camera_rig.h"
-#include "present/window/app/cluster_view.h"
-#include "present/window/app/picture_buffers.h"
-#include "present/window/app/render_worker.h"
+#include "present/window/app/frame_clock.h"
+#include "present/window/app/picture_queue.h"
+#include "present/window/app/scene_lights.h"
 #include "present/window/app/state_file.h"
-#include "present/window/app/window.h"
+#include "present/window/overlay/cluster_overlay.h"
+#include "present/window/overlay/error_measurement.h"
+#include "present/window/overlay/floating.h"
 #include "present/window/panel/gui.h"
 #include "present/window/panel/panel.h"
+#include "present/window/screen/event_queue.h"
+#include "present/window/screen/window.h"
 #include "present/window/script/script.h"
 
 namespace kilolux {
@@ -54,7 +54,6 @@ class ViewSession {
     bool stop();
 
  private:
-    using Clock = std::chrono::steady_clock;
     static constexpr int kSmallestEdge = 16;  // [pixel] of a picture
 
     // A frame of the window, in order.
@@ -67,12 +66,10 @@ class ViewSession {
     void draw();
     double wait_seconds();
     void redraw_soon(int frames = 2);
-    void fade_notice();
+    void wake();  // from any thread
     void remember_size();
-    void keep_state();
 
     // Input.
-    void take_event(const InputEvent& event);
     void obey_key(const KeyEvent& key);
     CameraInput camera_motion();
     void steer();
@@ -80,131 +77,66 @@ class ViewSession {
     void hold_back(Actions& actions);
     void reset_settings();
 
-    // Lights.
-    struct Relit {
-        SharedOptions options;  // settled
-        std::string line;       // what light_scene() says
-    };
-    void relight();
-    void take_lights(Relit relit);
-
     // Pictures.
-    struct PendingPicture {
-        std::size_t slot = 0;  // of buffers_
-        PictureRequest request;
-        std::future<Picture> picture;
-    };
     PictureRequest wanted() const;
     PictureRequest wanted(double scale) const;  // of the picture's edges
-    bool is_moving() const;
     bool is_resting() const;
     bool is_busy() const;
-    bool renders_always() const;
+    bool renders_always() const { return state_.continuous || options_.exit_after > 0; }
     bool refines() const;
     Settled settled() const;
-    bool take_picture(PendingPicture& pending);
-    void show_picture(const PendingPicture& pending, Picture picture);
+    void take_picture(const PictureRequest& request, Picture picture);
     void save_picture(const std::string& extension);
     void save_window(const std::filesystem::path& file);
     std::string command() const;
     void copy(const std::string& text);
-    void notify(const std::string& text);
     void fail(const std::string& what);
-    template <typename T, typename Take>
-    bool take(std::future<T>& future, Take take);
-    BoxTarget picture_area() const;
-    float panel_width() const;
+
+    // The picture's place.
+    float panel_width() const { return state_.show_panel ? gui_.scaled(360.0f) : 0.0f; }
+    ScreenPlace place() const;  // window coordinates
+    BoxTarget area() const;     // framebuffer, from its lower left
+    ShownPicture shown_picture();
 
     // Drawing.
-    void describe_panel(Actions& actions);
-    void describe_overlay();
-    void describe_help();
-    void describe_failure(Actions& actions);
-
-    // Clusters and errors.
-    ScreenPlace picture_place() const;
     void describe_picture();
-    void describe_clusters();
-    void ask_probe();
-    void ask_clusters();
-    void take_clusters();
-    void paint_boxes() const;
-    void show_boxes();
-    void measure_error();
-    void take_error(FrameError error);
-    bool shows_error() const;
+    void describe_panel(Actions& actions);
+    std::vector<std::string> overlay_lines() const;
+    std::string waiting_line() const;
 
-    AnimatedScene& lit_scene_;  // its lights are the worker's
-    const Scene& scene_;        // the same
+    const Scene& scene_;
     SessionOptions options_;
     StateFile& file_;
     Window& window_;
     ViewState state_;
-    ViewState kept_;  // as last written to file_
-    ViewState seen_;  // when writing was considered last
-    Rig lit_by_;      // what the scene's lights are for
     CameraRig rig_;
     double time_;  // of the lights [s]
+    FrameClock clock_;
+    EventQueue events_;
     InputState input_;
     Gui gui_;
     Widgets ui_;
-    PictureBuffers buffers_;
-    PanelFacts facts_;
     AdaptiveScale scale_;
 
-    std::deque<PendingPicture> pending_;
-    std::optional<PictureRequest> requested_;  // the last
-    std::optional<PictureRequest> drawn_;      // on the screen
-    std::uint64_t shown_ = 0;                  // pictures
+    PictureQueue pictures_;
+    SceneLights lights_;
+    ClusterOverlay clusters_;
+    ErrorMeasurement error_;
+    Awaited<DeviceLimits> limits_;
+    std::deque<Awaited<std::string>> saving_;  // what was written
+    Actions held_back_;                        // until the lights are replaced
 
-    Clock::time_point last_frame_ = Clock::now();
-    Clock::time_point last_change_;
-    double frame_seconds_ = 0.0;
-    double clock_ = 0.0;         // sum of frame_seconds_ [s]
-    double notice_until_ = 0.0;  // by clock_
-    double next_keep_ = 0.0;     // by clock_
+    PanelFacts facts_;
+    Notice notice_;
+    std::string failure_;  // the last one; empty: none
+    std::string waiting_;  // waiting_line(), as shown
     int frames_to_draw_ = 4;
-    std::unique_ptr<ScriptPlayer> script_;  // none: a person
-    bool dragging_ = false;                 // the mouse, begun on the picture
+    bool dragging_ = false;  // the mouse, begun on the picture
     bool show_help_ = false;
-    bool full_screen_ = false;
+    std::unique_ptr<ScriptPlayer> script_;  // none: input comes from the user
 
-    // Each is valid while its task runs.
-    std::future<DeviceLimits> limits_;
-    std::future<std::optional<ProbedPixel>> probing_;
-    std::future<FrozenClusters> freezing_;
-    std::future<FrameError> measuring_;
-    std::future<Relit> relighting_;
-    Actions held_back_;                            // until the lights are replaced
-    std::deque<std::future<std::string>> saving_;  // what was written
-
-    std::unique_ptr<BoxPass> boxes_;        // made when first frozen
-    std::optional<FrozenClusters> frozen_;  // while state_.frozen
-    int box_lights_ = -1;                   // that boxes_ were made for
-    std::optional<ProbedPixel> probed_;
-    std::array<int, 3> probed_for_{-1, -1, -1};  // pixel, and number of the picture
-    std::optional<PictureRequest> error_of_;     // the picture whose error was measured
-    GlTexture error_map_;
-    std::atomic<float> error_share_ = 0.0f;  // of the measurement that is done
-    std::atomic<bool> woken_ = false;        // by the worker
-    std::unique_ptr<RenderWorker> worker_;   // last: its thread ends first
+    std::atomic<bool> woken_ = false;       // by the worker
+    std::unique_ptr<RenderWorker> worker_;  // last: its thread ends first
 };
-
-/// Takes the result of `future` once it is there. Reports what it throws: then returns false.
-template <typename T, typename Take>
-bool ViewSession::take(std::future<T>& future, Take take) {
-    if (!future.valid() || future.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-        return true;
-    }
-    std::future<T> ready = std::move(future);
-    redraw_soon();
-    try {
-        take(ready.get());
-        return true;
-    } catch (const std::exception& error) {
-        fail(error.what());
-        return false;
-    }
-}
 
 }  // namespace kilolux

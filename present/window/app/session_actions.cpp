@@ -7,7 +7,6 @@
 #include "host/base/error.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/scene_choice.h"
-#include "present/image/comparison.h"
 #include "present/image/image_file.h"
 #include "present/window/app/command_text.h"
 #include "present/window/app/session.h"
@@ -27,54 +26,32 @@ fs::path free_file(const std::string& extension) {
 
 }  // namespace
 
-void ViewSession::measure_error() {
-    if (measuring_.valid()) return;
-    error_of_ = wanted();
-    error_share_ = 0.0f;
-    measuring_ = worker_->ask([this, request = *error_of_, &worker = *worker_](Renderer& renderer) {
-        const auto progress = [&](double share) {
-            if (worker.is_stopping()) throw Interrupted();
-            error_share_ = static_cast<float>(share);
-            woken_ = true;
-            wake_windows();
-        };
-        return measure_frame_error(renderer, request.settings, request.camera, request.time,
-                                   progress);
-    });
-}
-
-void ViewSession::take_error(FrameError error) {
-    const RenderSettings& measured = error_of_->settings;
-    const Canvas canvas =
-        error_map(error.relative, {error.width, error.height, measured.width, measured.height});
-    error_map_ = make_texture(GL_TEXTURE_2D);
-    glTextureStorage2D(error_map_.name(), 1, GL_RGBA8, canvas.width, canvas.height);
-    glTextureParameteri(error_map_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTextureSubImage2D(error_map_.name(), 0, 0, 0, canvas.width, canvas.height, GL_RGBA,
-                        GL_UNSIGNED_BYTE, canvas.rgba.data());
-    facts_.error = std::move(error);
-    requested_.reset();  // the renderer's last picture is the window's again
-}
-
 void ViewSession::obey_actions(Actions actions) {
-    if (relighting_.valid()) hold_back(actions);
-    if (actions.reset_camera) rig_.set(choose_camera(options_.shared, scene_));
+    if (lights_.are_changing()) hold_back(actions);
+    if (actions.reset_camera) rig_.set(choose_camera(lights_.options(), scene_));
     if (actions.frame_scene) rig_.frame();
     if (actions.scene_camera) {
         rig_.set(camera_of(scene_.cameras.at(static_cast<std::size_t>(*actions.scene_camera))));
     }
-    if (actions.copy_camera) copy(camera_options(rig_, options_.shared, scene_));
+    if (actions.copy_camera) copy(camera_options(rig_, lights_.options(), scene_));
     if (actions.copy_command) copy(command());
-    if (actions.measure_error) measure_error();
+    if (actions.measure_error) error_.begin(*worker_, wanted(), [this] { wake(); });
     if (actions.save_png) save_picture(".png");
     if (actions.save_exr) save_picture(".exr");
     if (actions.help) show_help_ = !show_help_;
     if (actions.close_help) show_help_ = false;
-    if (actions.dismiss_failure) facts_.failure.clear();
+    if (actions.dismiss_failure) failure_.clear();
     if (actions.reset_settings) reset_settings();
-    if (actions.full_screen) full_screen_ = !full_screen_;
+    if (actions.full_screen) window_.set_full_screen(!window_.is_full_screen());
     if (actions.close) window_.close();
-    window_.set_full_screen(full_screen_);
+}
+
+// What needs the picture's settings, which belong to the lights to come.
+void ViewSession::hold_back(Actions& actions) {
+    for (bool Actions::*action : {&Actions::measure_error, &Actions::save_png, &Actions::save_exr,
+                                  &Actions::copy_command}) {
+        held_back_.*action |= std::exchange(actions.*action, false);
+    }
 }
 
 // The program's defaults, whatever the command line said; the device was chosen for the run.
@@ -83,25 +60,23 @@ void ViewSession::reset_settings() {
     fresh.settings = SharedOptions().settings;
     fresh.settings.samples = kRestSamples;
     fresh.settings.device = state_.settings.device;
-    fresh.settings.background = options_.shared.shown_background;
-    fresh.settings.reflections = options_.shared.maps;
+    fresh.settings.background = lights_.options().shown_background;
+    fresh.settings.reflections = lights_.options().maps;
     fresh.window_size = state_.window_size;
     state_ = std::move(fresh);
-    SharedOptions& asked = options_.asked;
-    asked.settings.lights = state_.settings.lights;
-    asked.settings.ambient = state_.settings.ambient;
-    asked.lights_given = asked.ambient_given = false;
-    relight();
+    lights_.forget_command_line(state_.settings);
+    lights_.replace(*worker_, state_, wanted().settings);
     file_.forget();
 }
 
 void ViewSession::copy(const std::string& text) {
     window_.set_clipboard(text);
-    notify("copied: " + text);
+    notice_.show("copied: " + text, clock_.now());
+    redraw_soon();
 }
 
 std::string ViewSession::command() const {
-    SharedOptions options = options_.shared;
+    SharedOptions options = lights_.options();
     options.settings = wanted(1.0).settings;
     options.time = time_;
     return render_command(rig_, options, scene_);
@@ -109,7 +84,7 @@ std::string ViewSession::command() const {
 
 void ViewSession::save_picture(const std::string& extension) {
     const PictureRequest request = wanted(1.0);
-    SharedOptions shared = options_.shared;
+    SharedOptions shared = lights_.options();
     shared.settings = request.settings;
     const auto save = [request, shared, extension](Renderer& renderer) {
         renderer.change(request.settings);
@@ -120,7 +95,7 @@ void ViewSession::save_picture(const std::string& extension) {
         write_image(file, frame, notes);
         return "wrote " + file.string();
     };
-    saving_.push_back(worker_->ask(save, AtStop::finish));
+    saving_.emplace_back(worker_->ask(save, AtStop::finish));
 }
 
 // A screenshot of the whole window.

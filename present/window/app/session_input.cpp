@@ -37,7 +37,7 @@ struct KeyBinding {
 constexpr int kShift = GLFW_MOD_SHIFT;
 constexpr int kControl = GLFW_MOD_CONTROL;
 
-// session_panel.cpp lists them for the reader.
+// overlay/floating.cpp lists them for the reader.
 constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_F1, 0, [](ViewState&, Actions& a) { a.help = true; }},
     {GLFW_KEY_H, 0, [](ViewState&, Actions& a) { a.help = true; }},
@@ -64,13 +64,12 @@ constexpr KeyBinding kBindings[] = {
 
 CameraInput ViewSession::camera_motion() {
     CameraInput motion;
-    const bool command = input_.is_down(GLFW_KEY_LEFT_CONTROL);
-    if (!gui_.wants_keys() && !command) {
+    if (!gui_.wants_keys() && !input_.is_control_down()) {
         motion.move = {held(input_, GLFW_KEY_D, GLFW_KEY_A), held(input_, GLFW_KEY_E, GLFW_KEY_Q),
                        held(input_, GLFW_KEY_W, GLFW_KEY_S)};
     }
-    motion.faster = input_.is_down(GLFW_KEY_LEFT_SHIFT) || input_.is_down(GLFW_KEY_RIGHT_SHIFT);
-    motion.slower = input_.is_down(GLFW_KEY_LEFT_ALT) || input_.is_down(GLFW_KEY_RIGHT_ALT);
+    motion.faster = input_.is_shift_down();
+    motion.slower = input_.is_alt_down();
     if (!gui_.wants_mouse()) motion.wheel = input_.wheel();
     if (!dragging_) return motion;
     const double height = std::max(window_.size()[1], 1);
@@ -87,7 +86,7 @@ void ViewSession::steer() {
     if (begins) dragging_ = true;
     // While flying, the mouse is not stopped by the screen's edges.
     if (begins && !script_ && state_.camera_mode == CameraMode::fly) window_.grab_mouse(true);
-    rig_.move(camera_motion(), state_.camera_mode, frame_seconds_);
+    rig_.move(camera_motion(), state_.camera_mode, clock_.frame_seconds());
     if (dragging_ && !pressed) {
         dragging_ = false;
         if (!script_) window_.grab_mouse(false);

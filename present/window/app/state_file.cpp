@@ -157,6 +157,7 @@ ViewState StateFile::load(const ViewState& state,
         warn(file_.string() + ": ignored: " + failure.what());
         kept = {};
     }
+    saved_ = seen_ = started;
     kept_ = values_of(kept);
     started_ = values_of(started);
     return started;
@@ -179,6 +180,21 @@ void StateFile::save(const ViewState& state) {
     fs::create_directories(file_.parent_path(), error);
     write_atomically(file_, now.dump(2) + "\n");
     written_ = now;
+}
+
+void StateFile::keep(const ViewState& state, double now) {
+    constexpr double kKeepSeconds = 0.5;
+    if (now < next_look_) return;
+    next_look_ = now + kKeepSeconds;
+    if (state != saved_ && state == seen_) {
+        saved_ = state;
+        try {
+            save(state);
+        } catch (const Error& error) {
+            warn(error.what());
+        }
+    }
+    seen_ = state;
 }
 
 }  // namespace kilolux

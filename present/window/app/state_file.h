@@ -33,13 +33,19 @@ class StateFile {
     /// the file whole or not at all; makes its folder. Throws Error with the reason.
     void save(const ViewState& state);
 
+    /// Called in every frame, at `now` [s]: saves a change that has lasted a moment, so that a
+    /// crash does not lose it. A failure is a warning.
+    void keep(const ViewState& state, double now);
+
  private:
     using Json = nlohmann::ordered_json;
 
     std::filesystem::path file_;
-    Json kept_;     // without the command line
-    Json started_;  // with it
-    Json written_;  // what the file holds
+    Json kept_;               // without the command line
+    Json started_;            // with it
+    Json written_;            // what the file holds
+    ViewState seen_, saved_;  // by keep()
+    double next_look_ = 0.0;  // [s]
 };
 
 }  // namespace kilolux

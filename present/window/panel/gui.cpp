@@ -44,10 +44,13 @@ constexpr Shade kGrays[] = {
     {ImGuiCol_HeaderActive, 0.30f, 1.0f},   {ImGuiCol_Button, 0.24f, 1.0f},
     {ImGuiCol_ScrollbarBg, 0.06f, 0.4f},    {ImGuiCol_Separator, 0.28f, 0.8f}};
 
-constexpr Shade kAmbers[] = {
-    {ImGuiCol_ButtonHovered, 0.62f, 1.0f}, {ImGuiCol_ButtonActive, 0.8f, 1.0f},
-    {ImGuiCol_SliderGrab, 0.85f, 1.0f},    {ImGuiCol_SliderGrabActive, 1.0f, 1.0f},
-    {ImGuiCol_CheckMark, 1.0f, 1.0f},      {ImGuiCol_PlotHistogram, 0.9f, 1.0f}};
+constexpr Shade kAmbers[] = {{ImGuiCol_ButtonHovered, 0.62f, 1.0f},
+                             {ImGuiCol_ButtonActive, 0.8f, 1.0f},
+                             // White digits are drawn over a slider's grip.
+                             {ImGuiCol_SliderGrab, 0.48f, 1.0f},
+                             {ImGuiCol_SliderGrabActive, 0.56f, 1.0f},
+                             {ImGuiCol_CheckMark, 1.0f, 1.0f},
+                             {ImGuiCol_PlotHistogram, 0.9f, 1.0f}};
 
 void set_colors() {
     ImGui::StyleColorsDark();

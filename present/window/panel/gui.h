@@ -5,10 +5,15 @@
 
 #include <optional>
 
-#include "present/window/app/input.h"
-#include "present/window/app/window.h"
+#include "present/window/screen/input.h"
+#include "present/window/screen/window.h"
 
 namespace kilolux {
+
+/// A window that stays where the program puts it.
+inline constexpr ImGuiWindowFlags kPinned =
+    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
 
 /// Dear ImGui in a window: its context, fonts and look, fed with the window's events.
 class Gui {

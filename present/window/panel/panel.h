@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "host/measure/reference/frame_error.h"
 #include "host/measure/roofline/device_limits.h"
 #include "host/measure/roofline/stage_report.h"
 #include "host/render/scene_plan.h"
 #include "host/scene/scene.h"
 #include "present/window/app/view_state.h"
+#include "present/window/overlay/error_measurement.h"
 #include "present/window/panel/stage_history.h"
 #include "present/window/panel/widgets.h"
 
@@ -24,23 +24,15 @@ struct PanelFacts {
     DeviceInfo device{};
     ScenePlan plan{};
     FrameStats stats{};
-    int width = 0;       // of the last picture [pixel]
-    int height = 0;      // [pixel]
-    double scale = 1.0;  // of its edges
-    int samples = 1;     // a pixel that it has, and will have
-    int all_samples = 1;
+    RenderSettings drawn{};  // of the last picture
+    double scale = 1.0;      // of its edges
+    int samples = 1;         // a pixel that it has, of drawn.samples
     StageHistory history{};
     std::optional<DeviceLimits> limits{};
-    const char* picture_way = "";       // how pictures come to the window
-    std::uint64_t device_bytes = 0;     // of our OpenCL buffers
-    std::uint64_t process_bytes = 0;    // resident
-    std::size_t boxes = 0;              // frozen clusters drawn
-    std::optional<FrameError> error{};  // of the picture measured last
-    bool measuring = false;
-    float error_share = 0.0f;  // of the measurement that is done
-    std::string failure{};     // the last one; empty: none
-    std::string notice{};      // a file was saved, text was copied; empty: none
-    float notice_alpha = 1.0f;
+    std::uint64_t device_bytes = 0;   // of our OpenCL buffers
+    std::uint64_t process_bytes = 0;  // resident
+    std::size_t boxes = 0;            // frozen clusters drawn
+    const ErrorMeasurement& error;
 };
 
 /// What input asks for in one frame.

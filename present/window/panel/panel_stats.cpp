@@ -148,7 +148,9 @@ void wrapped(const char* name, const std::string& text) {
 void fact_line(const char* name, const std::string& value) {
     ImGui::TextDisabled("%s", name);
     ImGui::SameLine(ImGui::GetFontSize() * 6.6f);
+    ImGui::PushTextWrapPos();
     ImGui::TextUnformatted(value.c_str());
+    ImGui::PopTextWrapPos();
 }
 
 std::string short_count(std::uint64_t value) {
@@ -166,11 +168,8 @@ void Panel::speed() const {
     if (!ui.section("Speed", true)) return;
     std::vector<StageReport> reports;
     if (facts.limits) {
-        RenderSettings drawn = state.settings;
-        drawn.width = facts.width;
-        drawn.height = facts.height;
-        reports =
-            stage_reports(facts.stats, *facts.limits, frame_setup(drawn, facts.plan, facts.device));
+        reports = stage_reports(facts.stats, *facts.limits,
+                                frame_setup(facts.drawn, facts.plan, facts.device));
     }
     draw_stage_history(facts.history, 6.0f * ImGui::GetFontSize());
     stage_table(facts, reports);
@@ -191,14 +190,14 @@ void Panel::speed() const {
 
 void Panel::error() const {
     if (!ui.section("Error", false)) return;
-    if (facts.measuring) {
-        ImGui::ProgressBar(facts.error_share, {-FLT_MIN, 0.0f}, "float64 reference");
+    if (facts.error.is_open()) {
+        ImGui::ProgressBar(facts.error.share(), {-FLT_MIN, 0.0f}, "float64 reference");
     } else {
         actions.measure_error |= ui.button("Measure error", true);
         ui.tip("Compares this picture, at a reduced size, with float64 and every light");
     }
-    if (!facts.error) return;
-    error_table(*facts.error);
+    if (!facts.error.error()) return;
+    error_table(*facts.error.error());
     ui.checkbox("Error map", state.error_map);
     ui.tip("Shows each pixel's relative error, until camera, lights or settings change");
 }
@@ -209,7 +208,6 @@ void Panel::device() const {
     wrapped("OpenCL", fmt::format("{}, {}, {} units, {} lanes", d.name, d.version, d.compute_units,
                                   d.lane_width));
     wrapped("OpenGL", facts.opengl);
-    wrapped("Picture to the window", facts.picture_way);
     wrapped("Scene", fmt::format("{}, {} triangles, {} instances, {} materials", facts.scene.name,
                                  short_count(facts.triangles), facts.scene.instances.size(),
                                  facts.scene.materials.size()));

@@ -30,7 +30,7 @@ double round_up(double value) {
 
 }  // namespace
 
-void StageHistory::add(const FrameStats& stats, int pixels) {
+void StageHistory::add(const FrameStats& stats, bool as_before) {
     std::vector<double> times(stages_.size(), 0.0);
     for (const StageTime& stage : stats.stages) {
         const auto found = std::find(stages_.begin(), stages_.end(), stage.name);
@@ -41,7 +41,8 @@ void StageHistory::add(const FrameStats& stats, int pixels) {
         }
         times[place] = stage.ms;
     }
-    pictures_.push_back({std::move(times), stats.frame_ms, pixels});
+    const int last = pictures_.empty() ? 0 : pictures_.back().series;
+    pictures_.push_back({std::move(times), stats.frame_ms, as_before ? last : last + 1});
     if (pictures_.size() > kLength) pictures_.pop_front();
 }
 
@@ -70,7 +71,7 @@ double StageHistory::median_frame_ms() const {
 std::vector<std::size_t> StageHistory::recent() const {
     std::vector<std::size_t> out;
     for (std::size_t i = size() - std::min(size(), kRecent); i < size(); ++i) {
-        if (pictures_[i].pixels == pictures_.back().pixels) out.push_back(i);
+        if (pictures_[i].series == pictures_.back().series) out.push_back(i);
     }
     return out;
 }

@@ -14,8 +14,9 @@ class StageHistory {
  public:
     static constexpr std::size_t kLength = 160;  // pictures
 
-    /// `pixels`: of the picture; medians are over pictures of the newest one's size.
-    void add(const FrameStats& stats, int pixels);
+    /// `as_before`: the picture has the settings of the one before. Medians are over pictures of
+    /// the newest one's settings.
+    void add(const FrameStats& stats, bool as_before);
 
     /// Stages in the order of first use. Each keeps its place, and so its colour.
     const std::vector<std::string>& stages() const { return stages_; }
@@ -36,7 +37,7 @@ class StageHistory {
     struct Times {
         std::vector<double> stages;  // [ms]; shorter than stages_ where later ones are unknown
         double frame_ms = 0.0;
-        int pixels = 0;
+        int series = 0;  // pictures of the same settings have the same number
     };
     std::vector<std::size_t> recent() const;
 

@@ -22,10 +22,10 @@ struct Arity {
 
 const std::map<std::string, Arity>& known_steps() {
     static const std::map<std::string, Arity> steps = {
-        {"key", {2, 2}},   {"drag", {4, 5}},      {"move", {2, 2}},   {"wheel", {1, 1}},
-        {"open", {1, 9}},  {"click", {1, 9}},     {"choose", {2, 9}}, {"slide", {2, 9}},
-        {"type", {2, 9}},  {"resize", {2, 2}},    {"frames", {1, 1}}, {"settle", {0, 0}},
-        {"close", {0, 0}}, {"screenshot", {1, 1}}};
+        {"key", {2, 2}},   {"drag", {4, 5}},       {"move", {2, 2}},   {"wheel", {1, 1}},
+        {"open", {1, 9}},  {"click", {1, 9}},      {"choose", {2, 9}}, {"slide", {2, 9}},
+        {"type", {2, 9}},  {"resize", {2, 2}},     {"frames", {1, 1}}, {"settle", {0, 0}},
+        {"close", {0, 0}}, {"screenshot", {1, 1}}, {"away", {0, 0}}};
     return steps;
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "present/window/app/input.h"
-#include "present/window/app/window.h"
 #include "present/window/panel/widgets.h"
+#include "present/window/screen/input.h"
+#include "present/window/screen/window.h"
 
 namespace kilolux {
 

@@ -41,8 +41,8 @@ Keys keys_of(const std::string& place, const std::string& text) {
     std::string rest = text;
     for (std::size_t plus = rest.find('+'); plus != std::string::npos; plus = rest.find('+')) {
         const std::string modifier = rest.substr(0, plus);
-        if (modifier == "Shift") out.modifiers |= GLFW_MOD_SHIFT;
-        if (modifier == "Ctrl") out.modifiers |= GLFW_MOD_CONTROL;
+        const int bits[] = {GLFW_MOD_SHIFT, GLFW_MOD_CONTROL, GLFW_MOD_ALT};
+        out.modifiers |= bits[parse_name(place + ": modifier", modifier, {"Shift", "Ctrl", "Alt"})];
         rest = rest.substr(plus + 1);
     }
     out.key = key_code(place, rest);
@@ -88,6 +88,9 @@ void ScriptPlayer::begin(const ScriptStep& step) {
         add_wait(2);
     } else if (name == "frames") {
         add_wait(static_cast<int>(number(step, 1)));
+    } else if (name == "away") {
+        move_to(-1.0, -1.0);
+        add_wait(2);
     } else if (name == "settle") {
         add_settle();
     } else if (name == "screenshot") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/app/window.h"
+#include "present/window/screen/window.h"
 
 #include <GLFW/glfw3.h>
 
@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
-#include "present/window/app/display_loss.h"
+#include "present/window/screen/display_loss.h"
 
 namespace kilolux {
 namespace {
@@ -93,6 +93,7 @@ void Window::install_callbacks() {
 }
 
 void Window::make_current() const { glfwMakeContextCurrent(window_); }
+void Window::make_none_current() { glfwMakeContextCurrent(nullptr); }
 
 void Window::wait_events(double seconds) const {
     if (seconds > 0.0) {

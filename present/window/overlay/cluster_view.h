@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -41,9 +40,15 @@ void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera
 /// "59,126  depth 2.50 m", or that nothing was drawn there.
 std::string pixel_line(const ProbedPixel& pixel);
 
-/// A box of text about the pixel: tile, slice, size, and the list's lights. `corner`: its lower
-/// right.
-void describe_probe(const ProbedPixel& pixel, const std::array<float, 2>& corner, float scale);
+/// A box of text about the pixel in the lower right of the picture: tile, slice, size, and as many
+/// of the list's lights as it has room for.
+void describe_probe(const ProbedPixel& pixel, const ScreenPlace& place, float scale);
+
+/// Lights of the longest list, at least 1.
+uint longest_list(const FrozenClusters& frozen);
+
+/// Which colour means how many lights, in the lower left of the picture.
+void describe_box_colors(uint most, const ScreenPlace& place, float scale);
 
 /// Boxes for BoxPass, coloured by the length of their lists. Clusters of fewer than `least` lights
 /// are left out.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/app/display_loss.h"
+#include "present/window/screen/display_loss.h"
 
 #include <X11/Xlib.h>
 #include <unistd.h>

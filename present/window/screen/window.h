@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "present/window/app/input.h"
+#include "present/window/screen/input.h"
 #include "raster/gl_debug.h"
 
 struct GLFWwindow;
@@ -34,6 +34,7 @@ class Window {
     Window& operator=(const Window&) = delete;
 
     void make_current() const;
+    static void make_none_current();  // in this thread
 
     /// `take` gets every event, a person's and a script's.
     void on_event(std::function<void(const InputEvent&)> take) { take_ = std::move(take); }

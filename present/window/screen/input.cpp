@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/app/input.h"
+#include "present/window/screen/input.h"
 
 #include <GLFW/glfw3.h>
 
@@ -23,6 +23,16 @@ void InputState::take(const InputEvent& event) {
         keys_.clear();
         buttons_.fill(false);
     }
+}
+
+bool InputState::is_shift_down() const {
+    return is_down(GLFW_KEY_LEFT_SHIFT) || is_down(GLFW_KEY_RIGHT_SHIFT);
+}
+bool InputState::is_control_down() const {
+    return is_down(GLFW_KEY_LEFT_CONTROL) || is_down(GLFW_KEY_RIGHT_CONTROL);
+}
+bool InputState::is_alt_down() const {
+    return is_down(GLFW_KEY_LEFT_ALT) || is_down(GLFW_KEY_RIGHT_ALT);
 }
 
 void InputState::take_key(const KeyEvent& event) {

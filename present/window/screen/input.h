@@ -51,6 +51,10 @@ class InputState {
     void end_frame();
 
     bool is_down(int key) const { return keys_.contains(key); }
+    // Either key of the two.
+    bool is_shift_down() const;
+    bool is_control_down() const;
+    bool is_alt_down() const;
     bool is_button_down(std::size_t button) const { return buttons_.at(button); }
     /// Down now, or pressed and released since the last frame.
     bool was_button_down(std::size_t button) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/window/app/cluster_view.h"
+#include "present/window/overlay/cluster_view.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -17,10 +17,15 @@ namespace {
 constexpr ImU32 kActiveColor = IM_COL32(255, 255, 255, 230);
 constexpr ImU32 kCoarseColor = IM_COL32(90, 200, 255, 150);
 constexpr std::size_t kShownLights = 12;
+constexpr float kProbeWidth = 400.0f;  // for a font of 15 pixels
 
 glm::dvec3 to_world(const Camera& camera, const glm::dvec3& view) {
     return camera.world_from_view * view + camera.position;
 }
+
+// Of a list with this share of the longest one's lights. Starts at a quarter: the dark end of the
+// heat map is invisible over dark pictures.
+DisplayColor color_of_list(double share) { return heat_color(0.25 + 0.75 * share); }
 
 double brightness(const glm::dvec3& radiance) {
     return std::max({radiance.x, radiance.y, radiance.z});
@@ -71,12 +76,14 @@ void share_row(const LightContribution& share, double total) {
     ImGui::TextUnformatted(ends ? fmt::format("{:.2f} m", share.range).c_str() : "none");
     ImGui::TableNextColumn();
     const double part = total > 0.0 ? brightness(share.radiance) / total : 0.0;
-    const std::string text =
-        share.hidden ? "hidden" : fmt::format("{:.3g}", brightness(share.radiance));
+    const std::string text = *share.why_dark != '\0'
+                                 ? share.why_dark
+                                 : fmt::format("{:.3g}", brightness(share.radiance));
     ImGui::ProgressBar(static_cast<float>(part), {-FLT_MIN, ImGui::GetFontSize()}, text.c_str());
 }
 
-void describe_lights(const ProbedPixel& pixel) {
+// `most`: rows of the table.
+void describe_lights(const ProbedPixel& pixel, std::size_t most) {
     double total = 0.0;
     std::size_t reaching = 0;
     for (const LightContribution& share : pixel.shares) {
@@ -90,7 +97,7 @@ void describe_lights(const ProbedPixel& pixel) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", text);
     }
-    const std::size_t shown = std::min(pixel.shares.size(), kShownLights);
+    const std::size_t shown = std::min(pixel.shares.size(), most);
     for (std::size_t i = 0; i < shown; ++i) share_row(pixel.shares[i], total);
     ImGui::EndTable();
     if (pixel.shares.size() > shown) {
@@ -98,7 +105,7 @@ void describe_lights(const ProbedPixel& pixel) {
     }
 }
 
-void describe_lists(const ProbedPixel& pixel) {
+void describe_lists(const ProbedPixel& pixel, std::size_t most) {
     const PixelProbe& p = pixel.probe;
     fact_line("Coarse", fmt::format("tile {}, {}  slice {}  {} lights", p.tile_x, p.tile_y, p.slice,
                                     p.coarse_count));
@@ -109,7 +116,7 @@ void describe_lists(const ProbedPixel& pixel) {
                                         a.max_z - a.min_z));
     }
     if (p.has_list) {
-        describe_lights(pixel);
+        describe_lights(pixel, most);
     } else {
         ImGui::TextDisabled("this renderer evaluates every light at every pixel");
     }
@@ -181,9 +188,13 @@ std::string pixel_line(const ProbedPixel& pixel) {
     return place + fmt::format("depth {:.2f} m", pixel.probe.surface[SURFACE_DEPTH]);
 }
 
-void describe_probe(const ProbedPixel& pixel, const std::array<float, 2>& corner, float scale) {
-    ImGui::SetNextWindowPos({corner[0], corner[1]}, ImGuiCond_Always, {1.0f, 1.0f});
-    ImGui::SetNextWindowSize({scale * 400.0f, 0.0f});
+void describe_probe(const ProbedPixel& pixel, const ScreenPlace& place, float scale) {
+    const float margin = 10.0f * scale;
+    const float height = place.y1 - place.y0 - 2.0f * margin;
+    ImGui::SetNextWindowPos({place.x1 - margin, place.y1 - margin}, ImGuiCond_Always, {1.0f, 1.0f});
+    ImGui::SetNextWindowSize(
+        {std::min(kProbeWidth * scale, place.x1 - place.x0 - 2.0f * margin), 0.0f});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {FLT_MAX, height});
     ImGui::SetNextWindowBgAlpha(0.85f);
     ImGui::Begin("probe", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -194,19 +205,49 @@ void describe_probe(const ProbedPixel& pixel, const std::array<float, 2>& corner
         const glm::dvec3 world = to_world(
             pixel.camera, {s[SURFACE_POSITION], s[SURFACE_POSITION + 1], s[SURFACE_POSITION + 2]});
         fact_line("Position", fmt::format("{:.2f}, {:.2f}, {:.2f} m", world.x, world.y, world.z));
-        describe_lists(pixel);
+        // Ten lines stand around the table; long ones wrap.
+        const float rows = height / ImGui::GetTextLineHeightWithSpacing() - 10.0f;
+        describe_lists(pixel,
+                       static_cast<std::size_t>(std::clamp(rows, 1.0f, 1.0f * kShownLights)));
     }
     ImGui::End();
 }
 
-std::vector<DrawnBox> boxes_of(const FrozenClusters& frozen, uint least) {
+uint longest_list(const FrozenClusters& frozen) {
     uint most = 1;
     for (const ActiveCluster& c : frozen.clusters) most = std::max(most, c.list_count);
+    return most;
+}
+
+void describe_box_colors(uint most, const ScreenPlace& place, float scale) {
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const std::string ends[2] = {"1 light", fmt::format("{}", most)};
+    const float line = ImGui::GetTextLineHeight(), margin = 10.0f * scale;
+    const float step = 5.0f * scale;
+    constexpr int kSteps = 24;
+    const float left = place.x0 + margin, top = place.y1 - margin - line;
+    const float bar = left + ImGui::CalcTextSize(ends[0].c_str()).x + margin;
+    const float right = bar + kSteps * step + margin;
+    draw.AddRectFilled(
+        {left - 0.5f * margin, top - 0.5f * margin},
+        {right + ImGui::CalcTextSize(ends[1].c_str()).x + 0.5f * margin, place.y1 - 0.5f * margin},
+        IM_COL32(0, 0, 0, 170), 4.0f * scale);
+    for (int i = 0; i < kSteps; ++i) {
+        const DisplayColor c = color_of_list(i / (kSteps - 1.0));
+        draw.AddRectFilled({bar + step * static_cast<float>(i), top},
+                           {bar + step * static_cast<float>(i + 1), top + line},
+                           IM_COL32(c[0], c[1], c[2], 255));
+    }
+    draw.AddText({left, top}, IM_COL32_WHITE, ends[0].c_str());
+    draw.AddText({right, top}, IM_COL32_WHITE, ends[1].c_str());
+}
+
+std::vector<DrawnBox> boxes_of(const FrozenClusters& frozen, uint least) {
+    const uint most = longest_list(frozen);
     std::vector<DrawnBox> boxes;
     for (const ActiveCluster& c : frozen.clusters) {
         if (c.list_count < least) continue;
-        // Starts at a quarter: the dark end of the heat map is invisible over dark pictures.
-        const DisplayColor code = heat_color(0.25 + 0.75 * c.list_count / most);
+        const DisplayColor code = color_of_list(1.0 * c.list_count / most);
         const glm::vec3 color = glm::vec3(code[0], code[1], code[2]) / 255.0f;
         boxes.push_back(
             {{c.min_x, c.min_y, c.min_z}, {c.max_x, c.max_y, c.max_z}, glm::vec4(color, 0.85f)});

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/scene/animated_scene.h"
+#include "present/cli/options.h"
+#include "present/window/app/awaited.h"
+#include "present/window/app/render_worker.h"
+#include "present/window/app/view_state.h"
+
+namespace kilolux {
+
+/// The lights that a rig adds to the scene. The panel chooses another rig; the worker then replaces
+/// the lights.
+class SceneLights {
+ public:
+    /// `asked`: the options before light_scene(); `settled`: after it.
+    SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions settled, Rig rig)
+        : scene_(scene), asked_(std::move(asked)), settled_(std::move(settled)), rig_(rig) {}
+
+    /// Asks for the lights of the state's rig; `settings`: of the next picture.
+    void replace(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
+    /// Takes them, and into the state what they decide. After a failure the former ones stay.
+    void take(ViewState& state, const OnFailure& failed);
+    bool are_changing() const { return relit_.is_open(); }
+
+    /// The command line counts no longer for lights: those of the program's defaults.
+    void forget_command_line(const RenderSettings& defaults);
+
+    Rig rig() const { return rig_; }  // of the lights that the scene has
+    const SharedOptions& options() const { return settled_; }
+
+ private:
+    struct Relit {
+        SharedOptions options;  // settled
+        std::string line;       // what light_scene() says
+    };
+
+    AnimatedScene& scene_;  // its lights are the worker's
+    SharedOptions asked_, settled_;
+    Rig rig_;
+    Awaited<Relit> relit_;
+};
+
+}  // namespace kilolux

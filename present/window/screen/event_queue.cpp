@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/window/screen/event_queue.h"
+
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+
+namespace kilolux {
+namespace {
+
+bool is_press(const InputEvent& event) {
+    const auto* button = std::get_if<ButtonEvent>(&event);
+    return button != nullptr && button->action == GLFW_PRESS;
+}
+
+bool is_typed(const InputEvent& event) {
+    return std::holds_alternative<KeyEvent>(event) || std::holds_alternative<TextEvent>(event);
+}
+
+// Releases do not count: a key that is down must come up.
+bool asks_for_something(const InputEvent& event) {
+    const auto* key = std::get_if<KeyEvent>(&event);
+    if (key != nullptr) return key->action != GLFW_RELEASE;
+    return is_press(event) || std::holds_alternative<TextEvent>(event) ||
+           std::holds_alternative<WheelEvent>(event);
+}
+
+}  // namespace
+
+std::vector<InputEvent> EventQueue::take(double busy_seconds) {
+    if (busy_seconds > kStaleSeconds) std::erase_if(waiting_, asks_for_something);
+    press_frames_ = std::max(press_frames_ - 1, 0);
+    std::vector<InputEvent> out;
+    while (!waiting_.empty() && !(press_frames_ > 0 && is_typed(waiting_.front()))) {
+        if (is_press(waiting_.front())) press_frames_ = kPressFrames;
+        out.push_back(waiting_.front());
+        waiting_.pop_front();
+    }
+    return out;
+}
+
+}  // namespace kilolux

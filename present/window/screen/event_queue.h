@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "present/window/screen/input.h"
+
+namespace kilolux {
+
+/// Events between the window system and the session, in their order.
+class EventQueue {
+ public:
+    /// What asks for something and has waited this long is dropped [s]: the user has meant it for
+    /// another picture.
+    static constexpr double kStaleSeconds = 0.5;
+    /// Frames that a press of the mouse needs until the widget under it takes the keys.
+    static constexpr int kPressFrames = 2;
+
+    void post(const InputEvent& event) { waiting_.push_back(event); }
+
+    /// The events of this frame. Keys and text after a press of the mouse, and what follows them,
+    /// wait until the press has had its effect. `busy_seconds`: how long nobody took events.
+    std::vector<InputEvent> take(double busy_seconds);
+
+    bool empty() const { return waiting_.empty(); }
+
+ private:
+    std::deque<InputEvent> waiting_;
+    int press_frames_ = 0;  // until the last press has had its effect
+};
+
+}  // namespace kilolux
