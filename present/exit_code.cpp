@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "host/base/error.h"
@@ -35,6 +36,8 @@ int fail(const std::exception_ptr& failure) {
         return fail(3, error.what());
     } catch (const std::bad_alloc&) {
         return fail(1, "out of memory");
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(1, (error.path1().string() + ": " + error.code().message()).c_str());
     } catch (const std::exception& error) {
         return fail(1, error.what());
     } catch (...) {

@@ -169,6 +169,8 @@ std::vector<std::string> option_names(const CLI::App& command) {
 
 void refuse_extras(const CLI::App& command, const std::vector<std::string>& extras) {
     if (extras.empty()) return;
+    // CLI11 keeps the mark behind which arguments begin with no option.
+    if (extras[0] == "--") return refuse_extras(command, {extras.begin() + 1, extras.end()});
     const std::string name = extras[0].substr(0, extras[0].find('='));
     if (name.size() > 1 && name[0] == '-') {
         if (command.get_name() == "bench" && (name == "--turntable" || name == "--camera-keys")) {

@@ -147,6 +147,11 @@ std::string gl_string(GLenum name) {
     return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
+bool has_egl() {
+    static const bool is_there = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL) != nullptr;
+    return is_there;
+}
+
 // The loader of OpenGL's functions ends the program where there is no EGL.
 void require_egl() {
     if (has_egl()) return;
@@ -159,6 +164,7 @@ void require_egl() {
 
 GlContext GlContext::headless(std::string_view platform) {
     require_egl();
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // what fails is in the Error
     const char* variable = std::getenv("KILOLUX_EGL");
     const std::string wanted(platform.empty() && variable != nullptr ? variable : platform);
     std::string tried;
@@ -198,11 +204,6 @@ void GlContext::make_current() const {
     if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_.get())) {
         throw Error("EGL: " + platform_ + ": eglMakeCurrent: " + egl_error());
     }
-}
-
-bool has_egl() {
-    static const bool is_there = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL) != nullptr;
-    return is_there;
 }
 
 bool is_software_renderer() {

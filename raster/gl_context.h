@@ -41,9 +41,6 @@ class GlContext {
     std::unique_ptr<void, Deleter> context_;
 };
 
-/// Whether EGL's library is there at all.
-bool has_egl();
-
 /// Whether the current context draws on the CPU (llvmpipe, softpipe, swrast).
 bool is_software_renderer();
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Included by ctest: adds its entries for PROGRAM, a Google Test program, from LIST, a file made anew when PROGRAM is
 # newer. An entry is the cases whose full names begin alike: with what the regular expression ENTRY matches. What
-# follows the name's PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry; one whose name matches
-# SERIAL runs alone.
+# follows the name's PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry. Entries that the regular
+# expression UNIT matches also have the label `unit`; one whose name matches SERIAL runs alone.
 cmake_minimum_required(VERSION 3.22)
 
 if(NOT EXISTS ${PROGRAM})
@@ -46,7 +46,8 @@ endfunction()
 # An entry is skipped when all of its cases are. Google Test lists those that were skipped last, unless one failed.
 set(skipped "\\[  PASSED  \\] 0 tests\\.\n+(\\[  SKIPPED \\][^\n]*\n+)+$")
 
-if(NOT EXISTS ${LIST} OR ${PROGRAM} IS_NEWER_THAN ${LIST} OR ${CMAKE_CURRENT_LIST_FILE} IS_NEWER_THAN ${LIST})
+if(NOT EXISTS ${LIST} OR ${PROGRAM} IS_NEWER_THAN ${LIST} OR ${CMAKE_CURRENT_LIST_FILE} IS_NEWER_THAN ${LIST}
+   OR ${CMAKE_PARENT_LIST_FILE} IS_NEWER_THAN ${LIST})
   kilolux_cases(${PROGRAM} cases)
   kilolux_filters("${cases}" "${ENTRY}" filters)
   set(text "")
@@ -60,6 +61,9 @@ if(NOT EXISTS ${LIST} OR ${PROGRAM} IS_NEWER_THAN ${LIST} OR ${CMAKE_CURRENT_LIS
       string(APPEND text " RUN_SERIAL TRUE")
     endif()
     string(APPEND text ")\n")
+    if(UNIT AND filter MATCHES "${UNIT}")
+      string(APPEND text "set_tests_properties([==[${PREFIX}${filter}]==] PROPERTIES LABELS [==[${FOLDER};unit]==])\n")
+    endif()
   endforeach()
   file(WRITE ${LIST} "${text}")
 endif()

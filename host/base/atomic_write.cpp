@@ -20,11 +20,17 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// A rename onto a link would replace the link: its target instead.
-fs::path target_of(const fs::path& file) {
+// A rename onto a link would replace the link: its target instead, also where that is not there.
+fs::path target_of(fs::path file) {
+    constexpr int kMostLinks = 40;  // as Linux follows (path_resolution(7))
     std::error_code error;
-    const fs::path target = fs::canonical(file, error);
-    return error ? file : target;
+    for (int link = 0; link < kMostLinks && fs::is_symlink(fs::symlink_status(file, error));
+         ++link) {
+        const fs::path target = fs::read_symlink(file, error);
+        if (error) break;
+        file = folder_of(file) / target;
+    }
+    return file;
 }
 
 // A device, pipe or socket, which a rename would replace.
@@ -35,7 +41,8 @@ bool is_special(const fs::path& file) {
 }
 
 void refuse_folder(const fs::path& file) {
-    if (!fs::is_directory(file)) return;
+    std::error_code error;
+    if (!fs::is_directory(file, error)) return;
     errno = EISDIR;
     fail_to_write(file);
 }
@@ -98,7 +105,8 @@ void check_can_write(const fs::path& file) {
     if (is_special(file)) return;
     refuse_folder(file);
     const fs::path folder = folder_of(target_of(file));
-    if (!fs::is_directory(folder)) {
+    std::error_code error;
+    if (!fs::is_directory(folder, error)) {
         throw Error(file.string() + ": cannot write: there is no folder " + folder.string());
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0) fail_to_write(file);

@@ -24,7 +24,7 @@ void Findings::at_most(std::string_view what, const Worst& worst, double limit) 
 
 void Findings::at_most(std::string_view what, double value, double limit, std::string_view where) {
     Worst worst;
-    worst.see(value, [&] { return std::string(where); });
+    worst.add(value, [&] { return std::string(where); });
     at_most(what, worst, limit);
 }
 
@@ -41,7 +41,7 @@ void Findings::report(std::string_view what, double value) {
     at_most(what, value, std::numeric_limits<double>::infinity());
 }
 
-void Findings::tried(std::string_view what, std::uint64_t count, std::uint64_t least) {
+void Findings::at_least(std::string_view what, std::uint64_t count, std::uint64_t least) {
     if (count >= least) return;
     none(fmt::format("too few {}", what), least - count, least,
          fmt::format("{} of {}", count, least));

@@ -18,7 +18,7 @@ struct Worst {
 
     /// Takes an error into account. `place()` gives the text; called only for a new worst.
     template <typename Place>
-    void see(double error, Place&& place) {
+    void add(double error, Place&& place) {
         ++checked;
         if (error <= value) return;
         value = std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
@@ -46,7 +46,7 @@ class Findings {
     /// Reported without a limit.
     void report(std::string_view what, double value);
     /// Fails a case that tries too little: `count` must be at least `least`.
-    void tried(std::string_view what, std::uint64_t count, std::uint64_t least);
+    void at_least(std::string_view what, std::uint64_t count, std::uint64_t least);
 
     /// Adds what the same case found in another run.
     void merge(const Findings& other);

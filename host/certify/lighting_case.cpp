@@ -178,7 +178,7 @@ void check_exact(Findings& findings, const LightingCase& input, const DeviceResu
                 const float v = result.radiance(x, y, c);
                 const bool valid =
                     drawn ? std::isfinite(v) && v >= 0.0f : std::bit_cast<uint>(v) == 0;
-                (drawn ? number : background).see(valid ? 0.0 : 1.0, place);
+                (drawn ? number : background).add(valid ? 0.0 : 1.0, place);
             }
         }
     }
@@ -220,7 +220,7 @@ DeviceResult check_lists(Findings& findings, const Gpu& gpu, const LightingCase&
                          std::uint64_t least_pairs) {
     DeviceResult result = light_on_device(gpu, input);
     const std::uint64_t reaching = check_none_missing(findings, input, result);
-    findings.tried("pairs that reach", reaching, least_pairs);
+    findings.at_least("pairs that reach", reaching, least_pairs);
     check_exact(findings, input, result);
     return result;
 }
@@ -254,7 +254,7 @@ Worst error_against_r1(const LightingCase& input, const DeviceResult& result) {
             const double expected = r1.radiance.rgb[i];
             const double scale = std::max(expected, r1.scale.rgb[i]);
             const double difference = std::abs(result.radiance(x, y, c) - expected);
-            worst.see(scale > 0.0 ? difference / scale : difference,
+            worst.add(scale > 0.0 ? difference / scale : difference,
                       [&] { return at_pixel(x, y); });
         }
     });

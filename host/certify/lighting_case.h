@@ -94,7 +94,7 @@ template <typename Error>
 Worst worst_of_drawn(const LightingCase& input, Error&& error) {
     Worst worst;
     for_each_drawn(input,
-                   [&](uint x, uint y) { worst.see(error(x, y), [&] { return at_pixel(x, y); }); });
+                   [&](uint x, uint y) { worst.add(error(x, y), [&] { return at_pixel(x, y); }); });
     return worst;
 }
 

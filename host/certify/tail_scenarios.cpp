@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-constexpr int kLights = 60;
+constexpr int kTailLights = 60;
 
 SceneLight light_at(const glm::dvec3& position, float intensity) {
     SceneLight light;
@@ -36,7 +36,7 @@ TailScenario start(const char* name) {
 
 TailScenario among_lights() {
     TailScenario out = start("camera among the lights");
-    for (int i = 0; i < kLights; ++i) {
+    for (int i = 0; i < kTailLights; ++i) {
         const glm::dvec3 off(spread(i, 0.618034), spread(i, 0.32472), spread(i, 0.754878));
         out.scene.lights.push_back(light_at(out.camera.position + off - 0.5, 20.0f));
     }
@@ -46,8 +46,8 @@ TailScenario among_lights() {
 TailScenario spread_intensities() {
     TailScenario out = start("intensities over e^40");
     const Box box = bounds(out.scene);
-    for (int i = 0; i < kLights; ++i) {
-        const double exponent = -20.0 + 40.0 * i / (kLights - 1);
+    for (int i = 0; i < kTailLights; ++i) {
+        const double exponent = -20.0 + 40.0 * i / (kTailLights - 1);
         out.scene.lights.push_back(
             light_at(place_above(box, i), static_cast<float>(std::exp(exponent))));
     }
@@ -57,7 +57,7 @@ TailScenario spread_intensities() {
 TailScenario outshone() {
     TailScenario out = start("one outshines the rest");
     const Box box = bounds(out.scene);
-    for (int i = 0; i < kLights; ++i) {
+    for (int i = 0; i < kTailLights; ++i) {
         out.scene.lights.push_back(light_at(place_above(box, i), i == 7 ? 1e12f : 1.0f));
     }
     return out;
@@ -66,7 +66,7 @@ TailScenario outshone() {
 TailScenario spots() {
     TailScenario out = start("spots and points");
     const Box box = bounds(out.scene);
-    for (int i = 0; i < kLights; ++i) {
+    for (int i = 0; i < kTailLights; ++i) {
         SceneLight light = light_at(place_above(box, i), 3.0f);
         if (i % 2 == 0) {
             light.type = LightType::spot;
@@ -82,7 +82,7 @@ TailScenario spots() {
 TailScenario touching() {
     TailScenario out = start("at a surface");
     const Box box = bounds(out.scene);
-    for (int i = 0; i < kLights; ++i) {
+    for (int i = 0; i < kTailLights; ++i) {
         glm::dvec3 at = place_above(box, i);
         at.y = box.max.y + 1e-6;
         out.scene.lights.push_back(light_at(at, 1.0f));

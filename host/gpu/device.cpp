@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/device.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
 #include "host/base/error.h"
 #include "host/base/text.h"
+#include "host/gpu/pocl_cache.h"
 #include "host/gpu/program.h"
 
 namespace kilolux {
@@ -64,6 +67,15 @@ bool shares_host_memory(const cl::Device& device) {
     return (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
 }
 
+// Drivers' threads are those of the process that started them.
+void refuse_after_fork() {
+    static const pid_t first = ::getpid();
+    if (::getpid() == first) return;
+    throw Error(
+        "OpenCL: this process was forked from one that used OpenCL; start it anew (Python: "
+        "multiprocessing's start method 'spawn')");
+}
+
 }  // namespace
 
 DeviceInfo describe(const cl::Device& device) {
@@ -85,6 +97,8 @@ DeviceInfo describe(const cl::Device& device) {
 }
 
 std::vector<cl::Device> all_devices() {
+    refuse_after_fork();
+    prepare_pocl();
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);
@@ -104,12 +118,16 @@ std::vector<cl::Device> all_devices() {
     return all;
 }
 
-cl::Device choose_device(std::string_view choice) {
+namespace {
+
+cl::Device device_of(std::string_view choice) {
     const std::vector<cl::Device> devices = all_devices();
     if (devices.empty()) {
-        throw Error(
-            "OpenCL: no device found; install a driver, e.g. the package pocl-opencl-icd (OpenCL "
-            "on the CPU)");
+        const std::string& missing = prepare_pocl();
+        throw Error("OpenCL: no device found; " +
+                    (missing.empty() ? "install a driver, e.g. the package pocl-opencl-icd (OpenCL "
+                                       "on the CPU)"
+                                     : missing));
     }
     if (choice.empty()) {
         const auto gpu = std::find_if(devices.begin(), devices.end(), is_gpu);
@@ -126,6 +144,17 @@ cl::Device choose_device(std::string_view choice) {
     }
     throw Error("OpenCL: no device '" + std::string(choice) +
                 "'; the devices are, by index: " + list_of(devices));
+}
+
+}  // namespace
+
+cl::Device choose_device(std::string_view choice) {
+    cl::Device device = device_of(choice);
+    const std::string& missing = prepare_pocl();
+    if (!missing.empty() && describe(device).platform == "Portable Computing Language") {
+        throw Error("OpenCL: " + describe(device).name + ": " + missing);
+    }
+    return device;
 }
 
 Gpu::Gpu(const cl::Device& chosen, int lane_width)

@@ -55,15 +55,15 @@ std::string head_lines(const DeviceInfo& device, CacheKind kind) {
 
 // A file that only this user could have written: nobody else's numbers decide how kernels are
 // built.
-bool is_ours(int descriptor) {
+bool is_ours(int descriptor, std::size_t most_bytes) {
     struct stat status = {};
     return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
            status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0 &&
-           status.st_size <= static_cast<off_t>(kLargestEntry);
+           status.st_size <= static_cast<off_t>(most_bytes);
 }
 
-std::string read_all(int descriptor) {
-    std::string text(kLargestEntry, '\0');
+std::string read_all(int descriptor, std::size_t most_bytes) {
+    std::string text(most_bytes, '\0');
     std::size_t size = 0;
     while (size < text.size()) {
         const ssize_t count = ::read(descriptor, text.data() + size, text.size() - size);
@@ -72,16 +72,6 @@ std::string read_all(int descriptor) {
         size += static_cast<std::size_t>(count);
     }
     text.resize(size);
-    return text;
-}
-
-// The whole file; empty when there is none or it is no entry of ours.
-std::string read_entry(const fs::path& file) {
-    // Neither through a link nor waiting for a pipe's other end.
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (descriptor < 0) return {};
-    std::string text = is_ours(descriptor) ? read_all(descriptor) : std::string();
-    ::close(descriptor);
     return text;
 }
 
@@ -152,6 +142,21 @@ fs::path cache_folder() {
     return home.empty() ? fs::path() : home / ".cache" / "kilolux";
 }
 
+std::string read_cache_file(const fs::path& file, std::size_t most_bytes) {
+    // Neither through a link nor waiting for a pipe's other end.
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0) return {};
+    std::string text =
+        is_ours(descriptor, most_bytes) ? read_all(descriptor, most_bytes) : std::string();
+    ::close(descriptor);
+    return text;
+}
+
+void write_cache_file(const fs::path& file, std::string_view bytes) {
+    make_folder(file.parent_path());
+    write_atomically(file, bytes, FileAccess::owner_only);
+}
+
 fs::path device_cache_file(const DeviceInfo& device, CacheKind kind) {
     const fs::path folder = cache_folder();
     if (folder.empty()) return {};
@@ -162,7 +167,7 @@ fs::path device_cache_file(const DeviceInfo& device, CacheKind kind) {
 std::optional<CacheValues> read_device_cache(const DeviceInfo& device, CacheKind kind) {
     const fs::path file = device_cache_file(device, kind);
     if (file.empty()) return std::nullopt;
-    const std::string entry = read_entry(file);
+    const std::string entry = read_cache_file(file, kLargestEntry);
     if (entry.empty()) return std::nullopt;
     auto values = parse_entry(entry, head_lines(device, kind));
     if (!values) detail("cache: " + file.string() + ": not used: damaged or of another version");
@@ -172,8 +177,7 @@ std::optional<CacheValues> read_device_cache(const DeviceInfo& device, CacheKind
 void write_device_cache(const DeviceInfo& device, CacheKind kind, const CacheValues& values) {
     const fs::path file = device_cache_file(device, kind);
     if (file.empty()) throw Error("cache: no folder: neither XDG_CACHE_HOME nor HOME is a path");
-    make_folder(file.parent_path());
-    write_atomically(file, entry_text(head_lines(device, kind), values), FileAccess::owner_only);
+    write_cache_file(file, entry_text(head_lines(device, kind), values));
 }
 
 }  // namespace kilolux

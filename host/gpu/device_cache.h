@@ -25,6 +25,13 @@ struct CacheKind {
 /// not count).
 std::filesystem::path cache_folder();
 
+/// A whole file of that folder; empty when there is none of at most `most_bytes` that belongs to
+/// this user and only this user may write.
+std::string read_cache_file(const std::filesystem::path& file, std::size_t most_bytes);
+
+/// Writes it beside its place and renames it, readable by its owner only. Throws Error.
+void write_cache_file(const std::filesystem::path& file, std::string_view bytes);
+
 /// Where the entry of a device lies: one file for each device, driver and kind; empty without a
 /// folder.
 std::filesystem::path device_cache_file(const DeviceInfo& device, CacheKind kind);

@@ -55,4 +55,6 @@ void apply_ocio(std::span<float> rgb, int width, const std::string& configuratio
     library().ocio(rgb, width, configuration, options);
 }
 
+TextMask text_mask(const std::string& text, int size) { return library().text(text, size); }
+
 }  // namespace kilolux

@@ -35,9 +35,12 @@ struct ImageLayout {
     int width = 0;                       // [pixel]
     int height = 0;                      // [pixel]
     std::vector<ImageChannel> channels;  // in the order of a pixel's samples
-    // By OpenImageIO's names. A file that is read leaves them empty.
+    // By OpenImageIO's names. Of a file that is read only "chromaticities": x and y of red, green,
+    // blue and white.
     std::vector<std::pair<std::string, ImageAttribute>> attributes{};
     bool associated_alpha = false;  // of a file that is read: its colours are multiplied by alpha
+    // Of a file that is read: x and y of red, green, blue and white (CIE 1931); else empty.
+    std::vector<float> chromaticities{};
 
     std::size_t pixels() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -91,5 +94,16 @@ struct OcioOptions {
 /// reason, UsageError for displays, views and spaces that the configuration file lacks.
 void apply_ocio(std::span<float> rgb, int width, const std::string& configuration,
                 const OcioOptions& options);
+
+/// A line of text as coverage, 0..255 a pixel, row 0 on top.
+struct TextMask {
+    int width = 0;   // [pixel]
+    int height = 0;  // [pixel]; the same for all texts of a size
+    std::vector<unsigned char> coverage;
+};
+
+/// `text` in DejaVu Sans Mono, whose characters are all as wide, of `size` pixels from one line to
+/// the next. Throws Error with OpenImageIO's reason, e.g. where the font is missing.
+TextMask text_mask(const std::string& text, int size);
 
 }  // namespace kilolux

@@ -11,6 +11,7 @@ struct ImageLibrary {
     decltype(&open_image) open_file;
     decltype(&open_encoded) open_bytes;
     decltype(&apply_ocio) ocio;
+    decltype(&text_mask) text;
 };
 
 }  // namespace kilolux

@@ -18,9 +18,16 @@ constexpr std::string_view kGbufferBridgeStage = "gbuffer_bridge";
 
 void wait_for(GLsync fence) {
     constexpr GLuint64 kSecond = 1'000'000'000;
+    constexpr int kMostSeconds = 600;  // no frame takes as long, a driver that hangs does
     GLenum status = GL_TIMEOUT_EXPIRED;
-    while (status == GL_TIMEOUT_EXPIRED) {
+    for (int second = 0; status == GL_TIMEOUT_EXPIRED && second < kMostSeconds; ++second) {
         status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond);
+    }
+    if (status == GL_TIMEOUT_EXPIRED) {
+        throw Error(
+            fmt::format("gbuffer_bridge: OpenGL has not made a frame in {} s: its driver "
+                        "hangs",
+                        kMostSeconds));
     }
     if (status == GL_WAIT_FAILED) {
         check_gl_errors(kGbufferBridgeStage);

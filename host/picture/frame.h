@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/gpu/stage_info.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/shadow.h"
 
@@ -26,14 +27,14 @@ struct Layer {
 struct StageTime {
     std::string name;
     double ms = 0.0;
-    double limit_ms = 0.0;  // by the device's measured limits; 0: no model
+    double limit_ms = 0.0;  // by the device's measured limits; 0: none
 };
 
-/// Rows of no kernel: bringing pixels to the host, with what the host does there; the device's
-/// idling between commands, of which the next was enqueued, or was not.
-inline constexpr const char* kReadBackStage = "read_back";
-inline constexpr const char* kLaunchStage = "launch";
-inline constexpr const char* kEnqueueStage = "enqueue";
+/// Rows measured on the host, not by a kernel: bringing pixels to the host, with what the host does
+/// there; the device's idling between commands, of which the next was enqueued, or was not.
+inline constexpr StageInfo kReadBackStage = {"read_back", StageGroup::host};
+inline constexpr StageInfo kLaunchStage = {"launch", StageGroup::host};
+inline constexpr StageInfo kEnqueueStage = {"enqueue", StageGroup::host};
 
 /// Adds to the stage's time, or appends the stage.
 inline void add_stage_time(std::vector<StageTime>& stages, std::string_view name, double ms) {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "host/picture/view_font.h"
+#include "host/images/images.h"
 
 namespace kilolux {
 namespace {
@@ -24,15 +24,11 @@ constexpr std::array<DisplayColor, 9> kHeat = {{{0, 0, 4},
 constexpr DisplayColor kPaper = {0, 0, 0};
 constexpr DisplayColor kInk = {255, 255, 255};
 
+constexpr int kLegendLine = 10;  // of text, at a zoom of 1 [pixel]
+
 std::string number_text(double value) {
     const bool small = value > 0.0 && value < 0.01;
-    std::string out = small ? fmt::format("{:.1e}", value) : fmt::format("{:.3g}", value);
-    for (char& c : out) c = c == 'e' ? 'E' : c;
-    return out;
-}
-
-int text_width(std::string_view text, int zoom) {
-    return static_cast<int>(text.size()) * (kGlyphWidth + 1) * zoom;
+    return small ? fmt::format("{:.1e}", value) : fmt::format("{:.3g}", value);
 }
 
 void fill(Canvas& canvas, std::array<int, 4> box, const DisplayColor& color) {
@@ -105,43 +101,41 @@ Canvas heat_map(std::span<const double> values, int width, int height, const Hea
     return out;
 }
 
-void draw_text(Canvas& canvas, int x, int y, int zoom, std::string_view text) {
-    for (const char character : text) {
-        for (int v = 0; v < kGlyphHeight * zoom; ++v) {
-            for (int u = 0; u < kGlyphWidth * zoom; ++u) {
-                if (has_ink(character, u / zoom, v / zoom)) canvas.set(x + u, y + v, kInk);
-            }
+int draw_text(Canvas& canvas, int x, int y, int size, const std::string& text) {
+    const TextMask mask = text_mask(text, size);
+    for (int v = 0; v < mask.height; ++v) {
+        for (int u = 0; u < mask.width; ++u) {
+            const auto code = mask.coverage[static_cast<std::size_t>(v * mask.width + u)];
+            if (code > 0) canvas.set(x + u, y + v, {code, code, code});
         }
-        x += (kGlyphWidth + 1) * zoom;
     }
+    return mask.width;
 }
 
 void draw_legend(Canvas& canvas, const HeatScale& scale) {
     if (canvas.width < 128 || canvas.height < 48) return;
     const int zoom = std::max(1, canvas.height / 360);
-    const int bar = 96 * zoom;
-    const int margin = 4 * zoom;
-    const int unit = text_width(scale.unit, zoom) + 2 * margin;
-    const int height = (kGlyphHeight + 8) * zoom + 3 * margin;
+    const int bar = 96 * zoom, margin = 4 * zoom, line = kLegendLine * zoom;
+    const auto width_of = [&](const std::string& text) { return text_mask(text, line).width; };
+    const std::string unit(scale.unit);
+    const int height = line + 8 * zoom + 3 * margin;
     const int top = canvas.height - height;
-    fill(canvas, {0, top, bar + 3 * margin + unit, canvas.height}, kPaper);
+    fill(canvas, {0, top, bar + 5 * margin + width_of(unit), canvas.height}, kPaper);
     for (int x = 0; x < bar; ++x) {
         const DisplayColor color = heat_color((x + 0.5) / bar);
         fill(canvas, {margin + x, top + margin, margin + x + 1, top + margin + 8 * zoom}, color);
     }
     // Under the bar: its ends' numbers, and the middle's where it fits between them.
-    const std::string low = number_text(value_at(scale, 0.0));
     const std::string middle = number_text(value_at(scale, 0.5));
     const std::string high = number_text(value_at(scale, 1.0));
     const int y = top + 2 * margin + 8 * zoom;
-    const int high_x = margin + bar - text_width(high, zoom);
-    const int middle_x = margin + (bar - text_width(middle, zoom)) / 2;
-    draw_text(canvas, margin, y, zoom, low);
-    draw_text(canvas, high_x, y, zoom, high);
-    const bool fits =
-        margin + text_width(low, zoom) < middle_x && middle_x + text_width(middle, zoom) < high_x;
-    if (fits) draw_text(canvas, middle_x, y, zoom, middle);
-    draw_text(canvas, bar + 3 * margin, top + margin, zoom, scale.unit);
+    const int high_x = margin + bar - width_of(high);
+    const int middle_x = margin + (bar - width_of(middle)) / 2;
+    const int low_end = margin + draw_text(canvas, margin, y, line, number_text(scale.low));
+    draw_text(canvas, high_x, y, line, high);
+    if (low_end < middle_x && middle_x + width_of(middle) < high_x)
+        draw_text(canvas, middle_x, y, line, middle);
+    draw_text(canvas, bar + 3 * margin, top + margin, line, unit);
 }
 
 }  // namespace kilolux

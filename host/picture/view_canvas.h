@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,7 +38,7 @@ struct HeatScale {
     double low = 0.0;
     double high = 1.0;         // > low
     bool logarithmic = false;  // low > 0
-    std::string_view unit;     // capital letters, digits, and "*-+.:/%" beside the bar
+    std::string_view unit;     // beside the bar
 };
 
 double position_on(const HeatScale& scale, double value);
@@ -48,7 +49,8 @@ void draw_legend(Canvas& canvas, const HeatScale& scale);
 /// `values`, one per pixel, in the heat map's colours; NaN is green.
 Canvas heat_map(std::span<const double> values, int width, int height, const HeatScale& scale);
 
-/// Text in a 5 x 7 font, upper left corner at (x, y). Lower case shows as capitals.
-void draw_text(Canvas& canvas, int x, int y, int zoom, std::string_view text);
+/// White text on black, by text_mask(): upper left corner at (x, y), lines of `size` pixels.
+/// Returns its width [pixel].
+int draw_text(Canvas& canvas, int x, int y, int size, const std::string& text);
 
 }  // namespace kilolux

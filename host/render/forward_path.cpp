@@ -3,13 +3,15 @@
 
 #include <cmath>
 
+#include "host/render/host_stages.h"
+
 namespace kilolux {
 
 ForwardPath::ForwardPath(const PathContext& context)
     : context_(context),
       clustered_(context.settings.renderer == RendererKind::forward_plus),
       forward_(context.meshes(), forward_features(context.plan, clustered_, true)),
-      radiance_(context.gpu, "forward") {
+      radiance_(context.gpu, kForwardStage) {
     if (clustered_) coarse_.emplace(context.gpu, context.tuning, context.plan.kernels);
 }
 
@@ -37,7 +39,7 @@ Radiance ForwardPath::light(const Sample& sample, Measured out, const AfterShadi
                   background);
     const std::vector<float> planes = forward_.read_radiance(view.stride);
     upload<float>(context_.gpu, radiance.planes, planes);
-    add_host_time(out, clustered_ ? "forward_plus" : "forward", forward_.last_ms());
+    add_host_time(out, clustered_ ? kForwardPlusStage : kForwardStage, forward_.last_ms());
     then(radiance);
     out.stats.evaluations_per_pixel = -1.0;
     out.stats.useful_evaluations_per_pixel = -1.0;

@@ -55,7 +55,7 @@ struct PathContext {
     }
     bool chooses_compute() const {
         if (settings.geometry != Geometry::automatic) return settings.geometry == Geometry::compute;
-        return tuning.geometry == 1 || !has_egl();
+        return tuning.geometry == 1 || !scene.has_opengl();
     }
     /// Whether OpenCL draws the triangles, too: not where OpenGL blends surfaces over them.
     bool draws_in_opencl() const {

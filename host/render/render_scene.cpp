@@ -34,6 +34,18 @@ void RenderScene::take_up_changes() {
     for (auto& [use, meshes] : meshes_) meshes.refresh();
 }
 
+bool RenderScene::has_opengl() const {
+    if (lacks_opengl_) return false;
+    if (!own_context_ || context_) return true;
+    try {
+        context_.emplace(GlContext::headless());
+    } catch (const Error& error) {
+        lacks_opengl_ = true;
+        warn(std::string("OpenCL draws in place of OpenGL: ") + error.what());
+    }
+    return !lacks_opengl_;
+}
+
 const GpuScene& RenderScene::meshes(GpuSceneUse use, int anisotropy) const {
     if (own_context_ && !context_) context_.emplace(GlContext::headless());
     return meshes_.try_emplace({use, anisotropy}, scene_, static_cast<float>(anisotropy), use)

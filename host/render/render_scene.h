@@ -37,6 +37,8 @@ class RenderScene {
     /// The meshes for this use, uploaded when first asked for. `anisotropy`: see GpuScene. Throws
     /// Error where there is no OpenGL.
     const GpuScene& meshes(GpuSceneUse use, int anisotropy = 0) const;
+    /// Whether OpenGL can be used. Makes the context; a warning says why there is none.
+    bool has_opengl() const;
     std::size_t zero_normals() const { return zero_normals_; }  // vertices
 
  private:
@@ -45,6 +47,7 @@ class RenderScene {
     Box box_;
     std::size_t zero_normals_;
     bool own_context_;
+    mutable bool lacks_opengl_ = false;
     mutable std::optional<GlContext> context_;
     // Gone before the context is.
     mutable std::map<std::pair<GpuSceneUse, int>, GpuScene> meshes_;

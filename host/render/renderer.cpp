@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/picture/frame_bands.h"
 #include "host/picture/views.h"
+#include "host/render/host_stages.h"
 #include "host/render/pipeline.h"
 
 namespace kilolux {
@@ -78,12 +79,12 @@ LightInput Pipeline::begin(const Camera& camera, double time, Frame& frame) {
     frame.stats.zero_normals = scene->zero_normals();
     const Clock::time_point lights_start = Clock::now();
     lights_.update(time, camera, frame.stats);
-    add_host_time({timer_, frame.stats}, "light_input", ms_since(lights_start));
+    add_host_time({timer_, frame.stats}, kLightInputStage, ms_since(lights_start));
     const LightInput input = lights_.input(camera.position, !settings.no_reuse, timer_);
     if (lights_on_host()) {
         const Clock::time_point rows_start = Clock::now();
         rows_ = lights_.rows(camera.position);
-        add_host_time({timer_, frame.stats}, "light_input", ms_since(rows_start));
+        add_host_time({timer_, frame.stats}, kLightInputStage, ms_since(rows_start));
     }
     frame.stats.frame_ms = ms_since(start);
     return input;

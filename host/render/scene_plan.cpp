@@ -37,11 +37,6 @@ bool is_metallic(const Material& m) { return !m.unlit && m.metallic > 0.0f; }
 
 bool reflects_otherwise(const Material& m) { return !m.unlit && has_own_reflectance(m); }
 
-bool has_gloss(const Material& m) {
-    return !m.unlit &&
-           (m.metallic > 0.0f || m.roughness < 1.0f || m.metallic_roughness_texture.present());
-}
-
 void check_forced(const std::vector<std::string>& names) {
     const std::vector<std::string>& known = forceable_features();
     for (const std::string& name : names) {
@@ -128,7 +123,8 @@ int shading_of(const RenderSettings& settings, const std::vector<Material>& mate
     if (is_forced(settings, "pbr")) return SHADING_PBR;
     if (is_forced(settings, "blinn-phong")) return SHADING_BLINN_PHONG;
     if (settings.shading != Shading::automatic) return model_of(settings.shading);
-    return std::ranges::any_of(materials, has_gloss) ? SHADING_PBR : SHADING_LAMBERT;
+    // glTF's BRDF reflects at every roughness; only where nothing is lit, no model differs.
+    return std::ranges::all_of(materials, &Material::unlit) ? SHADING_LAMBERT : SHADING_PBR;
 }
 
 // What the pictures need of what the scene has, and what is forced.

@@ -88,25 +88,33 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
     scene_.webs = read_profiles(file.document);
     place();
     scene_.images = decode_images(file.document, file.materials.images, progress);
-    for (Image& image : make_converted_images(file.document, file.materials)) {
+    for (Image& image : roughness_images(file.document, file.materials, scene_.images)) {
         scene_.images.push_back(std::move(image));
     }
     scene_.textures = file.materials.textures;
     scene_.materials = file.materials.materials;
-    survey();
-    if (!moves) {
+    if (moves) {
+        set_time(options.time);
+    } else {
         file_ = nullptr;
-        return;
     }
-    set_time(options.time);
+    survey();
 }
 
 AnimatedScene::~AnimatedScene() = default;
 
-// Of the scene at time 0 if it moves: what lights and cameras that nobody placed go by.
+// What lights and cameras that nobody placed go by.
 void AnimatedScene::survey() {
     scene_.still_box = bounds(scene_);
-    scene_.kind = scene_kind(scene_, scene_.still_box);
+    enclosure_ = enclosure_of(scene_, scene_.still_box);
+    scene_.kind = enclosure_.kind;
+}
+
+void AnimatedScene::see_from(SeenFrom from) {
+    if (from == SeenFrom::inside) scene_.kind = SceneKind::interior;
+    if (from == SeenFrom::outside && scene_.kind == SceneKind::interior) {
+        scene_.kind = SceneKind::open;
+    }
 }
 
 void AnimatedScene::add_lights(const std::vector<SceneLight>& lights) {

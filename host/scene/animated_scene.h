@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "host/scene/framing.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/look_around.h"
 
 namespace kilolux {
 
@@ -28,6 +30,12 @@ class AnimatedScene {
     AnimatedScene& operator=(const AnimatedScene&) = delete;
 
     const Scene& scene() const { return scene_; }
+
+    /// What made scene().kind, unless see_from() did.
+    const Enclosure& enclosure() const { return enclosure_; }
+
+    /// Takes the scene for an interior, or for an object; automatic changes nothing.
+    void see_from(SeenFrom from);
 
     /// Whether clips that move nodes play.
     bool moves() const { return file_ != nullptr; }
@@ -54,6 +62,7 @@ class AnimatedScene {
     void survey();
 
     Scene scene_;
+    Enclosure enclosure_;
     std::vector<SceneLight> added_lights_;
     std::unique_ptr<File> file_;  // none: no animation
 };

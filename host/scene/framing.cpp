@@ -13,7 +13,7 @@ constexpr double kEyeShare = 0.4;      // of the way from the floor to the box's
 constexpr double kBackShare = 0.85;    // of the free way behind the eye that it steps back
 constexpr double kInsideAngle = 55.0;  // vertical [degree]
 constexpr double kNearShare = 1e-3;    // near plane, of the box's diagonal
-constexpr std::size_t kOpposite = LookAround::kCells;  // the level faces come in opposite pairs
+constexpr std::size_t kOpposite = 16;  // level directions: those of faces in opposite pairs
 
 // Distance from a point inside the box to its side along a direction [m].
 double way_out(const Box& box, const glm::dvec3& from, const glm::dvec3& direction) {
@@ -33,9 +33,10 @@ std::size_t opposite(std::size_t level) {
 Camera camera_inside(const Scene& scene, const Box& box) {
     const glm::dvec3 down(0, -1, 0);
     glm::dvec3 eye = box.center();
-    const double to_floor = std::min(LookAround(scene, eye).below(), way_out(box, eye, down));
+    const LookAround around(scene, box);
+    const double to_floor = std::min(around.below(eye), way_out(box, eye, down));
     eye += (1.0 - kEyeShare) * to_floor * down;
-    const std::vector<LookAround::Level> levels = LookAround(scene, eye).level();
+    const std::vector<LookAround::Level> levels = around.level(eye);
     const auto free_way = [&](std::size_t i) {
         return std::min(levels[i].distance, way_out(box, eye, levels[i].direction));
     };

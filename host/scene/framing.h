@@ -6,11 +6,14 @@
 
 namespace kilolux {
 
+/// From where a scene is seen that nobody placed a camera in; automatic: by its SceneKind.
+enum class SeenFrom { automatic, inside, outside };
+
 /// A camera for a scene that has none, and a picture of `aspect`, width / height.
 ///
 /// An interior (SceneKind) is seen from inside: a little above the floor below the middle of its
 /// box, along the level direction with the longest free view, from near its other end. Anything
-/// else is seen from outside and whole: frame_box(). By the scene at time 0 if it moves.
+/// else is seen from outside and whole: frame_box(). By the scene at the time it was loaded for.
 Camera framing_camera(const Scene& scene, double aspect);
 
 /// Which field of a camera made for another aspect a picture keeps: its height, its width, or

@@ -1,52 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/look_around.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <type_traits>
+
+#include "host/base/error.h"
 
 namespace kilolux {
 namespace {
 
-constexpr int kCells = LookAround::kCells;
-constexpr std::size_t kTrianglesAtOnce = 8192;
-constexpr double kMostlyShare = 0.5;
+constexpr double kEnclosedShare = 0.5;    // of the rays from within: meet fronts
+constexpr double kClosedShare = 0.5;      // of the rays from the middle: meet backs
+constexpr double kOpenShare = 1.0 / 3.0;  // of the surface's view: ends outside
+constexpr std::size_t kInnerRays = 1024;  // from a point
+constexpr std::size_t kLineWays = 64;     // directions of lines through the scene
+constexpr int kLines = 10;                // of each direction, along the edge of a square
+constexpr int kMostHits = 100;            // of a line
+constexpr float kLargest = 1e18f;         // number of a ray that Embree takes
+constexpr float kApart = 1e-6f;           // of the box's diagonal: surfaces on a line
+constexpr int kCells = 16;                // of a cube's face, along an edge: see level()
 
-// The axes of a cube's face: two across it, one through it. The first four faces are level, their
-// rows from below upwards.
+// The axes of a cube's level faces: across, through.
 struct Face {
-    glm::dvec3 right, up, out;
+    glm::dvec3 right, out;
 };
-const Face kFaces[6] = {{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
-                        {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
-                        {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}};
+constexpr Face kLevelFaces[4] = {{{0, 0, -1}, {1, 0, 0}},
+                                 {{0, 0, 1}, {-1, 0, 0}},
+                                 {{1, 0, 0}, {0, 0, 1}},
+                                 {{-1, 0, 0}, {0, 0, -1}}};
 
-double centre_of(int cell) { return (2.0 * cell + 1.0) / kCells - 1.0; }
-
-// Cells [first, last] that the interval of u in [-1, 1] can touch.
-struct Cells {
-    int first, last;
-};
-Cells cells_between(double lo, double hi) {
-    const auto cell = [](double u) {
-        return static_cast<int>(std::floor((std::clamp(u, -2.0, 2.0) + 1.0) * 0.5 * kCells));
-    };
-    return {std::max(cell(lo) - 1, 0), std::min(cell(hi) + 1, kCells - 1)};
-}
-
-// Of three values, or all of [-1, 1] where the triangle reaches behind the eye.
-Cells cells_of(const double (&across)[3], const double (&depth)[3]) {
-    if (std::min({depth[0], depth[1], depth[2]}) <= 0.0) return {0, kCells - 1};
-    const double u[3] = {across[0] / depth[0], across[1] / depth[1], across[2] / depth[2]};
-    return cells_between(std::min({u[0], u[1], u[2]}), std::max({u[0], u[1], u[2]}));
-}
-
-bool all_beyond(const double (&across)[3], const double (&depth)[3], double sign) {
-    return sign * across[0] > depth[0] && sign * across[1] > depth[1] &&
-           sign * across[2] > depth[2];
+// Points of a Fibonacci lattice on the unit sphere.
+std::vector<glm::dvec3> directions(std::size_t count) {
+    std::vector<glm::dvec3> out;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto at = static_cast<double>(i);
+        const double y = 1.0 - (2.0 * at + 1.0) / static_cast<double>(count);
+        const double turn = 2.0 * std::numbers::pi * std::fmod(at / std::numbers::phi, 1.0);
+        const double radius = std::sqrt(1.0 - y * y);
+        out.emplace_back(radius * std::cos(turn), y, radius * std::sin(turn));
+    }
+    return out;
 }
 
 bool is_seen_through(const Scene& scene, const Mesh& mesh) {
@@ -54,110 +52,213 @@ bool is_seen_through(const Scene& scene, const Mesh& mesh) {
            scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::blend;
 }
 
-}  // namespace
+struct DeviceDeleter {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneDeleter {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DeviceOwner = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
+using SceneOwner = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneDeleter>;
 
-// Each ray against the triangle: Moeller and Trumbore 1997, with the eye at the origin.
-void LookAround::add_to_face(Hits& hits, int face, const glm::dvec3 (&corners)[3]) {
-    const Face& axes = kFaces[face];
-    double x[3], y[3], z[3];
-    for (int i = 0; i < 3; ++i) {
-        x[i] = glm::dot(corners[i], axes.right);
-        y[i] = glm::dot(corners[i], axes.up);
-        z[i] = glm::dot(corners[i], axes.out);
-    }
-    if (std::max({z[0], z[1], z[2]}) <= 0.0 || all_beyond(x, z, 1.0) || all_beyond(x, z, -1.0) ||
-        all_beyond(y, z, 1.0) || all_beyond(y, z, -1.0)) {
-        return;
-    }
-    const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const double plane = glm::dot(normal, corners[0]);
-    const Cells columns = cells_of(x, z);
-    const Cells rows = cells_of(y, z);
-    for (int row = rows.first; row <= rows.last; ++row) {
-        for (int column = columns.first; column <= columns.last; ++column) {
-            const glm::dvec3 ray =
-                axes.out + centre_of(column) * axes.right + centre_of(row) * axes.up;
-            const double along = glm::dot(normal, ray);
-            const double t = plane / along;
-            if (!(t > 0.0) || !std::isfinite(t)) continue;
-            const glm::dvec3 p = t * ray;
-            bool inside = true;
-            for (int i = 0; i < 3 && inside; ++i) {
-                const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
-                inside = glm::dot(glm::cross(edge, p - corners[i]), normal) >= 0.0;
+SceneOwner new_scene(RTCDevice device) {
+    SceneOwner scene(rtcNewScene(device));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT);
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);
+    return scene;
+}
+
+void attach(RTCScene scene, RTCGeometry geometry, std::size_t number) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(number));
+    rtcReleaseGeometry(geometry);
+}
+
+SceneOwner mesh_scene(RTCDevice device, const Mesh& mesh) {
+    SceneOwner scene = new_scene(device);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Embree's own copy: it may read 16 bytes at the last vertex.
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(glm::vec3), mesh.positions.size());
+    if (vertices == nullptr) throw Error("looking around the scene: out of memory");
+    std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.indices.data(), 0, 3 * sizeof(std::uint32_t),
+                               mesh.indices.size() / 3);
+    attach(scene.get(), geometry, 0);
+    rtcCommitScene(scene.get());
+    return scene;
+}
+
+// The middle of a box, and points beside it: something may stand in the middle of a room.
+std::vector<glm::dvec3> inner_points(const Box& box) {
+    const glm::dvec3 step = 0.25 * box.size();
+    const glm::dvec3 c = box.center();
+    return {c, c + glm::dvec3(step.x, 0, 0), c - glm::dvec3(step.x, 0, 0),
+            c + glm::dvec3(0, 0, step.z), c - glm::dvec3(0, 0, step.z)};
+}
+
+template <typename Test>
+double share_of(const std::vector<glm::dvec3>& ways, const Test& test) {
+    const auto count = std::count_if(ways.begin(), ways.end(), test);
+    return static_cast<double>(count) / static_cast<double>(ways.size());
+}
+
+// Lines of a grid across a sphere meet each part of a surface as often as its area says, from all
+// sides alike. A front that is first on its line is seen from outside.
+double open_share(const LookAround& around, const Box& box) {
+    std::size_t fronts = 0, open = 0;
+    const double radius = 0.5 * glm::length(box.size());
+    const auto place = [&](int i) { return radius * ((2.0 * i + 1.0) / kLines - 1.0); };
+    for (const glm::dvec3& way : directions(kLineWays)) {
+        const glm::dvec3 right = glm::normalize(glm::cross(
+            way, glm::dvec3(std::abs(way.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0))));
+        const glm::dvec3 up = glm::cross(right, way);
+        for (int i = 0; i < kLines * kLines; ++i) {
+            const glm::dvec3 eye = box.center() - 2.0 * radius * way + place(i % kLines) * right +
+                                   place(i / kLines) * up;
+            LookAround::Hit hit = around.first_hit(eye, way);
+            open += hit.side == LookAround::Side::front;
+            for (int n = 0; n < kMostHits && hit.side != LookAround::Side::none; ++n) {
+                fronts += hit.side == LookAround::Side::front;
+                hit = around.first_hit(eye, way, hit.distance);
             }
-            if (!inside) continue;
-            Hit& hit = hits[static_cast<std::size_t>((face * kCells + row) * kCells + column)];
-            hit = std::min(
-                hit, Hit{static_cast<float>(t * glm::length(ray)), along < 0.0 ? 1.0f : -1.0f});
         }
     }
+    return fronts == 0 ? 0.0 : static_cast<double>(open) / static_cast<double>(fronts);
 }
 
-LookAround::LookAround(const Scene& scene, const glm::dvec3& eye)
-    : hits_(std::size_t{6} * kCells * kCells) {
-    tbb::enumerable_thread_specific<Hits> found(hits_);
-    for (const Instance& instance : scene.instances) {
+}  // namespace
+
+// Embree's scene of the instances, relative to the middle of their box: its numbers are floats.
+struct LookAround::Rays {
+    const Scene& scene;
+    glm::dvec3 middle;
+    float apart;  // [m]
+    DeviceOwner device{rtcNewDevice(nullptr)};
+    std::vector<SceneOwner> meshes{};
+    SceneOwner instances{};
+
+    void add(std::size_t number, const Instance& instance) {
+        const auto shape = static_cast<std::size_t>(instance.mesh);
+        const Mesh& mesh = scene.meshes[shape];
+        if (mesh.indices.empty() || is_seen_through(scene, mesh)) return;
+        glm::dmat4 placed = instance.world_from_object;
+        const double volume = std::abs(glm::determinant(glm::dmat3(placed)));
+        if (!(volume > 0.0 && std::isfinite(volume))) return;  // Embree inverts it
+        if (!meshes[shape]) meshes[shape] = mesh_scene(device.get(), mesh);
+        RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, meshes[shape].get());
+        placed[3] -= glm::dvec4(middle, 0.0);
+        const glm::mat4 moved(placed);
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &moved);
+        attach(instances.get(), geometry, number);
+    }
+
+    // Where a line meets the plane of a triangle, in double.
+    Hit hit(const Instance& instance, std::size_t triangle, const glm::dvec3& eye,
+            const glm::dvec3& ray) const {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (is_seen_through(scene, mesh)) continue;
-        const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0.0;
-        const auto corner = [&](std::size_t index) {
-            const glm::dvec4 p(mesh.positions[mesh.indices[index]], 1.0);
+        const auto corner = [&](std::size_t i) {
+            const glm::dvec4 p(mesh.positions[mesh.indices[3 * triangle + i]], 1.0);
             return glm::dvec3(instance.world_from_object * p) - eye;
         };
-        const auto look = [&](const tbb::blocked_range<std::size_t>& range) {
-            Hits& hits = found.local();
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                const glm::dvec3 corners[3] = {corner(3 * i), corner(3 * i + (mirrored ? 2 : 1)),
-                                               corner(3 * i + (mirrored ? 1 : 2))};
-                for (int face = 0; face < 6; ++face) add_to_face(hits, face, corners);
-            }
-        };
-        tbb::parallel_for(
-            tbb::blocked_range<std::size_t>(0, mesh.indices.size() / 3, kTrianglesAtOnce), look);
+        const glm::dvec3 first = corner(0);
+        const glm::dvec3 normal = glm::cross(corner(1) - first, corner(2) - first);
+        const double along = glm::dot(normal, ray);
+        const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0.0;
+        const double distance = glm::dot(normal, first) / along * glm::length(ray);
+        return {static_cast<float>(distance), (along < 0.0) != mirrored ? Side::front : Side::back};
     }
-    for (const Hits& hits : found) {
-        std::transform(hits_.begin(), hits_.end(), hits.begin(), hits_.begin(),
-                       [](const Hit& a, const Hit& b) { return std::min(a, b); });
+};
+
+LookAround::LookAround(const Scene& scene, const Box& box)
+    : rays_(new Rays{scene, box.center(), kApart * static_cast<float>(glm::length(box.size()))}) {
+    RTCDevice device = rays_->device.get();
+    if (device == nullptr) throw Error("looking around the scene: Embree has no device");
+    rays_->meshes.resize(scene.meshes.size());
+    rays_->instances = new_scene(device);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) rays_->add(i, scene.instances[i]);
+    rtcCommitScene(rays_->instances.get());
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
+        throw Error(fmt::format("looking around the scene: Embree's error {} ({})",
+                                static_cast<int>(error),
+                                error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "building"));
     }
 }
 
-double LookAround::share(float side) const {
-    const auto count = std::count_if(hits_.begin(), hits_.end(),
-                                     [side](const Hit& hit) { return hit.side == side; });
-    return static_cast<double>(count) / static_cast<double>(hits_.size());
+LookAround::~LookAround() = default;
+
+LookAround::Hit LookAround::first_hit(const glm::dvec3& eye, const glm::dvec3& direction,
+                                      float beyond) const {
+    const glm::vec3 from(eye - rays_->middle), along(direction);
+    const float nearest = beyond + rays_->apart;
+    for (const float value : {from.x, from.y, from.z, along.x, along.y, along.z, nearest}) {
+        if (!(std::abs(value) < kLargest)) return {};
+    }
+    RTCRayHit query{};
+    query.ray.org_x = from.x;
+    query.ray.org_y = from.y;
+    query.ray.org_z = from.z;
+    query.ray.dir_x = along.x;
+    query.ray.dir_y = along.y;
+    query.ray.dir_z = along.z;
+    query.ray.tnear = nearest;
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.mask = ~0u;
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(rays_->instances.get(), &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return rays_->hit(rays_->scene.instances[query.hit.instID[0]], query.hit.primID, eye,
+                      direction);
 }
 
-std::vector<LookAround::Level> LookAround::level() const {
+std::vector<LookAround::Level> LookAround::level(const glm::dvec3& eye) const {
     std::vector<Level> out;
-    for (int face = 0; face < 4; ++face) {
-        for (int column = 0; column < kCells; ++column) {
-            const glm::dvec3 ray = kFaces[face].out + centre_of(column) * kFaces[face].right;
-            const auto distance = [&](int row) {
-                return hits_[static_cast<std::size_t>((face * kCells + row) * kCells + column)]
-                    .distance;
-            };
-            out.push_back(
-                {glm::normalize(ray), std::min(distance(kCells / 2 - 1), distance(kCells / 2))});
+    for (const Face& face : kLevelFaces) {
+        for (int i = 0; i < kCells; ++i) {
+            const glm::dvec3 ray = face.out + ((2.0 * i + 1.0) / kCells - 1.0) * face.right;
+            const glm::dvec3 up(0.0, 1.0 / kCells, 0.0);
+            out.push_back({glm::normalize(ray), std::min(first_hit(eye, ray - up).distance,
+                                                         first_hit(eye, ray + up).distance)});
         }
     }
     return out;
 }
 
-double LookAround::below() const {
-    const auto cell = [&](int row, int column) {
-        return hits_[static_cast<std::size_t>((5 * kCells + row) * kCells + column)].distance;
-    };
-    constexpr int kMiddle = kCells / 2;
-    return std::min(std::min(cell(kMiddle - 1, kMiddle - 1), cell(kMiddle - 1, kMiddle)),
-                    std::min(cell(kMiddle, kMiddle - 1), cell(kMiddle, kMiddle)));
+double LookAround::below(const glm::dvec3& eye) const {
+    constexpr double kBeside = 1.0 / kCells;
+    float least = Hit{}.distance;
+    for (const double x : {-kBeside, kBeside}) {
+        for (const double z : {-kBeside, kBeside}) {
+            least = std::min(least, first_hit(eye, {x, -1.0, z}).distance);
+        }
+    }
+    return least;
 }
 
-SceneKind scene_kind(const Scene& scene, const Box& box) {
-    if (box.empty()) return SceneKind::open;
-    const LookAround around(scene, box.center());
-    if (around.fronts() >= kMostlyShare) return SceneKind::interior;
-    return around.backs() >= kMostlyShare ? SceneKind::closed : SceneKind::open;
+Enclosure enclosure_of(const Scene& scene, const Box& box) {
+    Enclosure out;
+    if (box.empty()) return out;
+    const LookAround around(scene, box);
+    const auto share = [&](const glm::dvec3& eye, LookAround::Side side) {
+        return share_of(directions(kInnerRays), [&](const glm::dvec3& way) {
+            return around.first_hit(eye, way).side == side;
+        });
+    };
+    for (const glm::dvec3& eye : inner_points(box)) {
+        out.within = std::max(out.within, share(eye, LookAround::Side::front));
+    }
+    out.open = open_share(around, box);
+    if (out.within >= kEnclosedShare && out.open < kOpenShare) {
+        out.kind = SceneKind::interior;
+    } else if (share(box.center(), LookAround::Side::back) >= kClosedShare) {
+        out.kind = SceneKind::closed;
+    }
+    return out;
 }
 
 }  // namespace kilolux

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/material_row.h"
 
-#include <cassert>
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 
@@ -24,27 +24,9 @@ MaterialRow material_row(const Material& material) {
 }
 
 const TextureUse& texture_use(const Material& material, int use) {
-    switch (use) {
-        case USE_BASE_COLOR:
-            return material.base_color_texture;
-        case USE_METALLIC_ROUGHNESS:
-            return material.metallic_roughness_texture;
-        case USE_NORMAL:
-            return material.normal_texture;
-        case USE_OCCLUSION:
-            return material.occlusion_texture;
-        case USE_EMISSIVE:
-            return material.emissive_texture;
-        case USE_SPECULAR:
-            return material.specular_texture;
-        default:
-            assert(use == USE_SPECULAR_COLOR);
-            return material.specular_color_texture;
-    }
+    return material.*kMaterialMaps[static_cast<std::size_t>(use)].member;
 }
 
-bool is_srgb_use(int use) {
-    return use == USE_BASE_COLOR || use == USE_EMISSIVE || use == USE_SPECULAR_COLOR;
-}
+bool is_srgb_use(int use) { return kMaterialMaps[static_cast<std::size_t>(use)].srgb; }
 
 }  // namespace kilolux

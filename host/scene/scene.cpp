@@ -20,9 +20,22 @@ bool has_own_reflectance(const Material& material) {
            material.specular_texture.present() || material.specular_color_texture.present();
 }
 
+namespace {
+
+// Whether a scale of 0 leaves nothing of an instance but a point or a line.
+bool is_hidden(const Instance& instance) {
+    const glm::dmat3 axes(instance.world_from_object);
+    return glm::cross(axes[0], axes[1]) == glm::dvec3(0.0) &&
+           glm::cross(axes[1], axes[2]) == glm::dvec3(0.0) &&
+           glm::cross(axes[2], axes[0]) == glm::dvec3(0.0);
+}
+
+}  // namespace
+
 Box bounds(const Scene& scene) {
     Box box;
     for (const Instance& instance : scene.instances) {
+        if (is_hidden(instance)) continue;
         for (const glm::vec3& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].positions) {
             box.add(glm::dvec3(instance.world_from_object * glm::dvec4(p, 1.0)));
         }

@@ -160,6 +160,7 @@ struct Clip {
     double length = 0.0;       // [s], from 0 to its last key
     std::size_t channels = 0;  // that drive a node
     bool plays = false;
+    std::string broken{};  // why it cannot play, if so: the error that it would end in
 };
 
 /// What the middle of a scene's box sees around itself: see look_around().

@@ -20,9 +20,14 @@ Camera fitted(const SceneCamera& made, double aspect, Fit fit) {
     return camera;
 }
 
+bool starts_framed(const CameraChoice& choice, const Scene& scene) {
+    const bool asked = choice.view != SeenFrom::automatic || scene.cameras.empty();
+    return choice.framed || (!choice.index && asked);
+}
+
 Camera start_camera(const CameraChoice& choice, const Scene& scene, double aspect) {
     const std::size_t count = scene.cameras.size();
-    if (choice.framed || (!choice.index && count == 0)) return framing_camera(scene, aspect);
+    if (starts_framed(choice, scene)) return framing_camera(scene, aspect);
     const auto index = static_cast<std::size_t>(choice.index.value_or(0));
     if (index < count) return fitted(scene.cameras[index], aspect, choice.fit);
     const std::string known =
@@ -66,6 +71,10 @@ Camera place_camera(const CameraPlace& place, double y_fov, double radius) {
     // The near plane must not cut small scenes; reversed depth keeps its precision there.
     camera.z_near = std::min(camera.z_near, 0.01 * radius);
     return camera;
+}
+
+bool is_framed(const CameraChoice& choice, const Scene& scene) {
+    return starts_framed(choice, scene) && !choice.position && !choice.focal_point;
 }
 
 Camera choose_camera(const CameraChoice& choice, const Scene& scene, double aspect) {

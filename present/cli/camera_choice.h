@@ -13,8 +13,9 @@ namespace kilolux {
 /// The camera options of the command line; what they leave open comes from the scene.
 struct CameraChoice {
     std::optional<int> index{};
-    bool framed = false;  // one that frames the scene, whatever cameras it has
-    Fit fit = Fit::height;
+    bool framed = false;                  // one that frames the scene, whatever cameras it has
+    SeenFrom view = SeenFrom::automatic;  // other than automatic: framed, unless an index is given
+    Fit fit = Fit::both;
     std::optional<glm::dvec3> position{};     // [m]
     std::optional<glm::dvec3> focal_point{};  // [m]
     std::optional<glm::dvec3> view_up{};
@@ -32,6 +33,9 @@ struct CameraPlace {
 /// A perspective camera at a place in a scene of `radius` [m], vertical angle `y_fov` [rad]. Throws
 /// Error when the directions are degenerate.
 Camera place_camera(const CameraPlace& place, double y_fov, double radius);
+
+/// Whether `choice` means the camera that frames the scene.
+bool is_framed(const CameraChoice& choice, const Scene& scene);
 
 /// The camera that `choice` means in `scene`.
 ///

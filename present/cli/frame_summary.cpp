@@ -17,7 +17,7 @@ std::string grid_text(const FrameStats& stats) {
     return fmt::format("{}x{}x{}", stats.grid[0], stats.grid[1], stats.grid[2]);
 }
 
-std::string time_line(const std::string& name, double ms) {
+std::string time_line(std::string_view name, double ms) {
     return fmt::format("  {:<16} {:9.2f} ms", name, ms);
 }
 
@@ -34,10 +34,12 @@ std::string stage_lines(const FrameStats& stats) {
 std::string light_line(const FrameStats& s) {
     std::string out = fmt::format("lights  {} of {} used, {} rejected", s.lights_used,
                                   s.lights_given, s.lights_rejected);
-    if (s.evaluations_per_pixel >= 0.0) {
+    // Directional lights are in no list.
+    const bool listed = s.lights_used > s.directional_lights;
+    if (listed && s.evaluations_per_pixel >= 0.0) {
         out += fmt::format("; {:.1f} evaluated a pixel", s.evaluations_per_pixel);
     }
-    if (s.useful_evaluations_per_pixel >= 0.0) {
+    if (listed && s.useful_evaluations_per_pixel >= 0.0) {
         out += fmt::format(", {:.1f} useful", s.useful_evaluations_per_pixel);
     }
     return out + "\n";
@@ -91,7 +93,7 @@ std::string frame_summary(const Scene& scene, const DeviceInfo& device, const Fr
         fmt::format("device  {} ({}), {} lanes\nscene   {}, {} triangles\n", device.name,
                     device.version, device.lane_width, scene.name, triangle_count(scene));
     out += light_line(last.stats) + sample_line(last.stats.samples) + cluster_line(last.stats) +
-           stage_lines(last.stats) + time_line("frame", last.stats.frame_ms) + "\n";
+           stage_lines(last.stats) + time_line(kFrameStage, last.stats.frame_ms) + "\n";
     if (last.comparison) out += "error   " + comparison_text(*last.comparison) + "\n";
     out += "wrote   " + last.file;
     if (is_video(last.file) || last.file == output_name("-"))

@@ -7,6 +7,7 @@
 
 #include "host/base/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
+#include "host/measure/metrics/error_metrics.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/views.h"
 
@@ -62,7 +63,7 @@ const Choices& choices_of(BenchMotion) {
 }
 
 const Choices& choices_of(Shading) {
-    static const Choices choices = {{"auto", "what the scene's materials ask for"},
+    static const Choices choices = {{"auto", "pbr; lambert where nothing is lit"},
                                     {"lambert", "matt: albedo / pi"},
                                     {"blinn-phong", "with normalised highlights"},
                                     {"pbr", "glTF's metallic-roughness model"}};
@@ -89,10 +90,11 @@ const Choices& choices_of(Tails) {
 }
 
 const Choices& choices_of(ToneCurve) {
-    static const Choices choices = {{"none", "clamp at 1"},
-                                    {"neutral", "Khronos PBR Neutral: colours below 0.8 stay"},
-                                    {"aces", "ACES, filmic contrast"},
-                                    {"agx", "AgX, bright colours go to white softly"}};
+    static const Choices choices = {
+        {"none", "clamp at 1"},
+        {"neutral", "Khronos PBR Neutral: 0.04 less, above 0.8 compressed"},
+        {"aces", "ACES, filmic contrast"},
+        {"agx", "AgX, bright colours go to white softly"}};
     return choices;
 }
 
@@ -112,6 +114,14 @@ const Choices& choices_of(Fit) {
     static const Choices choices = {{"height", "its vertical field"},
                                     {"width", "its horizontal field"},
                                     {"both", "all that it shows"}};
+    return choices;
+}
+
+const Choices& choices_of(SeenFrom) {
+    static const Choices choices = {
+        {"auto", "inside where walls without outer sides enclose a point within, else outside"},
+        {"inside", "as an interior, with a swarm's lights"},
+        {"outside", "as an object, whole, with a studio's lights"}};
     return choices;
 }
 
@@ -160,13 +170,13 @@ Choices aov_choices() {
 }
 
 Choices metric_choices() {
-    return {{"rmse", "root of the mean square difference"},
-            {"mean", "mean absolute difference"},
-            {"max", "largest absolute difference"},
-            {"max-relative", "largest difference relative to the reference"},
-            {"relmse", "mean of relative squares"},
-            {"different-pixels", "pixels that differ in any bit"},
-            {"flip", "mean difference that an observer sees, 0 to 1 (FLIP)"}};
+    Choices out(std::vector<std::string>{});
+    for (const ErrorMetric& m : error_metrics()) {
+        if (!m.is_error || m.part == MetricPart::display) continue;
+        out.names.emplace_back(m.name);
+        out.meanings.emplace_back(m.meaning);
+    }
+    return out;
 }
 
 const Choices& choices_of(ViewKind) {

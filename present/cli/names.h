@@ -31,6 +31,7 @@ const Choices& choices_of(BenchMotion);
 const Choices& choices_of(ToneCurve);
 const Choices& choices_of(Rig);
 const Choices& choices_of(Fit);
+const Choices& choices_of(SeenFrom);
 const Choices& choices_of(MathMode);
 const Choices& choices_of(LightColors);
 const Choices& choices_of(ViewKind);

@@ -30,6 +30,10 @@ void add_scene_option(CLI::App& command, SharedOptions& o) {
         .flag("--strict", o.load.strict,
               "Refuse a file that has anything that the picture would lack; else a warning says "
               "so")
+        .choice({"--view", "", "auto",
+                 "From where the scene is seen and how it is lit; inside and outside mean the "
+                 "automatic camera, unless there is --camera-index I"},
+                o.camera.view)
         .rest()
         .value({"--line-width", "METRES|PERCENT%", "0.2%",
                 "Width of points and lines: a share of the scene's diagonal, or metres"},
@@ -181,11 +185,13 @@ void add_light_options(CLI::App& command, SharedOptions& o) {
             l.radius, kAboveZeroRange)
         .number_or_auto({"--light-intensity", "I|auto", "auto", "Brightest channel in candela"},
                         l.intensity, kAboveZeroRange)
-        .text({"--environment", "FILE|studio|sky", "",
-               "Light from all around: .hdr or .exr, longitude by latitude, its middle towards -Z; "
-               "studio: soft boxes in a dim room; sky: a clear sky with a sun. Then --rig auto is "
-               "none and --ambient 0"},
-              o.environment)
+        .text(
+            {"--environment", "FILE|studio|sky", "",
+             "Light from all around: an image, longitude by latitude, its middle towards -Z, e.g. "
+             ".hdr or .exr; studio: soft boxes in a dim room; sky: a clear sky with a sun. Then "
+             "--rig auto is "
+             "none and --ambient 0"},
+            o.environment)
         .rest()
         .flag("--reflections", o.reflections,
               "The environment lights by prefiltered maps (split sum) in place of lights, so that "
@@ -214,9 +220,7 @@ void add_camera_options(CLI::App& command, CameraChoice& c) {
     const auto show_index = [&c] { return c.framed ? std::string("auto") : text_of(c.index); };
     OptionBuilder(command, "Camera")
         .value({"--camera-index", "I|auto", "the first, else auto",
-                "A camera of the scene, from 0; auto: one that sees an object whole from outside, "
-                "an interior (at least half of the rays from the middle of its box meet walls from "
-                "their front) from inside"},
+                "A camera of the scene, from 0; auto: one that sees the scene as --view says"},
                take_index, show_index)
         .value({"--camera-position", "X,Y,Z", "", "Where it stands, in metres"}, c.position,
                parse_vector)
@@ -229,7 +233,7 @@ void add_camera_options(CLI::App& command, CameraChoice& c) {
         .number(
             {"--camera-view-angle", "DEG", "the camera's, else 45", "Vertical angle, in degrees"},
             c.view_angle, {0.0, 180.0, true})
-        .choice({"--fit", "", "height",
+        .choice({"--fit", "", "both",
                  "What a picture of another shape keeps of a file's camera that has an aspect"},
                 c.fit)
         .flag("--camera-orthographic", c.orthographic, "Parallel projection");

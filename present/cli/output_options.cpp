@@ -170,6 +170,9 @@ void check_output_options(const SharedOptions& shared, const OutputOptions& opti
     if (options.reference.empty() && options.threshold) {
         throw UsageError("--threshold: needs --reference FILE");
     }
+    if (!options.reference.empty() && options.skip_existing) {
+        throw UsageError("--skip-existing: leaves frames out that --reference would compare");
+    }
     if (options.reference.empty() && !options.difference.empty()) {
         throw UsageError("--difference: needs --reference FILE");
     }

@@ -60,15 +60,18 @@ bool any_face_shows(const Scene& scene, const Camera& camera) {
     return false;
 }
 
-std::string why_no_surface(const Scene& scene, const Camera& camera, double aspect) {
+std::string why_no_surface(const Scene& scene, const Camera& camera, double aspect, bool framed) {
     const Box box = bounds(scene);
     if (box.empty()) return "the scene has no triangles";
     const std::string place = place_in_view(box, camera, aspect);
     if (!place.empty()) {
-        return fmt::format("the scene is {}; try --camera-index auto", place);
+        return fmt::format("the scene is {}; {}", place,
+                           framed ? "the automatic camera frames it as it is at --time"
+                                  : "try --camera-index auto");
     }
     if (!any_face_shows(scene, camera)) {
-        return "all faces are turned away from the camera; try --camera-index auto";
+        return fmt::format("all faces are turned away from the camera; try {}",
+                           framed ? "--view inside" : "--camera-index auto");
     }
     return "no surface covers a pixel's centre: all that is in the view is cut by alpha, turned "
            "away, or smaller than a pixel";
@@ -77,7 +80,7 @@ std::string why_no_surface(const Scene& scene, const Camera& camera, double aspe
 }  // namespace
 
 std::string picture_advice(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                           const FrameStats& stats) {
+                           const FrameStats& stats, bool framed) {
     if (settings.want.view != ViewKind::lit) return "";
     const double aspect = static_cast<double>(settings.width) / settings.height;
     // Surfaces that blend are in no cluster.
@@ -86,7 +89,7 @@ std::string picture_advice(const Scene& scene, const Camera& camera, const Rende
     const Box box = bounds(scene);
     const bool in_view = !box.empty() && place_in_view(box, camera, aspect).empty();
     if (counted ? stats.active_clusters == 0 : !in_view) {
-        return "picture is empty: " + why_no_surface(scene, camera, aspect);
+        return "picture is empty: " + why_no_surface(scene, camera, aspect, framed);
     }
     if (settings.reflections) return "";
     if (stats.lights_used == 0) {
@@ -102,6 +105,10 @@ std::string picture_advice(const Scene& scene, const Camera& camera, const Rende
             "picture has only ambient and emitted light: none of {} lights reaches a surface in "
             "it; try --rig studio",
             stats.lights_used);
+    }
+    if (settings.shadows != Shadows::off && stats.lights_used == stats.directional_lights) {
+        return "picture has no shadows: all its lights are directional, which cast none; try --rig "
+               "swarm";
     }
     return "";
 }

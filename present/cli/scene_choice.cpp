@@ -13,9 +13,11 @@
 #include "host/base/suggest.h"
 #include "host/scene/generated/scenes.h"
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/lights/bounded_loss.h"
 #include "host/scene/lights/built_in_environments.h"
 #include "host/scene/lights/light_tree.h"
 #include "present/cli/names.h"
+#include "present/cli/prefiltered_cache.h"
 #include "present/cli/progress.h"
 
 namespace kilolux {
@@ -87,6 +89,23 @@ Rig rig_of(const SharedOptions& options, const Scene& scene) {
                                 : automatic_rig(scene, is_generated_scene(options.scene));
 }
 
+// From where the scene is seen and why, where its cameras leave that open.
+std::string view_line(const SharedOptions& options, const AnimatedScene& scene) {
+    const SeenFrom asked = options.camera.view;
+    const bool open =
+        !is_generated_scene(options.scene) && is_framed(options.camera, scene.scene());
+    if (!open && asked == SeenFrom::automatic) return "";
+    const SeenFrom from =
+        scene.scene().kind == SceneKind::interior ? SeenFrom::inside : SeenFrom::outside;
+    if (asked != SeenFrom::automatic) return fmt::format("view    {} (--view)\n", name_of(from));
+    const Enclosure& seen = scene.enclosure();
+    return fmt::format(
+        "view    {} (automatic): surfaces face {:.0f} % of what a point within sees, and {:.0f} % "
+        "of "
+        "what they face is outside\n",
+        name_of(from), 100.0 * seen.within, 100.0 * seen.open);
+}
+
 std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, std::size_t own) {
     std::string line = fmt::format("rig     {}{}: ", name_of(rig), automatic ? " (automatic)" : "");
     if (const std::size_t count = rig_lights(rig).size(); count > 0) {
@@ -99,12 +118,12 @@ std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, st
 }
 
 // What becomes of lights without a range; nothing where there are none.
-std::string tails_line(const Scene& scene, const RenderSettings& settings) {
+std::string tails_line(const Scene& scene, const RenderSettings& settings, bool automatic) {
     const auto unranged = std::ranges::count_if(scene.lights, lacks_range);
     if (unranged == 0) return "";
     const Tails tails = tails_for(scene.lights, settings.tails, settings.range_budget);
     std::string line = fmt::format("\ntails   {}{}: {} lights without a range ", name_of(tails),
-                                   tails == settings.tails ? "" : " (automatic)", unranged);
+                                   automatic ? " (automatic)" : "", unranged);
     if (tails == Tails::exact) return line + "reach every pixel";
     if (tails == Tails::tree) {
         return line + fmt::format(
@@ -122,6 +141,25 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings) {
                       "have random ones, at least to where each adds {:.3g} of radiance: "
                       "right in the mean of --samples",
                       settings.range_budget);
+}
+
+// Many lights without a range: bounded ones lose what many far ones add together.
+void choose_tails(SharedOptions& options, const Scene& scene) {
+    constexpr double kMostLost = 0.1;
+    RenderSettings& s = options.settings;
+    const Tails tails = tails_for(scene.lights, s.tails, s.range_budget);
+    if (s.tails != Tails::automatic || tails != Tails::bounded) return;
+    if (!options.shows_environment || s.range_budget != kDefaultRangeBudget) return;
+    const double lost = bounded_loss(scene, s.range_budget);
+    if (lost <= kMostLost) return;
+    if (s.renderer == RendererKind::deferred && s.shadows == Shadows::off) {
+        s.tails = Tails::tree;
+        return;
+    }
+    warn(fmt::format(
+        "{}: the ranges that lights without one get cut about {:.0f} % of their light; --tails "
+        "exact keeps it",
+        options.scene, 100.0 * lost));
 }
 
 Environment opened_environment(const std::string& name) {
@@ -148,7 +186,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     Environment environment = opened_environment(options.environment);
     std::string line = fmt::format("; environment {}: ", options.environment);
     if (options.reflections) {
-        options.maps = std::make_shared<const PrefilteredEnvironment>(prefiltered(environment));
+        options.maps = std::make_shared<const PrefilteredEnvironment>(
+            kept_prefiltered(options.environment, environment));
         line += "prefiltered";
         if (has_blended_surfaces(scene.scene())) line += ", which does not light what blends";
     } else {
@@ -181,20 +220,21 @@ void reflect_studio(SharedOptions& options) {
 
 }  // namespace
 
-AnimatedScene open_animated_scene(const SharedOptions& options, double time) {
+AnimatedScene open_animated_scene(const SharedOptions& options) {
     if (is_generated_scene(options.scene)) {
         check_generated(options);
         return AnimatedScene(make_generated_scene(options.scene));
     }
     LoadBar bar(!options.quiet);
     LoadOptions load = options.load;
-    load.time = time;
+    load.time = options.time;
     load.max_memory_bytes = options.settings.max_memory_bytes;
     return AnimatedScene(scene_file(options.scene), load,
                          [&bar](std::size_t done, std::size_t total) { bar.tell(done, total); });
 }
 
 std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
+    scene.see_from(options.camera.view);
     const bool automatic = options.rig == Rig::automatic;
     Rig rig = rig_of(options, scene.scene());
     const bool metal = automatic && rig == Rig::studio && wants_reflections(options, scene.scene());
@@ -214,11 +254,13 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     if (!options.ambient_given) {
         ambient = rig_ambient(rig, options.environment.empty() ? ambient : 0.0f);
     }
+    const bool finds_tails = options.settings.tails == Tails::automatic;
+    choose_tails(options, scene.scene());
     // A swarm stays automatic where another command line has to say nothing for it.
     options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
-    return rig_line(rig, automatic, options.settings, own) + from_around +
-           (metal ? " (a studio's room, as most of the surface is metal)" : "") +
-           tails_line(scene.scene(), options.settings);
+    return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) +
+           from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +
+           tails_line(scene.scene(), options.settings, finds_tails);
 }
 
 void measure_swarm(SharedOptions& options) {
@@ -227,7 +269,7 @@ void measure_swarm(SharedOptions& options) {
 }
 
 Scene open_scene(SharedOptions& options) {
-    AnimatedScene scene = open_animated_scene(options, options.time);
+    AnimatedScene scene = open_animated_scene(options);
     note(light_scene(options, scene));
     return std::move(scene).take();
 }

@@ -6,14 +6,14 @@
 
 namespace kilolux {
 
-/// The scene of the options at `time` [s], to be put to other times: a generated one by name, else
+/// The scene of the options at their time, to be put to other times: a generated one by name, else
 /// the file of that path. light_scene() comes next. Throws UsageError for what is neither a name
 /// nor looks like a file, Error if the file fails.
-AnimatedScene open_animated_scene(const SharedOptions& options, double time);
+AnimatedScene open_animated_scene(const SharedOptions& options);
 
-/// Adds the lights of the options' rig and environment. Which rig that is, how many lights are
-/// generated and what is behind the scene is then settled in the options; returns the lines that
-/// say it.
+/// Takes the scene as --view says and adds the lights of the options' rig and environment. Which
+/// rig that is, how many lights are generated and what is behind the scene is then settled in the
+/// options; returns the lines that say it.
 std::string light_scene(SharedOptions& options, AnimatedScene& scene);
 
 /// Has a command that measures many lights do so where no rig was asked for.

@@ -51,7 +51,8 @@ void add_frame(Json& out, const FrameRecord& record) {
         const Json limit = stage.limit_ms > 0.0 ? Json(stage.limit_ms) : Json(nullptr);
         out["stages"].push_back({{"name", stage.name}, {"ms", stage.ms}, {"limit_ms", limit}});
     }
-    out["stages"].push_back({{"name", kOtherStage}, {"ms", other_ms(s)}, {"limit_ms", nullptr}});
+    out["stages"].push_back(
+        {{"name", kOtherStage.name}, {"ms", other_ms(s)}, {"limit_ms", nullptr}});
     out["frame_ms"] = s.frame_ms;
     if (record.comparison) out["error"] = comparison_json(*record.comparison);
 }

@@ -16,33 +16,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void check(const BenchOptions& o) {
-    const int modes = o.culling + o.shading + o.tune + o.quick + o.visibility;
+    const int modes = o.tune + o.quick;
     if (!o.tables.empty() && (modes > 0 || !o.output.empty())) {
         throw UsageError("--table: prints what was measured; it goes with no other mode and no -o");
     }
-    if (modes > 1) {
-        throw UsageError("--quick, --culling, --shade, --visibility and --tune exclude each other");
-    }
-    if (o.budget.max_error && modes > 0 && !o.quick) {
-        throw UsageError(
-            "--max-error: goes with sweeps, not with --culling, --shade, --visibility or --tune");
-    }
+    if (modes > 1) throw UsageError("--quick and --tune exclude each other");
+    if (o.budget.max_error && o.tune)
+        throw UsageError("--max-error: goes with sweeps, not with --tune");
     if (o.resume && o.output.empty()) throw UsageError("--resume: needs the folder of -o");
 }
 
-// Without shadows there are no rays.
-void apply_visibility(const CLI::App& command, BenchOptions& options) {
-    RenderSettings& s = options.shared.settings;
-    if (!options.visibility || s.shadows != Shadows::off) return;
-    if (is_given(command, "--shadows")) {
-        throw UsageError("--visibility: needs shadows, and --shadows is off");
-    }
-    s.shadows = Shadows::exact;
-}
-
-void run_bench(BenchOptions& options, const CLI::App& command) {
+void run_bench(BenchOptions& options) {
     check(options);
-    apply_visibility(command, options);
     begin_command(options.shared);
     measure_swarm(options.shared);
     if (!options.tables.empty()) {
@@ -50,9 +35,6 @@ void run_bench(BenchOptions& options, const CLI::App& command) {
         return;
     }
     make_output_folder(options.output);
-    if (options.culling) return run_culling(options);
-    if (options.shading) return run_shading(options);
-    if (options.visibility) return run_visibility(options);
     if (options.tune) return run_tuning(options);
     run_sweep(options);
 }
@@ -63,9 +45,6 @@ constexpr const char* kBenchExamples =
     "  kilolux bench --lights 500:5000:500 --renderer deferred,deferred-all -o results\n"
     "  kilolux bench --lights 256:8192:*2 --resolution '1280,720;1920,1080' --frames 30\n"
     "  kilolux bench --grid '4,4,1;16,9,4;64,36,64' --lanes 1,8 -o results --resume\n"
-    "  kilolux bench --culling\n"
-    "  kilolux bench --shade\n"
-    "  kilolux bench --visibility\n"
     "  kilolux bench --tune\n"
     "  kilolux bench --table results/bench.csv";
 

@@ -39,10 +39,7 @@ struct BenchOptions {
     bool resume = false;
     bool json = false;
     bool quick = false;
-    bool culling = false;
-    bool shading = false;  // --shade
     bool tune = false;
-    bool visibility = false;
     BudgetOptions budget;
 };
 
@@ -102,11 +99,19 @@ void write_table(const std::filesystem::path& csv, const Table& table,
 /// that it was measured with. Throws Error for a file that is none or that lacks its context.
 std::string results_text(const std::vector<std::string>& csv_files);
 
+/// What a bench of one point needs: the first value of each axis. `usual_runs`: without --frames.
+struct BenchScene {
+    BenchScene(BenchOptions& options, int usual_runs);
+
+    Scene scene;
+    Camera camera;
+    RenderSettings settings;
+    int runs;  // after one that warms up
+    nlohmann::ordered_json context;
+};
+
 /// The modes.
 void run_sweep(BenchOptions& options);
-void run_culling(BenchOptions& options);
-void run_shading(BenchOptions& options);
 void run_tuning(BenchOptions& options);
-void run_visibility(BenchOptions& options);
 
 }  // namespace kilolux

@@ -73,14 +73,6 @@ void add_mode_options(CLI::App& command, BenchOptions& o) {
     using Text = const std::string&;
     OptionBuilder(command, "What is measured, instead of the frames of a sweep")
         .flag("--quick", o.quick, "A small sweep of lights, grid and groups")
-        .flag("--culling", o.culling,
-              "Light lists for 1000 to a million lights, against brute force")
-        .flag("--shade", o.shading,
-              "The shading kernel alone, by model and lanes, against the device's limits")
-        .flag(
-            "--visibility", o.visibility,
-            "Shadow rays alone: a walk for all pixels of a cluster against one for each bundle of "
-            "rays; --shadows is exact unless given")
         .flag("--tune", o.tune,
               "Search the fastest work sizes of this device and keep them for all commands")
         .value({"--table", "FILE,...", "",
@@ -114,8 +106,8 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
     OptionBuilder(command, "Measuring and output")
         .count({"--warm-up", "N", "30", "Frames before those that count"}, options.warm_up,
                {0, 1'000'000})
-        .count({"--frames", "N", "120", "Frames that count; runs with --shade and --tune"},
-               options.frames, {1, 1'000'000})
+        .count({"--frames", "N", "120", "Frames that count; runs with --tune"}, options.frames,
+               {1, 1'000'000})
         .choice({"--motion", "", "camera", "What moves from frame to frame"}, options.motion)
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON and plots"}, options.output)
         .flag("--resume", options.resume,

@@ -11,6 +11,7 @@
 #include "host/base/log.h"
 #include "host/measure/bench/plots.h"
 #include "host/measure/bench/row.h"
+#include "host/measure/roofline/stages.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"
 #include "present/cli/stats_json.h"
@@ -120,19 +121,19 @@ std::vector<BenchRow> shown_rows(const BenchOptions& options, const Sweep& sweep
     std::vector<BenchRow> rows = sweep.rows;
     if (options.shared.verbose || sweep.points.size() <= kFewPoints) return rows;
     std::erase_if(rows, [](const BenchRow& row) {
-        return row.stage != kFrameStage && row.stage != "shade" && !row.beats_limit();
+        return row.stage != kFrameStage.name && group_of(row.stage) != StageGroup::shading &&
+               !row.beats_limit();
     });
     return rows;
 }
 
-void write_results(const BenchOptions& options, const Sweep& sweep, const Json& document) {
+void write_results(const BenchOptions& options, const Sweep& sweep, const Json& document,
+                   bool plots) {
     const Json& context = document["context"];
     write_json((options.output / "bench.json").string(), document);
     const std::string subtitle =
         fmt::format("{} on {}", options.shared.scene, context["device"]["name"].get<std::string>());
-    for (const NamedPlot& plot : bench_plots(sweep.rows, subtitle)) {
-        write_plot(plot.plot, options.output / plot.stem);
-    }
+    if (plots) write_plots(bench_plots(sweep.rows, subtitle), options.output);
     note("wrote   " + options.output.string());
 }
 
@@ -199,6 +200,7 @@ void run_sweep(BenchOptions& asked) {
         {"command", command_line()},
         {"context", bench_context(options.shared, bench_frames(options), scene, camera, device)}};
     std::optional<BenchLog> log;
+    const bool plots = !options.output.empty() && can_plot();
     if (!options.output.empty()) {
         const fs::path csv = options.output / "bench.csv";
         log.emplace(csv, options.resume);
@@ -214,7 +216,7 @@ void run_sweep(BenchOptions& asked) {
     const std::vector<BenchRow> shown = shown_rows(options, sweep);
     print_result(options.json, document,
                  to_markdown(bench_summary(shown)) + "\n" + bench_legend(shown));
-    if (!options.output.empty()) write_results(options, sweep, document);
+    if (!options.output.empty()) write_results(options, sweep, document, plots);
     require_limits_hold(sweep.rows);
 }
 

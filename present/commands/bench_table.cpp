@@ -81,9 +81,10 @@ std::string tuning_text(const Json& tuning) {
 fs::path context_file(fs::path csv) { return csv.replace_extension(".context.json"); }
 
 std::string results_text(const std::vector<std::string>& csv_files) {
-    std::string out = "<!-- Written by host/measure/results/make_tables; do not edit. -->\n";
+    std::string out;
     for (const std::string& csv : csv_files)
-        out += fmt::format("\n## {}\n\n{}", fs::path(csv).stem().string(), result_text(csv));
+        out += fmt::format("{}## {}\n\n{}", out.empty() ? "" : "\n", fs::path(csv).stem().string(),
+                           result_text(csv));
     return out;
 }
 

@@ -48,7 +48,7 @@ Cell part_cell(const Certified& c, const char* name) {
 
 Cell frame_ms(const Certified& c) {
     for (const Json& row : c.json.value("/stages/rows"_json_pointer, Json::array())) {
-        if (row.at("stage") == "frame") return row.at("median_ms").get<double>();
+        if (row.at("stage") == kFrameStage.name) return row.at("median_ms").get<double>();
     }
     return {};
 }

@@ -78,6 +78,7 @@ Json clips_json(const Scene& scene) {
                        {"length_s", clip.length},
                        {"channels", clip.channels},
                        {"plays", clip.plays}});
+        if (!clip.broken.empty()) out.back()["broken"] = clip.broken;
     }
     return out;
 }
@@ -150,7 +151,10 @@ std::string text_of(const Json& value) {
 std::string clip_line(const Json& clip) {
     return fmt::format("{} '{}': {:.6g} s, {} channels{}", clip["index"].get<int>(),
                        shown_uri(clip["name"].get<std::string>()), clip["length_s"].get<double>(),
-                       clip["channels"].get<int>(), clip["plays"].get<bool>() ? ", plays" : "");
+                       clip["channels"].get<int>(),
+                       clip["plays"].get<bool>() ? ", plays"
+                       : clip.contains("broken") ? ", broken"
+                                                 : "");
 }
 
 std::string profile_line(const Json& profile) {
@@ -195,10 +199,10 @@ void add_lines(std::string& out, const Json& value, const std::string& indent) {
     }
 }
 
-// Measures the limits again and compares them with independent ones.
+// Measures the limits again and compares them with independent ones; keeps those that agree.
 void run_check(const InfoOptions& options) {
     const Gpu gpu(choose_device(options.shared.settings.device));
-    const DeviceLimits limits = cached_device_limits(gpu, true);
+    const DeviceLimits limits = measure_device_limits(gpu);
     Table table{{"limit", "measured [1/s]", "independent [1/s]", "ratio", "result"}, {}};
     std::string failed;
     for (const LimitCheck& check : check_limits(gpu.info, limits)) {
@@ -214,6 +218,7 @@ void run_check(const InfoOptions& options) {
             "the machine may be why",
             kLimitFactor, failed));
     }
+    keep_device_limits(gpu.info, limits);
 }
 
 void run_info(InfoOptions& options) {

@@ -174,8 +174,9 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures, c
 }
 
 void advise(SceneRenderer& pictures, const FrameRecord& record) {
-    const std::string advice = picture_advice(pictures.scene().scene(), pictures.camera(),
-                                              pictures.renderer().settings(), record.stats);
+    const std::string advice =
+        picture_advice(pictures.scene().scene(), pictures.camera(), pictures.renderer().settings(),
+                       record.stats, pictures.is_framed());
     if (!advice.empty()) note(record.file + ": " + advice);
 }
 
@@ -262,6 +263,13 @@ FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked)
     return want;
 }
 
+void warn_of_exposure(const RenderOptions& options) {
+    const bool exposes =
+        options.shared.automatic_exposure || options.shared.settings.exposure != 0.0f;
+    if (!exposes || is_for_the_eye(options.output.output)) return;
+    note(options.output.output.string() + ": holds linear light, which --exposure does not change");
+}
+
 // Whether the picture is cut out of its background: --background none, where the format has alpha.
 // Bloom glows where nothing is, and debug views are of no light.
 bool wants_alpha(const RenderOptions& options) {
@@ -284,6 +292,7 @@ void run_render(RenderOptions& options) {
     const Task first = tasks[begin];
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
+    warn_of_exposure(options);
     const CameraMotion motion(options.shared, out);
     const auto camera = [&motion](const Scene& scene, int frame, double time) {
         return motion.at(scene, frame, time);

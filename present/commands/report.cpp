@@ -43,7 +43,7 @@ struct Report {
     nlohmann::ordered_json context;
     std::string caption;  // scene, lights, sizes, device, for pictures
     std::vector<ReportRow> rows;
-    std::vector<SampledShadowError> shadows;  // empty: no row is about them
+    bool plots = false;  // are written
 };
 
 BenchFrames report_frames(const ReportOptions& options) {
@@ -75,19 +75,6 @@ std::vector<ReportRow> measure(const ReportOptions& options, ReportRun& run,
     return rows;
 }
 
-// Of the rows' sampled shadows, if any.
-std::vector<SampledShadowError> shadow_errors(const ReportOptions& options, const ReportView& view,
-                                              const ReportRun& run,
-                                              const std::vector<ReportRow>& rows) {
-    ShadowErrorPlan plan;
-    plan.rays = shadow_rays_of(rows);
-    if (plan.rays.empty()) return {};
-    if (options.quick) plan.draws = 256;
-    note("sampled shadows: many pictures that differ in their seed");
-    return measure_shadow_error(view, run.at_error_size(options.shared.settings), plan,
-                                check_interrupt);
-}
-
 std::string caption_of(const SharedOptions& shared, const Scene& scene, const DeviceInfo& device,
                        const ReportRun& run) {
     const RenderSettings& s = shared.settings;
@@ -117,30 +104,17 @@ void write_errors(const fs::path& folder, const Report& report, const ReportRow&
                   ReportRun& run) {
     const auto references = run.references().all(run.at_error_size(row.setting.settings));
     const std::string file = file_stem(row.setting.name) + ".png";
-    write_canvas(folder / "worst" / file, worst_pixel_sheet(row, references, report.caption));
     write_canvas(folder / "errors" / file, error_map_sheet(row, references, report.caption));
 }
 
 // The summary with its notes: report.md.
 std::string report_text(const Report& report) {
-    std::string out =
-        to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows);
-    if (report.shadows.empty()) return out;
-    return out + "\n" + to_markdown(shadow_error_table(report.shadows), 3) + "\n" +
-           shadow_error_notes();
+    return to_markdown(report_summary(report.rows), 3) + "\n" + report_notes(report.rows);
 }
 
 // The document of --json and report.json.
 Json report_json(const Report& report) {
-    Json out = {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
-    if (!report.shadows.empty()) out["shadows"] = table_json(shadow_error_table(report.shadows));
-    return out;
-}
-
-// shadows.csv.
-void write_shadow_errors(const fs::path& folder, const Report& report) {
-    if (report.shadows.empty()) return;
-    write_table(folder / "shadows.csv", shadow_error_table(report.shadows), report.context);
+    return {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
 }
 
 // cut_offs.csv, and cut_offs.png: the ways with lights that lack a range, side by side.
@@ -152,32 +126,19 @@ void write_cut_offs(const fs::path& folder, const Report& report, ReportRun& run
                  cut_off_sheet(report.rows, run.references().unbounded(), report.caption));
 }
 
-// Last, as they need gnuplot.
-void write_plots(const fs::path& folder, const Report& report) {
-    for (const auto& [stem, plot] : report_plots(report.rows, report.caption)) {
-        write_plot(plot, folder / stem);
-    }
-    if (report.shadows.empty()) return;
-    write_plot(shadow_error_plot(report.shadows, report.caption),
-               folder / "shadow_variance_over_rays");
-}
-
-// Writes report.csv, report.json, report.md, the plots, and the pictures of errors and worst pixels
-// to the folder of -o.
+// Writes report.csv, report.json, report.md, the plots, and the maps of errors to the folder of -o.
 void write_report(const ReportOptions& options, const Report& report, ReportRun& run) {
     const fs::path& folder = options.output;
     write_atomically(folder / "report.csv", to_csv(report_table(report.rows)));
     write_atomically(folder / "report.md", report_text(report));
     write_json((folder / "report.json").string(), report_json(report));
-    write_shadow_errors(folder, report);
     write_cut_offs(folder, report, run);
-    make_output_folder(folder / "worst");
     make_output_folder(folder / "errors");
     for (const ReportRow& row : report.rows) {
         check_interrupt();
         write_errors(folder, report, row, run);
     }
-    write_plots(folder, report);
+    if (report.plots) write_plots(report_plots(report.rows, report.caption), folder);
     note("wrote   " + folder.string());
 }
 
@@ -216,6 +177,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     const Camera camera = choose_camera(shared, scene);
     const DeviceInfo device = describe(choose_device(shared.settings.device));
     Report report;
+    report.plots = !options.output.empty() && can_plot();
     report.context = bench_context(shared, report_frames(options), scene, camera, device);
     report.context["lights"] = shared.settings.lights.count;
     report.context["resolution"] = {shared.settings.width, shared.settings.height};
@@ -224,8 +186,6 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     report.context["error_resolution"] = run.error_size();
     report.caption = caption_of(shared, scene, device, run);
     report.rows = measure(options, run, chosen_settings(options, scene));
-    report.shadows = shadow_errors(options, view, run, report.rows);
-    add_shadow_errors(report.rows, report.shadows);
     print_result(options.json, report_json(report), report_text(report));
     if (!options.output.empty()) write_report(options, report, run);
     choose_from_rows(shared, options.budget, view, report.rows);
@@ -235,7 +195,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
     add_shared_options(command, options.shared);
     OptionBuilder(command, "Measuring and output")
         .flag("--quick", options.quick,
-              "480x270 pixels, 1000 lights, fewer settings and frames: about a minute")
+              "480x270 pixels, 1000 lights, fewer settings and frames: minutes on two CPU cores")
         .choice_list({"--axes", "", "all; shadows where --shadows asks for some",
                       "What settings may differ in; shadows compares off, exact and sampled ones "
                       "by 1, 4 and 16 rays, and makes --shadows exact the default"},

@@ -29,13 +29,13 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
                              FirstPicture first)
     : options_(options),
       camera_at_(std::move(first.camera)),
-      scene_(first.made ? AnimatedScene(std::move(*first.made))
-                        : open_animated_scene(options, first.time)) {
+      scene_(first.made ? AnimatedScene(std::move(*first.made)) : open_animated_scene(options)) {
     if (!camera_at_) {
         camera_at_ = [this](const Scene& scene, int, double) {
             return choose_camera(options_, scene);
         };
     }
+    scene_.set_time(first.time);
     rig_ = light_scene(options, scene_);
     camera_ = camera_at_(scene_.scene(), first.frame, first.time);
     check_interrupt();

@@ -61,7 +61,8 @@ class SceneRenderer {
 
     AnimatedScene& scene() { return scene_; }
     Renderer& renderer() { return *renderer_; }
-    const Camera& camera() const { return camera_; }       // of the last render()
+    const Camera& camera() const { return camera_; }  // of the last render()
+    bool is_framed() const { return kilolux::is_framed(options_.camera, scene_.scene()); }
     const std::string& rig_lines() const { return rig_; }  // what lights the scene
 
  private:

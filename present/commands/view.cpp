@@ -94,7 +94,7 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     StateFile file(options.fresh ? std::filesystem::path() : view_state_file());
     const bool keeps_rig = take_kept_rig(options.shared, command, file);
     session.asked = options.shared;
-    AnimatedScene scene = open_animated_scene(options.shared, options.shared.time);
+    AnimatedScene scene = open_animated_scene(options.shared);
     note(light_scene(options.shared, scene));
     session.shared = options.shared;
     session.state = start_state(options, command, file, {session.asked.rig, keeps_rig});

@@ -8,8 +8,8 @@
 
 #include "host/base/error.h"
 #include "host/base/srgb.h"
+#include "host/measure/metrics/error_metrics.h"
 #include "host/measure/metrics/flip.h"
-#include "host/measure/metrics/metrics.h"
 #include "present/image/display_picture.h"
 #include "present/image/image_file.h"
 
@@ -21,9 +21,9 @@ RgbImage linear_of_display(RgbImage image) {
     return image;
 }
 
-double flip_of(const RgbImage& picture, const RgbImage& reference, bool linear) {
-    if (linear) return flip_hdr(picture, reference).error.mean;
-    return flip_ldr(linear_of_display(picture), linear_of_display(reference)).error.mean;
+ErrorDistribution flip_of(const RgbImage& picture, const RgbImage& reference, bool linear) {
+    if (linear) return flip_hdr(picture, reference).error;
+    return flip_ldr(linear_of_display(picture), linear_of_display(reference)).error;
 }
 
 }  // namespace
@@ -48,15 +48,14 @@ RgbImage Reference::comparable(const Frame& frame) const {
 Comparison Reference::compare(const Frame& frame, const std::string& metric,
                               double threshold) const {
     const RgbImage picture = comparable(frame);
-    const HdrMetrics m = compare_hdr(picture, colour_);
-    Comparison out{metric, 0.0, threshold, {}};
-    out.errors = {
-        {"rmse", m.rmse},        {"mean", m.absolute.mean},
-        {"max", m.absolute.max}, {"max-relative", m.relative.max},
-        {"relmse", m.rel_mse},   {"different-pixels", static_cast<double>(m.different_pixels)}};
-    if (metric == "flip") out.errors.emplace_back("flip", flip_of(picture, colour_, linear_));
-    for (const auto& [name, value] : out.errors) {
-        if (name == metric) out.value = value;
+    const auto asked = std::ranges::find(error_metrics(), metric, &ErrorMetric::name);
+    PictureErrors errors;
+    errors.hdr = compare_hdr(picture, colour_);
+    if (asked->part == MetricPart::flip) errors.flip = flip_of(picture, colour_, linear_);
+    Comparison out{metric, *asked->value(errors), threshold, {}};
+    for (const ErrorMetric& m : error_metrics()) {
+        if (m.is_error && (m.part == MetricPart::hdr || m.part == asked->part))
+            out.errors.emplace_back(m.name, *m.value(errors));
     }
     return out;
 }

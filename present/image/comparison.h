@@ -19,7 +19,7 @@ struct Comparison {
     double value = 0.0;      // of `metric`
     double threshold = 0.0;  // largest value that passes
     std::vector<std::pair<std::string, double>>
-        errors;  // by name; `flip`, which is slow, if asked for
+        errors;  // by name; FLIP, which is slow, if asked for
     bool passed() const { return value <= threshold; }
 };
 
@@ -30,7 +30,8 @@ class Reference {
     /// Reads the file. Throws UsageError for an unknown type, Error if it cannot be read.
     explicit Reference(std::filesystem::path file);
 
-    /// Throws Error when the sizes differ.
+    /// `metric`: an error of error_metrics() of linear pictures or of FLIP. Throws Error when the
+    /// sizes differ.
     Comparison compare(const Frame& frame, const std::string& metric, double threshold) const;
 
     /// The relative error |picture - reference| / |reference| of each pixel's worst channel.

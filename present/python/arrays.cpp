@@ -9,6 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/gltf/mesh/directions.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace py = pybind11;
 
@@ -55,9 +56,7 @@ std::vector<Vector> vectors_of(const Array<float>& array, py::ssize_t rows,
 }
 
 LightType type_of(const std::string& kind) {
-    if (kind == "point") return LightType::point;
-    if (kind == "spot") return LightType::spot;
-    if (kind == "directional") return LightType::directional;
+    if (const LightKind* found = find_light_kind(kind)) return found->type;
     throw Error("lights: kind '" + kind + "' is none of point, spot, directional");
 }
 
@@ -108,14 +107,14 @@ std::vector<SceneLight> lights_of(const LightArrays& arrays) {
         light.position = row(arrays.position, i);
         light.intensity = glm::vec3(row(arrays.intensity, i));
         light.range = static_cast<float>(arrays.range.data()[i]);
-        if (type == LightType::point) continue;
+        if (!kind_of(type).is_aimed) continue;
         light.direction = glm::normalize(row(arrays.direction, i));
         if (!std::isfinite(light.direction.x)) {
             throw Error(fmt::format("lights: direction of light {} is zero or not finite", i));
         }
         light.inner_cone = static_cast<float>(arrays.inner.data()[i]);
         light.outer_cone = static_cast<float>(arrays.outer.data()[i]);
-        if (type == LightType::spot && !(light.inner_cone < light.outer_cone)) {
+        if (kind_of(type).has_cone && !(light.inner_cone < light.outer_cone)) {
             throw Error(fmt::format("lights: inner cone {} of light {} is not below the outer {}",
                                     light.inner_cone, i, light.outer_cone));
         }

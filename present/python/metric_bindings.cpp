@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "host/base/error.h"
+#include "host/measure/metrics/error_metrics.h"
 #include "host/measure/metrics/flip.h"
-#include "host/measure/metrics/metrics.h"
 #include "host/measure/metrics/ssim.h"
 #include "present/python/arrays.h"
 #include "present/python/bindings.h"
@@ -21,18 +23,18 @@ Pictures pictures_of(const Array<double>& picture, const Array<double>& referenc
 
 py::dict compare(const Array<double>& picture, const Array<double>& reference, double peak) {
     const Pictures p = pictures_of(picture, reference);
-    HdrMetrics m;
+    PictureErrors errors;
     {
         const py::gil_scoped_release other_threads_run;
-        m = compare_hdr(p.picture, p.reference, {.psnr_peak = peak});
+        errors.hdr = compare_hdr(p.picture, p.reference, {.psnr_peak = peak});
     }
     py::dict out;
-    out["rmse"] = m.rmse;
-    out["relmse"] = m.rel_mse;
-    out["psnr"] = m.psnr_db;
-    out["mean"] = m.absolute.mean;
-    out["max"] = m.absolute.max;
-    out["different_pixels"] = m.different_pixels;
+    for (const ErrorMetric& m : error_metrics()) {
+        if (m.part != MetricPart::hdr) continue;
+        std::string name(m.name);
+        std::ranges::replace(name, '-', '_');
+        out[name.c_str()] = *m.value(errors);
+    }
     return out;
 }
 

@@ -79,6 +79,11 @@ void ThreadRenderer::check(const Call& call) const {
 
 template <typename Work>
 auto ThreadRenderer::begin(Work work, const std::shared_ptr<Call>& call) {
+    if (::getpid() != process_) {
+        throw Error(
+            "a renderer is of no use in a process that was forked after it was made: take "
+            "multiprocessing's start method 'spawn'");
+    }
     return thread_.ask([this, call, work = std::move(work)]() mutable {
         Call::State waiting = Call::waiting;
         if (!call->state.compare_exchange_strong(waiting, Call::running)) throw Interrupted();
@@ -125,7 +130,7 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
           block_signals, [this] { pictures_.reset(); }, [] {}) {
     run_to_end([&] {
         const SharedOptions& shared = options_.shared;
-        pictures_.emplace(
+        pictures_ = std::make_unique<SceneRenderer>(
             options_.shared, options_.budget,
             FirstPicture{request_of(shared, false, false), shared.time, 0, {}, std::move(made)});
         if (!lights.empty()) pictures_->set_lights(std::move(lights));
@@ -134,6 +139,10 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
 }
 
 ThreadRenderer::~ThreadRenderer() {
+    if (::getpid() != process_) {  // neither the thread nor the drivers' ones are here
+        (void)pictures_.release();
+        return;
+    }
     const py::gil_scoped_release other_threads_run;
     thread_.stop(std::chrono::hours(1));
 }
@@ -152,6 +161,8 @@ void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) 
             next.shared.settings.ambient = settled.settings.ambient;
             next.shared.settings.lights.count = settled.settings.lights.count;
             next.shared.environment = settled.environment;
+            Tails& tails = next.shared.settings.tails;
+            if (tails == Tails::automatic) tails = settled.settings.tails;
             next.shared.reflections = settled.reflections;
             next.shared.maps = settled.maps;
             next.shared.background = settled.background;

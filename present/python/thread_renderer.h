@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <unistd.h>
+
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -79,11 +81,12 @@ class ThreadRenderer {
     Frame render_now(double time);
 
     RendererOptions options_;
-    const Call* running_ = nullptr;          // set in the thread
-    double last_time_ = 0.0;                 // [s] of the last picture
-    bool rendered_ = false;                  // whether there is one
-    std::optional<SceneRenderer> pictures_;  // used in the thread only
-    TaskThread thread_;                      // last: it ends first
+    const Call* running_ = nullptr;            // set in the thread
+    double last_time_ = 0.0;                   // [s] of the last picture
+    bool rendered_ = false;                    // whether there is one
+    pid_t process_ = ::getpid();               // that the thread and OpenCL belong to
+    std::unique_ptr<SceneRenderer> pictures_;  // used in the thread only
+    TaskThread thread_;                        // last: it ends first
 };
 
 }  // namespace kilolux

@@ -71,11 +71,74 @@ TEST_F(Faults, NoPlatformNoDeviceNoOpenGl) {
     expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
     expect_refused(with_environment({"POCL_DEVICES=none"}), "OpenCL: no device found");
     expect_refused(with_environment({"__EGL_VENDOR_LIBRARY_FILENAMES=" + empty + "/none.json"}),
-                   "EGL: no headless OpenGL 4.5 context");
+                   "EGL: no headless OpenGL 4.5 context", {"--geometry", "ids"});
     write_text(elsewhere_ / "broken.icd", "libno-such-driver.so.1\n");
     expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
     write_text(elsewhere_ / "broken.icd", "libm.so.6\n");  // a library, but no driver
     expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
+}
+
+// PoCL's folder of kernels that cannot be made, and no linker on PATH: a private folder serves, and
+// nothing is left behind.
+TEST_F(Faults, AFolderOfKernelsThatCannotBeUsed) {
+    const std::string temporary = "TMPDIR=" + elsewhere_.path().string();
+    const Words homeless = {"POCL_CACHE_DIR=", "XDG_CACHE_HOME=", "HOME=/dev/null/x"};
+    Words alone = homeless;
+    alone.insert(alone.end(), {temporary, "PATH=/nowhere"});
+    const ChildResult made =
+        run_child(render_words(with_environment(alone), picture_, {"--geometry", "compute"}));
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_TRUE(has(made.err,
+                    "PoCL's folder of kernels /dev/null/x/.cache/pocl/kcache: cannot be "
+                    "made: Not a directory; this run keeps them in a temporary folder"))
+        << made.err;
+    EXPECT_EQ(elsewhere_.names(), std::set<std::string>{});
+    write_text(picture_, kOld);
+    Words nowhere = homeless;
+    nowhere.emplace_back("TMPDIR=/nowhere");
+    expect_refused(with_environment(nowhere), "set POCL_CACHE_DIR to a folder that can be used");
+}
+
+TEST_F(Faults, AFolderOfKernelsWithoutSpaceOrExecution) {
+    const fs::path mounted = elsewhere_ / "mounted";
+    fs::create_directory(mounted);
+    const auto listed = [&](unsigned long flags, const char* options) {
+        if (mount("kilolux", mounted.c_str(), "tmpfs", flags, options) != 0) return std::string();
+        const ChildResult result = run_child({"/usr/bin/env", "POCL_CACHE_DIR=" + mounted.string(),
+                                              program_file(), "info", "--list-devices"});
+        EXPECT_EQ(umount(mounted.c_str()), 0);
+        EXPECT_EQ(result.code, 0);
+        EXPECT_TRUE(has(result.out, "OpenCL")) << result.out;
+        return result.err;
+    };
+    const std::string no_code = listed(MS_NOEXEC, "size=64m");
+    if (no_code.empty()) GTEST_SKIP() << "no permission to mount a tmpfs";
+    EXPECT_TRUE(has(no_code, "code in it may not run")) << no_code;
+    EXPECT_TRUE(has(listed(0, "size=1m"), "less than 32 MiB are free"));
+    EXPECT_TRUE(has(listed(MS_RDONLY, "size=64m"), "cannot be written to"));
+    EXPECT_EQ(listed(0, "size=64m"), "");
+}
+
+// Where nobody asked for OpenGL, OpenCL draws; what libEGL says of itself is not printed.
+TEST_F(Faults, OpenGlThatCannotBeUsedIsNotNeeded) {
+    // A device for which OpenGL was not measured to be slower.
+    const std::string device = "KILOLUX_DEVICE_KIND=gpu", nothing_kept = "XDG_CACHE_HOME=/dev/null";
+    const fs::path expected = elsewhere_ / "compute.png", file = elsewhere_ / "auto.png";
+    ASSERT_EQ(
+        run_child(render_words(with_environment({device}), expected, {"--geometry", "compute"}))
+            .code,
+        0);
+    for (const char* variable :
+         {"LIBGL_DRIVERS_PATH=/nowhere", "__EGL_VENDOR_LIBRARY_DIRS=/nowhere",
+          "GALLIUM_DRIVER=softpipe", "MESA_GL_VERSION_OVERRIDE=3.1"}) {
+        const ChildResult made =
+            run_child(render_words(with_environment({variable, device, nothing_kept}), file));
+        EXPECT_EQ(made.code, 0) << variable << made.err;
+        EXPECT_TRUE(has(made.err, "OpenCL draws in place of OpenGL: EGL: no headless OpenGL 4.5"))
+            << variable << made.err;
+        EXPECT_FALSE(has(made.err, "libEGL warning")) << made.err;
+        EXPECT_EQ(text_of_file(file), text_of_file(expected)) << variable;
+    }
 }
 
 TEST_F(Faults, DeviceLostOnTheWay) {

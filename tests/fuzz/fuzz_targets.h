@@ -19,8 +19,12 @@ bool fuzz_load_scene(FuzzInput input);
 /// rest is a configuration file. True if they can be obeyed.
 bool fuzz_options(FuzzInput input);
 
+/// Reads the bytes as an IES file; an Error must be one line that names the file. True if it is one.
+bool fuzz_ies(FuzzInput input);
+
 /// Inputs to start from.
 std::vector<std::string> load_scene_corpus();
 std::vector<std::string> options_corpus();
+std::vector<std::string> ies_corpus();
 
 }  // namespace kilolux

@@ -86,5 +86,7 @@ TEST(Fuzz, LoadScene) { expect_no_crash(fuzz_load_scene, load_scene_corpus(), 30
 
 TEST(Fuzz, Options) { expect_no_crash(fuzz_options, options_corpus(), 3000); }
 
+TEST(Fuzz, Ies) { expect_no_crash(fuzz_ies, ies_corpus(), 3000); }
+
 }  // namespace
 }  // namespace kilolux

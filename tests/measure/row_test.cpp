@@ -254,7 +254,7 @@ TEST(BenchPlots, DrawTimesAndSpeedUp) {
     EXPECT_LT(point.low, point.y);
     EXPECT_GT(point.high, point.y);
     EXPECT_EQ(plots[1].stem, "time_against_grid");
-    EXPECT_EQ(plots[1].plot.series[0].points[0].label, "4x4x1");
+    EXPECT_EQ(plots[1].plot.series[0].points[0].x, 16.0);
     EXPECT_EQ(plots[2].stem, "speed_up_against_lights");
     ASSERT_EQ(plots[2].plot.series.size(), 1u);
     EXPECT_DOUBLE_EQ(plots[2].plot.series[0].points[1].y, 200.0);

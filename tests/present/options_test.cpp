@@ -298,6 +298,7 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
         {"-o a.png --shard 0/2", "--shard: needs --frames"},
         {"-o a.png --threshold 0.1", "--threshold: needs --reference FILE"},
         {"-o a.png --difference d.png", "--difference: needs --reference FILE"},
+        {"-o a.png --skip-existing --reference r.png", "--skip-existing: leaves frames out"},
         {"-o a.#.png --frames 1:2 --reference r.#.png --difference d.png", "'d.png' has no ####"},
     };
     for (const auto& c : cases) {

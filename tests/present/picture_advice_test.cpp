@@ -49,6 +49,20 @@ TEST(PictureAdvice, NoLights) {
     EXPECT_TRUE(contains(advice(scene, camera), "no usable lights, all 1 were rejected"));
 }
 
+TEST(PictureAdvice, ShadowsOfLightsThatCastNone) {
+    Scene scene = lit_box();
+    RenderSettings settings;
+    settings.shadows = Shadows::exact;
+    FrameStats stats;
+    stats.active_clusters = 1;
+    stats.lights_given = stats.lights_used = stats.directional_lights = 5;
+    const Camera camera = framing_camera(scene, 1.5);
+    EXPECT_TRUE(contains(picture_advice(scene, camera, settings, stats), "no shadows"));
+    stats.directional_lights = 4;
+    stats.refined_pairs = 1;
+    EXPECT_EQ(picture_advice(scene, camera, settings, stats), "");
+}
+
 TEST(PictureAdvice, LightsOutOfReach) {
     Scene scene = lit_box(Rig::none);
     SceneLight light;

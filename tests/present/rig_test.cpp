@@ -103,7 +103,7 @@ TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
         options.shows_environment = true;
         add_shared_options(app, options);
         app.parse((folder_ / "metal.glb").string() + " -q " + more);
-        AnimatedScene scene = open_animated_scene(options, 0.0);
+        AnimatedScene scene = open_animated_scene(options);
         const std::string line = light_scene(options, scene);
         return std::tuple(options.maps != nullptr, options.shown_background != nullptr,
                           contains(line, "most of the surface is metal"),
@@ -116,6 +116,52 @@ TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
     EXPECT_EQ(settled("--environment sky --reflections"), std::tuple(true, true, false, 0u));
     EXPECT_EQ(settled("--environment sky --environment-lights 3"),
               std::tuple(false, true, false, 3u));
+}
+
+TEST_F(RigTest, ManyFarLightsWithoutARangeTakeATree) {
+    Scene scene = box_scene({80.0, 4.0, 400.0});
+    for (int i = 0; i < 129; ++i) {
+        SceneLight light;
+        light.position = {i % 8 * 10.0 - 35.0, 20.0, i / 8 * 24.0 - 190.0};
+        scene.lights.push_back(light);
+    }
+    write("many.glb", scene);
+    const auto settled = [&](const std::string& more) {
+        CLI::App app;
+        SharedOptions options;
+        options.shows_environment = true;
+        add_shared_options(app, options);
+        app.parse((folder_ / "many.glb").string() + " -q " + more);
+        open_scene(options);
+        return options.settings.tails;
+    };
+    EXPECT_EQ(settled(""), Tails::tree);
+    EXPECT_EQ(settled("--tails bounded"), Tails::bounded);
+    EXPECT_EQ(settled("--shadows exact"), Tails::automatic) << "a tree casts no shadows";
+    EXPECT_EQ(settled("--range-budget 1e-9"), Tails::automatic);
+}
+
+TEST_F(RigTest, TheViewDecidesCameraAndRig) {
+    const auto seen = [&](const std::string& scene, const std::string& more) {
+        CLI::App app;
+        SharedOptions options;
+        add_shared_options(app, options);
+        app.parse((folder_ / scene).string() + " -q " + more);
+        AnimatedScene opened = open_animated_scene(options);
+        const std::string line = light_scene(options, opened);
+        const Camera camera = choose_camera(options, opened.scene());
+        const Box box = bounds(opened.scene());
+        const bool inside = glm::all(glm::greaterThan(camera.position, box.min)) &&
+                            glm::all(glm::lessThan(camera.position, box.max));
+        return std::pair(inside, line.substr(0, line.find(':')));
+    };
+    using Seen = std::pair<bool, std::string>;
+    EXPECT_EQ(seen("room.glb", ""), Seen(true, "view    inside (automatic)"));
+    EXPECT_EQ(seen("object.glb", ""), Seen(false, "view    outside (automatic)"));
+    EXPECT_EQ(seen("room.glb", "--view outside"),
+              Seen(false, "view    outside (--view)\nrig     studio (automatic)"));
+    EXPECT_EQ(seen("object.glb", "--view inside"),
+              Seen(true, "view    inside (--view)\nrig     swarm (automatic)"));
 }
 
 TEST_F(RigTest, ExportSaysThatAmbientLightIsLost) {

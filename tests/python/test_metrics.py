@@ -68,3 +68,15 @@ def test_bad_pictures_are_refused():
         kilolux.flip(LIGHT, CODES)
     with pytest.raises(kilolux.Error, match="values are uint16, must be uint8"):
         kilolux.rmse(CODES.astype(np.uint16), CODES.astype(np.uint16))
+
+
+def test_ssim_is_scikit_images():
+    metrics = pytest.importorskip("skimage.metrics", reason="package python3-skimage")
+    luma = np.array([0.2126, 0.7152, 0.0722])
+    y, x = np.mgrid[0:40, 0:56]
+    waves = np.stack([128 + 100 * np.sin(0.2 * x + k) * np.cos(0.3 * y) for k in range(3)], axis=-1).astype(np.uint8)
+    for picture, reference in ((CODES ^ 8, CODES), (np.roll(waves, 1, axis=1), waves), (waves // 2, waves)):
+        # Wang et al. 2004: a Gaussian window of 11 pixels, and no windows over the border.
+        _, windows = metrics.structural_similarity(picture @ luma, reference @ luma, gaussian_weights=True, sigma=1.5,
+                                                   use_sample_covariance=False, data_range=255, full=True)
+        assert kilolux.ssim(picture, reference) == pytest.approx(windows[5:-5, 5:-5].mean(), abs=1e-6)

@@ -186,6 +186,27 @@ def test_an_interruption_from_the_keyboard_ends_the_work():
         assert child.wait(60) == 7
 
 
+def test_a_forked_process_is_told_to_be_spawned():
+    script = """
+import os, kilolux
+renderer = kilolux.Renderer('plain', lights=5, resolution=(16, 16))
+renderer.render()
+child = os.fork()
+if child == 0:
+    for attempt in (renderer.render, lambda: kilolux.render('plain', resolution=(16, 16))):
+        try:
+            attempt()
+            print('rendered')
+        except kilolux.Error as error:
+            print(error)
+else:
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True)
+    lines = done.stdout.splitlines()
+    assert lines[2] == "0" and all("'spawn'" in line for line in lines[:2]), done
+
+
 def test_an_interruption_comes_at_once_and_ends_no_other_call():
     """The picture takes seconds; another thread's is made meanwhile, and both renderers go on."""
     script = ("import kilolux, sys, threading, time\n"

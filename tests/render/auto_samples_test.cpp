@@ -3,6 +3,7 @@
 // way.
 #include <cmath>
 
+#include "host/base/interrupt.h"
 #include "host/picture/sample_pattern.h"
 #include "tests/support/render_fixture.h"
 
@@ -207,10 +208,12 @@ TEST(AutoSamples, CanBeLeftBetweenSamples) {
     Renderer renderer(scene, auto_settings(70, 37, 0.05f, 64));
     const Frame first = renderer.render(camera, 0.0);
     int calls = 0;
-    const auto leave = [&] {
-        if (++calls == 12) throw Error("left");
-    };
-    EXPECT_THROW(renderer.render(camera, 0.0, leave), Error);
+    {
+        const WorkWatch leave([&](double) {
+            if (++calls == 12) throw Interrupted();
+        });
+        EXPECT_THROW(renderer.render(camera, 0.0), Interrupted);
+    }
     EXPECT_EQ(renderer.render(camera, 0.0).radiance, first.radiance);
 }
 

@@ -103,6 +103,18 @@ TEST(ScenePlan, CompilingAFeatureInChangesNoBit) {
     }
 }
 
+// A matt surface looks the same whatever else is in the scene.
+TEST(ScenePlan, AutomaticShadingIsPbrWhereAnythingIsLit) {
+    Scene scene = make_generated_scene("plain");
+    const RenderSettings settings = settings_for(Shading::automatic);
+    EXPECT_EQ(plan_of(scene, settings).kernels.shading, SHADING_PBR);
+    for (Material& material : scene.materials) material.unlit = true;
+    for (Mesh& mesh : scene.meshes) mesh.material = 0;
+    EXPECT_EQ(plan_of(scene, settings).kernels.shading, SHADING_LAMBERT) << "nothing reflects";
+    scene.materials[0].unlit = false;
+    EXPECT_EQ(plan_of(scene, settings).kernels.shading, SHADING_PBR);
+}
+
 // A GLSL compiler may order operations as it likes: here features change last bits at most.
 TEST(ScenePlan, ForwardShadersRoundAlikeWithAFeature) {
     const Scene scene = make_generated_scene("plain");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/measure/report/shadow_error.h"
+#include "tests/bench/shadow_error.h"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include "host/base/error.h"
 #include "host/scene/generated/scenes.h"
 #include "tests/scene/export_scenes.h"
+#include "tests/support/box_scene.h"
 #include "tests/support/gltf_builder.h"
 
 namespace kilolux {
@@ -86,15 +87,31 @@ TEST(AnimatedScene, RevisionsSayWhatChanged) {
     EXPECT_EQ(scene.scene().meshes[2].revision, 0u) << "stands still";
 }
 
-TEST(AnimatedScene, TheStillBoxIsThatOfTimeZeroAtAnyTime) {
+TEST(AnimatedScene, TheStillBoxIsThatOfTheTimeAskedForAtAnyTime) {
     const TempFolder folder;
     const auto path = folder.path() / "m.gltf";
     write_file(path, moving_file().gltf());
     const Box at_zero = bounds(load_scene(path, {0.0}));
-    const Scene later = load_scene(path, {4.0});
-    EXPECT_NE(bounds(later).max, at_zero.max);
-    EXPECT_EQ(resting_bounds(later).min, at_zero.min);
-    EXPECT_EQ(resting_bounds(later).max, at_zero.max);
+    AnimatedScene scene(path, {4.0});
+    const Box asked = bounds(scene.scene());
+    EXPECT_NE(asked.max, at_zero.max);
+    for (const double time : {0.0, 1.0, 4.0}) {
+        scene.set_time(time);
+        EXPECT_EQ(resting_bounds(scene.scene()).min, asked.min) << time;
+        EXPECT_EQ(resting_bounds(scene.scene()).max, asked.max) << time;
+    }
+}
+
+TEST(AnimatedScene, NodesHiddenByAScaleOfZeroAreOutsideOfNoBox) {
+    Scene scene;
+    scene.meshes.push_back(box_mesh(glm::dvec3(2.0)));
+    glm::dmat4 hidden(0.0);
+    hidden[3] = {1e4, 0.0, 0.0, 1.0};
+    scene.instances = {{0, glm::dmat4(1.0)}, {0, hidden}};
+    EXPECT_EQ(bounds(scene).max, glm::dvec3(1.0));
+    // Flat is not hidden.
+    scene.instances[1].world_from_object[0][0] = scene.instances[1].world_from_object[1][1] = 1.0;
+    EXPECT_EQ(bounds(scene).max, glm::dvec3(1e4 + 1.0, 1.0, 1.0));
 }
 
 TEST(AnimatedScene, ThousandsOfTimesDoNotUseUpWhatAFileMayDecodeTo) {

@@ -4,11 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "host/base/error.h"
+#include "host/images/images.h"
 #include "host/scene/lights/built_in_environments.h"
+#include "host/scene/lights/prefiltered_environment.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/messages.h"
 
@@ -159,6 +162,42 @@ TEST(BuiltInEnvironment, TheStudioLightsTheFrontMost) {
         EXPECT_GT(from(other), 0.15 * front) << "no side is black";
     }
     EXPECT_GT(from({-1, 0, 0}), from({1, 0, 0})) << "the key is on the left";
+}
+
+TEST(Environment, AnyHeightIsShrunkWithItsPower) {
+    for (const int width : {1024, 1030, 514, 2050}) {
+        const Environment whole = sky(width);
+        const Environment small = shrunk(whole, 128);
+        EXPECT_LE(small.width, 128) << width;
+        EXPECT_EQ(small.width, 2 * small.height) << width;
+        for (const glm::dvec3& normal : {glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0, -0.8)}) {
+            const glm::dvec3 wanted = irradiance(whole, normal);
+            EXPECT_LT(glm::length(irradiance(small, normal) - wanted), 3e-3 * glm::length(wanted))
+                << width;
+        }
+    }
+}
+
+TEST(Environment, FilesOfIntegersAreEncodedAndPrimariesAreKept) {
+    const TempFolder folder;
+    write_file(folder.path() / "a.png", encode_image("png", 2, 3, {188, 0, 255, 188, 0, 255}));
+    const glm::vec3 c = read_environment(folder.path() / "a.png").rows.at(0);
+    EXPECT_NEAR(c.x, 0.5029, 1e-4);
+    EXPECT_EQ(c.y, 0.0f);
+    EXPECT_EQ(c.z, 1.0f);
+    // ACES 2065-1: its white stays white, and its middle green is brighter in Rec. 709.
+    ImageLayout layout{
+        2, 1, {{"R", SampleType::float32}, {"G", SampleType::float32}, {"B", SampleType::float32}}};
+    layout.attributes.emplace_back(
+        "chromaticities",
+        std::vector<float>{0.7347f, 0.2653f, 0.0f, 1.0f, 0.0001f, -0.077f, 0.32168f, 0.33767f});
+    const std::vector<float> pixels = {0.5f, 0.5f, 0.5f, 0.2f, 0.4f, 0.2f};
+    write_file(folder.path() / "a.exr",
+               encode_pixels("a", "openexr", layout, bytes_of(pixels), 3 * sizeof(float)));
+    const Environment e = read_environment(folder.path() / "a.exr");
+    for (glm::length_t i = 0; i < 3; ++i) EXPECT_NEAR(e.rows.at(0)[i], 0.5f, 1e-4f);
+    EXPECT_GT(e.rows.at(1).y, 0.42f);
+    EXPECT_LT(e.rows.at(1).x, 0.15f);
 }
 
 TEST(Environment, BrokenFilesAreOneLine) {

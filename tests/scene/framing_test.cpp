@@ -60,26 +60,35 @@ TEST(Framing, KindsOfScenes) {
     EXPECT_EQ(box_scene(glm::dvec3(2.0)).kind, SceneKind::closed);
     EXPECT_EQ(box_scene(glm::dvec3(2.0), true).kind, SceneKind::interior);
     EXPECT_EQ(box_scene({2.0, 0.0, 2.0}).kind, SceneKind::open);
-    EXPECT_EQ(scene_kind(Scene{}, Box{}), SceneKind::open);
+    EXPECT_EQ(enclosure_of(Scene{}, Box{}).kind, SceneKind::open);
     const Scene atrium = make_generated_scene("atrium");
-    EXPECT_EQ(scene_kind(atrium, bounds(atrium)), SceneKind::interior);
+    EXPECT_EQ(enclosure_of(atrium, bounds(atrium)).kind, SceneKind::interior);
+    // No number is too large or none.
+    for (const double size : {1e15, 1e30, 1e200, std::nan("")}) {
+        Scene far = box_scene(glm::dvec3(2.0), true);
+        far.instances.push_back({0, glm::dmat4(1.0)});
+        far.instances[1].world_from_object[3] = {size, 0.0, 0.0, 1.0};
+        EXPECT_NE(enclosure_of(far, bounds(far)).kind, SceneKind::interior) << size;
+    }
     // A mirrored instance turns its winding, not its kind.
     Scene mirrored = box_scene(glm::dvec3(2.0), true);
     mirrored.instances[0].world_from_object[0][0] = -1.0;
-    EXPECT_EQ(scene_kind(mirrored, bounds(mirrored)), SceneKind::interior);
+    EXPECT_EQ(enclosure_of(mirrored, bounds(mirrored)).kind, SceneKind::interior);
     // Glass encloses nothing.
     Scene glass = box_scene(glm::dvec3(2.0));
     glass.materials[0].alpha_mode = AlphaMode::blend;
-    EXPECT_EQ(scene_kind(glass, bounds(glass)), SceneKind::open);
+    EXPECT_EQ(enclosure_of(glass, bounds(glass)).kind, SceneKind::open);
 }
 
 TEST(Framing, RaysMeetWhatTheyShould) {
     const Scene scene = box_scene({6.0, 4.0, 2.0}, true);
-    const LookAround around(scene, {1.0, -0.5, 0.0});
-    EXPECT_EQ(around.fronts(), 1.0);
-    EXPECT_EQ(around.backs(), 0.0);
-    EXPECT_NEAR(around.below(), 1.5, 0.02);
-    for (const LookAround::Level& level : around.level()) {
+    const LookAround around(scene, bounds(scene));
+    const glm::dvec3 eye(1.0, -0.5, 0.0);
+    EXPECT_EQ(around.first_hit(eye, {0.3, 1.0, 0.1}).side, LookAround::Side::front);
+    EXPECT_EQ(around.first_hit({9.0, 0.0, 0.0}, {-1.0, 0.1, 0.1}).side, LookAround::Side::back);
+    EXPECT_EQ(around.first_hit({9.0, 0.0, 0.0}, {1.0, 0.1, 0.1}).side, LookAround::Side::none);
+    EXPECT_NEAR(around.below(eye), 1.5, 0.02);
+    for (const LookAround::Level& level : around.level(eye)) {
         const glm::dvec3 d = level.direction;
         const double x = d.x > 0.0 ? 2.0 / d.x : -4.0 / d.x;
         const double z = 1.0 / std::abs(d.z);

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "host/base/error.h"
+#include "host/scene/lights/bounded_loss.h"
+#include "tests/support/box_scene.h"
 
 namespace kilolux {
 namespace {
@@ -69,6 +71,21 @@ TEST(LightRanges, ExactOnesReachEverywhere) {
     fill_missing_ranges(lights, Tails::exact);
     EXPECT_EQ(lights[0].range, kUnlimitedRange);
     EXPECT_EQ(lights[1].range, 5.0f);
+}
+
+TEST(LightRanges, ManyFarLightsLoseMostOfTheirLight) {
+    Scene scene = box_scene({80.0, 4.0, 400.0});
+    for (int i = 0; i < 129; ++i) {
+        SceneLight light;
+        light.position = {i % 8 * 10.0 - 35.0, 20.0, i / 8 * 24.0 - 190.0};
+        light.intensity = glm::vec3(1.2f);
+        scene.lights.push_back(light);
+    }
+    EXPECT_GT(bounded_loss(scene), 0.5);
+    for (SceneLight& light : scene.lights) light.intensity *= 1e6f;
+    EXPECT_LT(bounded_loss(scene), 0.01) << "ranges beyond the scene";
+    for (SceneLight& light : scene.lights) light.range = 1.0f;
+    EXPECT_EQ(bounded_loss(scene), 0.0) << "they have their own";
 }
 
 TEST(LightRanges, AutomaticIsExactForFewAndHeedsABudget) {

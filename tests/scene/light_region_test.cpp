@@ -84,7 +84,7 @@ TEST(LightRegion, AnOpenSceneHasLightsAmongItsSurfaces) {
     scene.instances[0].world_from_object[3] = {-3.0, 0.0, -3.0, 1.0};
     scene.instances[1].world_from_object[3] = {3.0, 2.0, 3.0, 1.0};
     scene.still_box = {};
-    scene.kind = scene_kind(scene, bounds(scene));
+    scene.kind = enclosure_of(scene, bounds(scene)).kind;
     EXPECT_EQ(scene.kind, SceneKind::open);
     const LightRegion region = light_region(scene, 0.0);
     EXPECT_TRUE(region.hole.empty());

@@ -2,14 +2,30 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <glm/gtc/constants.hpp>
+#include <iterator>
 #include <set>
 
 #include "host/scene/gltf/load_scene.h"
+#include "host/scene/material_table.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/messages.h"
+#include "tests/support/paths.h"
 
 namespace kilolux {
 namespace {
+
+TEST(MaterialTable, TheDocumentHasEachMap) {
+    std::ifstream file(source_root() + "/host/scene/README.md");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    for (const MaterialMap& map : kMaterialMaps) {
+        const std::string row = "| " + std::string(map.path) + " | " +
+                                (map.srgb ? "sRGB" : "linear") + " | " + std::string(map.channels) +
+                                " |\n";
+        EXPECT_TRUE(contains(text, row)) << row;
+    }
+}
 
 using nlohmann::json;
 

@@ -151,6 +151,8 @@ void expect_loads_or_errors(Mutation mutate, unsigned random_seed) {
                 const std::string message = error.what();
                 EXPECT_EQ(message.find('\n'), std::string::npos) << message;
                 EXPECT_NE(message.find(file.string() + ": "), std::string::npos) << message;
+                EXPECT_EQ(message.find("refused by tinygltf"), std::string::npos)
+                    << message << ": needs a rule, which names the place";
                 ++refused;
             }
         }

@@ -24,4 +24,5 @@ OIIO::TypeDesc type_of(SampleType type) {
 }  // namespace kilolux::oiio
 
 const kilolux::ImageLibrary kilolux_images{kilolux::oiio::encode_pixels, kilolux::oiio::open_image,
-                                           kilolux::oiio::open_encoded, kilolux::oiio::apply_ocio};
+                                           kilolux::oiio::open_encoded, kilolux::oiio::apply_ocio,
+                                           kilolux::oiio::text_mask};

@@ -19,5 +19,6 @@ std::unique_ptr<ImageReader> open_encoded(const std::string& format,
                                           std::span<const unsigned char> bytes);
 void apply_ocio(std::span<float> rgb, int width, const std::string& configuration,
                 const OcioOptions& options);
+TextMask text_mask(const std::string& text, int size);
 
 }  // namespace kilolux::oiio

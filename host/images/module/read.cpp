@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenImageIO/filesystem.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "host/base/error.h"
 #include "host/images/module/parts.h"
 
@@ -21,6 +24,11 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& where) {
     for (int i = 0; i < spec.nchannels; ++i) {
         out.channels.push_back({spec.channel_name(i), sample_type(spec.channelformat(i))});
     }
+    const OIIO::TypeDesc eight_floats(OIIO::TypeDesc::FLOAT, 8);
+    if (const auto* found = spec.find_attribute("chromaticities", eight_floats)) {
+        const auto* values = static_cast<const float*>(found->data());
+        out.chromaticities.assign(values, values + 8);
+    }
     out.associated_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
     return out;
 }
@@ -29,6 +37,22 @@ OIIO::ImageSpec as_stored() {
     OIIO::ImageSpec wanted;
     wanted.attribute("oiio:UnassociatedAlpha", 1);
     return wanted;
+}
+
+// A WebP file that says that it has no alpha. OpenImageIO 2.4 multiplies the colours of those that
+// have by it, in 8 bits; of this one it reads them as stored. Empty for a file without alpha.
+// RFC 9649: the flag is in the chunk VP8X, or in the header of a lossless file's one chunk.
+std::vector<unsigned char> without_alpha(std::span<const unsigned char> webp) {
+    constexpr std::size_t kHeaders = 25;
+    constexpr unsigned char kAlpha = 0x10;
+    if (webp.size() < kHeaders) return {};
+    const std::string_view chunk(reinterpret_cast<const char*>(webp.data()) + 12, 4);
+    const std::size_t flags = chunk == "VP8X" ? 20 : chunk == "VP8L" ? 24 : 0;
+    if (flags == 0 || (webp[flags] & kAlpha) == 0) return {};
+    std::vector<unsigned char> out;
+    out.insert(out.end(), webp.begin(), webp.end());
+    out[flags] = static_cast<unsigned char>(out[flags] & ~kAlpha);
+    return out;
 }
 
 class Reader : public ImageReader {
@@ -40,6 +64,13 @@ class Reader : public ImageReader {
           where_(std::move(where)),
           layout_(layout_of(input_->spec(), where_)) {}
 
+    // The first three channels are read from `bytes`, a file of the format.
+    void take_colors_from(const std::string& format, std::vector<unsigned char> bytes) {
+        bytes_ = std::move(bytes);
+        colors_ = open_encoded(format, bytes_);
+        layout_.associated_alpha = false;
+    }
+
     const ImageLayout& layout() const override { return layout_; }
 
     void read(int begin, int end, SampleType type, void* out, std::size_t stride) override {
@@ -47,6 +78,7 @@ class Reader : public ImageReader {
                                 static_cast<OIIO::stride_t>(stride))) {
             throw Error(where_ + input_->geterror());
         }
+        if (colors_ && begin < 3) colors_->read(begin, std::min(end, 3), type, out, stride);
     }
 
  private:
@@ -54,6 +86,8 @@ class Reader : public ImageReader {
     std::unique_ptr<OIIO::ImageInput> input_;
     std::string where_;  // begins its errors
     ImageLayout layout_;
+    std::vector<unsigned char> bytes_;  // outlives colors_, which reads it
+    std::unique_ptr<ImageReader> colors_;
 };
 
 }  // namespace
@@ -79,7 +113,12 @@ std::unique_ptr<ImageReader> open_encoded(const std::string& format,
     if (!input->set_ioproxy(memory.get()) || !input->open("image." + format, spec, as_stored())) {
         throw Error(input->geterror());
     }
-    return std::make_unique<Reader>(std::move(memory), std::move(input), "");
+    auto reader = std::make_unique<Reader>(std::move(memory), std::move(input), "");
+    if (auto colors = format == "webp" ? without_alpha(bytes) : std::vector<unsigned char>();
+        !colors.empty()) {
+        reader->take_colors_from(format, std::move(colors));
+    }
+    return reader;
 }
 
 }  // namespace kilolux::oiio

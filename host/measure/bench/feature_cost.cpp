@@ -21,7 +21,6 @@ bool is_forceable(const std::string& feature) {
 }
 
 void measure_cost(LightingBench& bench, int runs, FeatureCost& cost) {
-    constexpr std::size_t kFewestTurns = 5, kMostTurns = 15;
     LightingRequest without = bench.request();
     without.runs = runs;
     LightingRequest with = without;
@@ -29,17 +28,15 @@ void measure_cost(LightingBench& bench, int runs, FeatureCost& cost) {
     // On a CPU, geometry takes longer than all kernels: it is only timed where the G-buffer grows.
     without.geometry = with.geometry = cost.bytes_per_pixel != 0;
     std::vector<double> differences_ms, base_ms;
-    CostEstimate estimate;
-    while (differences_ms.size() < kMostTurns) {
+    while (differences_ms.size() < kCostTurns) {
         base_ms.push_back(bench.run(without).ms);
         differences_ms.push_back(bench.run(with).ms - base_ms.back());
-        estimate = estimate_cost(differences_ms);
-        if (differences_ms.size() >= kFewestTurns && estimate.measurable()) break;
     }
+    const CostEstimate estimate = estimate_cost(differences_ms);
     cost.measured = true;
     cost.measurable = estimate.measurable();
     cost.ms = estimate.ms;
-    cost.noise_ms = estimate.noise_ms;
+    cost.noise_ms = estimate.noise_ms();
     cost.percent = 100.0 * estimate.ms / statistics(base_ms).median;
 }
 
@@ -47,7 +44,8 @@ void measure_cost(LightingBench& bench, int runs, FeatureCost& cost) {
 
 CostEstimate estimate_cost(std::vector<double> differences_ms) {
     std::ranges::sort(differences_ms);
-    return {quantile(differences_ms, 0.5), notch(differences_ms)};
+    return {quantile(differences_ms, 0.5), differences_ms.at(1),
+            differences_ms.at(differences_ms.size() - 2)};
 }
 
 std::vector<FeatureCost> left_out_features(const ScenePlan& plan) {

@@ -14,18 +14,22 @@ struct FeatureCost {
     bool measured = false;    // false: there is no time, for the reason in `why`
     bool measurable = false;  // whether `ms` is above the noise
     double ms = 0.0;          // additional time of a frame with it
-    double noise_ms = 0.0;    // half the width of the 95 % interval of `ms`
+    double noise_ms = 0.0;    // half the width of the interval that holds `ms` in 96 % of cases
     double percent = 0.0;     // of the frame's kernels (and geometry, where the G-buffer grows)
     int bytes_per_pixel = 0;  // additional G-buffer
     std::string why;
 };
 
-/// The cost by paired measurements with and without the feature [ms], one difference a turn: their
-/// median, and whether it is above its noise, the median's notch().
+/// Turns of a paired measurement with and without a feature. Their number is fixed: to stop once a
+/// cost shows would find one by chance.
+inline constexpr std::size_t kCostTurns = 9;
+
+/// The cost by kCostTurns differences [ms]: their median, and the second least and second largest,
+/// between which the true median lies in 96 % of cases, however they are distributed.
 struct CostEstimate {
-    double ms = 0.0;
-    double noise_ms = 0.0;
-    bool measurable() const { return ms > noise_ms; }
+    double ms = 0.0, low = 0.0, high = 0.0;
+    bool measurable() const { return low > 0.0; }
+    double noise_ms() const { return 0.5 * (high - low); }
 };
 CostEstimate estimate_cost(std::vector<double> differences_ms);
 
@@ -33,8 +37,8 @@ CostEstimate estimate_cost(std::vector<double> differences_ms);
 /// shading models: the bytes, and why there is no time.
 std::vector<FeatureCost> left_out_features(const ScenePlan& plan);
 
-/// Compiles each of them in that can be, and times the same frame with and without, in turns, until
-/// the difference exceeds its noise or 15 turns have passed. `runs` frames a turn.
+/// Compiles each of them in that can be, and times the same frame with and without in kCostTurns
+/// turns of `runs` frames.
 std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs = 2);
 
 }  // namespace kilolux

@@ -11,6 +11,7 @@
 #include "host/base/atomic_write.h"
 #include "host/base/child_process.h"
 #include "host/base/error.h"
+#include "host/base/log.h"
 #include "host/measure/bench/plot_script.h"
 
 namespace kilolux {
@@ -53,9 +54,6 @@ std::string reason_of(const std::vector<std::string>& messages) {
 
 void run_gnuplot(const fs::path& folder, const std::string& script, const fs::path& stem) {
     const std::string what = fmt::format("plot '{}': ", stem.string());
-    if (!has_program("gnuplot")) {
-        throw Error(what + "gnuplot not found; install the package gnuplot-nox");
-    }
     ChildProcess gnuplot({"gnuplot", script}, -1, folder);
     if (!gnuplot.succeeded()) {
         throw Error(what + "gnuplot failed: " + reason_of(gnuplot.messages()));
@@ -70,6 +68,12 @@ void move_into_place(const fs::path& from, const fs::path& to) {
 }
 
 }  // namespace
+
+bool can_plot() {
+    if (has_program("gnuplot")) return true;
+    warn("no plots: gnuplot not found; install the package gnuplot-nox");
+    return false;
+}
 
 std::vector<PlotPoint>& series_of(Plot& plot, const std::string& name, PlotStyle style) {
     auto found = std::ranges::find(plot.series, name, &PlotSeries::name);
@@ -92,6 +96,10 @@ void write_plot(const Plot& plot, const fs::path& stem) {
     for (const char* extension : {".gnuplot", ".dat", ".png", ".svg"}) {
         move_into_place(work.path() / (name + extension), parent / (name + extension));
     }
+}
+
+void write_plots(const std::vector<NamedPlot>& plots, const fs::path& folder) {
+    for (const NamedPlot& plot : plots) write_plot(plot.plot, folder / plot.stem);
 }
 
 }  // namespace kilolux

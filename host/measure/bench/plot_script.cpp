@@ -6,39 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-
-#include "host/measure/metrics/pareto.h"
 
 namespace kilolux {
 namespace {
-
-constexpr const char* kFrontName = "Pareto front";
-
-// Of gnuplot's 'Sans,9', with a margin [pixel].
-constexpr double kCharacter = 7.0;
-constexpr double kLine = 15.0;
-constexpr double kNear = 16.0;  // beyond this a line joins a label to its point [pixel]
-
-bool inside(const PlotBox& box, const PlotBox& frame) {
-    return box.left >= frame.left && box.right <= frame.right && box.bottom >= frame.bottom &&
-           box.top <= frame.top;
-}
-
-PlotBox box_of(const PlotLabel& label) {
-    const double width = kCharacter * static_cast<double>(label.text.size());
-    return {label.x, label.y - 0.5 * kLine, label.x + width, label.y + 0.5 * kLine};
-}
-
-// The label with its nearest edge or corner at `distance` from its point, in one of 12 directions.
-PlotLabel moved(PlotLabel label, double distance, int direction) {
-    const double angle = direction * std::numbers::pi / 6.0;
-    const double width = kCharacter * static_cast<double>(label.text.size());
-    label.x = label.point_x + distance * std::cos(angle) + 0.5 * width * (std::cos(angle) - 1.0);
-    label.y = label.point_y + (distance + 0.5 * kLine) * std::sin(angle);
-    label.far = distance > kNear;
-    return label;
-}
 
 bool drawable(double value, bool logarithmic) {
     return std::isfinite(value) && (!logarithmic || value > 0.0);
@@ -63,18 +33,6 @@ std::string quoted(const std::string& text) { return quoted(text, '\'', "''"); }
 // A string of a data file, which ends at the next quote.
 std::string data_text(const std::string& text) { return quoted(text, '"', "'"); }
 
-PlotSeries front_of(const Plot& plot) {
-    std::vector<CostAndError> points;
-    for (const PlotSeries& series : plot.series) {
-        for (const PlotPoint& p : series.points) points.push_back({p.x, p.y});
-    }
-    PlotSeries out{.name = kFrontName, .points = {}};
-    for (const std::size_t i : pareto_set(points)) {
-        out.points.push_back({points[i].cost, points[i].error});
-    }
-    return out;
-}
-
 bool has_error_bars(const PlotSeries& series) {
     return std::ranges::any_of(series.points, [](const PlotPoint& p) { return p.low < p.high; });
 }
@@ -84,36 +42,46 @@ bool has_x_bars(const PlotSeries& series) {
                                [](const PlotPoint& p) { return p.x_low < p.x_high; });
 }
 
-// One element of the plot command. The front is a thick line of steps: between two settings only
-// the cheaper one's error can be had.
-std::string series_command(const PlotSeries& series, std::size_t index, bool front) {
+// Of gnuplot's point types those that differ in shape: filled, then open, then strokes.
+int point_type(std::size_t index) {
+    constexpr int kTypes[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 1, 2, 3};
+    return kTypes[index % std::size(kTypes)];
+}
+
+// One element of the plot command. Series of one colour differ in their points.
+std::string series_command(const Plot& plot, std::size_t index) {
+    const PlotSeries& series = plot.series[index];
     const std::string title = quoted(series.name);
-    if (front) {
+    if (series.style == PlotStyle::steps) {
         return fmt::format("DATA index {} using 1:2 with steps lc rgb '#b0b0b0' lw 4 title {}",
                            index, title);
     }
-    const bool lines = series.style != PlotStyle::points;
+    const bool lines = series.style == PlotStyle::lines_and_points;
     std::string columns = "1:2", style = lines ? "linespoints" : "points";
     if (has_x_bars(series)) {
-        columns = "1:2:6:7:3:4";
+        columns = "1:2:5:6:3:4";
         style = lines ? "xyerrorlines" : "xyerrorbars";
     } else if (has_error_bars(series)) {
         columns = "1:2:3:4";
         style = lines ? "yerrorlines" : "yerrorbars";
     }
-    return fmt::format("DATA index {} using {} with {} lt {} pt 7 ps 0.8 lw 1.5 title {}", index,
-                       columns, style, index + 1, title);
+    const auto of_color = static_cast<std::size_t>(
+        std::count_if(plot.series.begin(), plot.series.begin() + static_cast<std::ptrdiff_t>(index),
+                      [&](const PlotSeries& s) { return s.color == series.color; }));
+    const bool own = series.color < 0;
+    return fmt::format("DATA index {} using {} with {} lt {} pt {} ps 0.8 lw 1.5 title {}", index,
+                       columns, style, own ? static_cast<int>(index) + 1 : series.color + 1,
+                       point_type(own ? 0 : of_color), title);
 }
 
+// Steps are drawn first, below the points.
 std::string plot_command(const Plot& plot) {
-    std::string out = "plot ";
-    // The front is the last series; it is drawn first, below the points.
-    const std::size_t count = plot.series.size();
-    const std::size_t shift = plot.pareto_front ? count - 1 : 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t index = (i + shift) % count;
-        if (i > 0) out += ", \\\n     ";
-        out += series_command(plot.series[index], index, plot.pareto_front && i == 0);
+    std::string out;
+    for (const bool steps : {true, false}) {
+        for (std::size_t i = 0; i < plot.series.size(); ++i) {
+            if ((plot.series[i].style == PlotStyle::steps) != steps) continue;
+            out += (out.empty() ? "plot " : ", \\\n     ") + series_command(plot, i);
+        }
     }
     return out + "\n";
 }
@@ -155,12 +123,6 @@ struct Axis {
         }
     }
 
-    // From 0 to 1 within the range.
-    double place(double value) const {
-        return logarithmic ? std::log(value / low) / std::log(high / low)
-                           : (value - low) / (high - low);
-    }
-
     std::string commands() const {
         std::string range = fmt::format("set {}range [{}:{}]\n", name, low, high);
         if (!logarithmic) return range;
@@ -183,96 +145,7 @@ Axis axis_of(char name, const Plot& plot) {
     return Axis(name, logarithmic, shown);
 }
 
-// Places on a picture with fixed margins.
-struct PlotFrame {
-    const Axis &x_axis, &y_axis;
-    PlotArea area{};
-    double x(double value) const {
-        return kPlotWidth * std::lerp(area.left, area.right, x_axis.place(value));
-    }
-    double y(double value) const {
-        return kPlotHeight * std::lerp(area.bottom, area.top, y_axis.place(value));
-    }
-    // Around the line between two corners.
-    PlotBox box(double x0, double y0, double x1, double y1) const {
-        constexpr double kRoom = 4.0;  // [pixel]
-        return {x(std::min(x0, x1)) - kRoom, y(std::min(y0, y1)) - kRoom,
-                x(std::max(x0, x1)) + kRoom, y(std::max(y0, y1)) + kRoom};
-    }
-};
-
-// What labels must not cover: points with their bars, and the steps of the Pareto front.
-std::vector<PlotBox> obstacles(const Plot& plot, const PlotFrame& frame) {
-    std::vector<PlotBox> out;
-    for (const PlotSeries& series : plot.series) {
-        const bool front = plot.pareto_front && &series == &plot.series.back();
-        for (std::size_t i = 0; i < series.points.size(); ++i) {
-            const PlotPoint& p = series.points[i];
-            out.push_back(frame.box(p.x_low, p.y, p.x_high, p.y));
-            out.push_back(frame.box(p.x, p.low, p.x, p.high));
-            if (!front || i + 1 == series.points.size()) continue;
-            const PlotPoint& next = series.points[i + 1];
-            out.push_back(frame.box(p.x, p.y, next.x, p.y));
-            out.push_back(frame.box(next.x, p.y, next.x, next.y));
-        }
-    }
-    return out;
-}
-
-// The labels, in fixed margins, and lines to the points of those that are apart from theirs.
-std::string label_commands(const Plot& plot, const Axis& x, const Axis& y) {
-    const PlotFrame frame{x, y};
-    std::vector<PlotLabel> labels;
-    for (const PlotSeries& series : plot.series) {
-        for (const PlotPoint& p : series.points) {
-            if (p.label.empty()) continue;
-            labels.push_back({.text = p.label, .point_x = frame.x(p.x), .point_y = frame.y(p.y)});
-        }
-    }
-    if (labels.empty()) return {};
-    const PlotArea& area = frame.area;
-    std::string out = fmt::format(
-        "set lmargin at screen {}\nset rmargin at screen {}\n"
-        "set bmargin at screen {}\nset tmargin at screen {}\n",
-        area.left, area.right, area.bottom, area.top);
-    for (const PlotLabel& l : placed_labels(labels, obstacles(plot, frame), area)) {
-        out += fmt::format("set label {} at screen {},{} left font ',9' noenhanced\n",
-                           quoted(l.text), l.x / kPlotWidth, l.y / kPlotHeight);
-        if (!l.far) continue;
-        const double width = 6.0 * static_cast<double>(l.text.size());
-        out += fmt::format(
-            "set arrow from screen {},{} to screen {},{} nohead lw 0.5 lc rgb '#909090'\n",
-            l.point_x / kPlotWidth, l.point_y / kPlotHeight,
-            std::clamp(l.point_x, l.x, l.x + width) / kPlotWidth, l.y / kPlotHeight);
-    }
-    return out;
-}
-
 }  // namespace
-
-std::vector<PlotLabel> placed_labels(const std::vector<PlotLabel>& labels,
-                                     const std::vector<PlotBox>& obstacles, const PlotArea& area) {
-    const PlotBox frame = {area.left * kPlotWidth, area.bottom * kPlotHeight,
-                           area.right * kPlotWidth, area.top * kPlotHeight};
-    std::vector<PlotBox> taken = obstacles;
-    std::vector<PlotLabel> out;
-    const auto place = [&](const PlotLabel& label) {
-        for (const double distance : {9.0, 24.0, 40.0, 60.0, 85.0, 115.0, 150.0}) {
-            for (int direction = 0; direction < 12; ++direction) {
-                const PlotLabel candidate = moved(label, distance, direction);
-                const PlotBox box = box_of(candidate);
-                const auto blocked = [&](const PlotBox& other) { return box.overlaps(other); };
-                if (!inside(box, frame) || std::any_of(taken.begin(), taken.end(), blocked))
-                    continue;
-                taken.push_back(box);
-                out.push_back(candidate);
-                return;
-            }
-        }
-    };
-    for (const PlotLabel& label : labels) place(label);
-    return out;
-}
 
 Plot drawable(const Plot& plot) {
     Plot out = plot;
@@ -284,8 +157,6 @@ Plot drawable(const Plot& plot) {
         });
         if (!kept.points.empty()) out.series.push_back(std::move(kept));
     }
-    if (out.series.empty()) return out;
-    if (plot.pareto_front) out.series.push_back(front_of(out));
     return out;
 }
 
@@ -295,7 +166,7 @@ std::string plot_data(const Plot& plot) {
         if (!out.empty()) out += "\n\n";
         out += "# " + data_text(series.name) + "\n";
         for (const PlotPoint& p : series.points) {
-            out += fmt::format("{} {} {} {} {}", p.x, p.y, p.low, p.high, data_text(p.label));
+            out += fmt::format("{} {} {} {}", p.x, p.y, p.low, p.high);
             if (has_x_bars(series)) out += fmt::format(" {} {}", p.x_low, p.x_high);
             out += '\n';
         }
@@ -316,7 +187,7 @@ std::string plot_script(const Plot& plot, const std::string& stem) {
         fmt::arg("y", quoted(plot.y_label)));
     const std::string outputs = fmt::format(
         "set grid xtics ytics lt 1 lw 0.5 lc rgb '#cccccc'\n"
-        "set key outside right top noenhanced\n"
+        "set key outside right top noenhanced font 'Sans,9' samplen 1 spacing 0.9\n"
         "set terminal pngcairo size {width},{height} font 'Sans,11' noenhanced\n"
         "set output {png}\n{plot}"
         "set terminal svg size {width},{height} font 'Sans,11' noenhanced background rgb 'white'\n"
@@ -324,7 +195,7 @@ std::string plot_script(const Plot& plot, const std::string& stem) {
         fmt::arg("width", kPlotWidth), fmt::arg("height", kPlotHeight),
         fmt::arg("png", quoted(stem + ".png")), fmt::arg("plot", plot_command(plot)),
         fmt::arg("svg", quoted(stem + ".svg")));
-    return frame + x.commands() + y.commands() + label_commands(plot, x, y) + outputs;
+    return frame + x.commands() + y.commands() + outputs;
 }
 
 }  // namespace kilolux

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "host/measure/roofline/stages.h"
+
 namespace kilolux {
 namespace {
 
@@ -15,21 +17,20 @@ struct PlotAxis {
     const char* title;
     const char* label;
     double (*x)(const SweepPoint&);
-    bool labelled;  // points carry the field's text
 };
 
 constexpr PlotAxis kPlotAxes[] = {
     {"lights", "time_against_lights", "Time against lights", "lights",
-     [](const SweepPoint& p) { return static_cast<double>(p.lights); }, false},
+     [](const SweepPoint& p) { return static_cast<double>(p.lights); }},
     {"grid", "time_against_grid", "Time against the coarse grid",
      "tiles x * tiles y * slices per octave",
-     [](const SweepPoint& p) { return 1.0 * p.grid[0] * p.grid[1] * p.grid[2]; }, true},
+     [](const SweepPoint& p) { return 1.0 * p.grid[0] * p.grid[1] * p.grid[2]; }},
     {"group height", "time_against_work_group", "Time against the shading work-group",
-     "rows of a work-group", [](const SweepPoint& p) { return 1.0 * p.group_height; }, false},
+     "rows of a work-group", [](const SweepPoint& p) { return 1.0 * p.group_height; }},
     {"lanes", "time_against_lanes", "Time against lanes", "lanes of a work-item",
-     [](const SweepPoint& p) { return 1.0 * p.lanes; }, false},
+     [](const SweepPoint& p) { return 1.0 * p.lanes; }},
     {"resolution", "time_against_resolution", "Time against resolution", "pixels",
-     [](const SweepPoint& p) { return 1.0 * p.resolution[0] * p.resolution[1]; }, true},
+     [](const SweepPoint& p) { return 1.0 * p.resolution[0] * p.resolution[1]; }},
 };
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -96,13 +97,12 @@ Plot time_plot(const PlotAxis& axis, const Curves& curves) {
     plot.log_x = plot.log_y = true;
     for (const BenchRow& row : curves.rows) {
         // Automatic values are not on the axis.
-        if ((row.stage != kFrameStage && row.stage != "shade") || axis.x(row.point) <= 0.0)
-            continue;
+        const bool drawn =
+            row.stage == kFrameStage.name || group_of(row.stage) == StageGroup::shading;
+        if (!drawn || axis.x(row.point) <= 0.0) continue;
         const std::string name = curve_name(row.point, curves.varying, axis.field);
-        const bool labelled = axis.labelled && row.stage == kFrameStage;
         series_of(plot, row.stage + (name.empty() ? "" : ", " + name))
-            .push_back({axis.x(row.point), row.ms.median,
-                        labelled ? field_text(row.point, axis.field) : "", row.ms.p5, row.ms.p95});
+            .push_back({axis.x(row.point), row.ms.median, row.ms.p5, row.ms.p95});
     }
     return plot;
 }
@@ -113,7 +113,7 @@ const BenchRow* naive_row(const BenchRow& row, const std::vector<BenchRow>& rows
         SweepPoint wanted = row.point;
         wanted.renderer = RendererKind::deferred_all;
         wanted.grid = other.point.grid;
-        if (other.stage == kFrameStage && other.point == wanted) return &other;
+        if (other.stage == kFrameStage.name && other.point == wanted) return &other;
     }
     return nullptr;
 }
@@ -125,7 +125,8 @@ Plot speed_up_plot(const Curves& curves) {
     plot.y_label = "frame time of deferred-all / frame time";
     plot.log_x = plot.log_y = true;
     for (const BenchRow& row : curves.rows) {
-        if (row.stage != kFrameStage || row.point.renderer == RendererKind::deferred_all) continue;
+        if (row.stage != kFrameStage.name || row.point.renderer == RendererKind::deferred_all)
+            continue;
         const BenchRow* naive = naive_row(row, curves.rows);
         if (!naive || row.ms.median <= 0.0) continue;
         series_of(plot, curve_name(row.point, curves.varying, "lights"))

@@ -11,6 +11,7 @@
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/gbuffer_layout.h"
+#include "host/measure/roofline/stages.h"
 
 namespace kilolux {
 namespace {
@@ -108,8 +109,8 @@ bool casts(const BenchRow& row) { return row.shafts > 0.0; }
 bool BenchRow::beats_limit() const {
     constexpr std::size_t kFewestFrames = 10;
     constexpr double kLimitNoise = 0.05;  // relative, of the measured limits
-    // OpenGL copies faster than the copies that were measured for the limit.
-    return stage != "gbuffer_bridge" && limit_ms > 0.0 && ms.count >= kFewestFrames &&
+    const StageInfo* info = stage_info(stage);
+    return info && !info->opengl_copies && limit_ms > 0.0 && ms.count >= kFewestFrames &&
            limit_ms - ms.median > std::max(ms.p95 - ms.p5, kLimitNoise * ms.median);
 }
 
@@ -202,7 +203,7 @@ BenchLog::BenchLog(std::filesystem::path file, bool resume) : file_(std::move(fi
     } catch (const Error& error) {
         throw Error(fmt::format("{}: {}", file_.string(), error.what()));
     }
-    while (!rows_.empty() && rows_.back().stage != kFrameStage) rows_.pop_back();
+    while (!rows_.empty() && rows_.back().stage != kFrameStage.name) rows_.pop_back();
 }
 
 std::vector<BenchRow> BenchLog::rows_of(const SweepPoint& point) const {

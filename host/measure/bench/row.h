@@ -41,9 +41,6 @@ struct BenchRow : StageEffort {
     bool beats_limit() const;
 };
 
-/// The stage name of the row that ends every point: the frame as the host's clock sees it.
-inline constexpr std::string_view kFrameStage = "frame";
-
 /// All that rows hold, with rates and ratios.
 Table bench_table(const std::vector<BenchRow>& rows);
 

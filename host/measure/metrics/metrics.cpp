@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "host/measure/metrics/compensated_sum.h"
@@ -71,9 +72,13 @@ void count_pixels(const RgbImage& picture, const RgbImage& reference, HdrMetrics
     }
 }
 
-// (x-r)^2 / (r^2 + eps): Rousselle et al. 2011, with the offset relative to the picture's mean.
+// (x-r)^2 / (r^2 + eps): Rousselle et al. 2011, with the offset relative to the mean of the
+// reference's finite values.
 double rel_mse(std::span<const double> absolute, const RgbImage& reference) {
-    const double average = mean(reference.rgb);
+    std::vector<double> finite;
+    std::ranges::copy_if(reference.rgb, std::back_inserter(finite),
+                         [](double r) { return std::isfinite(r); });
+    const double average = mean(finite);
     const double eps = 1e-2 * average * average;
     CompensatedSum sum;
     for (std::size_t i = 0; i < absolute.size(); ++i) {

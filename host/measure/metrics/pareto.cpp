@@ -5,37 +5,35 @@
 #include <cmath>
 
 namespace kilolux {
-
 namespace {
 
-bool less(double a, double b, double resolution) {
-    return a < b && b - a > resolution * std::min(std::abs(a), std::abs(b));
+bool is_measured(const CostAndError& p) { return !std::isnan(p.cost) && !std::isnan(p.error); }
+
+// The number of the step that `value` is in; values themselves without a resolution.
+double step_of(double value, double first, double resolution) {
+    if (resolution <= 0.0) return value;
+    const double middle = first > 0.0 && std::isfinite(first) ? first : 1.0;
+    return std::round(std::log(value / middle) / (2.0 * std::log1p(resolution)));
 }
 
-bool measured(const CostAndError& p) { return !std::isnan(p.cost) && !std::isnan(p.error); }
-
-// Whether p beats q, where values closer than the relative resolutions are equal.
-bool beats(const CostAndError& p, const CostAndError& q, double cost, double error) {
-    if (less(q.cost, p.cost, cost) || less(q.error, p.error, error)) return false;
-    return less(p.cost, q.cost, cost) || less(p.error, q.error, error);
+bool beats(const CostAndError& p, const CostAndError& q) {
+    return p.cost <= q.cost && p.error <= q.error && (p.cost < q.cost || p.error < q.error);
 }
 
 }  // namespace
 
 std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
-                                    std::span<const double> noises) {
-    const auto is_beaten_by = [&](std::size_t i, std::size_t j) {
-        if (noises.empty()) return beats(points[j], points[i], 0.0, 0.0);
-        const double cost = std::max(kCostResolution, noises[i] + noises[j]);
-        return beats(points[j], points[i], cost, kErrorResolution);
-    };
+                                    const ParetoResolution& resolution) {
+    std::vector<CostAndError> steps;
+    for (const CostAndError& p : points) {
+        steps.push_back({step_of(p.cost, points.front().cost, resolution.cost),
+                         step_of(p.error, points.front().error, resolution.error)});
+    }
     std::vector<std::size_t> out;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        bool beaten = !measured(points[i]);
-        for (std::size_t j = 0; j < points.size() && !beaten; ++j) {
-            beaten = measured(points[j]) && is_beaten_by(i, j);
-        }
-        if (!beaten) out.push_back(i);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const bool beaten = std::ranges::any_of(
+            steps, [&](const CostAndError& p) { return is_measured(p) && beats(p, steps[i]); });
+        if (is_measured(steps[i]) && !beaten) out.push_back(i);
     }
     std::ranges::stable_sort(out, {}, [&](std::size_t i) { return points[i].cost; });
     return out;

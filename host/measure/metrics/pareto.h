@@ -13,17 +13,21 @@ struct CostAndError {
     double error = 0.0;
 };
 
+/// From which relative difference on two values are told apart; 0: from any.
+struct ParetoResolution {
+    double cost = 0.0, error = 0.0;
+};
+
 /// Indices of the points that no other beats: that is, is as good in both and better in one.
 ///
 /// Ascending by cost, then by index. Of equal points all are in the set or none; points with a NaN
 /// are not.
 ///
-/// `noises`: of measured costs (relative, one per point); none: exact ones. Differences below the
-/// resolution count as equal: of costs kCostResolution or the sum of the two points' noises,
-/// whichever is larger, of errors kErrorResolution. Of two settings that take the same time, the
-/// more exact one is in the set.
+/// With a resolution values are compared by steps, twice as wide as it and counted from the first
+/// point, which is in the middle of its step: values of one step are equal. So "beats" is
+/// transitive, and what is not in the set is beaten by a point of the set.
 std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
-                                    std::span<const double> noises = {});
+                                    const ParetoResolution& resolution = {});
 
 inline constexpr double kCostResolution = 0.03;   // relative; bench --tune's, too
 inline constexpr double kErrorResolution = 0.06;  // relative: 0.5 dB of PSNR

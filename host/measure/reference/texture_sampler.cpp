@@ -6,6 +6,7 @@
 
 #include "host/base/srgb.h"
 #include "host/measure/metrics/parallel_rows.h"
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
@@ -130,13 +131,10 @@ glm::dvec4 MipLevel::texel(int x, int y) const {
 TextureSampler::TextureSampler(const Scene& scene) : scene_(scene) {
     for (auto& by_image : levels_) by_image.resize(scene.images.size());
     for (const Material& material : scene.materials) {
-        prepare(material.base_color_texture, TextureEncoding::srgb);
-        prepare(material.emissive_texture, TextureEncoding::srgb);
-        prepare(material.metallic_roughness_texture, TextureEncoding::linear);
-        prepare(material.normal_texture, TextureEncoding::linear);
-        prepare(material.occlusion_texture, TextureEncoding::linear);
-        prepare(material.specular_texture, TextureEncoding::linear);
-        prepare(material.specular_color_texture, TextureEncoding::srgb);
+        for (const MaterialMap& map : kMaterialMaps) {
+            prepare(material.*map.member,
+                    map.srgb ? TextureEncoding::srgb : TextureEncoding::linear);
+        }
     }
 }
 

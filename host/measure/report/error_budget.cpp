@@ -12,21 +12,6 @@
 namespace kilolux {
 namespace {
 
-struct Metric {
-    const char* name;
-    double (*value)(const PictureErrors& errors);
-};
-
-constexpr Metric kMetrics[] = {
-    {"flip", [](const PictureErrors& e) { return e.flip.mean; }},
-    {"ldr-flip", [](const PictureErrors& e) { return e.flip_display.mean; }},
-    {"rmse", [](const PictureErrors& e) { return e.hdr.rmse; }},
-    {"max", [](const PictureErrors& e) { return e.hdr.absolute.max; }},
-    {"max-relative", [](const PictureErrors& e) { return e.hdr.relative.max; }},
-    {"relmse", [](const PictureErrors& e) { return e.hdr.rel_mse; }},
-    {"codes", [](const PictureErrors& e) { return e.codes.difference.max; }},
-};
-
 struct Against {
     const char* prefix;
     PictureErrors ReportRow::*errors;
@@ -35,7 +20,7 @@ struct Against {
 constexpr Against kReferences[] = {
     {"", &ReportRow::surfaces}, {"r1-", &ReportRow::kernels}, {"r3-", &ReportRow::unbounded}};
 
-std::string name_of(const Against& against, const Metric& metric) {
+std::string name_of(const Against& against, const ErrorMetric& metric) {
     return fmt::format("{}{}", against.prefix, metric.name);
 }
 
@@ -56,15 +41,18 @@ double name_number(const std::string& name) {
 std::vector<std::string> error_metric_names() {
     std::vector<std::string> names;
     for (const Against& against : kReferences) {
-        for (const Metric& metric : kMetrics) names.push_back(name_of(against, metric));
+        for (const ErrorMetric& metric : error_metrics()) {
+            if (metric.is_error) names.push_back(name_of(against, metric));
+        }
     }
     return names;
 }
 
 double error_of(const ReportRow& row, const std::string& name) {
     for (const Against& against : kReferences) {
-        for (const Metric& metric : kMetrics) {
-            if (name == name_of(against, metric)) return metric.value(row.*against.errors);
+        for (const ErrorMetric& metric : error_metrics()) {
+            if (metric.is_error && name == name_of(against, metric))
+                return *metric.value(row.*against.errors);
         }
     }
     throw UsageError(fmt::format("unknown error metric '{}'", name));

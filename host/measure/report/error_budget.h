@@ -12,11 +12,7 @@
 
 namespace kilolux {
 
-/// Names of the metrics that a budget can use; each is 0 for equal pictures and grows with the
-/// error.
-///
-/// `flip` (mean HDR-FLIP), `ldr-flip` (mean), `rmse`, `max` (largest |x-r|), `max-relative`
-/// (largest |x-r| / max(|r|, E)), `relmse`, `codes` (largest difference of 8-bit codes): against
+/// Names of the metrics that a budget can use, those of error_metrics() that are errors: against
 /// R2, the picture asked for. Prefix `r1-`: against R1, the kernels' error; `r3-`: against R3,
 /// where lights have no range.
 std::vector<std::string> error_metric_names();

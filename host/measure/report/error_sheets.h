@@ -6,16 +6,9 @@
 
 namespace kilolux {
 
-/// The worst pixel against each reference with its neighbours, 33 pixels square, magnified:
-/// picture, reference and error side by side. The worst pixel is framed.
-///
-/// Errors are |x-r| / max(|r|, E) of the worst channel against R1, R2 and R3, in the heat map's
-/// colours, logarithmic from 1e-8 to 1; a legend stands below. `caption`: what was measured; it
-/// stands below the setting's name.
-Canvas worst_pixel_sheet(const ReportRow& row, const ReportReferences::All& references,
-                         const std::string& caption);
-
-/// The whole picture and its errors against each reference.
+/// The whole picture and its errors |x-r| / max(|r|, E) of the worst channel against R1, R2 and R3,
+/// in the heat map's colours, logarithmic from 1e-8 to 1; the legend stands below. `caption`: what
+/// was measured; it stands below the setting's name.
 Canvas error_map_sheet(const ReportRow& row, const ReportReferences::All& references,
                        const std::string& caption);
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "host/measure/metrics/metrics.h"
+#include "host/measure/metrics/error_metrics.h"
 #include "host/measure/reference/reference.h"
 #include "host/picture/frame.h"
 #include "host/render/settings.h"
@@ -25,15 +24,7 @@ struct ComparedReference {
 /// Displayed with `settings`' exposure and tone curve.
 ComparedReference compared_reference(ReferencePicture picture, const RenderSettings& settings);
 
-/// Every error of one picture against one reference.
-struct PictureErrors {
-    HdrMetrics hdr;
-    CodeDifferences codes;
-    std::optional<double> ssim;      // none of pictures smaller than its window
-    ErrorDistribution flip;          // HDR-FLIP of the linear pictures
-    ErrorDistribution flip_display;  // LDR-FLIP of the display pictures
-};
-
+/// Every error of a frame.
 PictureErrors picture_errors(const Frame& frame, const ComparedReference& reference);
 
 }  // namespace kilolux

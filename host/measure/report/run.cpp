@@ -4,10 +4,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <set>
 
 #include "host/measure/metrics/pareto.h"
+#include "host/measure/roofline/stages.h"
 
 namespace kilolux {
 namespace {
@@ -39,9 +40,7 @@ double noise_of(std::vector<double> times) {
 
 double shading_ms(const ReportSpeed& speed) {
     for (const ReportStage& stage : speed.stages) {
-        if (stage.name == "shade" || stage.name == "forward" || stage.name == "forward_plus") {
-            return stage.ms.median;
-        }
+        if (group_of(stage.name) == StageGroup::shading) return stage.ms.median;
     }
     return 0.0;
 }
@@ -51,31 +50,10 @@ std::string coverage_key(const RenderSettings& s) {
                        s.range_budget, s.tree_share, s.lights.radius);
 }
 
-// The rows of a comparison that are in its Pareto set of time and RMSE.
-template <typename Compared, typename Rmse>
-std::vector<ReportRow*> front(std::vector<ReportRow>& rows, Compared compared, Rmse rmse) {
-    std::vector<ReportRow*> all, out;
-    std::vector<CostAndError> points;
-    std::vector<double> noises;
-    for (ReportRow& row : rows) {
-        if (!compared(row.setting.axis)) continue;
-        all.push_back(&row);
-        points.push_back({row.speed.relative, rmse(row)});
-        noises.push_back(row.speed.noise);
-    }
-    for (const std::size_t i : pareto_set(points, noises)) out.push_back(all[i]);
-    return out;
-}
-
 // A ray in double takes as long as about ten evaluations.
 ErrorSizeLimits affordable(ErrorSizeLimits limits, const RenderSettings& settings) {
     if (settings.shadows != Shadows::off) limits.evaluations /= 10.0;
     return limits;
-}
-
-bool is_about_sampled_shadows(const ReportSetting& setting) {
-    return setting.settings.shadows == Shadows::sampled &&
-           (setting.axis == SettingAxis::none || setting.axis == SettingAxis::shadows);
 }
 
 }  // namespace
@@ -146,9 +124,10 @@ std::vector<ReportRow> ReportRun::measure(const std::vector<ReportSetting>& sett
             continue;
         }
         if (timings[i].relative.empty()) {
-            speed.relative = speed.frame_ms.median / rows.front().speed.frame_ms.median;
+            speed.relative = speed.frame_ms / rows.front().speed.frame_ms;
             speed.relative_p5 = speed.relative_p95 = speed.relative;
         }
+        speed.frame_ms = speed.relative * rows.front().speed.frame_ms;
         count(rows[i], timings[i]);
     }
     mark_fronts(rows);
@@ -290,9 +269,8 @@ ReportSpeed ReportRun::speed_of(const ReportRow& row, const Timing& timing) cons
     ReportSpeed out;
     out.scaled = timing.scaled;
     const double scale = timing.scaled ? pixels(settings) / pixels(at_error_size(settings)) : 1.0;
-    std::vector<double> times = timing.frames;
-    for (double& ms : times) ms *= scale;
-    out.frame_ms = statistics(times);
+    out.frame_ms = scale * statistics(timing.frames).median;
+    out.frames = timing.frames.size();
     if (!timing.relative.empty()) {
         const Statistics relative = statistics(timing.relative);
         out.relative = relative.median;
@@ -334,34 +312,38 @@ double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double
     return larger.ms + slope * (pixels - larger.pixels);
 }
 
-std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows) {
-    std::set<int> out;
-    for (const ReportRow& row : rows) {
-        if (is_about_sampled_shadows(row.setting)) out.insert(row.setting.settings.shadow_rays);
-    }
-    if (out.empty()) return {};
-    const std::vector<int> standard = ShadowErrorPlan().rays;
-    out.insert(standard.begin(), standard.end());
-    return {out.begin(), out.end()};
+std::optional<double> surfaces_rmse(const ReportRow& row) {
+    if (!keeps_ranges(row.setting.axis)) return std::nullopt;
+    return row.surfaces.hdr.rmse;
 }
 
-void add_shadow_errors(std::vector<ReportRow>& rows,
-                       const std::vector<SampledShadowError>& errors) {
-    for (ReportRow& row : rows) {
-        if (!is_about_sampled_shadows(row.setting)) continue;
-        const auto found =
-            std::ranges::find(errors, row.setting.settings.shadow_rays, &SampledShadowError::rays);
-        if (found != errors.end()) row.sampled = *found;
+std::optional<double> unbounded_rmse(const ReportRow& row) {
+    if (!compares_cut_offs(row.setting.axis)) return std::nullopt;
+    return row.unbounded.hdr.rmse;
+}
+
+std::optional<double> tails_rmse(const ReportRow& row) {
+    if (!compares_cut_offs(row.setting.axis)) return std::nullopt;
+    return row.tails.rmse;
+}
+
+std::vector<std::size_t> front_of(const std::vector<ReportRow>& rows, const RowError& error) {
+    std::vector<CostAndError> points;
+    std::vector<double> noises;
+    for (const ReportRow& row : rows) {
+        const std::optional<double> e = error(row);
+        points.push_back({row.speed.relative, e.value_or(std::nan(""))});
+        if (e) noises.push_back(row.speed.noise);
     }
+    if (noises.empty()) return {};
+    const double noise = statistics(noises).median;
+    return pareto_set(points, {std::max(kCostResolution, 2.0 * noise), kErrorResolution});
 }
 
 void mark_fronts(std::vector<ReportRow>& rows) {
-    const auto by_surfaces = [](const ReportRow& row) { return row.surfaces.hdr.rmse; };
-    const auto by_unbounded = [](const ReportRow& row) { return row.unbounded.hdr.rmse; };
-    const auto by_tails = [](const ReportRow& row) { return row.tails.rmse; };
-    for (ReportRow* row : front(rows, keeps_ranges, by_surfaces)) row->surfaces_front = true;
-    for (ReportRow* row : front(rows, compares_cut_offs, by_unbounded)) row->unbounded_front = true;
-    for (ReportRow* row : front(rows, compares_cut_offs, by_tails)) row->tails_front = true;
+    for (const std::size_t i : front_of(rows, surfaces_rmse)) rows[i].surfaces_front = true;
+    for (const std::size_t i : front_of(rows, unbounded_rmse)) rows[i].unbounded_front = true;
+    for (const std::size_t i : front_of(rows, tails_rmse)) rows[i].tails_front = true;
 }
 
 }  // namespace kilolux

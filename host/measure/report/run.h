@@ -15,7 +15,6 @@
 #include "host/measure/metrics/statistics.h"
 #include "host/measure/report/references.h"
 #include "host/measure/report/setting.h"
-#include "host/measure/report/shadow_error.h"
 #include "host/measure/report/told_error.h"
 #include "host/render/renderer.h"
 
@@ -31,7 +30,9 @@ struct ReportStage {
 struct ReportSpeed {
     bool scaled = false;  // too slow at full size: timed at the size of the comparison, per pixel
     std::vector<ReportStage> stages;  // in the frame's order
-    Statistics frame_ms;
+    // The default's median times `relative`, so that other load on the machine shifts all alike.
+    double frame_ms = 0.0;
+    std::size_t frames = 0;
     // Ratio to the default's frame time, of frames rendered in pairs: median, 5 % and 95 %.
     double relative = 1.0, relative_p5 = 1.0, relative_p95 = 1.0;
     double noise = 0.0;              // of that median, relative, from the scatter of the pairs
@@ -49,10 +50,9 @@ struct ReportRow {
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
     HdrMetrics tails;  // where lights lack a range: of what is done about that, see unlimited()
-    std::optional<ToldError> told;              // against the same
-    std::optional<SampledShadowError> sampled;  // see add_shadow_errors()
-    RgbImage picture;                           // linear, at the size of the comparison
-    std::vector<std::uint8_t> display;          // its sRGB codes
+    std::optional<ToldError> told;      // against the same
+    RgbImage picture;                   // linear, at the size of the comparison
+    std::vector<std::uint8_t> display;  // its sRGB codes
     bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
     bool unbounded_front = false;  // in that of time and R3's RMSE, among the cut-offs
     bool tails_front = false;      // in that of time and the RMSE of `tails`, among the same
@@ -119,10 +119,15 @@ struct TimedFrame {
 };
 double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels);
 
-/// Numbers of rays of the rows that are about sampled shadows, and those of ShadowErrorPlan.
-std::vector<int> shadow_rays_of(const std::vector<ReportRow>& rows);
-/// Gives these rows their error.
-void add_shadow_errors(std::vector<ReportRow>& rows, const std::vector<SampledShadowError>& errors);
+/// The error by which rows are compared; none: a row is not compared.
+using RowError = std::function<std::optional<double>(const ReportRow&)>;
+std::optional<double> surfaces_rmse(const ReportRow& row);   // R2, among equal ranges
+std::optional<double> unbounded_rmse(const ReportRow& row);  // R3, among the cut-offs
+std::optional<double> tails_rmse(const ReportRow& row);      // of `tails`, among the same
+
+/// The Pareto set of frame time and an error, ascending by time. Times differ from kCostResolution
+/// or twice their usual noise on, errors from kErrorResolution.
+std::vector<std::size_t> front_of(const std::vector<ReportRow>& rows, const RowError& error);
 
 /// Marks the rows of the Pareto sets.
 void mark_fronts(std::vector<ReportRow>& rows);

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "host/measure/roofline/stages.h"
+#include "host/stages/tails/cut_light_tree.h"
+
 namespace kilolux {
 namespace {
 
@@ -27,16 +30,25 @@ std::vector<std::string> stage_names(const std::vector<Row>& rows) {
     return names;
 }
 
-// A column of the sum of the named stages' medians; empty where none of them ran.
-Column<Row> stage_column(const std::string& name, const std::vector<std::string>& stages) {
-    return {name, [stages](const Row& row) {
+// A column of the sum of the medians of stages by their names; empty where none of them ran.
+template <typename IsSummed>
+Column<Row> sum_column(const std::string& name, IsSummed is_summed) {
+    return {name, [is_summed](const Row& row) {
                 std::optional<double> sum;
                 for (const ReportStage& stage : row.speed.stages) {
-                    if (std::ranges::count(stages, stage.name) == 0) continue;
-                    sum = sum.value_or(0.0) + stage.ms.median;
+                    if (is_summed(stage.name)) sum = sum.value_or(0.0) + stage.ms.median;
                 }
                 return sum;
             }};
+}
+
+Column<Row> stage_column(const std::string& name, std::string_view stage) {
+    return sum_column(name,
+                      [stage = std::string(stage)](const std::string& s) { return s == stage; });
+}
+
+Column<Row> group_column(const std::string& name, StageGroup group) {
+    return sum_column(name, [group](const std::string& s) { return group_of(s) == group; });
 }
 
 // A column of a count that is negative where nothing was counted.
@@ -58,54 +70,18 @@ std::string front_text(const Row& row) {
 }
 
 // The errors against one reference.
-std::vector<Column<Errors>> error_columns() {
-    return {{"max abs", [](const Errors& e) { return e.hdr.absolute.max; }},
-            {"mean abs", [](const Errors& e) { return e.hdr.absolute.mean; }},
-            {"99.9 % abs", [](const Errors& e) { return e.hdr.absolute.percentile_99_9; }},
-            {"worst pixel", [](const Errors& e) { return pixel_text(e.hdr.absolute); }},
-            {"max rel", [](const Errors& e) { return e.hdr.relative.max; }},
-            {"99.9 % rel", [](const Errors& e) { return e.hdr.relative.percentile_99_9; }},
-            {"worst rel pixel", [](const Errors& e) { return pixel_text(e.hdr.relative); }},
-            {"rmse", [](const Errors& e) { return e.hdr.rmse; }},
-            {"psnr [dB]", [](const Errors& e) { return e.hdr.psnr_db; }},
-            {"psnr peak", [](const Errors& e) { return e.hdr.psnr_peak; }},
-            {"relmse", [](const Errors& e) { return e.hdr.rel_mse; }},
-            {"nan pixels", [](const Errors& e) { return e.hdr.nan_pixels; }},
-            {"infinite pixels", [](const Errors& e) { return e.hdr.infinite_pixels; }},
-            {"negative pixels", [](const Errors& e) { return e.hdr.negative_pixels; }},
-            {"bit-different pixels", [](const Errors& e) { return e.hdr.different_pixels; }},
-            {"max codes", [](const Errors& e) { return e.codes.difference.max; }},
-            {"code-different pixels", [](const Errors& e) { return e.codes.different_pixels; }},
-            {"ssim", &Errors::ssim},
-            {"flip mean", [](const Errors& e) { return e.flip.mean; }},
-            {"flip 99.9 %", [](const Errors& e) { return e.flip.percentile_99_9; }},
-            {"ldr-flip mean", [](const Errors& e) { return e.flip_display.mean; }}};
-}
-
 void add_errors(std::vector<Column<Row>>& columns, const std::string& of, Errors Row::*errors) {
-    for (const Column<Errors>& column : error_columns()) {
-        columns.push_back({fmt::format("{} {}", of, column.name),
-                           [=](const Row& row) { return column.cell(row.*errors); }});
+    for (const ErrorMetric& metric : error_metrics()) {
+        columns.push_back({fmt::format("{} {}", of, metric.column),
+                           [=](const Row& row) { return metric.value(row.*errors); }});
     }
+    columns.push_back({of + " worst pixel",
+                       [=](const Row& row) { return pixel_text((row.*errors).hdr.absolute); }});
+    columns.push_back({of + " worst rel pixel",
+                       [=](const Row& row) { return pixel_text((row.*errors).hdr.relative); }});
 }
 
 bool casts_shadows(const Row& row) { return row.setting.settings.shadows != Shadows::off; }
-
-bool has_sampled(const std::vector<Row>& rows) {
-    return std::ranges::any_of(rows, [](const Row& row) { return row.sampled.has_value(); });
-}
-
-// Of sampled shadows, where there are any.
-void add_sampled(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
-    if (!has_sampled(rows)) return;
-    columns.push_back({"exact RMSE", [](const Row& row) {
-                           return row.sampled ? Cell(row.sampled->rmse) : Cell();
-                       }});
-    columns.push_back({"in 95 % [%]", [](const Row& row) {
-                           const bool told = row.sampled && row.sampled->settled_share > 0.0;
-                           return told ? Cell(100.0 * row.sampled->within_mean) : Cell();
-                       }});
-}
 
 bool has_told(const Row& row) { return row.told.has_value(); }
 
@@ -126,24 +102,28 @@ void add_told(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
                        }});
 }
 
-// Frame time against `error`, of the rows that have one above 0.
-template <typename Error>
-Plot error_plot(const std::vector<Row>& rows, const std::string& caption, Error error) {
+// Frame time against `error`, of the rows that have one above 0, and its Pareto front.
+Plot error_plot(const std::vector<Row>& rows, const std::string& caption, const RowError& error) {
     Plot plot;
     plot.subtitle = caption;
     plot.x_label = "frame [ms] (ratio to the default's in pairs of frames; bars: 5 % to 95 %)";
     plot.log_x = plot.log_y = true;
-    plot.pareto_front = true;
-    const double standard_ms = rows.empty() ? 0.0 : rows.front().speed.frame_ms.median;
+    const double standard_ms = rows.empty() ? 0.0 : rows.front().speed.frame_ms;
     for (const Row& row : rows) {
         const std::optional<double> y = error(row);
         if (!y || !(*y > 0.0)) continue;  // the axis is logarithmic
         const ReportSpeed& s = row.speed;
-        PlotPoint point{s.relative * standard_ms, *y, row.setting.name};
+        PlotPoint point{s.relative * standard_ms, *y};
         point.x_low = s.relative_p5 * standard_ms;
         point.x_high = s.relative_p95 * standard_ms;
-        series_of(plot, axis_name(row.setting.axis), PlotStyle::points).push_back(std::move(point));
+        plot.series.push_back(
+            {row.setting.name, {point}, PlotStyle::points, static_cast<int>(row.setting.axis)});
     }
+    if (plot.series.empty()) return plot;
+    PlotSeries front{"Pareto front", {}, PlotStyle::steps};
+    for (const std::size_t i : front_of(rows, error))
+        front.points.push_back({rows[i].speed.relative * standard_ms, *error(rows[i])});
+    plot.series.push_back(std::move(front));
     return plot;
 }
 
@@ -157,24 +137,12 @@ struct PlotKind {
 
 constexpr PlotKind kPlots[] = {
     {"time_against_error", "Speed against error: the picture asked for, in float64 (R2)",
-     "RMSE against R2 [radiance]",
-     [](const Row& row) {
-         const bool shown = keeps_ranges(row.setting.axis);
-         return shown ? std::optional(row.surfaces.hdr.rmse) : std::nullopt;
-     }},
+     "RMSE against R2 [radiance]", surfaces_rmse},
     {"time_against_unbounded_error", "Speed against error: lights without a range, in float64 (R3)",
-     "RMSE against R3 [radiance]",
-     [](const Row& row) {
-         const bool shown = compares_cut_offs(row.setting.axis);
-         return shown ? std::optional(row.unbounded.hdr.rmse) : std::nullopt;
-     }},
+     "RMSE against R3 [radiance]", unbounded_rmse},
     {"time_against_tails_error",
      "Speed against error: lights without a range, on the same surfaces",
-     "RMSE against every light at every pixel [radiance]",
-     [](const Row& row) {
-         const bool shown = row.setting.axis == SettingAxis::cut_off && row.tails.rmse > 0.0;
-         return shown ? std::optional(row.tails.rmse) : std::nullopt;
-     }},
+     "RMSE against every light at every pixel [radiance]", tails_rmse},
     {"time_against_bound", "Speed against the bound that the picture tells",
      "median of the AOV error-bound [radiance]",
      [](const Row& row) {
@@ -199,15 +167,15 @@ Table report_table(const std::vector<Row>& rows) {
         {"axis", [](const Row& row) { return axis_name(row.setting.axis); }},
         {"options", [](const Row& row) { return row.setting.options; }},
         {"pareto", front_text},
-        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
+        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms; }},
         {"times default", [](const Row& row) { return row.speed.relative; }},
         {"times default 5 %", [](const Row& row) { return row.speed.relative_p5; }},
         {"times default 95 %", [](const Row& row) { return row.speed.relative_p95; }},
         {"noise", [](const Row& row) { return row.speed.noise; }},
-        {"frames", [](const Row& row) { return row.speed.frame_ms.count; }},
+        {"frames", [](const Row& row) { return row.speed.frames; }},
         {"scaled", [](const Row& row) { return row.speed.scaled ? "by pixels" : ""; }}};
     for (const std::string& stage : stage_names(rows)) {
-        columns.push_back(stage_column(stage + " [ms]", {stage}));
+        columns.push_back(stage_column(stage + " [ms]", stage));
     }
     columns.insert(
         columns.end(),
@@ -228,7 +196,6 @@ Table report_table(const std::vector<Row>& rows) {
          {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }},
          {"tails rmse", [](const Row& row) { return row.tails.rmse; }}});
     add_told(columns, rows);
-    add_sampled(columns, rows);
     return make_table(columns, rows);
 }
 
@@ -236,13 +203,11 @@ Table report_summary(const std::vector<Row>& rows) {
     std::vector<Column<Row>> columns = {
         {"setting", [](const Row& row) { return row.setting.name; }},
         {"Pareto", front_text},
-        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
+        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms; }},
         {"x default", [](const Row& row) { return row.speed.relative; }},
-        stage_column("draw", {"geometry", "gbuffer_bridge", "bin_triangles", "raster_triangles",
-                              "resolve_surfaces"}),
-        stage_column("lists", {"prepare_lights", "build_clusters", "cull_lights", "bin_pixels",
-                               "refine_lights", "cut_light_tree"}),
-        stage_column("shade", {"shade", "forward", "forward_plus"}),
+        group_column("draw", StageGroup::surfaces),
+        group_column("lists", StageGroup::lists),
+        group_column("shade", StageGroup::shading),
         count_column("k", &ReportSpeed::k),
         {"k*/k", useful_share},
         {"G eval/s", [](const Row& row) { return 1e-9 * row.speed.evaluations_per_s; }},
@@ -257,11 +222,9 @@ Table report_summary(const std::vector<Row>& rows) {
         {"R3 FLIP", [](const Row& row) { return row.unbounded.flip.mean; }}};
     if (std::ranges::any_of(rows, casts_shadows)) {
         const auto shade = std::ranges::find(columns, "shade", &Column<Row>::name);
-        columns.insert(shade, stage_column("cast", {"shadow_scene", "shadow_origins",
-                                                    "draw_shadows", "cast_shadows"}));
+        columns.insert(shade, group_column("cast", StageGroup::shadows));
     }
     add_told(columns, rows);
-    add_sampled(columns, rows);
     return make_table(columns, rows);
 }
 
@@ -274,10 +237,10 @@ Table cut_off_table(const std::vector<Row>& rows) {
     std::vector<Column<Row>> columns = {
         {"setting", [](const Row& row) { return row.setting.name; }},
         {"Pareto", [](const Row& row) { return row.tails_front ? "yes" : ""; }},
-        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms.median; }},
+        {"frame [ms]", [](const Row& row) { return row.speed.frame_ms; }},
         {"x default", [](const Row& row) { return row.speed.relative; }},
-        stage_column("cut [ms]", {"cut_light_tree"}),
-        stage_column("shade [ms]", {"shade"}),
+        stage_column("cut [ms]", kCutLightTreeStage.name),
+        group_column("shade [ms]", StageGroup::shading),
         count_column("k", &ReportSpeed::k),
         {"tails RMSE", [](const Row& row) { return row.tails.rmse; }},
         {"tails relMSE", [](const Row& row) { return row.tails.rel_mse; }},
@@ -296,14 +259,13 @@ std::string report_notes(const std::vector<Row>& rows) {
         "R1: against float64 shading of the stored surfaces, the kernels' error. drawn: of the "
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
-        "of unlimited range.\n{}{}",
+        "of unlimited range.\n{}",
         error_size_text(rows.front()), size_text(s.width, s.height),
         std::ranges::any_of(rows, has_told)
             ? "told: the error that a picture tells of itself, of a bound the median, of a "
               "standard "
               "error the root mean square; and its ratio to the error's.\n"
-            : "",
-        has_sampled(rows) ? "exact RMSE, in 95 %: of sampled shadows, see below.\n" : "");
+            : "");
 }
 
 std::vector<NamedPlot> report_plots(const std::vector<Row>& rows, const std::string& caption) {

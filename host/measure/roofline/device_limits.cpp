@@ -76,15 +76,6 @@ void settle_arithmetic_limits(DeviceLimits& limits, LimitKernels& kernels) {
     }
 }
 
-// Warns where the user's cache folder cannot be written.
-void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits) {
-    try {
-        write_device_cache(device, kKind, values_of(limits));
-    } catch (const Error& error) {
-        warn(fmt::format("{}; the device's limits will be measured again", error.what()));
-    }
-}
-
 }  // namespace
 
 std::span<const LimitField> limit_fields() { return kFields; }
@@ -133,6 +124,14 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         kernels.measure_launch(limits);
         return limits;
     });
+}
+
+void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits) {
+    try {
+        write_device_cache(device, kKind, values_of(limits));
+    } catch (const Error& error) {
+        warn(fmt::format("{}; the device's limits will be measured again", error.what()));
+    }
 }
 
 DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again) {

@@ -58,6 +58,9 @@ DeviceLimits measure_device_limits(const Gpu& gpu);
 /// that other load slows limits and runs alike. Returns whether a rate rose by more than 1 %.
 bool raise_arithmetic_limits(DeviceLimits& limits, LimitKernels& natural_lanes);
 
+/// Keeps limits in the user's cache folder; warns where that cannot be written.
+void keep_device_limits(const DeviceInfo& device, const DeviceLimits& limits);
+
 /// The limits kept in the user's cache folder, else measured and kept. Warns where they cannot be
 /// kept. `measure_again` ignores what is kept.
 DeviceLimits cached_device_limits(const Gpu& gpu, bool measure_again = false);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -141,9 +142,20 @@ constexpr Published kPublished[] = {{"H200", 67e12, 4.8e12},
                                     {"RTX 3090", 35.6e12, 936e9},
                                     {"T4", 8.1e12, 320e9}};
 
+// Whether `words` stand in a device's name and are not the beginning or the end of longer ones:
+// "L4" is no part of "NVIDIA L40S".
+bool is_named(std::string_view name, std::string_view words) {
+    const auto is_word = [&](std::size_t at) {
+        return at < name.size() && std::isalnum(static_cast<unsigned char>(name[at])) != 0;
+    };
+    const std::size_t at = name.find(words);
+    return at != std::string_view::npos && (at == 0 || !is_word(at - 1)) &&
+           !is_word(at + words.size());
+}
+
 std::vector<LimitCheck> against_published(const DeviceInfo& device, const DeviceLimits& limits) {
     for (const Published& peak : kPublished) {
-        if (device.name.find(peak.name) == std::string::npos) continue;
+        if (!is_named(device.name, peak.name)) continue;
         return {{"fma_flops", limits.fma_flops, peak.fma_flops},
                 {"read_bandwidth", limits.read_bandwidth, peak.bandwidth},
                 {"copy_bandwidth", limits.copy_bandwidth, peak.bandwidth}};

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/roofline/stage_report.h"
 
+#include "host/measure/roofline/stages.h"
+#include "host/stages/shadows/cast_shadows.h"
+
 namespace kilolux {
 namespace {
 
-double evaluations_of(const std::string& stage, const StageCounts& counts) {
-    const bool hides = counts.kernels.shadows && !counts.kernels.sampled_shadows;
-    if (stage == "shade" && hides) return counts.shadow_seen;
-    if (stage == "shade" || stage == "forward" || stage == "forward_plus")
-        return counts.full_evaluations + counts.drawn_pixels * counts.directional_lights;
-    if (stage == "refine_lights") return counts.refine_tests;
-    if (stage == "cast_shadows") return counts.shadow_rays;
-    return 0.0;
-}
-
 void add_shadows(StageReport& report, const FrameStats& stats, const StageCounts& counts) {
-    if (report.stage != "cast_shadows" || stats.shadows.words == 0) return;
-    const double pairs = counts.evaluations + counts.drawn_pixels * counts.directional_lights;
+    if (report.stage != kCastShadowsStage.name || stats.shadows.words == 0) return;
     report.shafts = static_cast<double>(stats.shadows.shafts);
-    report.saved_rays = pairs - counts.shadow_rays;
+    report.saved_rays = counts.listed_pairs() - counts.shadow_rays;
 }
 
 }  // namespace
@@ -31,13 +23,15 @@ std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimi
         StageReport report;
         report.stage = stage.name;
         report.ms = stage.ms;
-        if (const auto work = stage_work(stage.name, counts)) {
-            const StageLimit limit = stage_limit(*work, limits);
+        const StageInfo* info = stage_info(stage.name);
+        if (info && info->work) {
+            const StageWork work = info->work(counts);
+            const StageLimit limit = stage_limit(work, limits);
             report.limit_ms = limit.ms;
             report.bound = bound_name(limit.bound);
-            report.bytes = work->bytes() + work->bytes_uploaded;
+            report.bytes = work.bytes() + work.bytes_uploaded;
+            report.evaluations = work.evaluations;
         }
-        report.evaluations = evaluations_of(stage.name, counts);
         add_shadows(report, stats, counts);
         reports.push_back(std::move(report));
     }
@@ -47,7 +41,7 @@ std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimi
 Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameStats& stats) {
     double ms = 0.0, limit_ms = 0.0;
     for (const StageReport& report : reports) {
-        if (report.limit_ms <= 0.0 || report.stage == "gbuffer_bridge") continue;
+        if (report.limit_ms <= 0.0 || stage_info(report.stage)->opengl_copies) continue;
         ms += report.ms;
         limit_ms += report.limit_ms;
     }

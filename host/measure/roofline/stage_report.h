@@ -10,8 +10,8 @@ namespace kilolux {
 
 /// What a stage did in a frame, and the least time of that.
 struct StageEffort {
-    double limit_ms = 0.0;  // by the device's measured limits; 0: no model
-    std::string bound;      // what limits it, as bound_name() says; empty: no model
+    double limit_ms = 0.0;  // by the device's measured limits; 0: none
+    std::string bound;      // what limits it, as bound_name() says; empty: nothing
     double bytes = 0.0;     // that it must at least move
     // Of shading: lights evaluated in full at a pixel; of refine_lights: lights against boxes.
     // Of cast_shadows: rays.
@@ -39,13 +39,14 @@ struct Efficiency {
 std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimits& limits,
                                        const FrameSetup& setup);
 
-/// Of the stages that have a model, without the copy from OpenGL.
+/// Of the stages that have a limit, without the copy from OpenGL.
 Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameStats& stats);
 
 /// The part of the frame's time that belongs to no stage [ms]: host work, waiting, driver.
 double other_ms(const FrameStats& stats);
 
-/// The name of a row for other_ms().
-inline constexpr const char* kOtherStage = "other";
+/// Rows beside the stages': other_ms(), and the frame as the host's clock sees it.
+inline constexpr StageInfo kOtherStage = {"other", StageGroup::host};
+inline constexpr StageInfo kFrameStage = {"frame", StageGroup::host};
 
 }  // namespace kilolux

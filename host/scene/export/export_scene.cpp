@@ -62,6 +62,17 @@ void add_array(Json& root, const char* name, Json array) {
     if (!array.empty()) root[name] = std::move(array);
 }
 
+// The names of all extensions that a part of the file has.
+void collect_extensions(const Json& part, std::set<std::string>& names) {
+    if (!part.is_structured()) return;
+    for (const auto& [key, member] : part.items()) {
+        if (part.is_object() && key == "extensions") {
+            for (const auto& extension : member.items()) names.insert(extension.key());
+        }
+        collect_extensions(member, names);
+    }
+}
+
 void append_word(Bytes& out, std::uint64_t word) {
     for (int shift = 0; shift < 32; shift += 8) {
         out.push_back(static_cast<unsigned char>(word >> shift));
@@ -86,7 +97,7 @@ class Writer {
 
     ExportedScene write(const std::filesystem::path& file) {
         const std::vector<int> mesh_of = add_meshes();
-        ExportedMaterials materials = export_materials(scene_, extensions_);
+        ExportedMaterials materials = export_materials(scene_);
         add_array(root_, "materials", std::move(materials.materials));
         add_array(root_, "textures", std::move(materials.textures));
         add_array(root_, "samplers", std::move(materials.samplers));
@@ -156,13 +167,11 @@ class Writer {
         add_array(root_, "cameras", std::move(placed.cameras));
         add_webs();
         if (placed.lights.empty()) return;
-        extensions_.insert("KHR_lights_punctual");
         root_["extensions"]["KHR_lights_punctual"]["lights"] = std::move(placed.lights);
     }
 
     void add_webs() {
         if (scene_.webs.empty()) return;
-        extensions_.insert("EXT_lights_ies");
         for (std::size_t i = 0; i < scene_.webs.size(); ++i) {
             const PhotometricWeb& web = scene_.webs[i];
             root_["extensions"]["EXT_lights_ies"]["lights"].push_back(
@@ -185,9 +194,9 @@ class Writer {
     }
 
     void add_extensions() {
-        if (extensions_.empty()) return;
-        root_["extensionsUsed"] = Json::array();
-        for (const std::string& name : extensions_) root_["extensionsUsed"].push_back(name);
+        std::set<std::string> names;
+        collect_extensions(root_, names);
+        if (!names.empty()) root_["extensionsUsed"] = names;
     }
 
     Bytes glb() const {
@@ -218,7 +227,6 @@ class Writer {
     bool binary_;
     Json root_{{"asset", {{"version", "2.0"}, {"generator", "kilolux"}}}, {"scene", 0}};
     ExportBuffer buffer_;
-    std::set<std::string> extensions_;
     ExportedScene out_;
 };
 

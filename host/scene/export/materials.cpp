@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/scene/material_table.h"
+
 namespace kilolux {
 namespace {
 
@@ -67,113 +69,90 @@ Material within_factors(Material m) {
     return m;
 }
 
-class MaterialWriter {
- public:
-    explicit MaterialWriter(std::set<std::string>& extensions) : extensions_(extensions) {}
-
-    Json material(const Material& m) {
-        Json out = Json::object();
-        if (!m.name.empty()) out["name"] = m.name;
-        out["pbrMetallicRoughness"] = metallic_roughness(m);
-        add_maps(out, m);
-        add_emission(out, m);
-        if (m.alpha_mode == AlphaMode::mask) {
-            out["alphaMode"] = "MASK";
-            out["alphaCutoff"] = m.alpha_cutoff;
-        } else if (m.alpha_mode == AlphaMode::blend) {
-            out["alphaMode"] = "BLEND";
-        }
-        if (m.double_sided) out["doubleSided"] = true;
-        add_reflectance(out, m);
-        return out;
+Json use_json(const TextureUse& use) {
+    Json out{{"index", use.texture}};
+    if (use.uv_set != 0) out["texCoord"] = use.uv_set;
+    if (use.uv_from_texcoord != glm::mat3(1.0f)) {
+        out["extensions"]["KHR_texture_transform"] = transform_json(use.uv_from_texcoord);
     }
+    return out;
+}
 
- private:
-    Json& extension(Json& of, const char* name) {
-        extensions_.insert(name);
-        Json& out = of["extensions"][name];
-        if (out.is_null()) out = Json::object();
-        return out;
-    }
+// The place of a path in a material, where the objects on the way are made.
+Json& at_path(Json& object, std::string_view path) {
+    const std::size_t end = std::min(path.find('.'), path.size());
+    Json& member = object[std::string(path.substr(0, end))];
+    return end == path.size() ? member : at_path(member, path.substr(end + 1));
+}
 
-    void add_texture(Json& to, const char* name, const TextureUse& use) {
-        if (!use.present()) return;
-        Json out{{"index", use.texture}};
-        if (use.uv_set != 0) out["texCoord"] = use.uv_set;
-        if (use.uv_from_texcoord != glm::mat3(1.0f)) {
-            extension(out, "KHR_texture_transform") = transform_json(use.uv_from_texcoord);
-        }
-        to[name] = std::move(out);
-    }
+// Whether a factor of this path says something: it is of no map that the material lacks, and
+// nothing that unlit surfaces or opaque ones leave out.
+bool is_written(const Material& m, std::string_view path) {
+    if (path == "emissiveFactor") return false;  // see add_emission()
+    if (path == "alphaCutoff") return m.alpha_mode == AlphaMode::mask;
+    if (path.starts_with("extensions.")) return !m.unlit;
+    return std::ranges::all_of(kMaterialMaps, [&](const MaterialMap& map) {
+        return (m.*map.member).present() || !path.starts_with(std::string(map.path) + ".");
+    });
+}
 
-    Json metallic_roughness(const Material& m) {
-        Json out{
-            {"baseColorFactor", {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w}}};
-        add_texture(out, "baseColorTexture", m.base_color_texture);
-        out["metallicFactor"] = m.metallic;
-        out["roughnessFactor"] = m.roughness;
-        add_texture(out, "metallicRoughnessTexture", m.metallic_roughness_texture);
-        return out;
-    }
-
-    void add_maps(Json& out, const Material& m) {
-        add_texture(out, "normalTexture", m.normal_texture);
-        if (m.normal_texture.present() && m.normal_scale != 1.0f) {
-            out["normalTexture"]["scale"] = m.normal_scale;
-        }
-        add_texture(out, "occlusionTexture", m.occlusion_texture);
-        if (m.occlusion_texture.present() && m.occlusion_strength != 1.0f) {
-            out["occlusionTexture"]["strength"] = m.occlusion_strength;
+void add_factors(Json& out, const Material& m) {
+    const Material standard;
+    for (const MaterialFactor& factor : kMaterialFactors) {
+        const auto values = factor_values(m, factor);
+        if (std::ranges::equal(values, factor_values(standard, factor))) continue;
+        if (!is_written(m, factor.path)) continue;
+        Json& place = at_path(out, factor.path);
+        if (values.size() == 1) {
+            place = values[0];
+        } else {
+            place = std::vector<float>(values.begin(), values.end());
         }
     }
+}
 
-    // glTF's factor is at most 1. The strength is a power of two, so that the product is exact.
-    void add_emission(Json& out, const Material& m) {
-        const float largest = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
-        double strength = 1.0;
-        while (largest > strength) strength *= 2.0;
-        if (largest > 0.0f) {
-            out["emissiveFactor"] = {m.emissive.x / strength, m.emissive.y / strength,
-                                     m.emissive.z / strength};
-        }
-        add_texture(out, "emissiveTexture", m.emissive_texture);
-        if (strength > 1.0) {
-            extension(out, "KHR_materials_emissive_strength")["emissiveStrength"] = strength;
+// glTF's factor is at most 1. The strength is a power of two, so that the product is exact.
+void add_emission(Json& out, const Material& m) {
+    const float largest = std::max({m.emissive.x, m.emissive.y, m.emissive.z});
+    double strength = 1.0;
+    while (largest > strength) strength *= 2.0;
+    if (largest > 0.0f) {
+        out["emissiveFactor"] = {m.emissive.x / strength, m.emissive.y / strength,
+                                 m.emissive.z / strength};
+    }
+    if (strength > 1.0) {
+        out["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
+    }
+}
+
+Json material_json(const Material& m) {
+    Json out = Json::object();
+    if (!m.name.empty()) out["name"] = m.name;
+    for (const MaterialMap& map : kMaterialMaps) {
+        const bool reflects = map.path.starts_with("extensions.");
+        if ((m.*map.member).present() && !(m.unlit && reflects)) {
+            at_path(out, map.path) = use_json(m.*map.member);
         }
     }
-
-    void add_reflectance(Json& out, const Material& m) {
-        const Material standard;
-        if (m.unlit) {
-            extension(out, "KHR_materials_unlit");
-            return;  // nothing of it reflects
-        }
-        if (m.ior != standard.ior) extension(out, "KHR_materials_ior")["ior"] = m.ior;
-        Json specular = Json::object();
-        if (m.specular != standard.specular) specular["specularFactor"] = m.specular;
-        if (m.specular_color != standard.specular_color) {
-            specular["specularColorFactor"] = {m.specular_color.x, m.specular_color.y,
-                                               m.specular_color.z};
-        }
-        add_texture(specular, "specularTexture", m.specular_texture);
-        add_texture(specular, "specularColorTexture", m.specular_color_texture);
-        if (!specular.empty()) extension(out, "KHR_materials_specular") = std::move(specular);
-    }
-
-    std::set<std::string>& extensions_;
-};
+    add_factors(out, m);
+    add_emission(out, m);
+    if (m.alpha_mode == AlphaMode::mask) out["alphaMode"] = "MASK";
+    if (m.alpha_mode == AlphaMode::blend) out["alphaMode"] = "BLEND";
+    if (m.double_sided) out["doubleSided"] = true;
+    if (m.unlit) out["extensions"]["KHR_materials_unlit"] = Json::object();
+    return out;
+}
 
 }  // namespace
 
-ExportedMaterials export_materials(const Scene& scene, std::set<std::string>& extensions) {
+ExportedMaterials export_materials(const Scene& scene) {
     ExportedMaterials out;
     for (const Texture& texture : scene.textures) {
         const int sampler = place_of(out.samplers, sampler_json(texture.sampler));
         out.textures.push_back({{"sampler", sampler}, {"source", texture.image}});
     }
-    MaterialWriter writer(extensions);
     for (const Material& material : scene.materials) {
-        out.materials.push_back(writer.material(within_factors(material)));
+        out.materials.push_back(material_json(within_factors(material)));
     }
     return out;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/scene/lights/light_kinds.h"
+
 namespace kilolux {
 namespace {
 
@@ -73,18 +75,13 @@ int add_placed(Json& nodes, const glm::dmat4& world_from_node, Json node) {
     return child + 1;
 }
 
-const char* type_name(LightType type) {
-    if (type == LightType::spot) return "spot";
-    return type == LightType::directional ? "directional" : "point";
-}
-
 bool is_usable(const SceneLight& light) {
     const glm::dvec3 intensity(light.intensity);
-    const bool aimed = (light.type == LightType::point && light.profile < 0) ||
+    const LightKind& kind = kind_of(light);
+    const bool aimed = (!kind.is_aimed && light.profile < 0) ||
                        (is_finite(light.direction) && glm::length(light.direction) > 0.0);
-    const bool cone =
-        light.type != LightType::spot || (std::isfinite(light.inner_cone) &&
-                                          std::isfinite(light.outer_cone) && light.outer_cone > 0);
+    const bool cone = !kind.has_cone || (std::isfinite(light.inner_cone) &&
+                                         std::isfinite(light.outer_cone) && light.outer_cone > 0);
     return is_finite(intensity) && std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
            is_finite(light.position) && !std::isnan(light.range) && aimed && cone;
 }
@@ -111,10 +108,11 @@ void add_color(Json& out, const SceneLight& light) {
 }
 
 Json light_json(const SceneLight& light) {
-    Json out{{"type", type_name(light.type)}, {"intensity", brightest(light)}};
+    const LightKind& kind = kind_of(light);
+    Json out{{"type", kind.name}, {"intensity", brightest(light)}};
     add_color(out, light);
-    if (light.type == LightType::spot) out["spot"] = cone_json(light);
-    if (light.type != LightType::directional && light.range > 0.0f && std::isfinite(light.range)) {
+    if (kind.has_cone) out["spot"] = cone_json(light);
+    if (kind.is_placed && light.range > 0.0f && std::isfinite(light.range)) {
         out["range"] = light.range;
     }
     return out;
@@ -133,7 +131,7 @@ void add_light(ExportedNodes& out, const SceneLight& light) {
     out.lights.push_back(light_json(light));
     Json node = Json::object();
     node["extensions"]["KHR_lights_punctual"]["light"] = index;
-    if (light.type == LightType::point) {
+    if (!kind_of(light).is_aimed) {
         node["translation"] = {light.position.x, light.position.y, light.position.z};
     } else {
         node["matrix"] =

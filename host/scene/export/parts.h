@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,13 +24,13 @@ struct ExportedNodes {
 /// `mesh_of`: glTF's index of each mesh of the scene, -1 for those that are not written.
 ExportedNodes export_nodes(const Scene& scene, const std::vector<int>& mesh_of);
 
-/// Materials, textures and samplers as glTF arrays; adds the names of the extensions they use.
+/// Materials, textures and samplers as glTF arrays.
 struct ExportedMaterials {
     nlohmann::ordered_json materials = nlohmann::ordered_json::array();
     nlohmann::ordered_json textures = nlohmann::ordered_json::array();
     nlohmann::ordered_json samplers = nlohmann::ordered_json::array();
 };
-ExportedMaterials export_materials(const Scene& scene, std::set<std::string>& extensions);
+ExportedMaterials export_materials(const Scene& scene);
 
 /// An image as PNG, which keeps every bit. Throws Error with OpenImageIO's reason.
 std::vector<unsigned char> encode_png(const Image& image);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/error.h"
+#include "host/scene/gltf/files.h"
 
 namespace kilolux {
 namespace {
@@ -28,6 +29,10 @@ std::string shown(const json& value) {
 std::string range_text(const GltfRule& rule) {
     const bool low = std::isfinite(rule.min);
     const bool high = std::isfinite(rule.max);
+    if (rule.multiple_of > 1) {
+        return fmt::format(" from {} to {} that is a multiple of {}", rule.min, rule.max,
+                           rule.multiple_of);
+    }
     if (low && high) return fmt::format(" from {} to {}", rule.min, rule.max);
     if (low) return fmt::format(" of at least {}", rule.min);
     return high ? fmt::format(" of at most {}", rule.max) : "";
@@ -54,6 +59,11 @@ bool is_integer_in(json& value, double min, double max) {
     return value.is_number_integer() && value.get<double>() >= min && value.get<double>() <= max;
 }
 
+bool is_integer_of(json& value, const GltfRule& rule) {
+    return is_integer_in(value, rule.min, rule.max) &&
+           (rule.multiple_of == 1 || value.get<std::int64_t>() % rule.multiple_of == 0);
+}
+
 bool are_numbers(json& value, std::size_t length) {
     if (!value.is_array() || (length != 0 && value.size() != length)) return false;
     for (json& number : value) {
@@ -69,84 +79,108 @@ bool is_one_of(json& value, const std::vector<std::string>& allowed) {
     return std::find(allowed.begin(), allowed.end(), text) != allowed.end();
 }
 
+// How a value was reached from the root: by `key`, or by `index` where that is empty. A text is
+// made of it only for an error.
+struct JsonPlace {
+    const JsonPlace* parent = nullptr;
+    std::string_view key{};
+    std::size_t index = 0;
+    bool from_file = false;  // the key is the file's own
+};
+
+std::string text_of(const JsonPlace& place) {
+    if (place.parent == nullptr) return "";
+    std::string out = text_of(*place.parent);
+    if (place.key.empty()) return fmt::format("{}[{}]", out, place.index);
+    return out + (out.empty() ? "" : ".") +
+           (place.from_file ? shown(place.key) : std::string(place.key));
+}
+
 // Applies one rule to a file.
 struct Checker {
     const std::string& name;  // of the file
     const GltfRule& rule;
     std::size_t target_count;  // of the array that the rule's indices point into
 
-    [[noreturn]] void fail(const std::string& where, const json& value,
+    [[noreturn]] void fail(const JsonPlace& place, const json& value,
                            const std::string& expected) const {
-        throw Error(fmt::format("{}: {} is {}, must be {}", name, where, shown(value), expected));
+        const std::string where = text_of(place);
+        throw Error(fmt::format("{}: {} is {}, must be {}", name,
+                                where.empty() ? "the file" : where, shown(value), expected));
     }
 
-    void require(bool fits, const std::string& where, const json& value,
-                 const char* expected) const {
-        if (!fits) fail(where, value, expected);
+    void require(bool fits, const JsonPlace& place, const json& value, const char* expected) const {
+        if (!fits) fail(place, value, expected);
     }
 
-    void check(json& value, const std::string& where) const {
+    void check(json& value, const JsonPlace& place) const {
         switch (rule.kind) {
             case JsonKind::object:
-                return require(value.is_object(), where, value, "an object");
+                return require(value.is_object(), place, value, "an object");
+            case JsonKind::array:
+                return require(value.is_array(), place, value, "an array");
             case JsonKind::text:
-                return require(value.is_string(), where, value, "a string");
+                return require(value.is_string(), place, value, "a string");
             case JsonKind::boolean:
-                return require(value.is_boolean(), where, value, "true or false");
+                return require(value.is_boolean(), place, value, "true or false");
             case JsonKind::number:
-                require(value.is_number(), where, value, "a number");
+                require(value.is_number(), place, value, "a number");
                 return make_wide_integer_float(value);
             case JsonKind::integer:
-                if (is_integer_in(value, rule.min, rule.max)) return;
-                fail(where, value, "an integer" + range_text(rule));
+                if (is_integer_of(value, rule)) return;
+                fail(place, value, "an integer" + range_text(rule));
             case JsonKind::index:
                 if (is_integer_in(value, 0, static_cast<double>(target_count) - 1)) return;
-                fail(where, value,
+                fail(place, value,
                      fmt::format("an index into the {} {}", target_count,
                                  rule.target.substr(rule.target.rfind('/') + 1)));
             case JsonKind::numbers:
                 if (are_numbers(value, rule.length)) return;
-                fail(where, value,
+                fail(place, value,
                      rule.length == 0 ? "an array of numbers"
                                       : fmt::format("an array of {} numbers", rule.length));
             case JsonKind::choice:
                 if (is_one_of(value, rule.allowed)) return;
-                fail(where, value, fmt::format("one of {}", fmt::join(rule.allowed, ", ")));
+                fail(place, value, fmt::format("one of {}", fmt::join(rule.allowed, ", ")));
         }
     }
 
-    // Follows the rest of the rule's path; `where` says how `value` was reached.
-    void visit(json& value, std::string_view path, const std::string& where) const {
-        if (path.empty()) return check(value, where);
+    bool applies_to(const json& object) const {
+        return rule.where_type.empty() || object.value("type", json()) == rule.where_type;
+    }
+
+    // Follows the rest of the rule's path; `place` says how `value` was reached.
+    void visit(json& value, std::string_view path, const JsonPlace& place) const {
+        if (path.empty()) return check(value, place);
         if (path.starts_with("[]")) {
-            require(value.is_array(), where, value, "an array");
+            require(value.is_array(), place, value, "an array");
             for (std::size_t i = 0; i < value.size(); ++i) {
-                visit(value[i], path.substr(2), fmt::format("{}[{}]", where, i));
+                visit(value[i], path.substr(2), {&place, {}, i});
             }
             return;
         }
         if (path.front() == '.') path.remove_prefix(1);
-        require(value.is_object(), where.empty() ? std::string("the file") : where, value,
-                "an object");
-        const std::string prefix = where.empty() ? "" : where + ".";
+        require(value.is_object(), place, value, "an object");
         if (path.starts_with("{}")) {
             for (auto& [key, member] : value.items()) {
-                visit(member, path.substr(2), prefix + shown(key));
+                visit(member, path.substr(2), {&place, key, 0, true});
             }
             return;
         }
         const std::size_t end = std::min(path.find_first_of(".[{"), path.size());
-        const std::string key(path.substr(0, end));
         const std::string_view rest = path.substr(end);
-        const auto member = value.find(key);
-        if (member != value.end()) return visit(*member, rest, prefix + key);
-        if (rule.required && rest.empty()) throw Error(name + ": " + prefix + key + " is missing");
+        const JsonPlace below{&place, path.substr(0, end)};
+        const auto member = value.find(below.key);
+        if (member != value.end()) return visit(*member, rest, below);
+        if (rule.required && rest.empty() && applies_to(value)) {
+            throw Error(name + ": " + text_of(below) + " is missing");
+        }
     }
 };
 
 // Levels of arrays and objects. Counted on the text: JSON readers may recurse, and the parser's
 // callback takes time quadratic in an array's length.
-int nesting_depth(const std::string& text) {
+int nesting_depth(std::string_view text) {
     int depth = 0;
     int deepest = 0;
     bool in_string = false;
@@ -166,7 +200,7 @@ int nesting_depth(const std::string& text) {
     return deepest;
 }
 
-json parse(const std::string& text, const std::string& name) {
+json parse(std::string_view text, const std::string& name) {
     if (nesting_depth(text) > kMaxDepth) {
         throw Error(fmt::format("{}: JSON is nested deeper than {} levels", name, kMaxDepth));
     }
@@ -178,14 +212,33 @@ json parse(const std::string& text, const std::string& name) {
     }
 }
 
+// Ahead of the rules, which files of another version break in many ways.
+void check_version(const json& root, const std::string& name) {
+    for (const char* key : {"version", "minVersion"}) {
+        const json::json_pointer place = json::json_pointer("/asset") / key;
+        if (!root.is_object() || !root.contains(place)) continue;
+        const json& value = root.at(place);
+        if (!value.is_string() && !value.is_number()) continue;
+        const std::string version = value.is_string() ? value.get<std::string>() : shown(value);
+        const bool is_known =
+            key == std::string("version") ? version.starts_with("2.") : version == "2.0";
+        if (is_known || (value.is_number() && version.starts_with("2"))) continue;
+        const char* hint =
+            version.starts_with("1") ? "; gltf-pipeline -i old.gltf -o new.gltf converts it" : "";
+        throw Error(fmt::format("{}: asset.{} is '{}', must be 2.0{}", name, key,
+                                shown_uri(version), hint));
+    }
+}
+
 }  // namespace
 
-json parse_gltf_json(const std::string& text, const std::string& name) {
+json parse_gltf_json(std::string_view text, const std::string& name) {
     json root = parse(text, name);
+    check_version(root, name);
     for (const GltfRule& rule : gltf_rules()) {
         const json::json_pointer target(rule.target);
         const bool has_target = rule.kind == JsonKind::index && root.contains(target);
-        Checker{name, rule, has_target ? root.at(target).size() : 0}.visit(root, rule.path, "");
+        Checker{name, rule, has_target ? root.at(target).size() : 0}.visit(root, rule.path, {});
     }
     return root;
 }

@@ -162,13 +162,19 @@ void apply_variant(GltfDocument& document) {
 std::vector<Clip> list_clips(const GltfDocument& document) {
     std::vector<Clip> clips;
     for (const tinygltf::Animation& animation : document.model.animations) {
-        Clip clip{animation.name, length_of(document, animation), 0, false};
+        Clip clip{animation.name};
+        clip.plays = std::ranges::count(document.clips, clips.size()) > 0;
+        try {
+            clip.length = length_of(document, animation);
+        } catch (const Error& error) {
+            if (clip.plays) throw;
+            clip.broken = error.what();
+        }
         clip.channels = static_cast<std::size_t>(
             std::count_if(animation.channels.begin(), animation.channels.end(),
                           [](const auto& channel) { return channel.target_node >= 0; }));
         clips.push_back(std::move(clip));
     }
-    for (const std::size_t clip : document.clips) clips[clip].plays = true;
     return clips;
 }
 

@@ -22,73 +22,68 @@ using nlohmann::json;
 constexpr std::uint64_t kBudgetFloorBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kBudgetPerFileByte = 1024;
 
-bool is_meshopt_fallback(const json& buffer) {
-    const json::json_pointer fallback("/extensions/EXT_meshopt_compression/fallback");
-    return buffer.contains(fallback) && buffer.at(fallback).get<bool>();
+// What charges the budget for a part of the file, and keeps the charge.
+BeforeBytes charging(const GltfDocument& document, const std::string& where) {
+    return [&document, where](std::uint64_t bytes) {
+        document.budget->charge_memory(bytes, document.base.file + ": " + where);
+    };
 }
 
-Bytes read_buffer(const GltfDocument& document, const json& buffer, std::size_t index,
-                  GltfText& text) {
+std::optional<ByteSpan> read_buffer(GltfDocument& document, const json& buffer, std::size_t index,
+                                    const GltfText& text) {
     const std::string where = element_name("buffers", index);
     const auto length = buffer.at("byteLength").get<std::uint64_t>();
-    const bool has_data = buffer.contains("uri") || (index == 0 && text.has_binary);
-    if (!has_data && is_meshopt_fallback(buffer)) return {};
-    if (!has_data) document.fail(where, "has neither a uri nor a GLB's BIN chunk");
-    document.budget->charge_memory(length, document.base.file + ": " + where);
-    Bytes bytes;
-    if (buffer.contains("uri")) {
-        bytes = read_uri(document.base, buffer.at("uri").get<std::string>(), where);
-    } else {
-        bytes = std::move(text.binary);
+    const bool has_uri = buffer.contains("uri");
+    if (!has_uri && (index > 0 || !text.has_binary)) return std::nullopt;
+    ByteSpan bytes = text.binary;
+    if (has_uri) {
+        const auto& uri = buffer.at("uri").get_ref<const std::string&>();
+        document.owned.push_back(read_uri(document.base, uri, where, charging(document, where)));
+        bytes = document.owned.back();
     }
     if (bytes.size() < length) {
         document.fail(where, "byteLength is {}, the data hold {} bytes", length, bytes.size());
     }
-    bytes.resize(length);
-    return bytes;
+    return bytes.first(length);
 }
 
-void read_buffers(GltfDocument& document, const json& root, GltfText& text) {
+// Takes the buffers out of the JSON.
+void read_buffers(GltfDocument& document, json& root, const GltfText& text) {
     std::uint64_t total = text.json.size();
     if (root.contains("buffers")) {
-        const json& buffers = root.at("buffers");
+        json& buffers = root.at("buffers");
         for (std::size_t i = 0; i < buffers.size(); ++i) {
             document.buffers.push_back(read_buffer(document, buffers[i], i, text));
-            total += document.buffers.back().size();
+            buffers[i] = nullptr;
+            total += document.buffers.back().value_or(ByteSpan{}).size();
         }
+        root.erase("buffers");
     }
     document.budget->allow_for_file(total);
 }
 
-// The JSON for tinygltf: without buffers and images, which it would read without our checks, and
-// changed where it refuses valid files.
-json for_tinygltf(const json& root) {
-    json out = root;
-    out.erase("buffers");
-    out.erase("images");
-    const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
-    if (out.contains(lights)) {
-        for (json& light : out.at(lights)) {
-            if (light.at("type") == "spot" && !light.contains("spot"))
-                light["spot"] = json::object();
-        }
-    }
+// Changes the JSON where tinygltf refuses or loses parts of valid files. Returns the indices'
+// accessor of each primitive, -1 for none: it wants a buffer view of each.
+std::vector<int> adapt_to_tinygltf(json& root) {
+    const auto each = [&root](const char* array, const auto& change) {
+        const json::json_pointer place(array);
+        if (!root.contains(place)) return;
+        for (json& element : root.at(place)) change(element);
+    };
+    each("/extensions/KHR_lights_punctual/lights", [](json& light) {
+        if (light.at("type") == "spot") light.emplace("spot", json::object());
+    });
     // It drops empty objects, and the array's indices with them.
-    const json::json_pointer profiles("/extensions/EXT_lights_ies/lights");
-    if (out.contains(profiles)) {
-        for (json& light : out.at(profiles)) light.emplace("name", "");
-    }
-    if (!out.contains("meshes")) return out;
-    for (json& mesh : out.at("meshes")) {
-        if (!mesh.contains("primitives")) continue;
+    each("/extensions/EXT_lights_ies/lights", [](json& light) { light.emplace("name", ""); });
+    std::vector<int> indices;
+    each("/meshes", [&indices](json& mesh) {
+        if (!mesh.contains("primitives")) return;
         for (json& primitive : mesh.at("primitives")) {
-            // The accessor has no buffer view; the triangles are in the compressed data.
-            if (primitive.contains(json::json_pointer("/extensions/KHR_draco_mesh_compression"))) {
-                primitive.erase("indices");
-            }
+            indices.push_back(primitive.value("indices", -1));
+            primitive.erase("indices");
         }
-    }
-    return out;
+    });
+    return indices;
 }
 
 std::string one_line(std::string text) {
@@ -99,8 +94,32 @@ std::string one_line(std::string text) {
     return text;
 }
 
-void parse_model(GltfDocument& document, const json& root) {
-    const std::string text = for_tinygltf(root).dump();
+void add_images(GltfDocument& document, std::vector<json>& images) {
+    for (json& source : images) {
+        tinygltf::Image image;
+        if (source.contains("name") && source.at("name").is_string())
+            image.name = source.at("name");
+        if (source.contains("uri")) image.uri = std::move(source.at("uri").get_ref<std::string&>());
+        image.mimeType = source.value("mimeType", "");
+        image.bufferView = source.value("bufferView", -1);
+        document.model.images.push_back(std::move(image));
+    }
+}
+
+// An array of the file, taken out of it.
+std::vector<json> take_array(json& root, const char* name) {
+    std::vector<json> out;
+    if (root.contains(name)) out = std::move(root.at(name).get_ref<json::array_t&>());
+    root.erase(name);
+    return out;
+}
+
+// Reads all but buffers and images, which tinygltf would read without our checks, and materials.
+void parse_model(GltfDocument& document, json root) {
+    std::vector<json> images = take_array(root, "images");
+    document.materials = take_array(root, "materials");
+    const std::vector<int> indices = adapt_to_tinygltf(root);
+    const std::string text = root.dump();
     if (text.size() > std::numeric_limits<unsigned>::max()) {
         document.fail("JSON", "is larger than 4 GiB");
     }
@@ -109,55 +128,34 @@ void parse_model(GltfDocument& document, const json& root) {
     tinygltf::TinyGLTF reader;
     if (!reader.LoadASCIIFromString(&document.model, &error, &warning, text.data(),
                                     static_cast<unsigned>(text.size()), "")) {
-        throw Error(document.base.file + ": " + one_line(error));
+        document.fail("JSON", "is refused by tinygltf: {}", one_line(error));
     }
-    if (!root.contains("images")) return;
-    for (const json& source : root.at("images")) {
-        tinygltf::Image image;
-        if (source.contains("name") && source.at("name").is_string())
-            image.name = source.at("name");
-        image.uri = source.value("uri", "");
-        image.mimeType = source.value("mimeType", "");
-        image.bufferView = source.value("bufferView", -1);
-        document.model.images.push_back(std::move(image));
+    auto next = indices.begin();
+    for (tinygltf::Mesh& mesh : document.model.meshes) {
+        for (tinygltf::Primitive& primitive : mesh.primitives) primitive.indices = *next++;
     }
+    add_images(document, images);
 }
 
-std::span<const unsigned char> view_bytes(const GltfDocument& document, std::size_t index) {
+ByteSpan view_bytes(const GltfDocument& document, std::size_t index) {
     const tinygltf::BufferView& view = document.model.bufferViews[index];
-    const Bytes& buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
+    const std::string where = element_name("bufferViews", index);
+    const ByteSpan buffer = bytes_of_buffer(document, static_cast<std::size_t>(view.buffer), where);
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset) {
-        document.fail(element_name("bufferViews", index),
-                      "byteOffset {} and byteLength {} leave buffers[{}] of {} bytes",
+        document.fail(where, "byteOffset {} and byteLength {} leave buffers[{}] of {} bytes",
                       view.byteOffset, view.byteLength, view.buffer, buffer.size());
     }
-    return std::span(buffer).subspan(view.byteOffset, view.byteLength);
+    return buffer.subspan(view.byteOffset, view.byteLength);
 }
 
 void resolve_views(GltfDocument& document) {
-    const std::size_t count = document.model.bufferViews.size();
-    document.decompressed.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < document.model.bufferViews.size(); ++i) {
         if (is_meshopt_compressed(document, i)) {
-            document.decompressed[i] = decode_meshopt_view(document, i);
-            document.views.emplace_back(document.decompressed[i]);
+            document.owned.push_back(decode_meshopt_view(document, i));
+            document.views.emplace_back(document.owned.back());
         } else {
             document.views.push_back(view_bytes(document, i));
         }
-    }
-}
-
-void check_version(const GltfDocument& document, const json& asset) {
-    for (const char* key : {"version", "minVersion"}) {
-        if (!asset.contains(key)) continue;
-        const std::string version = asset.at(key).get<std::string>();
-        const bool known =
-            key == std::string("version") ? version.starts_with("2.") : version == "2.0";
-        if (known) continue;
-        const char* hint =
-            version.starts_with("1.") ? "; gltf-pipeline -i old.gltf -o new.gltf converts it" : "";
-        throw Error(fmt::format("{}: asset.{} is '{}', must be 2.0{}", document.base.file, key,
-                                shown_uri(version), hint));
     }
 }
 
@@ -198,6 +196,13 @@ void LoadBudget::charge_memory(std::uint64_t bytes, const std::string& where) {
                     where, mebibytes(bytes), memory_left_ >> 20, mebibytes(memory_limit_)));
 }
 
+MemoryCharge LoadBudget::borrow_memory(std::uint64_t bytes, const std::string& where) {
+    charge_memory(bytes, where);
+    return MemoryCharge(this, ReleaseMemory{bytes});
+}
+
+void ReleaseMemory::operator()(LoadBudget* budget) const { budget->release_memory(bytes); }
+
 void LoadBudget::refill() {
     memory_left_ += decode_limit_ - decode_left_;
     decode_left_ = decode_limit_;
@@ -211,9 +216,26 @@ void GltfDocument::leave_out(const std::string& what) const {
 FileBytes read_source(const GltfDocument& document, const std::string& uri, int view,
                       const std::string& where) {
     if (uri.empty()) return {{}, document.views[static_cast<std::size_t>(view)]};
-    FileBytes out{read_uri(document.base, uri, where), {}};
+    FileBytes out;
+    out.owned = read_uri(document.base, uri, where, [&](std::uint64_t bytes) {
+        out.charge = document.budget->borrow_memory(bytes, document.base.file + ": " + where);
+    });
     out.bytes = out.owned;
     return out;
+}
+
+ByteSpan bytes_of_buffer(const GltfDocument& document, std::size_t buffer,
+                         const std::string& reader) {
+    if (document.buffers[buffer]) return *document.buffers[buffer];
+    document.fail(element_name("buffers", buffer),
+                  "has neither a uri nor a GLB's BIN chunk, and {} reads it", reader);
+}
+
+const json* find_member(const json& object, std::string_view path) {
+    const std::size_t end = std::min(path.find('.'), path.size());
+    const auto member = object.find(path.substr(0, end));
+    if (member == object.end()) return nullptr;
+    return end == path.size() ? &*member : find_member(*member, path.substr(end + 1));
 }
 
 std::string element_name(const char* array, std::size_t element) {
@@ -233,11 +255,21 @@ GltfDocument load_gltf_document(const std::filesystem::path& file, const LoadOpt
     const std::uint64_t memory = options.max_memory_bytes;
     document.budget =
         std::make_unique<LoadBudget>(memory > 0 ? memory : available_memory_bytes() / 2);
-    GltfText text = read_gltf_text(file, document.base.file);
-    const json root = parse_gltf_json(text.json, document.base.file);
-    check_version(document, root.at("asset"));
+    const auto charge_file = [&document](std::uint64_t bytes) {
+        document.budget->charge_memory(bytes, document.base.file);
+    };
+    GltfText text = read_gltf_text(file, document.base.file, charge_file);
+    const MemoryCharge values =
+        document.budget->borrow_memory(text.json.size(), document.base.file + ": JSON");
+    json root = parse_gltf_json(text.json, document.base.file);
     read_buffers(document, root, text);
-    parse_model(document, root);
+    if (text.has_binary) {
+        document.owned.push_back(std::move(text.file));
+    } else {
+        document.budget->release_memory(text.file.size());
+        text = {};
+    }
+    parse_model(document, std::move(root));
     check_extensions(document);
     apply_variant(document);
     document.clips = choose_clips(document);

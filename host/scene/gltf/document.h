@@ -9,6 +9,8 @@
 
 #include <atomic>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +20,15 @@
 #include "host/scene/gltf/load_scene.h"
 
 namespace kilolux {
+
+class LoadBudget;
+struct ReleaseMemory {
+    std::uint64_t bytes = 0;
+    void operator()(LoadBudget* budget) const;
+};
+
+/// Memory that its budget gets back when this goes.
+using MemoryCharge = std::unique_ptr<LoadBudget, ReleaseMemory>;
 
 /// What loading a file may still allocate. Safe to charge from several threads.
 class LoadBudget {
@@ -36,6 +47,12 @@ class LoadBudget {
     /// Takes bytes for a buffer or an image, which only the memory bounds.
     void charge_memory(std::uint64_t bytes, const std::string& where);
 
+    /// The same for a while.
+    MemoryCharge borrow_memory(std::uint64_t bytes, const std::string& where);
+
+    /// Gives back what charge_memory() took.
+    void release_memory(std::uint64_t bytes) { memory_left_ += bytes; }
+
     /// Gives back what charge() took: what is decoded from now on replaces it.
     void refill();
 
@@ -53,11 +70,13 @@ class LoadBudget {
 struct GltfDocument {
     UriBase base;
     LoadOptions options;
-    tinygltf::Model model;  // without buffers; images keep uri, bufferView and mimeType only
-    std::vector<Bytes> buffers;
-    std::vector<std::span<const unsigned char>> views;  // one per buffer view, decompressed
-    std::vector<Bytes> decompressed;                    // what views of compressed data point into
-    std::vector<std::size_t> clips;                     // animations that play, first one first
+    // Without buffers and materials; images keep uri, bufferView and mimeType only.
+    tinygltf::Model model;
+    std::vector<nlohmann::json> materials;
+    std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data
+    std::vector<ByteSpan> views;                   // one per buffer view, decompressed
+    std::vector<Bytes> owned;                      // what buffers and views point into
+    std::vector<std::size_t> clips;                // animations that play, first one first
     std::unique_ptr<LoadBudget> budget;
 
     /// Tells what of the file the picture lacks or shows otherwise: a warning, or an Error where
@@ -76,12 +95,20 @@ struct GltfDocument {
 /// Bytes that a part of a file refers to.
 struct FileBytes {
     Bytes owned;  // of a uri
-    std::span<const unsigned char> bytes;
+    ByteSpan bytes;
+    MemoryCharge charge{};  // for `owned`
 };
 
 /// What a uri names, or what a buffer view holds where that is empty. Throws as read_uri() does.
 FileBytes read_source(const GltfDocument& document, const std::string& uri, int view,
                       const std::string& where);
+
+/// A buffer's bytes for the part of the file that `reader` names. Throws Error for a placeholder.
+ByteSpan bytes_of_buffer(const GltfDocument& document, std::size_t buffer,
+                         const std::string& reader);
+
+/// The member of a JSON object that a path of names leads to ("extensions.KHR_x.factor"), or null.
+const nlohmann::json* find_member(const nlohmann::json& object, std::string_view path);
 
 /// "accessors[7]".
 std::string element_name(const char* array, std::size_t element);

@@ -7,50 +7,64 @@
 namespace kilolux {
 namespace {
 
-constexpr std::array<std::string_view, 14> kSupported = {
-    "KHR_lights_punctual",     "KHR_texture_transform",
-    "KHR_mesh_quantization",   "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",     "KHR_materials_ior",
-    "KHR_materials_specular",  "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_variants",  "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression", "KHR_draco_mesh_compression",
-    "EXT_texture_webp",        "EXT_lights_ies",
-};
-
-// Say nothing of the picture.
-constexpr std::array<std::string_view, 3> kMetadata = {"KHR_xmp_json_ld", "KHR_xmp",
-                                                       "EXT_structural_metadata"};
-
-// Extensions that a picture can do without, and how that shows.
-struct Dispensable {
+// An extension that a file may require.
+struct KnownExtension {
     std::string_view name;
-    std::string_view shows;
+    std::string_view lacks{};  // how it shows that it is left out; empty: the picture lacks nothing
 };
 
-constexpr std::array kDispensable = {
-    Dispensable{"KHR_materials_transmission", "glass looks opaque"},
-    Dispensable{"KHR_materials_volume", "thick glass does not tint light"},
-    Dispensable{"KHR_materials_volume_scatter", "no light scatters below surfaces"},
-    Dispensable{"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
-    Dispensable{"KHR_materials_dispersion", "glass shows no rainbow"},
-    Dispensable{"KHR_materials_clearcoat", "coats have no highlight of their own"},
-    Dispensable{"KHR_materials_sheen", "cloth has no sheen"},
-    Dispensable{"KHR_materials_iridescence", "thin films show no colours"},
-    Dispensable{"KHR_materials_anisotropy", "brushed metal has round highlights"},
-    Dispensable{"KHR_animation_pointer", "what it animates stands still"},
-    Dispensable{"KHR_node_visibility", "hidden nodes are drawn"},
-    Dispensable{"MSFT_lod", "the finest level is drawn"},
+constexpr std::array kKnown = {
+    KnownExtension{"KHR_lights_punctual"},
+    KnownExtension{"KHR_texture_transform"},
+    KnownExtension{"KHR_mesh_quantization"},
+    KnownExtension{"KHR_materials_emissive_strength"},
+    KnownExtension{"KHR_materials_unlit"},
+    KnownExtension{"KHR_materials_ior"},
+    KnownExtension{"KHR_materials_specular"},
+    KnownExtension{"KHR_materials_pbrSpecularGlossiness"},
+    KnownExtension{"KHR_materials_variants"},
+    KnownExtension{"EXT_mesh_gpu_instancing"},
+    KnownExtension{"EXT_meshopt_compression"},
+    KnownExtension{"KHR_draco_mesh_compression"},
+    KnownExtension{"EXT_texture_webp"},
+    KnownExtension{"EXT_lights_ies"},
+    // Metadata.
+    KnownExtension{"KHR_xmp_json_ld"},
+    KnownExtension{"KHR_xmp"},
+    KnownExtension{"EXT_structural_metadata"},
+    KnownExtension{"EXT_feature_metadata"},
+    KnownExtension{"EXT_mesh_features"},
+    KnownExtension{"EXT_instance_features"},
+    // Left out.
+    KnownExtension{"KHR_materials_transmission", "glass looks opaque"},
+    KnownExtension{"KHR_materials_volume", "thick glass does not tint light"},
+    KnownExtension{"KHR_materials_volume_scatter", "no light scatters below surfaces"},
+    KnownExtension{"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
+    KnownExtension{"KHR_materials_dispersion", "glass shows no rainbow"},
+    KnownExtension{"KHR_materials_clearcoat", "coats have no highlight of their own"},
+    KnownExtension{"KHR_materials_sheen", "cloth has no sheen"},
+    KnownExtension{"KHR_materials_iridescence", "thin films show no colours"},
+    KnownExtension{"KHR_materials_anisotropy", "brushed metal has round highlights"},
+    KnownExtension{"KHR_animation_pointer", "what it animates stands still"},
+    KnownExtension{"KHR_node_visibility", "hidden nodes are drawn"},
+    KnownExtension{"MSFT_lod", "the finest level is drawn"},
 };
 
-template <typename List>
-bool contains(const List& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-}
+// A program that makes a file without an extension that is refused.
+struct Converter {
+    std::string_view name;
+    std::string_view command;
+};
 
-const Dispensable* find_dispensable(const std::string& name) {
-    const auto found = std::find_if(kDispensable.begin(), kDispensable.end(),
-                                    [&](const Dispensable& d) { return d.name == name; });
-    return found == kDispensable.end() ? nullptr : &*found;
+constexpr std::array kConverters = {
+    Converter{"KHR_texture_basisu", "gltf-transform ktxdecompress in.glb out.glb decodes it"},
+    Converter{"KHR_meshopt_compression", "gltfpack -i in.glb -o out.glb decodes it"},
+};
+
+template <typename Row, std::size_t N>
+const Row* find_row(const std::array<Row, N>& rows, const std::string& name) {
+    const auto found = std::ranges::find(rows, std::string_view(name), &Row::name);
+    return found == rows.end() ? nullptr : &*found;
 }
 
 // Extensions that a file uses or requires, each once, in the file's order.
@@ -58,7 +72,7 @@ std::vector<std::string> named_extensions(const tinygltf::Model& model) {
     std::vector<std::string> names;
     for (const auto* list : {&model.extensionsRequired, &model.extensionsUsed}) {
         for (const std::string& name : *list) {
-            if (!contains(names, name)) names.push_back(name);
+            if (std::ranges::count(names, name) == 0) names.push_back(name);
         }
     }
     return names;
@@ -70,18 +84,16 @@ void check_extensions(const GltfDocument& document) {
     const tinygltf::Model& model = document.model;
     std::string left_out;
     for (const std::string& name : named_extensions(model)) {
-        if (contains(kSupported, name) || contains(kMetadata, name)) continue;
-        const Dispensable* dispensable = find_dispensable(name);
-        if (dispensable == nullptr && contains(model.extensionsRequired, name)) {
-            const char* hint = name == "KHR_texture_basisu"
-                                   ? "; gltf-transform ktxdecompress in.glb out.glb decodes it"
-                                   : "";
+        const KnownExtension* known = find_row(kKnown, name);
+        if (known != nullptr && known->lacks.empty()) continue;
+        if (known == nullptr && std::ranges::count(model.extensionsRequired, name) > 0) {
+            const Converter* converter = find_row(kConverters, name);
             document.fail("extensionsRequired", "the file needs '{}', which is not supported{}",
-                          shown_uri(name), hint);
+                          shown_uri(name),
+                          converter == nullptr ? "" : fmt::format("; {}", converter->command));
         }
-        const std::string_view shows =
-            dispensable == nullptr ? "not supported" : dispensable->shows;
-        left_out += fmt::format("{}{} ({})", left_out.empty() ? "" : ", ", shown_uri(name), shows);
+        left_out += fmt::format("{}{} ({})", left_out.empty() ? "" : ", ", shown_uri(name),
+                                known == nullptr ? "not supported" : known->lacks);
     }
     if (!left_out.empty()) document.leave_out("left out: " + left_out);
 }

@@ -11,17 +11,15 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
-#include <limits>
-#include <span>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/base/text.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
-using ByteSpan = std::span<const unsigned char>;
 
 // glTF 2.0 specification, section 4.4 (binary glTF layout); all little-endian.
 constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
@@ -81,7 +79,13 @@ std::size_t next_chunk(ByteSpan bytes, std::size_t offset, ByteSpan chunk,
                 "and its length counts the padding");
 }
 
-GltfText split_glb(ByteSpan bytes, const std::string& name) {
+std::string_view as_text(ByteSpan bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Sets the parts of a GLB from its bytes.
+void split_glb(GltfText& out, const std::string& name) {
+    ByteSpan bytes = out.file;
     if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) {
         throw Error(
             fmt::format("{}: GLB of {} bytes is shorter than its headers", name, bytes.size()));
@@ -98,61 +102,68 @@ GltfText split_glb(ByteSpan bytes, const std::string& name) {
     if (read_u32(bytes, kHeaderBytes + 4) != kJsonChunk) {
         throw Error(name + ": the first chunk of the GLB is not JSON");
     }
-    GltfText out;
     const auto text = chunk_at(bytes, kHeaderBytes, name);
-    out.json.assign(text.begin(), text.end());
+    out.json = as_text(text);
     std::size_t offset = next_chunk(bytes, kHeaderBytes, text, name);
     // Chunks of other types may stand anywhere after the first and are skipped (section 4.4.3.1).
     while (!out.has_binary && offset + kChunkHeaderBytes <= bytes.size()) {
         const auto chunk = chunk_at(bytes, offset, name);
         if (read_u32(bytes, offset + 4) == kBinChunk) {
             out.has_binary = true;
-            out.binary.assign(chunk.begin(), chunk.end());
+            out.binary = chunk;
         }
         offset = next_chunk(bytes, offset, chunk, name);
     }
-    return out;
 }
 
 // Bytes of a regular file. `where` starts the error message.
-Bytes read_file_bytes(const fs::path& path, const std::string& where) {
+Bytes read_file_bytes(const fs::path& path, const std::string& where, const BeforeBytes& before) {
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
         throw Error(where + ": " + (error ? "no such file" : "is not a regular file"));
     }
-    Bytes bytes(fs::file_size(path));
+    const std::uint64_t size = fs::file_size(path, error);
+    if (error) throw Error(where + ": cannot be read: " + error.message());
+    before(size);
+    Bytes bytes(size);
     std::ifstream in(path, std::ios::binary);
     in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     if (!in) throw Error(where + ": cannot be read");
     return bytes;
 }
 
-Bytes decode_base64(std::string_view text, const std::string& where) {
+// By blocks, so that the reader's copies stay small.
+Bytes decode_base64(std::string_view text, const std::string& where, const BeforeBytes& before) {
+    constexpr std::size_t kBlock = std::size_t{1} << 20;  // a multiple of 4
     while (!text.empty() && text.back() == '=') text.remove_suffix(1);
     const std::size_t bad = std::min(text.find_first_not_of(kBase64), text.size());
     if (bad < text.size() || text.size() % 4 == 1) {
         throw Error(
             fmt::format("{}: data URI holds broken base64 at its character {}", where, bad));
     }
-    if (text.size() > std::numeric_limits<int>::max() / 2) {
-        throw Error(where + ": data URI is larger than 1 GiB");
-    }
+    before(text.size() / 4 * 3 + 3);
     Bytes out;
-    std::string mime_type;
-    const std::string uri = "data:application/octet-stream;base64," + std::string(text);
-    if (!text.empty() && !tinygltf::DecodeDataURI(&out, mime_type, uri, 0, false)) {
-        throw Error(where + ": data URI holds broken base64");
+    out.reserve(text.size() / 4 * 3 + 3);
+    for (std::size_t begin = 0; begin < text.size(); begin += kBlock) {
+        Bytes block;
+        std::string mime_type;
+        const std::string uri =
+            "data:application/octet-stream;base64," + std::string(text.substr(begin, kBlock));
+        if (!tinygltf::DecodeDataURI(&block, mime_type, uri, 0, false)) {
+            throw Error(where + ": data URI holds broken base64");
+        }
+        out.insert(out.end(), block.begin(), block.end());
     }
     return out;
 }
 
-Bytes read_data_uri(const std::string& uri, const std::string& where) {
+Bytes read_data_uri(const std::string& uri, const std::string& where, const BeforeBytes& before) {
     const std::size_t comma = uri.find(',');
     if (comma == std::string::npos) throw Error(where + ": data URI has no ','");
-    const std::string_view header = std::string_view(uri).substr(0, comma);
-    if (header.ends_with(";base64")) {
-        return decode_base64(std::string_view(uri).substr(comma + 1), where);
+    if (lower(uri.substr(0, comma)).ends_with(";base64")) {
+        return decode_base64(std::string_view(uri).substr(comma + 1), where, before);
     }
+    before(uri.size());
     const std::string decoded = percent_decoded(uri.substr(comma + 1));
     return {decoded.begin(), decoded.end()};
 }
@@ -187,12 +198,15 @@ fs::path path_of_uri(const UriBase& base, const std::string& uri, const std::str
     // Some writers do not encode URIs: a file with the undecoded name is preferred.
     std::error_code ignored;
     fs::path relative = uri;
-    if (leaves_folder(relative) || !fs::exists(base.folder / relative, ignored)) {
+    if (leaves_folder(relative) ||
+        !fs::exists(base.folder / relative.lexically_normal(), ignored)) {
         relative = percent_decoded(uri);
     }
     if (relative.native().find('\0') != std::string::npos) {
         throw Error(where + ": uri '" + shown_uri(uri) + "' holds a zero byte");
     }
+    // As URIs have it, ".." takes back the name before it, whether that is there or not.
+    relative = relative.lexically_normal();
     if (!base.allow_outside_paths &&
         (leaves_folder(relative) || links_out_of_folder(base.folder, relative))) {
         throw Error(where + ": uri '" + shown_uri(uri) +
@@ -228,17 +242,22 @@ std::string shown_uri(const std::string& uri) {
     return uri.size() > kLongest ? shown + "..." : shown;
 }
 
-GltfText read_gltf_text(const fs::path& file, const std::string& name) {
-    const Bytes bytes = read_file_bytes(file, name);
-    if (bytes.size() >= 4 && read_u32(bytes, 0) == kMagic) return split_glb(bytes, name);
-    return {std::string(bytes.begin(), bytes.end()), {}, false};
+GltfText read_gltf_text(const fs::path& file, const std::string& name, const BeforeBytes& before) {
+    GltfText out;
+    out.file = read_file_bytes(file, name, before);
+    out.json = as_text(out.file);
+    if (out.file.size() >= 4 && read_u32(out.file, 0) == kMagic) split_glb(out, name);
+    return out;
 }
 
-Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& where) {
+bool is_data_uri(const std::string& uri) { return lower(uri.substr(0, 5)) == "data:"; }
+
+Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& where,
+               const BeforeBytes& before) {
     const std::string place = base.file + ": " + where;
-    if (uri.starts_with("data:")) return read_data_uri(uri, place);
-    return read_file_bytes(path_of_uri(base, uri, place),
-                           place + ": file '" + shown_uri(uri) + "'");
+    if (is_data_uri(uri)) return read_data_uri(uri, place, before);
+    return read_file_bytes(path_of_uri(base, uri, place), place + ": file '" + shown_uri(uri) + "'",
+                           before);
 }
 
 }  // namespace kilolux

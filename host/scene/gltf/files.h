@@ -3,22 +3,32 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace kilolux {
 
 using Bytes = std::vector<unsigned char>;
+using ByteSpan = std::span<const unsigned char>;
 
-/// A glTF file taken out of its container.
+/// Called with the size of what is read or decoded before memory is taken for it; may throw.
+using BeforeBytes = std::function<void(std::uint64_t bytes)>;
+
+/// A glTF file and the parts of its container.
 struct GltfText {
-    std::string json;
-    Bytes binary;             // the GLB's BIN chunk
+    Bytes file;  // what the others point into
+    std::string_view json;
+    ByteSpan binary;          // the GLB's BIN chunk
     bool has_binary = false;  // whether there was one
 };
 
 /// Reads a .gltf or .glb file, told apart by its first bytes. `name` starts the error messages.
-GltfText read_gltf_text(const std::filesystem::path& file, const std::string& name);
+GltfText read_gltf_text(
+    const std::filesystem::path& file, const std::string& name,
+    const BeforeBytes& before = [](std::uint64_t) {});
 
 /// What a scene file's URIs are relative to.
 struct UriBase {
@@ -32,7 +42,11 @@ struct UriBase {
 /// Throws Error that starts with "<base.file>: <where>: " when the URI has another scheme, leaves
 /// the folder without permission (also through a symbolic link), names no regular file, or holds
 /// broken base64.
-Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& where);
+Bytes read_uri(const UriBase& base, const std::string& uri, const std::string& where,
+               const BeforeBytes& before);
+
+/// Whether a URI holds its data; schemes are compared without regard to case.
+bool is_data_uri(const std::string& uri);
 
 /// The text with %XX replaced; a '%' that no two hex digits follow stands for itself.
 std::string percent_decoded(const std::string& text);

@@ -34,7 +34,7 @@ std::string read_text(const GltfDocument& document, const tinygltf::Value& light
 PhotometricWeb read_profile(const GltfDocument& document, const tinygltf::Value& light,
                             const std::string& where) {
     const auto uri = member_or<std::string>(light, "uri", "");
-    const bool is_file = !uri.empty() && !uri.starts_with("data:");
+    const bool is_file = !uri.empty() && !is_data_uri(uri);
     const std::string shown = where + (is_file ? " '" + shown_uri(uri) + "'" : "");
     const std::string place = document.base.file + ": " + shown;
     PhotometricWeb web = read_photometric_web(read_text(document, light, where), place);

@@ -5,20 +5,17 @@
 #include <glm/gtc/constants.hpp>
 
 #include "host/scene/gltf/extensions.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 namespace {
 
-LightType convert_type(const std::string& type) {
-    if (type == "spot") return LightType::spot;
-    return type == "directional" ? LightType::directional : LightType::point;
-}
-
 SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_from_node) {
     SceneLight out;
-    out.type = convert_type(source.type);
+    const LightKind& kind = *find_light_kind(source.type);
+    out.type = kind.type;
     out.position = glm::dvec3(world_from_node[3]);
-    if (out.type != LightType::point) {
+    if (kind.is_aimed) {
         // Lights travel along the node's -Z; its scale does not matter.
         out.direction = -glm::normalize(glm::dvec3(world_from_node[2]));
     }
@@ -27,12 +24,14 @@ SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_
         out.intensity[c] = to_float(color * source.intensity);
     }
     out.range = to_float(source.range);
-    if (out.type == LightType::spot) {
+    if (kind.has_cone) {
         out.inner_cone = to_float(source.spot.innerConeAngle);
         out.outer_cone = to_float(source.spot.outerConeAngle);
     }
     return out;
 }
+
+constexpr double kLeastSine = 1e-6;  // of the angle between a camera's axes
 
 void require(const GltfDocument& document, bool holds, const std::string& where, double value,
              const std::string& expected) {
@@ -71,9 +70,10 @@ SceneCamera convert_camera(const GltfDocument& document, std::size_t index,
     SceneCamera out;
     out.name = source.name;
     out.world_from_camera = world_from_node;
-    const bool has_axes = glm::length(glm::dvec3(world_from_node[1])) > 0.0 &&
-                          glm::length(glm::dvec3(world_from_node[2])) > 0.0;
-    if (!is_finite(world_from_node) || !has_axes) {
+    const glm::dvec3 y(world_from_node[1]);
+    const glm::dvec3 z(world_from_node[2]);
+    const double across = glm::length(glm::cross(y, z)) / (glm::length(y) * glm::length(z));
+    if (!is_finite(world_from_node) || !(across > kLeastSine)) {
         document.fail(node, "has a camera but a transform without direction");
     }
     if (source.type == "orthographic") {

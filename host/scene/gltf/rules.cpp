@@ -2,6 +2,8 @@
 #include <utility>
 
 #include "host/scene/gltf/check.h"
+#include "host/scene/lights/light_kinds.h"
+#include "host/scene/material_table.h"
 
 namespace kilolux {
 namespace {
@@ -15,6 +17,7 @@ constexpr double kMaxInt = 2147483647.0;
 constexpr double kMaxCount = 4294967294.0;  // indices are 32 bits, and one value is for restarts
 
 GltfRule object(std::string path) { return {.path = std::move(path), .kind = JsonKind::object}; }
+GltfRule array(std::string path) { return {.path = std::move(path), .kind = JsonKind::array}; }
 GltfRule text(std::string path) { return {.path = std::move(path), .kind = JsonKind::text}; }
 GltfRule boolean(std::string path) { return {.path = std::move(path), .kind = JsonKind::boolean}; }
 GltfRule number(std::string path) { return {.path = std::move(path), .kind = JsonKind::number}; }
@@ -35,6 +38,16 @@ GltfRule required(GltfRule rule) {
     return rule;
 }
 
+GltfRule multiple_of(int factor, GltfRule rule) {
+    rule.multiple_of = factor;
+    return rule;
+}
+// Where the object that holds it has that "type".
+GltfRule where_type(std::string type, GltfRule rule) {
+    rule.where_type = std::move(type);
+    return rule;
+}
+
 Rules buffer_rules() {
     const std::string meshopt = "bufferViews[].extensions.EXT_meshopt_compression.";
     return {
@@ -44,7 +57,7 @@ Rules buffer_rules() {
         required(index("bufferViews[].buffer", "/buffers")),
         integer("bufferViews[].byteOffset", 0, kMaxBytes),
         required(integer("bufferViews[].byteLength", 0, kMaxBytes)),
-        integer("bufferViews[].byteStride", 0, 252),
+        multiple_of(4, integer("bufferViews[].byteStride", 0, 252)),
         required(index(meshopt + "buffer", "/buffers")),
         integer(meshopt + "byteOffset", 0, kMaxInt),
         required(integer(meshopt + "byteLength", 0, kMaxInt)),
@@ -98,7 +111,8 @@ Rules node_rules() {
               "/extensions/KHR_lights_punctual/lights"),
         required(object(instancing + ".attributes")),
         index(instancing + ".attributes{}", "/accessors"),
-        required(index("skins[].joints[]", "/nodes")),
+        required(array("skins[].joints")),
+        index("skins[].joints[]", "/nodes"),
         index("skins[].inverseBindMatrices", "/accessors"),
     };
 }
@@ -132,38 +146,31 @@ void append_texture_use(Rules& rules, const std::string& slot) {
 }
 
 Rules material_rules() {
-    const std::string pbr = "materials[].pbrMetallicRoughness.";
-    const std::string extensions = "materials[].extensions.";
-    const std::string specular = extensions + "KHR_materials_specular.";
+    const std::string material = "materials[].";
+    const std::string extensions = material + "extensions.";
     const std::string glossiness = extensions + "KHR_materials_pbrSpecularGlossiness.";
     Rules rules = {
         object("materials[]"),
         object("materials[].pbrMetallicRoughness"),
-        numbers(pbr + "baseColorFactor", 4),
-        number(pbr + "metallicFactor"),
-        number(pbr + "roughnessFactor"),
-        number("materials[].normalTexture.scale"),
-        number("materials[].occlusionTexture.strength"),
-        numbers("materials[].emissiveFactor", 3),
+        object("materials[].extensions"),
+        object(extensions + "KHR_materials_unlit"),
         choice("materials[].alphaMode", {"OPAQUE", "MASK", "BLEND"}),
-        number("materials[].alphaCutoff"),
         boolean("materials[].doubleSided"),
         number(extensions + "KHR_materials_emissive_strength.emissiveStrength"),
-        number(extensions + "KHR_materials_ior.ior"),
-        number(specular + "specularFactor"),
-        numbers(specular + "specularColorFactor", 3),
         numbers(glossiness + "diffuseFactor", 4),
         numbers(glossiness + "specularFactor", 3),
         number(glossiness + "glossinessFactor"),
     };
-    for (const std::string& slot :
-         {pbr + "baseColorTexture", pbr + "metallicRoughnessTexture",
-          std::string("materials[].normalTexture"), std::string("materials[].occlusionTexture"),
-          std::string("materials[].emissiveTexture"), specular + "specularTexture",
-          specular + "specularColorTexture", glossiness + "diffuseTexture",
-          glossiness + "specularGlossinessTexture"}) {
-        append_texture_use(rules, slot);
+    for (const MaterialFactor& factor : kMaterialFactors) {
+        const std::string path = material + std::string(factor.path);
+        const std::size_t length = factor_length(factor);
+        rules.push_back(length == 1 ? number(path) : numbers(path, length));
     }
+    for (const MaterialMap& map : kMaterialMaps) {
+        append_texture_use(rules, material + std::string(map.path));
+    }
+    append_texture_use(rules, glossiness + "diffuseTexture");
+    append_texture_use(rules, glossiness + "specularGlossinessTexture");
     return rules;
 }
 
@@ -196,11 +203,19 @@ Rules texture_rules() {
     };
 }
 
+std::vector<std::string> light_kind_names() {
+    std::vector<std::string> names;
+    for (const LightKind& kind : kLightKinds) names.emplace_back(kind.name);
+    return names;
+}
+
 Rules camera_and_light_rules() {
     const std::string light = "extensions.KHR_lights_punctual.lights[].";
     const std::string profile = "extensions.EXT_lights_ies.lights[].";
     return {
         required(choice("cameras[].type", {"perspective", "orthographic"})),
+        where_type("perspective", required(object("cameras[].perspective"))),
+        where_type("orthographic", required(object("cameras[].orthographic"))),
         required(number("cameras[].perspective.yfov")),
         required(number("cameras[].perspective.znear")),
         number("cameras[].perspective.zfar"),
@@ -209,7 +224,7 @@ Rules camera_and_light_rules() {
         required(number("cameras[].orthographic.ymag")),
         required(number("cameras[].orthographic.znear")),
         required(number("cameras[].orthographic.zfar")),
-        required(choice(light + "type", {"point", "spot", "directional"})),
+        required(choice(light + "type", light_kind_names())),
         numbers(light + "color", 3),
         number(light + "intensity"),
         number(light + "range"),

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "host/scene/gltf/mesh/skin.h"
 
@@ -53,7 +54,8 @@ void add_placements(const GltfDocument& document, std::size_t node, const Placem
 ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
     ShapePlan plan;
     const std::set<int> morphing = nodes_with_driven_weights(document);
-    std::map<int, std::size_t> undeformed;  // shape of the file's mesh
+    // Shapes that nodes share: by the file's mesh, its skin and its weights.
+    std::map<std::tuple<int, int, std::vector<double>>, std::size_t> shared;
     for (const std::size_t n : nodes.in_scene) {
         const tinygltf::Node& node = document.model.nodes[n];
         if (node.mesh < 0) continue;
@@ -68,8 +70,11 @@ ShapePlan plan_shapes(const GltfDocument& document, const PlacedNodes& nodes) {
             shape.deformation.object_from_bind = std::move(skin.object_from_bind);
             shape.moves = true;
         }
-        if (shape.deformation.empty() && !shape.moves) {
-            placement.shape = undeformed.try_emplace(node.mesh, placement.shape).first->second;
+        if (!morphing.contains(static_cast<int>(n))) {
+            placement.shape =
+                shared
+                    .try_emplace({node.mesh, node.skin, shape.deformation.weights}, placement.shape)
+                    .first->second;
         }
         if (placement.shape == plan.shapes.size()) {
             shape.metres_per_unit = mean_scale(placement.world_from_object);

@@ -6,7 +6,7 @@
 
 namespace kilolux {
 
-/// A mesh of the file in one shape; nodes that do not deform it share it.
+/// A mesh of the file in one shape; nodes that deform it alike share it.
 struct MeshShape {
     std::size_t mesh = 0;
     Deformation deformation;

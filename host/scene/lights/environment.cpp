@@ -5,11 +5,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <queue>
+#include <span>
 
 #include "host/base/error.h"
+#include "host/base/srgb.h"
 #include "host/images/images.h"
 
 namespace kilolux {
@@ -98,6 +101,45 @@ SceneLight light_of(const Environment& e, const Region& r) {
     return out;
 }
 
+glm::dmat3 xyz_from_rgb(std::span<const float> xy) {
+    const auto xyz = [&](std::size_t i) {
+        const double x = xy[2 * i], y = xy[2 * i + 1];
+        return glm::dvec3(x / y, 1.0, (1.0 - x - y) / y);
+    };
+    const glm::dmat3 primaries(xyz(0), xyz(1), xyz(2));
+    const glm::dvec3 shares = glm::inverse(primaries) * xyz(3);
+    return {primaries[0] * shares.x, primaries[1] * shares.y, primaries[2] * shares.z};
+}
+
+// To linear Rec. 709 from other primaries; white stays white (Bradford's adaptation: Lam 1985).
+glm::dmat3 rec709_from(std::span<const float> chromaticities) {
+    constexpr std::array<float, 8> kRec709 = {0.64f, 0.33f, 0.3f,    0.6f,
+                                              0.15f, 0.06f, 0.3127f, 0.329f};
+    const glm::dmat3 bradford(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367,
+                              1.0296);
+    const glm::dmat3 from = bradford * xyz_from_rgb(chromaticities);
+    const glm::dmat3 to = bradford * xyz_from_rgb(kRec709);
+    const glm::dvec3 adapted = (to * glm::dvec3(1.0)) / (from * glm::dvec3(1.0));
+    glm::dmat3 scale(0.0);
+    for (glm::length_t i = 0; i < 3; ++i) scale[i][i] = adapted[i];
+    return glm::inverse(to) * scale * from;
+}
+
+// Integers are encoded in sRGB; a file's own primaries become Rec. 709's.
+void make_linear_rec709(const ImageLayout& image, std::vector<glm::vec3>& rows) {
+    const SampleType type = image.channels.front().type;
+    if (type == SampleType::uint8 || type == SampleType::uint16) {
+        for (glm::vec3& c : rows) {
+            for (glm::length_t i = 0; i < 3; ++i) {
+                c[i] = static_cast<float>(srgb_to_linear(double{c[i]}));
+            }
+        }
+    }
+    if (image.chromaticities.empty()) return;
+    const glm::dmat3 matrix = rec709_from(image.chromaticities);
+    for (glm::vec3& c : rows) c = glm::max(glm::vec3(matrix * glm::dvec3(c)), 0.0f);
+}
+
 }  // namespace
 
 double luminance(const glm::dvec3& light) {
@@ -153,6 +195,7 @@ Environment read_environment(const std::filesystem::path& file) {
         throw Error(fmt::format("{}: pixel {},{} is {},{},{}, must be finite and >= 0",
                                 file.string(), i % width, i / width, c.x, c.y, c.z));
     }
+    make_linear_rec709(image, out.rows);
     return out;
 }
 

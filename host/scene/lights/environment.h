@@ -42,7 +42,8 @@ Environment painted_environment(
 /// Of linear Rec. 709 light, in its unit.
 double luminance(const glm::dvec3& light);
 
-/// A picture in any linear format that OpenImageIO reads (.hdr, .exr). Throws Error with the file
+/// A picture in any format that OpenImageIO reads: .hdr and .exr are linear, those of 8 or 16 bits
+/// encoded in sRGB; primaries that a file names become Rec. 709's. Throws Error with the file
 /// for what cannot be read, is not twice as wide as high, or has a pixel that is negative or no
 /// number.
 Environment read_environment(const std::filesystem::path& file);

@@ -203,9 +203,12 @@ void mirror(std::vector<Column>& columns, double plane) {
         columns.push_back({angle, columns[i].source, 0, 0.0});
     }
     for (Column& column : columns) column.angle = std::fmod(column.angle, 360.0);
-    std::ranges::stable_sort(columns, {}, &Column::angle);
-    const auto twice = std::ranges::unique(columns, {}, &Column::angle);
-    columns.erase(twice.begin(), twice.end());
+    // Not std::ranges: that of libstdc++ 12 does not compile with clang 14 here.
+    std::stable_sort(columns.begin(), columns.end(),
+                     [](const Column& a, const Column& b) { return a.angle < b.angle; });
+    columns.erase(std::unique(columns.begin(), columns.end(),
+                              [](const Column& a, const Column& b) { return a.angle == b.angle; }),
+                  columns.end());
 }
 
 // Whether angles from 0 leave one gap before 360 that is no wider than the others.

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/base/error.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 
@@ -25,7 +26,7 @@ double range_of_light(double intensity_max_cd, double error_budget) {
 
 bool lacks_range(const SceneLight& light) {
     // Only 0 means "not given". make_light_rows() rejects and counts what is unusable.
-    if (light.type == LightType::directional || light.range != 0.0f) return false;
+    if (!kind_of(light).is_placed || light.range != 0.0f) return false;
     const glm::vec3& i = light.intensity;
     return std::isfinite(i.x + i.y + i.z) && std::min({i.x, i.y, i.z}) >= 0.0f;
 }

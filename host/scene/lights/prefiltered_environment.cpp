@@ -32,20 +32,43 @@ double alpha_of(double roughness) {
     return r * r;
 }
 
-// Means of squares of texels, weighted by their solid angle, until it is at most `width` wide.
-Environment shrunk(const Environment& from, int width) {
-    if (from.width <= width || from.width % 2 != 0 || from.height % 2 != 0) return from;
-    Environment out{from.width / 2, from.height / 2, {}};
-    out.rows.reserve(from.rows.size() / 4);
-    for (int y = 0; y < out.height; ++y) {
+// The part of `count` steps that step `i` of `other` ones over the same extent covers.
+struct Covered {
+    double begin, end;  // in steps
+    int first, last;    // whole or in part
+};
+Covered covered(int i, int other, int count) {
+    const double scale = static_cast<double>(count) / other;
+    const double begin = i * scale, end = (i + 1) * scale;
+    return {begin, end, static_cast<int>(begin),
+            std::min(static_cast<int>(std::ceil(end)), count) - 1};
+}
+
+// Means of what each texel covers, weighted by solid angle.
+Environment resampled(const Environment& from, int height) {
+    const double step = std::numbers::pi / from.height;
+    Environment out{2 * height, height, {}};
+    out.rows.resize(out.place(0, height));
+    tbb::parallel_for(0, height, [&](int y) {
+        const Covered rows = covered(y, height, from.height);
         for (int x = 0; x < out.width; ++x) {
+            const Covered columns = covered(x, out.width, from.width);
             glm::dvec3 sum(0.0);
-            for (int i = 0; i < 4; ++i) sum += from.light(2 * x + i % 2, 2 * y + i / 2);
-            out.rows.emplace_back(sum /
-                                  (2.0 * (from.solid_angle(2 * y) + from.solid_angle(2 * y + 1))));
+            double weights = 0.0;
+            for (int i = rows.first; i <= rows.last; ++i) {
+                const double high = std::cos(step * std::max<double>(rows.begin, i)) -
+                                    std::cos(step * std::min<double>(rows.end, i + 1));
+                for (int j = columns.first; j <= columns.last; ++j) {
+                    const double wide =
+                        std::min<double>(columns.end, j + 1) - std::max<double>(columns.begin, j);
+                    sum += high * wide * glm::dvec3(from.rows[from.place(j, i)]);
+                    weights += high * wide;
+                }
+            }
+            out.rows[out.place(x, y)] = glm::vec3(sum / weights);
         }
-    }
-    return shrunk(out, width);
+    });
+    return out;
 }
 
 // What a sum over an environment needs of a texel.
@@ -202,10 +225,27 @@ std::vector<float> reflectance_table() {
 
 }  // namespace
 
+Environment shrunk(const Environment& from, int width) {
+    if (from.width <= width) return from;
+    if (from.height % 2 != 0) return shrunk(resampled(from, from.height / 2), width);
+    Environment out{from.width / 2, from.height / 2, {}};
+    out.rows.reserve(from.rows.size() / 4);
+    for (int y = 0; y < out.height; ++y) {
+        for (int x = 0; x < out.width; ++x) {
+            glm::dvec3 sum(0.0);
+            for (int i = 0; i < 4; ++i) sum += from.light(2 * x + i % 2, 2 * y + i / 2);
+            out.rows.emplace_back(sum /
+                                  (2.0 * (from.solid_angle(2 * y) + from.solid_angle(2 * y + 1))));
+        }
+    }
+    return shrunk(out, width);
+}
+
 PrefilteredEnvironment prefiltered(const Environment& environment) {
     PrefilteredEnvironment out;
-    for (const LevelPlan& plan : kLevels) append(out, filtered(environment, plan));
-    append(out, filtered(environment, kIrradiance));
+    const Environment finest = shrunk(environment, kLevels[0].source_width);
+    for (const LevelPlan& plan : kLevels) append(out, filtered(finest, plan));
+    append(out, filtered(finest, kIrradiance));
     out.table = reflectance_table();
     out.table_size = kTableSize;
     return out;

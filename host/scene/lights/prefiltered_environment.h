@@ -21,6 +21,10 @@ struct PrefilteredEnvironment {
     unsigned table_size = 0;
 };
 
+/// An environment of at most `width` texels a row: means, weighted by solid angle, of squares of
+/// texels, and where the height is odd of all that a texel covers.
+Environment shrunk(const Environment& from, int width);
+
 /// Takes about a second on two cores.
 PrefilteredEnvironment prefiltered(const Environment& environment);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/srgb.h"
+
 namespace kilolux {
 namespace {
 
@@ -31,8 +33,9 @@ SceneLight headlight() {
     return light;
 }
 
-// A texture's blue in the middle of a triangle.
-double blue_at(const Scene& scene, const TextureUse& use, const glm::vec2& texcoord) {
+// A texture's colour, as stored, where a mesh's texture coordinates are `texcoord`; white without.
+glm::dvec3 texel_of(const Scene& scene, const TextureUse& use, const glm::vec2& texcoord) {
+    if (!use.present()) return glm::dvec3(1.0);
     const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
     const Image& image = scene.images[static_cast<std::size_t>(texture.image)];
     const glm::vec2 uv(use.uv_from_texcoord * glm::vec3(texcoord, 1.0f));
@@ -43,18 +46,28 @@ double blue_at(const Scene& scene, const TextureUse& use, const glm::vec2& texco
     };
     const std::size_t place = texel(uv.y, image.height) * static_cast<std::size_t>(image.width) +
                               texel(uv.x, image.width);
-    return image.rgba[4 * place + 2] / 255.0;
+    const std::uint8_t* rgba = &image.rgba[4 * place];
+    return glm::dvec3(rgba[0], rgba[1], rgba[2]) / 255.0;
 }
 
+// How much a triangle mirrors: its metal, or what a surface without metal reflects head on.
 double metallic_at(const Scene& scene, const Mesh& mesh, std::size_t first) {
     if (mesh.material < 0) return 1.0;  // of glTF's default material
     const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
-    const TextureUse& use = material.metallic_roughness_texture;
-    const auto& texcoords = mesh.texcoords[static_cast<std::size_t>(use.uv_set)];
-    if (!use.present() || texcoords.empty()) return double{material.metallic};
-    glm::vec2 middle(0.0f);
-    for (std::size_t i = first; i < first + 3; ++i) middle += texcoords[mesh.indices[i]] / 3.0f;
-    return double{material.metallic} * blue_at(scene, use, middle);
+    const auto middle = [&](const TextureUse& use) {
+        const auto& texcoords = mesh.texcoords[static_cast<std::size_t>(use.uv_set)];
+        glm::vec2 sum(0.0f);
+        for (std::size_t i = first; i < first + 3 && !texcoords.empty(); ++i) {
+            sum += texcoords[mesh.indices[i]] / 3.0f;
+        }
+        return texcoords.empty() ? glm::dvec3(1.0) : texel_of(scene, use, sum);
+    };
+    const double metal = double{material.metallic} * middle(material.metallic_roughness_texture).z;
+    if (!has_own_reflectance(material)) return metal;
+    glm::dvec3 mirror(dielectric_reflectance(material));
+    const glm::dvec3 encoded = middle(material.specular_color_texture);
+    for (glm::length_t c = 0; c < 3; ++c) mirror[c] *= srgb_to_linear(encoded[c]);
+    return std::max({metal, mirror.x, mirror.y, mirror.z});
 }
 
 }  // namespace

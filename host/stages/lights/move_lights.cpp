@@ -2,12 +2,6 @@
 #include "host/stages/lights/move_lights.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kMoveLightsStage = "move_lights";
-
-}  // namespace
-
 WorldLight world_light(const PointPair& position, const Light& light) {
     WorldLight out{light, position.low};
     const float range = light.position_range.w;
@@ -51,6 +45,13 @@ DeviceArray<Light> MoveLights::enqueue(const PointPair& eye, StageTimer& timer) 
     move_.enqueue(items(world.count(), tuning_.light_group), timer, world,
                   static_cast<uint>(world.count()), eye.high, eye.low, out);
     return out;
+}
+
+// What lights that move by themselves add is left out.
+StageWork move_lights_work(const StageCounts& c) {
+    return {.bytes_read = c.lights * sizeof(WorldLight),
+            .bytes_written = c.lights * sizeof(Light),
+            .launches = 1};
 }
 
 }  // namespace kilolux

@@ -8,9 +8,13 @@
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
 #include "host/gpu/pinned_memory.h"
+#include "host/gpu/stage_info.h"
 #include "kernels/shared/light.h"
 
 namespace kilolux {
+
+StageWork move_lights_work(const StageCounts& counts);
+inline constexpr StageInfo kMoveLightsStage = {"move_lights", StageGroup::lights, move_lights_work};
 
 /// A row for MoveLights::stage(): `light` at a point of the world [m].
 WorldLight world_light(const PointPair& position, const Light& light);

@@ -2,12 +2,6 @@
 #include "host/stages/lights/prepare_lights.h"
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kPrepareLightsStage = "prepare_lights";
-
-}  // namespace
-
 PrepareLights::PrepareLights(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
@@ -60,6 +54,14 @@ PreparedLights PrepareLights::enqueue(const LightInput& input, const View& view,
     }
     out.profiles = aim_profiles(input, view, timer);
     return out;
+}
+
+StageWork prepare_lights_work(const StageCounts& c) {
+    const double directional = c.directional_lights * sizeof(DirectionalLight);
+    constexpr double kPrepared = sizeof(ShadeLight) + kRowBytes + sizeof(LightExtent);
+    return {.bytes_read = c.lights * sizeof(Light) + directional,
+            .bytes_written = c.lights * kPrepared + directional,
+            .launches = (c.lights > 0.0 ? 1 : 0) + (c.directional_lights > 0.0 ? 1 : 0)};
 }
 
 }  // namespace kilolux

@@ -6,8 +6,13 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+StageWork prepare_lights_work(const StageCounts& counts);
+inline constexpr StageInfo kPrepareLightsStage = {"prepare_lights", StageGroup::lists,
+                                                  prepare_lights_work};
 
 /// Moves lights into view space and finds the part of the coarse grid that each can touch.
 class PrepareLights {

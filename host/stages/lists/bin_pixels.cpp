@@ -2,11 +2,10 @@
 #include "host/stages/lists/bin_pixels.h"
 
 #include <algorithm>
+#include "host/base/gbuffer_layout.h"
 
 namespace kilolux {
 namespace {
-
-constexpr std::string_view kBinPixelsStage = "bin_pixels";
 
 KernelProgram bin_program(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     return build_program(gpu, tuning.tile_group == 1 ? "bin_pixels_by_item" : "bin_pixels_by_group",
@@ -51,6 +50,18 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
     out.offsets = clusters_.enqueue_offsets(out.tile_count, timer);
     fill_.enqueue(tiles, timer, gbuffer, out);
     return out;
+}
+
+StageWork bin_pixels_work(const StageCounts& c) {
+    // Of a stored position; 0 where it follows from the depth.
+    const double position = 3.0 * plane_element_bytes(c.kernels.gbuffer, PLANE_POSITION_X) +
+                            plane_element_bytes(c.kernels.gbuffer, PLANE_ROW_0);
+    StageWork work = prefix_sum_work(c.tiles);
+    work.bytes_read += 4.0 * c.pixels + (4.0 + position) * c.drawn_pixels;
+    work.bytes_written += kWordBytes * c.tiles + sizeof(ActiveCluster) * c.active_clusters +
+                          kPixelOrderBytes * c.pixels;
+    work.launches += 3;
+    return work;
 }
 
 }  // namespace kilolux

@@ -4,9 +4,13 @@
 #include <cstdint>
 
 #include "host/gpu/flow.h"
+#include "host/gpu/stage_info.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
+
+StageWork bin_pixels_work(const StageCounts& counts);
+inline constexpr StageInfo kBinPixelsStage = {"bin_pixels", StageGroup::lists, bin_pixels_work};
 
 /// Finds the active clusters: per fine tile, one for each slice among its pixels, with their box.
 /// And puts the tile's pixels in their order.

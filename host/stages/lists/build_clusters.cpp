@@ -9,8 +9,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kBuildClustersStage = "build_clusters";
-
 // Edge in pixels, a multiple of FINE_TILE, of about size / tiles.
 uint tile_edge(uint size, uint tiles) {
     const uint wanted = (size + std::max(tiles, 1u) - 1) / std::max(tiles, 1u);
@@ -67,6 +65,10 @@ ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, S
                         cl::NDRange(1, 1)};
     kernel_.enqueue(size, timer, view, out);
     return out;
+}
+
+StageWork build_clusters_work(const StageCounts& c) {
+    return {.bytes_written = c.box_intervals * 2.0 * sizeof(float), .launches = 1};
 }
 
 }  // namespace kilolux

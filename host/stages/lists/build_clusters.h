@@ -4,8 +4,13 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+StageWork build_clusters_work(const StageCounts& counts);
+inline constexpr StageInfo kBuildClustersStage = {"build_clusters", StageGroup::lists,
+                                                  build_clusters_work};
 
 /// What a coarse grid is made from.
 struct GridRequest {

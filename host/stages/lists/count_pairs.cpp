@@ -6,7 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kCountPairsStage = "count_pairs";
 // Work-items that sum clusters: enough to fill a GPU, few enough for one work-group to join.
 constexpr uint kShares = 1024;
 // Sums of 32 bytes in local memory; divides kShares.

@@ -4,8 +4,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kCountPairsStage = {"count_pairs", StageGroup::lists};
 
 /// What the list stages counted last: one element each, on the device.
 struct ListTotals {

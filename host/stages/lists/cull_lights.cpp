@@ -6,7 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kCullLightsStage = "cull_lights";
 constexpr std::string_view kBruteForce = "cull_lights_brute_force";
 // Room to begin with: enough for most scenes' first frame.
 constexpr std::size_t kFirstCoarseEntries = std::size_t{1} << 20;
@@ -80,6 +79,17 @@ CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterB
     const CoarseLists out = lists_so_far(offsets);
     run(1, out);
     return out;
+}
+
+// Counting and filling read the lights once each; then a cursor, an offset and a total a cluster.
+StageWork cull_lights_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.clusters);
+    const double light =
+        kRowBytes + sizeof(LightExtent) + (c.kernels.spot_lights ? sizeof(ShadeLight) : 0.0);
+    work.bytes_read += 2.0 * light * c.lights + 3.0 * kWordBytes * c.clusters;
+    work.bytes_written += 3.0 * kWordBytes * c.clusters + c.index_bytes() * c.coarse_pairs;
+    work.launches += 3;
+    return work;
 }
 
 }  // namespace kilolux

@@ -4,9 +4,13 @@
 #include <cstdint>
 
 #include "host/gpu/flow.h"
+#include "host/gpu/stage_info.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
+
+StageWork cull_lights_work(const StageCounts& counts);
+inline constexpr StageInfo kCullLightsStage = {"cull_lights", StageGroup::lists, cull_lights_work};
 
 /// Lists, for each coarse cluster, the lights whose sphere (and cone) touches the cluster's box.
 ///

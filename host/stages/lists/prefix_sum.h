@@ -4,8 +4,17 @@
 #include "host/gpu/buffer.h"
 #include "host/gpu/features.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+/// The work of a prefix sum of `counts` numbers, as part of a stage: reads each count twice, writes
+/// each offset.
+inline StageWork prefix_sum_work(double counts) {
+    return {.bytes_read = 2.0 * kWordBytes * counts,
+            .bytes_written = kWordBytes * counts,
+            .launches = 1};  // more than one block takes three
+}
 
 /// Exclusive prefix sum of uint counts on the device.
 class PrefixSum {

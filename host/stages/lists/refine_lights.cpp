@@ -4,7 +4,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kRefineLightsStage = "refine_lights";
 constexpr std::size_t kFirstEntries = std::size_t{1} << 20;
 
 BuildOptions options_of(const Tuning& tuning, const KernelFeatures& features) {
@@ -37,6 +36,17 @@ RefinedLists RefineLights::enqueue(const PreparedLights& lights, const CoarseLis
     refine_.enqueue(groups(tiles, tuning_.refine_group), timer, lights, view, coarse, clusters,
                     offsets, out);
     return out;
+}
+
+StageWork refine_lights_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.tiles);
+    work.bytes_read += 2.0 * sizeof(ActiveCluster) * c.active_clusters;
+    // A light tree adds further entries afterwards.
+    work.bytes_written += kWordBytes * c.tiles + 2.0 * kWordBytes * c.active_clusters +
+                          c.index_bytes() * std::min(c.refined_pairs, c.refine_tests);
+    work.launches += 2;
+    work.evaluations = c.refine_tests;
+    return work;
 }
 
 }  // namespace kilolux

@@ -4,9 +4,14 @@
 #include <cstdint>
 
 #include "host/gpu/flow.h"
+#include "host/gpu/stage_info.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
+
+StageWork refine_lights_work(const StageCounts& counts);
+inline constexpr StageInfo kRefineLightsStage = {"refine_lights", StageGroup::lists,
+                                                 refine_lights_work};
 
 /// Refines the coarse list of each active cluster against the box of its pixels.
 class RefineLights {

@@ -7,7 +7,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kAdaptiveSamplesStage = "adaptive_samples";
 constexpr std::size_t kStatePlanes = 5;  // STATE_PLANES of the kernel
 
 std::size_t size_of(const View& view) { return std::size_t{view.stride} * view.height; }

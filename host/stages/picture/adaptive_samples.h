@@ -6,8 +6,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kAdaptiveSamplesStage = {"adaptive_samples", StageGroup::picture};
 
 /// Means of as many pictures as each fine tile needs. The pictures are in two halves, and each
 /// half's spread decides where the other's mean ends: so a mean is right on average.

@@ -6,7 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kBloomStage = "bloom";
 // The coarsest level is at least half this high and wide [pixel], so that a blur stays local.
 constexpr uint kSmallestHalved = 16;
 // Share that each wider blur has in the next finer one: weights fall by 0.7 an octave, chosen for a
@@ -52,6 +51,15 @@ Radiance Bloom::enqueue(const Radiance& radiance, float share, StageTimer& timer
                     i == 1 ? share : kScatter, levels_[i - 1].get());
     }
     return Radiance{levels_[0].get(), radiance.view};
+}
+
+// The two finest levels of the pyramid, which move 0.94 of all its bytes: down reads a level and
+// writes a quarter of it, up reads that quarter and the level and writes the level.
+StageWork bloom_work(const StageCounts& c) {
+    constexpr double kLevels = 1.0 + 0.25;
+    return {.bytes_read = kLevels * (1.0 + 0.25 + 1.0) * kRadianceBytes * c.pixels,
+            .bytes_written = kLevels * (0.25 + 1.0) * kRadianceBytes * c.pixels,
+            .launches = 4};
 }
 
 }  // namespace kilolux

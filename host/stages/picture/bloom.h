@@ -6,8 +6,12 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+StageWork bloom_work(const StageCounts& counts);
+inline constexpr StageInfo kBloomStage = {"bloom", StageGroup::picture, bloom_work};
 
 /// Light that spreads in the eye or lens: the image mixed with wide blurs of itself.
 class Bloom {

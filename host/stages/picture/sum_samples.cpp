@@ -6,8 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kSumSamplesStage = "sum_samples";
-
 // Floats of a picture: three planes of whole vectors of lanes.
 uint floats_of(const View& view) { return 3 * view.stride * view.height; }
 

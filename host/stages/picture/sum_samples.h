@@ -4,8 +4,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kSumSamplesStage = {"sum_samples", StageGroup::picture};
 
 /// Mean of pictures, summed with more bits than float64 has and rounded once.
 class SumSamples {

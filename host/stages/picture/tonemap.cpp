@@ -5,12 +5,6 @@
 #include <utility>
 
 namespace kilolux {
-namespace {
-
-constexpr std::string_view kTonemapStage = "tonemap";
-
-}  // namespace
-
 Tonemap::Tonemap(const Gpu& gpu, const Tuning& tuning, int tone_curve)
     : tuning_(tuning),
       tone_curve_(tone_curve),
@@ -37,6 +31,12 @@ DisplayTarget Tonemap::target(const View& view, float exposure_ev) {
 
 DisplayTarget Tonemap::target(DeviceArray<uint> pixels, const View& view, float exposure_ev) const {
     return {std::move(pixels), view, tone_curve_, std::exp2(exposure_ev)};
+}
+
+StageWork tonemap_work(const StageCounts& c) {
+    return {.bytes_read = kRadianceBytes * c.pixels,
+            .bytes_written = kDisplayBytes * c.pixels,
+            .launches = 1};
 }
 
 }  // namespace kilolux

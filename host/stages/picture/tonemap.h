@@ -4,8 +4,12 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+StageWork tonemap_work(const StageCounts& counts);
+inline constexpr StageInfo kTonemapStage = {"tonemap", StageGroup::picture, tonemap_work};
 
 /// Linear radiance to 8-bit sRGB.
 class Tonemap {

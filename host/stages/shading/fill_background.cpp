@@ -8,8 +8,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kFillBackgroundStage = "fill_background";
-
 // Appends the level of half the size: means of 2x2 texels.
 uint4 halve(std::vector<float>& texels, const uint4& from) {
     const uint4 to{from.x / 2, from.y / 2, from.z + from.x * from.y, 0};
@@ -67,6 +65,14 @@ void FillBackground::enqueue_everywhere(const Radiance& radiance, StageTimer& ti
     const GBuffer none{{}, {}, view};
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, none, 1u, texels_.get(),
                     level_for(view), radiance.planes);
+}
+
+// Neighbouring pixels share texels.
+StageWork fill_background_work(const StageCounts& c) {
+    const double open = c.pixels - c.drawn_pixels;
+    return {.bytes_read = sizeof(float) * c.pixels + kRadianceBytes * open,
+            .bytes_written = kRadianceBytes * open,
+            .launches = 1};
 }
 
 }  // namespace kilolux

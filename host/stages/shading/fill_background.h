@@ -7,8 +7,13 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+StageWork fill_background_work(const StageCounts& counts);
+inline constexpr StageInfo kFillBackgroundStage = {"fill_background", StageGroup::picture,
+                                                   fill_background_work};
 
 /// The light of an environment where no surface covers a pixel: bilinear in its texels, of the
 /// level whose texels are at most about as large as a pixel in the picture's middle.

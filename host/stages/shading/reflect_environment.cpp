@@ -6,8 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kReflectEnvironmentStage = "reflect_environment";
-
 // Blinn and Phong's lobe is reflected as the pbr one of its roughness.
 KernelFeatures reflecting(KernelFeatures features) {
     if (features.shading == SHADING_BLINN_PHONG) features.shading = SHADING_PBR;

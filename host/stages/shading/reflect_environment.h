@@ -6,8 +6,11 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kReflectEnvironmentStage = {"reflect_environment", StageGroup::picture};
 
 /// Maps by which an environment lights surfaces, on the host.
 struct ReflectionMapsView {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/shading/shade.h"
 
+#include "host/stages/shading/instruction_counts.h"
+
 namespace kilolux {
 namespace {
-
-constexpr std::string_view kShadeStage = "shade";
-constexpr std::string_view kDrawStage = "draw_shadows";
 
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
 // make, and reads through a wild pointer (hard case 17). A CPU has no local memory to gain by
@@ -45,6 +44,12 @@ BuildOptions all_options(const ShadingResources& resources, const KernelFeatures
     options.define("SHADOWS", kShadowRays).define("SAMPLED_SHADOWS", features.sampled_shadows);
     define_casters(options, surfaces, tuning);
     return options;
+}
+
+// Of the list of each pixel, and what is stored of its surface.
+double listed_surface_bytes(const StageCounts& c) {
+    return (c.gbuffer_bytes_per_pixel + kPixelOrderBytes) * c.drawn_pixels +
+           sizeof(ActiveCluster) * c.active_clusters + c.index_bytes() * c.refined_pairs;
 }
 
 }  // namespace
@@ -95,9 +100,9 @@ Radiance ShadingResources::radiance(const View& view) {
 
 DrawShadows::DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : resources_(gpu, tuning, features),
-      program_(build_program(gpu, kDrawStage, resources_.options())),
-      clear_(gpu, program_, kDrawStage, "draw_shadows_clear"),
-      draw_(gpu, program_, kDrawStage, "draw_shadows") {}
+      program_(build_program(gpu, kDrawShadowsStage, resources_.options())),
+      clear_(gpu, program_, kDrawShadowsStage, "draw_shadows_clear"),
+      draw_(gpu, program_, kDrawShadowsStage, "draw_shadows") {}
 
 void DrawShadows::enqueue(const LitPixels& lit, const ShadowWords& words,
                           const ShadowSamples& samples, StageTimer& timer) {
@@ -162,6 +167,36 @@ Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
     kernel_.enqueue(resources_.work_size(kernel_, view), timer, gbuffer,
                     resources_.stored_lights(lights, timer), shadows, samples, out);
     return {out.radiance, view};
+}
+
+// Sampled shadows shade twice: with all lights, and without hidden ones that were drawn.
+StageWork shade_work(const StageCounts& c) {
+    StageWork work{.bytes_read = listed_surface_bytes(c),
+                   .bytes_written = kRadianceBytes * c.pixels,
+                   .instructions = shading_instructions(c),
+                   .launches = 1,
+                   .evaluations = full_evaluations(c)};
+    const double words = c.all_lights ? 0.0 : kWordBytes * c.shadow_words;
+    if (c.kernels.shadows && !c.kernels.sampled_shadows) {
+        work.bytes_read += words;
+        work.instructions = seen_instructions(c);
+        work.evaluations = c.shadow_seen;
+    } else if (c.kernels.shadows) {
+        work.bytes_read = 2.0 * work.bytes_read + words + kRadianceBytes * c.drawn_pixels;
+        work.bytes_written = 2.0 * work.bytes_written + sizeof(float) * c.pixels;
+        work.instructions = 2.0 * work.instructions;
+        work.launches = 2;
+    }
+    if (c.shaded_display) work.bytes_written += (kDisplayBytes - kRadianceBytes) * c.pixels;
+    return work;
+}
+
+// Each light of a pixel's list alone.
+StageWork draw_shadows_work(const StageCounts& c) {
+    return {.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.drawn_pixels,
+            .bytes_written = kWordBytes * c.shadow_words,
+            .instructions = shading_instructions(c),
+            .launches = 2};
 }
 
 }  // namespace kilolux

@@ -7,9 +7,16 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 
 namespace kilolux {
+
+StageWork shade_work(const StageCounts& counts);
+StageWork draw_shadows_work(const StageCounts& counts);
+inline constexpr StageInfo kShadeStage = {"shade", StageGroup::shading, shade_work};
+inline constexpr StageInfo kDrawShadowsStage = {"draw_shadows", StageGroup::shadows,
+                                                draw_shadows_work};
 
 /// What both ways of shading have: the build options, tables, lights as they read them, output.
 class ShadingResources {

@@ -6,7 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kCastShadowsStage = "cast_shadows";
 // Work-groups that share a tile's lights: the longest lists decide when the last group ends.
 constexpr int kSplit = 4;
 constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
@@ -82,6 +81,18 @@ ShadowCounts CastShadows::counts() const {
     ShadowCounts sum{};
     for (const ShadowCounts& c : download(gpu_, counts_.get())) sum = sum + c;
     return sum;
+}
+
+// Nodes and triangles come from near caches.
+StageWork cast_shadows_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.tiles);
+    work.bytes_read += (kRowBytes + kPixelOrderBytes) * c.drawn_pixels +
+                       sizeof(ActiveCluster) * c.active_clusters +
+                       c.index_bytes() * c.refined_pairs + kRowBytes * c.lights;
+    work.bytes_written += kWordBytes * c.shadow_words;
+    work.launches += 2;
+    work.evaluations = c.shadow_rays;
+    return work;
 }
 
 }  // namespace kilolux

@@ -3,10 +3,15 @@
 
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
+
+StageWork cast_shadows_work(const StageCounts& counts);
+inline constexpr StageInfo kCastShadowsStage = {"cast_shadows", StageGroup::shadows,
+                                                cast_shadows_work};
 
 /// Casts the shadows of the lights in each active cluster's list onto the cluster's pixels.
 class CastShadows {

@@ -4,7 +4,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kShadowOriginsStage = "shadow_origins";
 constexpr std::size_t kPlanes = 4;
 
 }  // namespace
@@ -24,6 +23,12 @@ DeviceArray<float> ShadowOrigins::enqueue(const DeviceArray<uint>& ids, const Su
     kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, ids, gbuffer, shadow,
                     scene, casters.triangles, out);
     return out;
+}
+
+StageWork shadow_origins_work(const StageCounts& c) {
+    return {.bytes_read = sizeof(uint) * c.pixels + sizeof(float) * c.drawn_pixels,
+            .bytes_written = kRowBytes * c.drawn_pixels,
+            .launches = 1};
 }
 
 }  // namespace kilolux

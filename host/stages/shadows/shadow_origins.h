@@ -3,9 +3,14 @@
 
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 
 namespace kilolux {
+
+StageWork shadow_origins_work(const StageCounts& counts);
+inline constexpr StageInfo kShadowOriginsStage = {"shadow_origins", StageGroup::shadows,
+                                                  shadow_origins_work};
 
 /// Where every pixel's shadow rays end.
 class ShadowOrigins {

@@ -2,11 +2,11 @@
 #include "host/stages/surfaces/bin_triangles.h"
 
 #include <algorithm>
+#include "kernels/shared/raster_row.h"
 
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kBinTrianglesStage = "bin_triangles";
 constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room for from the start
 constexpr std::size_t kBoxWords = 4;                       // of a triangle's box of tiles
 
@@ -93,6 +93,16 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
     out.capacity = lists_.capacity();
     fill_.enqueue(walk, timer, view, binning, out);
     return out;
+}
+
+// A triangle is three indices and about half a vertex: neighbours share theirs.
+StageWork bin_triangles_work(const StageCounts& c) {
+    constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * 3 * sizeof(float);
+    constexpr double kBox = kBoxWords * sizeof(uint);
+    return {.bytes_read = kTriangle * c.triangles + kBox * c.seen_triangles,
+            .bytes_written =
+                (sizeof(RasterRow) + kBox) * c.seen_triangles + sizeof(uint) * c.triangle_pairs,
+            .launches = 4};
 }
 
 }  // namespace kilolux

@@ -4,10 +4,15 @@
 #include <span>
 
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
+
+StageWork bin_triangles_work(const StageCounts& counts);
+inline constexpr StageInfo kBinTrianglesStage = {"bin_triangles", StageGroup::surfaces,
+                                                 bin_triangles_work};
 
 /// Sets up triangles and lists those that each tile's pixels may show. As CullLights, it works with
 /// the room of the last call, and fits() says whether that was enough.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/raster_triangles.h"
 
+#include "kernels/shared/raster_row.h"
+
 namespace kilolux {
 namespace {
-
-constexpr std::string_view kRasterTrianglesStage = "raster_triangles";
 
 // NVIDIA's compiler takes so many registers for setting up that few work-groups fit into a unit,
 // which then waits for memory: half of the time on an H200.
@@ -37,6 +37,12 @@ DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const Tr
     const DeviceArray<uint> ids = ids_.reserve(std::size_t{view.stride} * view.height);
     kernel_.enqueue(groups(lists.tile_count, tuning_.raster_group), timer, view, scene, lists, ids);
     return ids;
+}
+
+StageWork raster_triangles_work(const StageCounts& c) {
+    return {.bytes_read = (sizeof(uint) + sizeof(RasterRow)) * c.triangle_pairs,
+            .bytes_written = sizeof(uint) * c.pixels,
+            .launches = 1};
 }
 
 }  // namespace kilolux

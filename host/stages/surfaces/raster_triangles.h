@@ -2,9 +2,14 @@
 #pragma once
 
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 
 namespace kilolux {
+
+StageWork raster_triangles_work(const StageCounts& counts);
+inline constexpr StageInfo kRasterTrianglesStage = {"raster_triangles", StageGroup::surfaces,
+                                                    raster_triangles_work};
 
 /// Tiles' triangles -> triangle ids.
 class RasterTriangles {

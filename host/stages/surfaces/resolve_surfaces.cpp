@@ -6,8 +6,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kResolveSurfacesStage = "resolve_surfaces";
-
 KernelProgram resolve_program(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                               const SurfaceFeatures& surfaces) {
     BuildOptions options = feature_options(features);
@@ -34,6 +32,16 @@ GBuffer ResolveSurfaces::enqueue(const DeviceArray<uint>& ids, const SurfaceBuff
     kernel_.enqueue(kernel_.block_items(view, tuning_.shade_rows), timer, ids, view, layout, scene,
                     SrgbBucketTables{}, out.bytes);
     return out;
+}
+
+// A triangle is read once, however many pixels show it: three indices and about half a vertex,
+// which has a position and a normal at least.
+StageWork resolve_surfaces_work(const StageCounts& c) {
+    constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * (3 + 3) * sizeof(float);
+    return {.bytes_read = sizeof(uint) * c.pixels + kTriangle * c.seen_triangles,
+            .bytes_written = c.gbuffer_bytes_per_pixel * c.pixels,
+            .texels = c.texels,
+            .launches = 1};
 }
 
 }  // namespace kilolux

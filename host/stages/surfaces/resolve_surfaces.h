@@ -4,9 +4,14 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 
 namespace kilolux {
+
+StageWork resolve_surfaces_work(const StageCounts& counts);
+inline constexpr StageInfo kResolveSurfacesStage = {"resolve_surfaces", StageGroup::surfaces,
+                                                    resolve_surfaces_work};
 
 /// Triangle ids -> G-buffer.
 class ResolveSurfaces {

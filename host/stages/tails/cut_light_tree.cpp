@@ -4,7 +4,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kCutStage = "cut_light_tree";
 constexpr std::size_t kConeBytes = 32;  // ClusterCone of kernels/tails/tree_cut.h
 constexpr std::size_t kFirstCutEntries = std::size_t{1} << 20;
 
@@ -29,13 +28,13 @@ CutLightTree::CutLightTree(const Gpu& gpu, const Tuning& tuning, const KernelFea
     : tuning_(tuning),
       share_(features.tree_share),
       cones_(gpu, build_program(gpu.with_lanes(1), "tree_cones", feature_options(features)),
-             kCutStage, "tree_cones"),
-      count_(gpu, build_program(gpu, kCutStage, feature_options(features)), kCutStage,
+             kCutLightTreeStage, "tree_cones"),
+      count_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)), kCutLightTreeStage,
              "cut_light_tree_count"),
-      fill_(gpu, build_program(gpu, kCutStage, feature_options(features)), kCutStage,
+      fill_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)), kCutLightTreeStage,
             "cut_light_tree_fill"),
-      lists_(gpu, tuning, kCutStage, "(light, active cluster) pairs", light_index_bytes(features)),
-      cone_rows_(gpu, kCutStage) {
+      lists_(gpu, tuning, kCutLightTreeStage, "(light, active cluster) pairs", light_index_bytes(features)),
+      cone_rows_(gpu, kCutLightTreeStage) {
     lists_.reserve(kFirstCutEntries);
 }
 
@@ -51,6 +50,14 @@ RefinedLists CutLightTree::enqueue(const CutInput& input, StageTimer& timer) {
     const DeviceArray<uint> offsets = lists_.enqueue_offsets(clusters.capacity, timer);
     fill_.enqueue(walks, timer, cut, input.refined.lists, offsets, out);
     return out;
+}
+
+StageWork cut_light_tree_work(const StageCounts& c) {
+    StageWork work = prefix_sum_work(c.active_clusters);
+    work.bytes_read += 2.0 * sizeof(ActiveCluster) * c.active_clusters;
+    work.bytes_written += c.index_bytes() * c.refined_pairs;
+    work.launches += 3;
+    return work;
 }
 
 }  // namespace kilolux

@@ -4,9 +4,14 @@
 #include <cstdint>
 
 #include "host/gpu/flow.h"
+#include "host/gpu/stage_info.h"
 #include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
+
+StageWork cut_light_tree_work(const StageCounts& counts);
+inline constexpr StageInfo kCutLightTreeStage = {"cut_light_tree", StageGroup::lists,
+                                                 cut_light_tree_work};
 
 /// Where a frame's pixels are and what of their lists is known.
 struct CutInput {

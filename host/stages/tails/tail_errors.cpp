@@ -4,7 +4,6 @@
 namespace kilolux {
 namespace {
 
-constexpr std::string_view kTailErrorsStage = "tail_errors";
 constexpr std::size_t kMomentRows = 36;  // TAIL_ROWS of kernels/tails/tail_moments.h
 
 Kernel kernel_of(const Gpu& gpu, const char* name, const BuildOptions& options) {

@@ -6,9 +6,12 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
+#include "host/gpu/stage_info.h"
 #include "host/gpu/surface_flow.h"
 
 namespace kilolux {
+
+inline constexpr StageInfo kTailErrorsStage = {"tail_errors", StageGroup::picture};
 
 /// What lights without a range of their own leave out of a picture, pixel by pixel. For AOVs; no
 /// part of a frame otherwise.

@@ -27,13 +27,14 @@ std::string camera_options(const CameraRig& rig, const SharedOptions& first, con
     const Camera& camera = rig.camera();
     const Camera start = choose_camera(first, scene);
     std::string out;
+    if (first.camera.view != SeenFrom::automatic) out = " --view " + name_of(first.camera.view);
     const bool stays = rig.is_unmoved() && camera.position == start.position &&
                        camera.world_from_view == start.world_from_view;
     if (stays && first.camera.index) {
-        out = fmt::format(" --camera-index {}", *first.camera.index);
+        out += fmt::format(" --camera-index {}", *first.camera.index);
     }
     if (stays && first.camera.framed) out += " --camera-index auto";
-    if (stays && first.camera.fit != Fit::height) out += " --fit " + name_of(first.camera.fit);
+    if (stays && first.camera.fit != Fit::both) out += " --fit " + name_of(first.camera.fit);
     const bool named = first.camera.position || first.camera.focal_point || first.camera.view_up;
     if (!stays || named) {
         const glm::dvec3 up = camera.world_from_view[1];

@@ -30,7 +30,7 @@ TEST(CountPairs, AgreesWithTheSumOnTheHost) {
         Tuning tuning;
         tuning.light_group = group;
         CountPairs stage(gpu, tuning);
-        for (const std::size_t count : {0, 1, 63, 1025, 5000}) {
+        for (const std::size_t count : {0u, 1u, 63u, 1025u, 5000u}) {
             SCOPED_TRACE(std::to_string(group) + " items, " + std::to_string(count) + " clusters");
             const std::vector<ActiveCluster> host = random_clusters(count);
             ActiveClusters clusters;

@@ -61,7 +61,7 @@ std::string format_of(std::span<const unsigned char> bytes, const std::string& u
     constexpr std::size_t kTargaFooterBytes = 26;
     const std::size_t footer = text.size() - std::min(text.size(), kTargaFooterBytes);
     if (text.find("TRUEVISION-XFILE", footer) != std::string_view::npos) return "targa";
-    const std::size_t dot = uri.starts_with("data:") ? std::string::npos : uri.rfind('.');
+    const std::size_t dot = is_data_uri(uri) ? std::string::npos : uri.rfind('.');
     return dot == std::string::npos ? "" : uri.substr(dot + 1);
 }
 

@@ -7,22 +7,11 @@
 
 namespace kilolux {
 
-/// A point of a specular-glossiness material's surface; linear.
-struct SpecularGlossiness {
-    glm::dvec3 diffuse{1.0};
-    glm::dvec3 specular{1.0};
+/// An image to be made: green is 1 - glossiness * the alpha of another one.
+struct RoughnessImage {
+    int image = 0;  // index into GltfMaterials::images
     double glossiness = 1.0;
-    bool operator==(const SpecularGlossiness&) const = default;
-};
-
-/// Two textures to be made of a specular-glossiness material's: base colour, and metallic with
-/// roughness.
-struct ConvertedTextures {
-    SpecularGlossiness factors;
-    int diffuse = -1;              // image of the file, -1 for none
-    int specular_glossiness = -1;  // image of the file, -1 for none
-    bool same_layout = true;       // texture coordinates and transform are those of both
-    bool operator==(const ConvertedTextures&) const = default;
+    bool operator==(const RoughnessImage&) const = default;
 };
 
 /// What of points and lines decides about their material.
@@ -38,9 +27,9 @@ struct LineMaterial {
 struct GltfMaterials {
     std::vector<Material> materials;                // the file's, then those of `of_lines`
     std::vector<std::array<int, 2>> texcoord_sets;  // per material: the file's sets that it uses
-    std::vector<Texture> textures;                  // images index `images`, then `converted`
+    std::vector<Texture> textures;                  // images index `images`, then `roughness`
     std::vector<int> images;                        // indices into the file's images
-    std::vector<ConvertedTextures> converted;       // two images each, behind `images`
+    std::vector<RoughnessImage> roughness;          // of specular-glossiness materials
     std::map<LineMaterial, int> of_lines;           // materials made for points and lines
 };
 
@@ -58,29 +47,23 @@ LineMaterial line_material_of(const tinygltf::Primitive& primitive);
 /// without the normal map where there are no tangents.
 void add_line_materials(const GltfDocument& document, GltfMaterials& materials);
 
-/// A material's use of a texture as the file gives it.
-struct FileTextureUse {
-    int texture = -1;
-    int texcoord = 0;
-    const tinygltf::ExtensionMap* extensions = nullptr;
-};
-
 /// Collects the textures and images that materials use, each once.
-class TextureTable {
+class FileTextures {
  public:
-    explicit TextureTable(const GltfDocument& document) : document_(document) {}
+    explicit FileTextures(const GltfDocument& document) : document_(document) {}
 
-    /// The use, with its TEXCOORD_n as uv_set. Not present when the file names no texture, or the
-    /// texture has no image that can be read (warned of once).
-    TextureUse convert(const FileTextureUse& use);
-
-    /// The use in a slot of an extension, which tinygltf leaves as JSON.
-    TextureUse convert(const tinygltf::Value& extension, const std::string& slot);
+    /// The use at a path of a material ("pbrMetallicRoughness.baseColorTexture"), with its
+    /// TEXCOORD_n as uv_set. Not present when the file names no texture there, or the texture has
+    /// no image that can be read (warned of once).
+    TextureUse convert(const nlohmann::json& material, std::string_view path);
 
     const std::vector<Texture>& textures() const { return textures_; }
     const std::vector<int>& images() const { return images_; }
 
  private:
+    // The texture's place in textures(), where it is added first; -1 where it has no image.
+    int place(int texture);
+
     const GltfDocument& document_;
     std::vector<Texture> textures_;
     std::vector<int> images_;

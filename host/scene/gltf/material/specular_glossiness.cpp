@@ -2,142 +2,72 @@
 #include "host/scene/gltf/material/specular_glossiness.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "host/scene/gltf/extensions.h"
 
 namespace kilolux {
 namespace {
 
-constexpr const char* kGlossinessExtension = "KHR_materials_pbrSpecularGlossiness";
-constexpr double kDielectric = 0.04;  // reflectance head on of metallic-roughness's dielectrics
-constexpr double kLeast = 1e-6;       // keeps divisions finite; what they multiply is then 0
+using nlohmann::json;
 
-double max_of(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+constexpr const char* kGlossinessExtension = "extensions.KHR_materials_pbrSpecularGlossiness";
 
-// Weights of ITU-R BT.601 on squares, as the extension's conversion has them.
-double perceived_brightness(const glm::dvec3& color) {
-    return std::sqrt(glm::dot(glm::dvec3(0.299, 0.587, 0.114), color * color));
-}
+float share(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
-double solve_metallic(double diffuse, double specular, double diffuse_share) {
-    if (specular < kDielectric) return 0.0;
-    const double a = kDielectric;
-    const double b = diffuse * diffuse_share / (1.0 - kDielectric) + specular - 2.0 * kDielectric;
-    const double c = kDielectric - specular;
-    const double root = std::sqrt(std::max(b * b - 4.0 * a * c, 0.0));
-    return std::clamp((-b + root) / (2.0 * a), 0.0, 1.0);
-}
-
-double clamped_unit(double value) { return std::clamp(value, 0.0, 1.0); }
-
-// The extension's factors, and the opacity.
-SpecularGlossiness read_factors(const tinygltf::Value& extension, double& alpha) {
-    SpecularGlossiness out;
-    const auto diffuse = numbers_member(extension, "diffuseFactor");
-    const auto specular = numbers_member(extension, "specularFactor");
-    if (diffuse.size() == 4) {
-        out.diffuse = {clamped_unit(diffuse[0]), clamped_unit(diffuse[1]),
-                       clamped_unit(diffuse[2])};
-        alpha = clamped_unit(diffuse[3]);
-    }
-    if (specular.size() == 3) {
-        out.specular = {clamped_unit(specular[0]), clamped_unit(specular[1]),
-                        clamped_unit(specular[2])};
-    }
-    out.glossiness = clamped_unit(member_or(extension, "glossinessFactor", 1.0));
-    return out;
-}
-
-void set_factors(Material& material, const SpecularGlossiness& factors, double alpha) {
-    const MetallicRoughness made = metallic_roughness_of(factors);
-    material.base_color = glm::vec4(glm::dvec4(made.base_color, alpha));
-    material.metallic = static_cast<float>(made.metallic);
-    material.roughness = static_cast<float>(made.roughness);
-}
-
-// The place of the two textures among the file's converted ones; new where they differ from all.
-std::size_t place_of(GltfMaterials& materials, const ConvertedTextures& textures) {
-    auto& all = materials.converted;
-    const auto found = std::find(all.begin(), all.end(), textures);
-    const auto place = static_cast<std::size_t>(found - all.begin());
-    if (found == all.end()) all.push_back(textures);
-    return place;
-}
-
-// Gives a material its textures, with the layout and sampler of those that they are made of.
-void set_textures(const GltfDocument& document, GltfMaterials& materials, Material& material,
-                  const tinygltf::Value& extension, const SpecularGlossiness& factors) {
-    TextureTable sources(document);
-    const TextureUse diffuse = sources.convert(extension, "diffuseTexture");
-    const TextureUse glossy = sources.convert(extension, "specularGlossinessTexture");
-    if (!diffuse.present() && !glossy.present()) return;
-    const auto texture_of = [&](const TextureUse& use) {
-        return sources.textures()[static_cast<std::size_t>(use.texture)];
-    };
-    const auto image_of = [&](const TextureUse& use) {
-        return use.present() ? sources.images()[static_cast<std::size_t>(texture_of(use).image)]
-                             : -1;
-    };
-    const bool both = diffuse.present() && glossy.present();
-    const bool same_layout = !both || (diffuse.uv_set == glossy.uv_set &&
-                                       diffuse.uv_from_texcoord == glossy.uv_from_texcoord);
-    const std::size_t place =
-        place_of(materials, {factors, image_of(diffuse), image_of(glossy), same_layout});
-    const auto add = [&](TextureUse use, std::size_t which) {
-        const std::size_t image = materials.images.size() + 2 * place + which;
-        materials.textures.push_back({static_cast<int>(image), texture_of(use).sampler});
-        use.texture = static_cast<int>(materials.textures.size()) - 1;
-        return use;
-    };
-    material.base_color_texture = add(diffuse.present() ? diffuse : glossy, 0);
-    material.metallic_roughness_texture = add(glossy.present() ? glossy : diffuse, 1);
-    material.base_color = glm::vec4(1.0f, 1.0f, 1.0f, material.base_color.w);
-    material.metallic = material.roughness = 1.0f;
-    if (!same_layout) {
-        document.leave_out(fmt::format(
-            "material '{}' lays its diffuse and specular textures out in two ways: each is "
-            "converted with the mean of the other",
-            shown_uri(material.name)));
-    }
+double glossiness_of(const json& extension) {
+    return std::clamp(extension.value("glossinessFactor", 1.0), 0.0, 1.0);
 }
 
 }  // namespace
 
-MetallicRoughness metallic_roughness_of(const SpecularGlossiness& from) {
-    const double diffuse_share = 1.0 - max_of(from.specular);
-    const double metallic = solve_metallic(perceived_brightness(from.diffuse),
-                                           perceived_brightness(from.specular), diffuse_share);
-    const glm::dvec3 by_diffuse =
-        from.diffuse * (diffuse_share / (1.0 - kDielectric) / std::max(1.0 - metallic, kLeast));
-    const glm::dvec3 by_specular =
-        (from.specular - kDielectric * (1.0 - metallic)) / std::max(metallic, kLeast);
-    const glm::dvec3 base = glm::mix(by_diffuse, by_specular, metallic * metallic);
-    return {glm::clamp(base, 0.0, 1.0), metallic, 1.0 - from.glossiness};
+bool is_specular_glossiness(const json& material) {
+    return find_member(material, kGlossinessExtension) != nullptr;
 }
 
-bool is_specular_glossiness(const tinygltf::Material& material) {
-    return find_extension(material.extensions, kGlossinessExtension) != nullptr;
+void read_specular_glossiness(Material& out, const json& source, FileTextures& textures) {
+    const json& extension = *find_member(source, kGlossinessExtension);
+    const auto diffuse = extension.value("diffuseFactor", std::vector<double>(4, 1.0));
+    const auto specular = extension.value("specularFactor", std::vector<double>(3, 1.0));
+    out.base_color = {share(diffuse[0]), share(diffuse[1]), share(diffuse[2]), share(diffuse[3])};
+    out.specular_color = {share(specular[0]), share(specular[1]), share(specular[2])};
+    out.metallic = out.ior = 0.0f;
+    out.roughness = share(1.0 - glossiness_of(extension));
+    out.base_color_texture = textures.convert(extension, "diffuseTexture");
+    out.specular_color_texture = textures.convert(extension, "specularGlossinessTexture");
 }
 
-void convert_specular_glossiness(const GltfDocument& document, GltfMaterials& materials) {
-    std::size_t count = 0;
-    for (std::size_t m = 0; m < materials.materials.size(); ++m) {
-        const auto* extension =
-            find_extension(document.model.materials[m].extensions, kGlossinessExtension);
-        if (extension == nullptr) continue;
-        double alpha = 1.0;
-        const SpecularGlossiness factors = read_factors(*extension, alpha);
-        set_factors(materials.materials[m], factors, alpha);
-        set_textures(document, materials, materials.materials[m], *extension, factors);
-        ++count;
+void add_roughness_textures(const GltfDocument& document, GltfMaterials& materials) {
+    for (std::size_t m = 0; m < document.materials.size(); ++m) {
+        const json* extension = find_member(document.materials[m], kGlossinessExtension);
+        Material& material = materials.materials[m];
+        if (extension == nullptr || !material.specular_color_texture.present()) continue;
+        const auto source = static_cast<std::size_t>(material.specular_color_texture.texture);
+        const RoughnessImage made{materials.textures[source].image, glossiness_of(*extension)};
+        auto& all = materials.roughness;
+        const auto place = static_cast<std::size_t>(std::ranges::find(all, made) - all.begin());
+        if (place == all.size()) all.push_back(made);
+        materials.textures.push_back({static_cast<int>(materials.images.size() + place),
+                                      materials.textures[source].sampler});
+        material.metallic_roughness_texture = material.specular_color_texture;
+        material.metallic_roughness_texture.texture =
+            static_cast<int>(materials.textures.size()) - 1;
+        material.roughness = 1.0f;
     }
-    if (count == 0) return;
-    document.leave_out(
-        fmt::format("{} specular-glossiness materials are converted to metallic-roughness, which "
-                    "changes some coloured ones; gltf-transform metalrough in.glb out.glb converts "
-                    "them without that error",
-                    count));
+}
+
+std::vector<Image> roughness_images(const GltfDocument& document, const GltfMaterials& materials,
+                                    std::span<const Image> images) {
+    std::vector<Image> out;
+    for (const RoughnessImage& made : materials.roughness) {
+        const Image& source = images[static_cast<std::size_t>(made.image)];
+        document.budget->charge_memory(source.rgba.size(), document.base.file + ": materials");
+        Image& image = out.emplace_back(
+            Image{"", source.width, source.height, std::vector<std::uint8_t>(source.rgba.size())});
+        for (std::size_t i = 0; i < source.rgba.size(); i += 4) {
+            const double roughness = 255.0 - made.glossiness * source.rgba[i + 3];
+            image.rgba[i + 1] = static_cast<std::uint8_t>(roughness + 0.5);
+            image.rgba[i + 3] = 255;
+        }
+    }
+    return out;
 }
 
 }  // namespace kilolux

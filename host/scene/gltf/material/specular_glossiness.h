@@ -5,35 +5,20 @@
 
 namespace kilolux {
 
-/// A point of a metallic-roughness material's surface; linear.
-struct MetallicRoughness {
-    glm::dvec3 base_color{1.0};
-    double metallic = 1.0;
-    double roughness = 1.0;
-};
+/// Whether a material has KHR_materials_pbrSpecularGlossiness, which then wins over its
+/// pbrMetallicRoughness (the extension's section "Best practices").
+bool is_specular_glossiness(const nlohmann::json& material);
 
-/// The metallic-roughness point for a specular-glossiness one, by the conversion in the appendix of
-/// KHR_materials_pbrSpecularGlossiness: the metallic value for which one grey base colour gives
-/// both reflectances,
-///   diffuse (1 - max(specular)) = base (1 - 0.04) (1 - metallic)
-///   specular = 0.04 (1 - metallic) + base metallic,
-/// solved for the colours' perceived brightness.
-///
-/// Exact for grey materials of a specular colour of at least 0.04; below, F0 becomes 0.04. In
-/// coloured ones a single metallic value serves three channels:
-/// tests/scene/specular_glossiness_test.cpp bounds what that costs.
-MetallicRoughness metallic_roughness_of(const SpecularGlossiness& from);
+/// Sets a material by the extension: without metal, with an ior of 0, which leaves reflectance to
+/// the specular colour (KHR_materials_ior), and with both textures as they are. Roughness is
+/// 1 - glossiness, whose texture add_roughness_textures() makes.
+void read_specular_glossiness(Material& out, const nlohmann::json& source, FileTextures& textures);
 
-/// Whether a material has the extension, which then wins over its pbrMetallicRoughness (the
-/// extension's section "Best practices").
-bool is_specular_glossiness(const tinygltf::Material& material);
+/// Gives such materials a texture of roughness: GltfMaterials::roughness.
+void add_roughness_textures(const GltfDocument& document, GltfMaterials& materials);
 
-/// Sets base colour, metallic and roughness of the materials that have the extension. Their
-/// textures become GltfMaterials::converted.
-void convert_specular_glossiness(const GltfDocument& document, GltfMaterials& materials);
-
-/// The images of GltfMaterials::converted, two each.
-std::vector<Image> make_converted_images(const GltfDocument& document,
-                                         const GltfMaterials& materials);
+/// The images of GltfMaterials::roughness, from those of GltfMaterials::images.
+std::vector<Image> roughness_images(const GltfDocument& document, const GltfMaterials& materials,
+                                    std::span<const Image> images);
 
 }  // namespace kilolux

@@ -8,6 +8,8 @@
 namespace kilolux {
 namespace {
 
+using nlohmann::json;
+
 Wrap convert_wrap(int code) {
     switch (code) {
         case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
@@ -41,57 +43,51 @@ int source_image(const tinygltf::Texture& texture) {
 
 // KHR_texture_transform: scale, then rotate, then shift. The rotation's sign follows the
 // extension's text and first example; the matrix in its GLSL example is the transpose.
-glm::mat3 uv_transform(const tinygltf::Value& transform) {
-    const std::vector<double> offset = numbers_member(transform, "offset");
-    const std::vector<double> scale = numbers_member(transform, "scale");
-    const double angle = member_or(transform, "rotation", 0.0);
-    const double sx = scale.empty() ? 1.0 : scale[0];
-    const double sy = scale.empty() ? 1.0 : scale[1];
+glm::mat3 uv_transform(const json& transform) {
+    const auto offset = transform.value("offset", std::vector<double>{0.0, 0.0});
+    const auto scale = transform.value("scale", std::vector<double>{1.0, 1.0});
+    const double angle = transform.value("rotation", 0.0);
     glm::mat3 out(1.0f);
-    out[0] = {to_float(sx * std::cos(angle)), to_float(-sx * std::sin(angle)), 0.0f};
-    out[1] = {to_float(sy * std::sin(angle)), to_float(sy * std::cos(angle)), 0.0f};
-    if (!offset.empty()) out[2] = {to_float(offset[0]), to_float(offset[1]), 1.0f};
+    out[0] = {to_float(scale[0] * std::cos(angle)), to_float(-scale[0] * std::sin(angle)), 0.0f};
+    out[1] = {to_float(scale[1] * std::sin(angle)), to_float(scale[1] * std::cos(angle)), 0.0f};
+    out[2] = {to_float(offset[0]), to_float(offset[1]), 1.0f};
     return out;
 }
 
 }  // namespace
 
-TextureUse TextureTable::convert(const tinygltf::Value& extension, const std::string& slot) {
-    if (!extension.Has(slot)) return {};
-    const tinygltf::Value& info = extension.Get(slot);
-    tinygltf::ExtensionMap extensions;
-    if (info.Has("extensions")) extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
-    return convert({member_or(info, "index", -1), member_or(info, "texCoord", 0), &extensions});
-}
-
-TextureUse TextureTable::convert(const FileTextureUse& use) {
-    TextureUse out;
-    if (use.texture < 0) return out;
-    const auto& texture = document_.model.textures[static_cast<std::size_t>(use.texture)];
+int FileTextures::place(int index) {
+    const auto& texture = document_.model.textures[static_cast<std::size_t>(index)];
     const int image = source_image(texture);
     if (image < 0) {
-        document_.leave_out(element_name("textures", static_cast<std::size_t>(use.texture)) +
+        document_.leave_out(element_name("textures", static_cast<std::size_t>(index)) +
                             " has no image of a supported kind and is left out");
-        return out;
+        return -1;
     }
-    const auto [entry, is_new] =
-        texture_of_.try_emplace(use.texture, static_cast<int>(textures_.size()));
-    if (is_new) {
-        const auto [slot, is_new_image] =
-            image_of_.try_emplace(image, static_cast<int>(images_.size()));
-        if (is_new_image) images_.push_back(image);
-        Texture added;
-        added.image = slot->second;
-        if (texture.sampler >= 0) {
-            added.sampler = convert_sampler(
-                document_.model.samplers[static_cast<std::size_t>(texture.sampler)]);
-        }
-        textures_.push_back(added);
+    const auto [entry, is_new] = texture_of_.try_emplace(index, static_cast<int>(textures_.size()));
+    if (!is_new) return entry->second;
+    const auto [slot, is_new_image] =
+        image_of_.try_emplace(image, static_cast<int>(images_.size()));
+    if (is_new_image) images_.push_back(image);
+    Texture added;
+    added.image = slot->second;
+    if (texture.sampler >= 0) {
+        added.sampler =
+            convert_sampler(document_.model.samplers[static_cast<std::size_t>(texture.sampler)]);
     }
-    out.texture = entry->second;
-    out.uv_set = use.texcoord;
-    if (const auto* transform = find_extension(*use.extensions, "KHR_texture_transform")) {
-        out.uv_set = member_or(*transform, "texCoord", out.uv_set);
+    textures_.push_back(added);
+    return entry->second;
+}
+
+TextureUse FileTextures::convert(const json& material, std::string_view path) {
+    TextureUse out;
+    const json* info = find_member(material, path);
+    if (info == nullptr) return out;
+    out.texture = place(info->at("index"));
+    if (!out.present()) return out;
+    out.uv_set = info->value("texCoord", 0);
+    if (const json* transform = find_member(*info, "extensions.KHR_texture_transform")) {
+        out.uv_set = transform->value("texCoord", out.uv_set);
         out.uv_from_texcoord = uv_transform(*transform);
     }
     return out;

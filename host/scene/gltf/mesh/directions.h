@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "host/scene/scene.h"
 
 namespace kilolux {
@@ -27,13 +29,22 @@ glm::dvec3 triangle_cross(const Mesh& mesh, std::size_t triangle);
 /// map uses, as MikkTSpace does: per triangle the direction of growing u, projected into each
 /// corner's tangent plane and summed with the corner's angle over all vertices of equal position,
 /// normal and texture coordinate. Triangles with mirrored texture coordinates have sums of their
-/// own.
+/// own: vertices where both orientations meet are already split (split_mirrored()).
 ///
-/// Vertices where both orientations meet are split, so the mesh's arrays and indices may grow; w is
-/// +1 where the image's up is cross(normal, tangent). Unlike MikkTSpace, the triangles around a
-/// vertex need not be connected. Where texture coordinates are degenerate, any perpendicular of the
-/// normal is taken: the result is always finite and unit.
+/// w is +1 where the image's up is cross(normal, tangent). Unlike MikkTSpace, the triangles around
+/// a vertex need not be connected. Where texture coordinates are degenerate, any perpendicular of
+/// the normal is taken: the result is always finite and unit.
 void derive_tangents(Mesh& mesh, const TextureUse& normal_texture);
+
+/// Where a texture is read: `texcoords` as its use transforms them, zeros where there are none.
+std::vector<glm::dvec2> map_coordinates(std::span<const glm::vec2> texcoords, const TextureUse& use,
+                                        std::size_t vertices);
+
+/// Gives vertices that triangles of both orientations in texture space share a copy for those of
+/// the second one: a further entry of `elements`. Only the texture coordinates decide, so that a
+/// mesh has the same vertices and indices at any time of an animation.
+void split_mirrored(std::span<const glm::dvec2> uvs, std::vector<std::uint32_t>& elements,
+                    std::vector<std::uint32_t>& indices);
 
 /// Makes tangents of a file unit and perpendicular enough to be used: zero ones become any
 /// perpendicular of the normal, and w becomes +1 or -1.

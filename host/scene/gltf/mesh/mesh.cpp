@@ -43,7 +43,7 @@ VertexPlan plan_used(const PrimitiveArrays& arrays) {
 struct AttributeReader {
     const PrimitiveArrays& arrays;
     const VertexPlan& plan;
-    const std::vector<double>& weights;
+    std::span<const double> weights;
 
     using Components = std::initializer_list<std::size_t>;
 
@@ -83,6 +83,26 @@ void check_positions(const std::string& where, const Mesh& mesh, const char* whe
     }
 }
 
+std::string texcoord_name(const MeshShading& shading, std::size_t set) {
+    return fmt::format("TEXCOORD_{}", shading.texcoord_sets[set]);
+}
+
+// A file's tangents are valid only with the file's normals (glTF 2.0, section 3.7.2.1).
+bool has_tangents(const AttributeArrays& attributes) {
+    return attributes.contains("NORMAL") && attributes.contains("TANGENT");
+}
+
+// Splits vertices by the file's texture coordinates where tangents will be derived from them.
+void split_for_tangents(const PrimitiveArrays& arrays, const MeshShading& shading,
+                        VertexPlan& plan) {
+    const TextureUse& map = shading.normal_texture;
+    if (!map.present() || has_tangents(arrays.attributes)) return;
+    const auto texcoords = AttributeReader{arrays, plan, {}}.read<glm::vec2>(
+        texcoord_name(shading, static_cast<std::size_t>(map.uv_set)), {2});
+    split_mirrored(map_coordinates(texcoords, map, plan.elements.size()), plan.elements,
+                   plan.indices);
+}
+
 void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShading& shading) {
     const AttributeArrays& attributes = reader.arrays.attributes;
     mesh.positions = reader.read<glm::vec3>("POSITION", {3});
@@ -91,14 +111,12 @@ void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShadin
     mesh.colors = reader.read<glm::vec4>("COLOR_0", {3, 4}, true);
     for (glm::vec4& color : mesh.colors) {
         if (attributes.at("COLOR_0").components == 3) color.w = 1.0f;
-        color = glm::max(color, glm::vec4(0.0f));
+        color = glm::clamp(color, 0.0f, 1.0f);  // glTF 2.0, section 3.7.2.1; after morphing, too
     }
     for (std::size_t set = 0; set < 2; ++set) {
-        mesh.texcoords[set] =
-            reader.read<glm::vec2>(fmt::format("TEXCOORD_{}", shading.texcoord_sets[set]), {2});
+        mesh.texcoords[set] = reader.read<glm::vec2>(texcoord_name(shading, set), {2});
     }
-    // A file's tangents are valid only with the file's normals (glTF 2.0, section 3.7.2.1).
-    if (shading.normal_texture.present() && attributes.contains("NORMAL")) {
+    if (shading.normal_texture.present() && has_tangents(attributes)) {
         mesh.tangents = reader.read<glm::vec4>("TANGENT", {4});
     }
 }
@@ -124,6 +142,7 @@ Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
     if (shares_vertices) document.budget->charge(arrays.vertex_count, 4, arrays.where);
     VertexPlan plan = shares_vertices ? plan_used(arrays) : plan_unshared(arrays);
     document.budget->charge(plan.elements.size(), kVertexBytes, arrays.where);
+    if (is_surface && shares_vertices) split_for_tangents(arrays, shading, plan);
     Mesh mesh;
     mesh.material = shading.material;
     read_attributes(mesh, {arrays, plan, deformation.weights}, shading);

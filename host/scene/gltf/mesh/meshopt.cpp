@@ -23,8 +23,8 @@ MeshoptView read_extension(const GltfDocument& document, std::size_t view,
                            const std::string& where) {
     const tinygltf::Value& object =
         *find_extension(document.model.bufferViews[view].extensions, kMeshoptExtension);
-    const Bytes& buffer =
-        document.buffers[static_cast<std::size_t>(member_or(object, "buffer", 0))];
+    const ByteSpan buffer =
+        bytes_of_buffer(document, static_cast<std::size_t>(member_or(object, "buffer", 0)), where);
     const auto offset = static_cast<std::size_t>(member_or(object, "byteOffset", 0));
     const auto length = static_cast<std::size_t>(member_or(object, "byteLength", 0));
     if (offset > buffer.size() || length > buffer.size() - offset) {
@@ -32,7 +32,7 @@ MeshoptView read_extension(const GltfDocument& document, std::size_t view,
                       length, buffer.size());
     }
     MeshoptView out;
-    out.source = std::span(buffer).subspan(offset, length);
+    out.source = buffer.subspan(offset, length);
     out.count = static_cast<std::size_t>(member_or(object, "count", 0));
     out.stride = static_cast<std::size_t>(member_or(object, "byteStride", 0));
     out.mode = member_or<std::string>(object, "mode", "");

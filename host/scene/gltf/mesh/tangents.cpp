@@ -33,16 +33,6 @@ struct TriangleFrame {
 // Sums of the tangents around a vertex, one per orientation.
 using TangentSums = std::array<glm::dvec3, 2>;
 
-std::vector<glm::dvec2> map_texcoords(const Mesh& mesh, const TextureUse& use) {
-    const auto& texcoords = mesh.texcoords[static_cast<std::size_t>(use.uv_set)];
-    const glm::dmat3 uv_from_texcoord(use.uv_from_texcoord);
-    std::vector<glm::dvec2> uvs(mesh.positions.size(), glm::dvec2(0.0));
-    for (std::size_t v = 0; v < texcoords.size(); ++v) {
-        uvs[v] = glm::dvec2(uv_from_texcoord * glm::dvec3(glm::dvec2(texcoords[v]), 1.0));
-    }
-    return uvs;
-}
-
 std::vector<std::uint32_t> weld(const Mesh& mesh, const std::vector<glm::dvec2>& uvs) {
     std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> first;
     first.reserve(mesh.positions.size());
@@ -59,20 +49,35 @@ std::vector<std::uint32_t> weld(const Mesh& mesh, const std::vector<glm::dvec2>&
     return group;
 }
 
+// Twice the triangle's signed area in texture space.
+double uv_area(std::span<const glm::dvec2> uvs, const std::uint32_t* corner) {
+    const glm::dvec2 d1 = uvs[corner[1]] - uvs[corner[0]];
+    const glm::dvec2 d2 = uvs[corner[2]] - uvs[corner[0]];
+    return d1.x * d2.y - d1.y * d2.x;
+}
+
+// By texture coordinates alone: what an animation does to positions changes nothing.
+Orientation orientation_of(std::span<const glm::dvec2> uvs, const std::uint32_t* corner) {
+    const double area = uv_area(uvs, corner);
+    if (area == 0.0 || !std::isfinite(area)) return kUnknown;
+    return area > 0.0 ? kPreserving : kMirrored;
+}
+
 TriangleFrame triangle_frame(const Mesh& mesh, const std::vector<glm::dvec2>& uvs,
                              std::size_t triangle) {
     const std::uint32_t* corner = &mesh.indices[3 * triangle];
+    TriangleFrame frame{orientation_of(uvs, corner)};
+    if (frame.orientation == kUnknown) return frame;
     const glm::dvec3 p0(mesh.positions[corner[0]]);
     const glm::dvec3 e1 = glm::dvec3(mesh.positions[corner[1]]) - p0;
     const glm::dvec3 e2 = glm::dvec3(mesh.positions[corner[2]]) - p0;
     const glm::dvec2 d1 = uvs[corner[1]] - uvs[corner[0]];
     const glm::dvec2 d2 = uvs[corner[2]] - uvs[corner[0]];
-    const double area = d1.x * d2.y - d1.y * d2.x;
-    if (area == 0.0 || !std::isfinite(area)) return {};
-    const glm::dvec3 along_u = (e1 * d2.y - e2 * d1.y) * (area > 0.0 ? 1.0 : -1.0);
+    const double sign = frame.orientation == kPreserving ? 1.0 : -1.0;
+    const glm::dvec3 along_u = (e1 * d2.y - e2 * d1.y) * sign;
     const double length = glm::length(along_u);
-    if (!(length > 0.0) || !std::isfinite(length)) return {};
-    return {area > 0.0 ? kPreserving : kMirrored, along_u / length};
+    if (length > 0.0 && std::isfinite(length)) frame.tangent = along_u / length;
+    return frame;
 }
 
 // v projected into the plane perpendicular to n, unit; zero where v is parallel to n.
@@ -109,57 +114,65 @@ glm::vec4 tangent_of(const glm::vec3& normal, const TangentSums& sums, Orientati
     return usable ? glm::vec4(glm::vec3(sum), w) : glm::vec4(any_perpendicular(normal), w);
 }
 
-std::uint32_t append_copy(Mesh& mesh, std::uint32_t vertex) {
-    const auto copy = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.push_back(glm::vec3(mesh.positions[vertex]));
-    mesh.normals.push_back(glm::vec3(mesh.normals[vertex]));
-    mesh.tangents.push_back(glm::vec4(mesh.tangents[vertex]));
-    if (!mesh.colors.empty()) mesh.colors.push_back(glm::vec4(mesh.colors[vertex]));
-    for (auto& set : mesh.texcoords) {
-        if (!set.empty()) set.push_back(glm::vec2(set[vertex]));
+// The orientation of each vertex's first triangle that has one.
+std::vector<Orientation> vertex_orientations(std::size_t vertices,
+                                             std::span<const std::uint32_t> indices,
+                                             const std::vector<TriangleFrame>& frames) {
+    std::vector<Orientation> first(vertices, kUnknown);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (first[indices[i]] == kUnknown) first[indices[i]] = frames[i / 3].orientation;
     }
-    return copy;
-}
-
-// Gives each vertex its tangent; a vertex of triangles of both orientations is split.
-void assign_tangents(Mesh& mesh, const std::vector<TriangleFrame>& frames,
-                     const std::vector<std::uint32_t>& group,
-                     const std::vector<TangentSums>& sums) {
-    const std::size_t vertex_count = mesh.positions.size();
-    std::vector<Orientation> first(vertex_count, kUnknown);
-    std::vector<std::uint32_t> other(vertex_count, kNoVertex);
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const Orientation orientation = frames[i / 3].orientation;
-        if (first[mesh.indices[i]] == kUnknown) first[mesh.indices[i]] = orientation;
-    }
-    mesh.tangents.resize(vertex_count);
-    for (std::size_t v = 0; v < vertex_count; ++v) {
-        mesh.tangents[v] = tangent_of(mesh.normals[v], sums[group[v]], first[v]);
-    }
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const std::uint32_t v = mesh.indices[i];
-        const Orientation orientation = frames[i / 3].orientation;
-        if (orientation == kUnknown || orientation == first[v]) continue;
-        if (other[v] == kNoVertex) {
-            other[v] = append_copy(mesh, v);
-            mesh.tangents.back() = tangent_of(mesh.normals[v], sums[group[v]], orientation);
-        }
-        mesh.indices[i] = other[v];
-    }
+    return first;
 }
 
 }  // namespace
 
+std::vector<glm::dvec2> map_coordinates(std::span<const glm::vec2> texcoords, const TextureUse& use,
+                                        std::size_t vertices) {
+    const glm::dmat3 uv_from_texcoord(use.uv_from_texcoord);
+    std::vector<glm::dvec2> uvs(vertices, glm::dvec2(0.0));
+    for (std::size_t v = 0; v < texcoords.size(); ++v) {
+        uvs[v] = glm::dvec2(uv_from_texcoord * glm::dvec3(glm::dvec2(texcoords[v]), 1.0));
+    }
+    return uvs;
+}
+
+void split_mirrored(std::span<const glm::dvec2> uvs, std::vector<std::uint32_t>& elements,
+                    std::vector<std::uint32_t>& indices) {
+    std::vector<TriangleFrame> frames(indices.size() / 3);
+    for (std::size_t t = 0; t < frames.size(); ++t) {
+        frames[t].orientation = orientation_of(uvs, &indices[3 * t]);
+    }
+    const std::vector<Orientation> first = vertex_orientations(elements.size(), indices, frames);
+    std::vector<std::uint32_t> copy_of(elements.size(), kNoVertex);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const std::uint32_t v = indices[i];
+        const Orientation orientation = frames[i / 3].orientation;
+        if (orientation == kUnknown || orientation == first[v]) continue;
+        if (copy_of[v] == kNoVertex) {
+            copy_of[v] = static_cast<std::uint32_t>(elements.size());
+            elements.push_back(std::uint32_t{elements[v]});
+        }
+        indices[i] = copy_of[v];
+    }
+}
+
 void derive_tangents(Mesh& mesh, const TextureUse& normal_texture) {
-    const std::vector<glm::dvec2> uvs = map_texcoords(mesh, normal_texture);
+    const std::size_t vertices = mesh.positions.size();
+    const std::vector<glm::dvec2> uvs = map_coordinates(
+        mesh.texcoords[static_cast<std::size_t>(normal_texture.uv_set)], normal_texture, vertices);
     const std::vector<std::uint32_t> group = weld(mesh, uvs);
-    std::vector<TangentSums> sums(mesh.positions.size(), TangentSums{});
+    std::vector<TangentSums> sums(vertices, TangentSums{});
     std::vector<TriangleFrame> frames(mesh.indices.size() / 3);
     for (std::size_t t = 0; t < frames.size(); ++t) {
         frames[t] = triangle_frame(mesh, uvs, t);
         if (frames[t].orientation != kUnknown) add_triangle(mesh, group, t, frames[t], sums);
     }
-    assign_tangents(mesh, frames, group, sums);
+    const std::vector<Orientation> first = vertex_orientations(vertices, mesh.indices, frames);
+    mesh.tangents.resize(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        mesh.tangents[v] = tangent_of(mesh.normals[v], sums[group[v]], first[v]);
+    }
 }
 
 void mend_tangents(Mesh& mesh) {

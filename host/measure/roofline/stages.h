@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "host/gpu/stage_info.h"
+
+namespace kilolux {
+
+/// Every stage of a frame.
+std::span<const StageInfo* const> all_stages();
+
+/// A stage by its name in FrameStats::stages; null for one that is not among them.
+const StageInfo* stage_info(std::string_view name);
+
+/// The group of a row; host for one that is no stage.
+StageGroup group_of(std::string_view stage);
+
+}  // namespace kilolux

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/prefiltered_cache.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/log.h"
+#include "host/base/version.h"
+#include "host/gpu/device_cache.h"
+#include "host/scene/lights/built_in_environments.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kFormat = "kilolux-prefiltered 1 ";
+constexpr std::size_t kLargest = std::size_t{64} << 20;  // [byte]; ours have 10 MiB
+
+template <typename T>
+std::string_view bytes_of(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+std::string hash_of(std::string_view bytes) {
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    std::memcpy(words.data(), bytes.data(), 4 * words.size());
+    return Fnv1a().add_words(words).hex();
+}
+
+// What it is made of, and by which program.
+std::string head_of(const Environment& environment) {
+    return std::string(kFormat) + version() + " " + hash_of(bytes_of(environment.rows)) + "\n";
+}
+
+std::string body_of(const PrefilteredEnvironment& maps) {
+    std::string out;
+    const auto add = [&out](const auto& values) {
+        const std::uint64_t count = values.size();
+        out.append(reinterpret_cast<const char*>(&count), sizeof count);
+        out += bytes_of(values);
+    };
+    add(maps.levels);
+    add(maps.texels);
+    add(maps.table);
+    return out;
+}
+
+template <typename T>
+bool take(std::string_view& from, std::vector<T>& out) {
+    std::uint64_t count = 0;
+    if (from.size() < sizeof count) return false;
+    std::memcpy(&count, from.data(), sizeof count);
+    from.remove_prefix(sizeof count);
+    if (count > from.size() / sizeof(T)) return false;
+    out.resize(count);
+    std::memcpy(out.data(), from.data(), count * sizeof(T));
+    from.remove_prefix(count * sizeof(T));
+    return true;
+}
+
+// A file is head, checksum of the body, body.
+std::optional<PrefilteredEnvironment> parsed(std::string_view file, const std::string& head) {
+    if (!file.starts_with(head)) return std::nullopt;
+    file.remove_prefix(head.size());
+    const std::string_view checksum = file.substr(0, file.find('\n'));
+    file.remove_prefix(std::min(checksum.size() + 1, file.size()));
+    PrefilteredEnvironment out;
+    if (hash_of(file) != checksum || !take(file, out.levels) || !take(file, out.texels) ||
+        !take(file, out.table)) {
+        return std::nullopt;
+    }
+    while (3 * out.table_size * out.table_size < out.table.size()) ++out.table_size;
+    return out;
+}
+
+}  // namespace
+
+PrefilteredEnvironment kept_prefiltered(const std::string& name, const Environment& environment) {
+    const auto& built_in = built_in_environment_names();
+    const std::filesystem::path folder = cache_folder();
+    if (folder.empty() || std::ranges::find(built_in, name) == built_in.end()) {
+        return prefiltered(environment);
+    }
+    const std::filesystem::path file = folder / ("prefiltered-" + name);
+    const std::string head = head_of(environment);
+    if (auto kept = parsed(read_cache_file(file, kLargest), head)) return std::move(*kept);
+    PrefilteredEnvironment made = prefiltered(environment);
+    const std::string body = body_of(made);
+    try {
+        write_cache_file(file, head + hash_of(body) + "\n" + body);
+    } catch (const Error& error) {
+        detail(error.what());
+    }
+    return made;
+}
+
+}  // namespace kilolux

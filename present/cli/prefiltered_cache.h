@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "host/scene/lights/prefiltered_environment.h"
+
+namespace kilolux {
+
+/// prefiltered(environment). Those of the built-in environments (`name`), which take seconds to
+/// make, are kept in cache_folder(), and used only where they are whole and of the same light.
+PrefilteredEnvironment kept_prefiltered(const std::string& name, const Environment& environment);
+
+}  // namespace kilolux
