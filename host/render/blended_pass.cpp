@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/blended_pass.h"
 
+#include "host/render/host_stages.h"
+
 namespace kilolux {
 
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque) {
@@ -41,7 +43,7 @@ void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
     pass_.draw_blended(crop(sample.camera, settings.height, sample.band), view, targets, planes,
                        forward_lights(sample, settings.ambient, lists));
     upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
-    add_host_time(out, "blended", pass_.last_ms());
+    add_host_time(out, kBlendedStage, pass_.last_ms());
 }
 
 }  // namespace kilolux

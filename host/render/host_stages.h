@@ -28,6 +28,7 @@ inline constexpr StageInfo kGeometryStage = {"geometry", StageGroup::surfaces};
 inline constexpr StageInfo kGBufferBridgeStage = {"gbuffer_bridge", StageGroup::surfaces,
                                                   bridge_work, true};
 inline constexpr StageInfo kShadowSceneStage = {"shadow_scene", StageGroup::shadows};
+inline constexpr StageInfo kBlendedStage = {"blended", StageGroup::picture};
 inline constexpr StageInfo kForwardStage = {"forward", StageGroup::shading, forward_work};
 inline constexpr StageInfo kForwardPlusStage = {"forward_plus", StageGroup::shading, forward_work};
 

@@ -96,18 +96,22 @@ TEST(ErrorBudget, EveryMetricReadsItsOwnError) {
     for (PictureErrors ReportRow::*errors :
          {&ReportRow::surfaces, &ReportRow::kernels, &ReportRow::unbounded}) {
         PictureErrors& e = r.*errors;
-        e.flip.mean = value++;
-        e.flip_display.mean = value++;
-        e.hdr.rmse = value++;
-        e.hdr.absolute.max = value++;
-        e.hdr.relative.max = value++;
-        e.hdr.rel_mse = value++;
-        e.codes.difference.max = value++;
+        for (double* error : {&e.hdr.rmse, &e.hdr.absolute.mean, &e.hdr.absolute.max,
+                              &e.hdr.absolute.percentile_99_9, &e.hdr.relative.max,
+                              &e.hdr.relative.percentile_99_9, &e.hdr.rel_mse}) {
+            *error = value++;
+        }
+        e.hdr.different_pixels = static_cast<std::uint64_t>(value++);
+        for (double* error : {&e.flip.mean, &e.flip.percentile_99_9, &e.flip_display.mean,
+                              &e.codes.difference.max}) {
+            *error = value++;
+        }
+        e.codes.different_pixels = static_cast<std::uint64_t>(value++);
     }
     value = 1.0;
     for (const std::string& name : error_metric_names())
         EXPECT_EQ(error_of(r, name), value++) << name;
-    EXPECT_EQ(value, 22.0);
+    EXPECT_EQ(value, 40.0);
     EXPECT_THROW(error_of(r, "psnr"), UsageError);
 }
 

@@ -30,37 +30,15 @@
 namespace kilolux {
 namespace {
 
-constexpr const StageInfo* kStages[] = {&kLightInputStage,
-                                        &kGeometryStage,
-                                        &kGBufferBridgeStage,
-                                        &kMoveLightsStage,
-                                        &kBinTrianglesStage,
-                                        &kRasterTrianglesStage,
-                                        &kResolveSurfacesStage,
-                                        &kPrepareLightsStage,
-                                        &kBuildClustersStage,
-                                        &kCullLightsStage,
-                                        &kBinPixelsStage,
-                                        &kRefineLightsStage,
-                                        &kCutLightTreeStage,
-                                        &kCountPairsStage,
-                                        &kShadowSceneStage,
-                                        &kShadowOriginsStage,
-                                        &kDrawShadowsStage,
-                                        &kCastShadowsStage,
-                                        &kShadeStage,
-                                        &kForwardStage,
-                                        &kForwardPlusStage,
-                                        &kFillBackgroundStage,
-                                        &kReflectEnvironmentStage,
-                                        &kBloomStage,
-                                        &kTailErrorsStage,
-                                        &kSumSamplesStage,
-                                        &kAdaptiveSamplesStage,
-                                        &kTonemapStage,
-                                        &kReadBackStage,
-                                        &kLaunchStage,
-                                        &kEnqueueStage};
+constexpr const StageInfo* kStages[] = {
+    &kLightInputStage,    &kGeometryStage,        &kGBufferBridgeStage,   &kMoveLightsStage,
+    &kBinTrianglesStage,  &kRasterTrianglesStage, &kResolveSurfacesStage, &kPrepareLightsStage,
+    &kBuildClustersStage, &kCullLightsStage,      &kBinPixelsStage,       &kRefineLightsStage,
+    &kCutLightTreeStage,  &kCountPairsStage,      &kShadowSceneStage,     &kShadowOriginsStage,
+    &kDrawShadowsStage,   &kCastShadowsStage,     &kShadeStage,           &kForwardStage,
+    &kForwardPlusStage,   &kBlendedStage,         &kFillBackgroundStage,  &kReflectEnvironmentStage,
+    &kBloomStage,         &kTailErrorsStage,      &kSumSamplesStage,      &kAdaptiveSamplesStage,
+    &kTonemapStage,       &kReadBackStage,        &kLaunchStage,          &kEnqueueStage};
 
 }  // namespace
 
