@@ -9,9 +9,9 @@
 #include "host/certify/cases.h"
 #include "host/certify/scene_case.h"
 #include "host/gpu/buffer.h"
+#include "host/gpu/list_size.h"
 #include "host/render/renderer.h"
 #include "host/render/scene_plan.h"
-#include "host/stages/lists/list_size.h"
 
 namespace kilolux {
 namespace {

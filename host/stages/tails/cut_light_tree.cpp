@@ -29,11 +29,12 @@ CutLightTree::CutLightTree(const Gpu& gpu, const Tuning& tuning, const KernelFea
       share_(features.tree_share),
       cones_(gpu, build_program(gpu.with_lanes(1), "tree_cones", feature_options(features)),
              kCutLightTreeStage, "tree_cones"),
-      count_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)), kCutLightTreeStage,
-             "cut_light_tree_count"),
-      fill_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)), kCutLightTreeStage,
-            "cut_light_tree_fill"),
-      lists_(gpu, tuning, kCutLightTreeStage, "(light, active cluster) pairs", light_index_bytes(features)),
+      count_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)),
+             kCutLightTreeStage, "cut_light_tree_count"),
+      fill_(gpu, build_program(gpu, kCutLightTreeStage, feature_options(features)),
+            kCutLightTreeStage, "cut_light_tree_fill"),
+      lists_(gpu, tuning, kCutLightTreeStage, "(light, active cluster) pairs",
+             light_index_bytes(features)),
       cone_rows_(gpu, kCutLightTreeStage) {
     lists_.reserve(kFirstCutEntries);
 }
