@@ -78,13 +78,17 @@ ChildProcess::~ChildProcess() {
 }
 
 bool ChildProcess::succeeded() {
-    while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {
-    }
+    pid_t ended = -1;
+    do {
+        ended = ::waitpid(process_, &status_, 0);
+    } while (ended < 0 && errno == EINTR);
+    is_known_ = ended == process_;
     process_ = -1;
-    return WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
+    return is_known_ && WIFEXITED(status_) && WEXITSTATUS(status_) == 0;
 }
 
 std::string ChildProcess::ending() const {
+    if (!is_known_) return "an unknown end: SIGCHLD is ignored, so its status cannot be asked for";
     if (WIFEXITED(status_)) return "exit code " + std::to_string(WEXITSTATUS(status_));
     const int signal = WTERMSIG(status_);
     return "signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";

@@ -38,8 +38,9 @@ class ChildProcess {
 
  private:
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages_;
-    pid_t process_ = -1;  // -1: it has ended
-    int status_ = 0;      // as waitpid() gives it
+    pid_t process_ = -1;    // -1: it has ended
+    int status_ = 0;        // as waitpid() gives it
+    bool is_known_ = true;  // false: there was none to wait for
 };
 
 }  // namespace kilolux

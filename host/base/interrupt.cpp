@@ -68,6 +68,8 @@ void take_signals(const sigset_t& signals) {
 void catch_signals() {
     state().requested = false;
     for (const int number : {SIGXFSZ, SIGPIPE}) signal(number, SIG_IGN);
+    signal(SIGCHLD,
+           SIG_DFL);  // ignored, as a parent may leave it, children could not be waited for
     const sigset_t signals = ending_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     std::thread(take_signals, signals).detach();

@@ -31,32 +31,76 @@ std::string_view included_path(std::string_view line) {
     return rest.substr(0, rest.find('"'));
 }
 
-void append_line_directive(SplicedSource& out, std::size_t file, int line, bool glsl) {
-    out.text += "#line " + std::to_string(line) + " ";
-    out.text += glsl ? std::to_string(file) : "\"" + out.files[file] + "\"";
-    out.text += "\n";
+bool starts(std::string_view line, std::string_view directive) {
+    return line.starts_with(directive);
 }
 
-void splice(SplicedSource& out, std::string_view path, bool glsl) {
-    if (std::find(out.files.begin(), out.files.end(), path) != out.files.end()) return;
-    const std::size_t file = out.files.size();
-    out.files.emplace_back(path);
-    const std::string text = embedded_text(path);
-    const bool version_first = glsl && text.starts_with("#version");
-    if (!version_first) append_line_directive(out, file, 1, glsl);
+// Whether a text's first directive is that of an include guard, which encloses all of it.
+bool is_guarded(const std::string& text) {
     std::istringstream lines(text);
     std::string line;
-    for (int number = 1; std::getline(lines, line); ++number) {
-        const std::string_view include = included_path(line);
-        if (include.empty()) {
-            out.text += line + "\n";
-            if (version_first && number == 1) append_line_directive(out, file, 2, glsl);
-        } else {
-            splice(out, include, glsl);
-            append_line_directive(out, file, number + 1, glsl);
+    while (std::getline(lines, line)) {
+        if (starts(line, "#")) return starts(line, "#ifndef ");
+    }
+    return false;
+}
+
+// Splices files into one text. A file that an #if may leave out is spliced again where it is
+// included next; its include guard drops what is there already.
+class Splicer {
+ public:
+    explicit Splicer(bool glsl) : glsl_(glsl) {}
+
+    // `conditional`: within an #if other than an include guard.
+    void add(std::string_view path, bool conditional) {
+        if (contains(spliced_, path) || contains(open_, path)) return;
+        if (!conditional) spliced_.emplace_back(path);
+        open_.emplace_back(path);
+        add_lines(embedded_text(path), number_of(path), conditional);
+        open_.pop_back();
+    }
+    SplicedSource take() { return std::move(out_); }
+
+ private:
+    static bool contains(const std::vector<std::string>& paths, std::string_view path) {
+        return std::find(paths.begin(), paths.end(), path) != paths.end();
+    }
+
+    std::size_t number_of(std::string_view path) {
+        const auto found = std::find(out_.files.begin(), out_.files.end(), path);
+        const auto number = static_cast<std::size_t>(found - out_.files.begin());
+        if (found == out_.files.end()) out_.files.emplace_back(path);
+        return number;
+    }
+
+    void add_lines(const std::string& text, std::size_t file, bool conditional) {
+        const bool version_first = glsl_ && text.starts_with("#version");
+        if (!version_first) add_line_directive(file, 1);
+        int depth = is_guarded(text) ? -1 : 0;  // of #if
+        std::istringstream lines(text);
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) {
+            const std::string_view include = included_path(line);
+            if (starts(line, "#if")) ++depth;
+            if (starts(line, "#endif")) --depth;
+            if (!include.empty()) add(include, conditional || depth > 0);
+            if (include.empty()) out_.text += line + "\n";
+            if (!include.empty() || (version_first && number == 1))
+                add_line_directive(file, number + 1);
         }
     }
-}
+
+    void add_line_directive(std::size_t file, int line) {
+        out_.text += "#line " + std::to_string(line) + " ";
+        out_.text += glsl_ ? std::to_string(file) : "\"" + out_.files[file] + "\"";
+        out_.text += "\n";
+    }
+
+    bool glsl_;
+    SplicedSource out_;
+    std::vector<std::string> spliced_;  // that no #if leaves out
+    std::vector<std::string> open_;     // whose lines are being added
+};
 
 }  // namespace
 
@@ -86,9 +130,9 @@ std::string kernel_path(std::string_view stem) {
 }
 
 SplicedSource splice_source(std::string_view path, bool glsl) {
-    SplicedSource out;
-    splice(out, path, glsl);
-    return out;
+    Splicer splicer(glsl);
+    splicer.add(path, false);
+    return splicer.take();
 }
 
 }  // namespace kilolux

@@ -19,8 +19,9 @@ std::vector<std::string> embedded_paths(std::string_view prefix);
 /// Throws Error when there is no such file.
 std::string kernel_path(std::string_view stem);
 
-/// A source with its #include "..." lines replaced by the files' texts, each once, and #line so
-/// that a compiler's message names the file and line.
+/// A source with its #include "..." lines replaced by the files' texts, and #line so that a
+/// compiler's message names the file and line. A file is there once, or wherever it is included
+/// until an #include stands outside of any #if: its include guard does the rest.
 struct SplicedSource {
     std::string text;
     std::vector<std::string> files;  // in order of appearance; GLSL's #line numbers index this

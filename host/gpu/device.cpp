@@ -133,15 +133,17 @@ cl::Device device_of(std::string_view choice) {
         const auto gpu = std::find_if(devices.begin(), devices.end(), is_gpu);
         return gpu != devices.end() ? *gpu : devices.front();
     }
+    // A whole number is an index and no part of a name.
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
-    if (error == std::errc() && end == choice.data() + choice.size() && index < devices.size())
-        return devices[index];
+    const bool is_index = end == choice.data() + choice.size();
+    if (is_index && error == std::errc() && index < devices.size()) return devices[index];
     for (const cl::Device& device : devices) {
-        if (lower(device.getInfo<CL_DEVICE_NAME>()).find(lower(choice)) != std::string::npos)
-            return device;
+        const std::string name = lower(device.getInfo<CL_DEVICE_NAME>());
+        if (!is_index && name.find(lower(choice)) != std::string::npos) return device;
     }
-    throw Error("OpenCL: no device '" + std::string(choice) + "'; there are " + list_of(devices));
+    throw Error("OpenCL: no device '" + std::string(choice) +
+                "'; the devices are, by index: " + list_of(devices));
 }
 
 }  // namespace

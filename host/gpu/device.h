@@ -56,6 +56,7 @@ struct Gpu {
     DeviceInfo info;
     std::shared_ptr<ProgramCache> programs;
     std::shared_ptr<MemoryBudget> budget;  // of GrowingBuffers; none: what the device has
+    bool checks_arguments = false;  // kernels compare their arguments by name and type: for tests
 };
 
 }  // namespace kilolux

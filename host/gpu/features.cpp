@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/features.h"
 
+#include <algorithm>
+#include <bit>
+
+#include "kernels/shared/cluster_grid.h"
+
 namespace kilolux {
 
 std::string_view light_index_type(const KernelFeatures& features) {
@@ -20,17 +25,31 @@ BuildOptions feature_options(const KernelFeatures& features) {
     return options;
 }
 
+namespace {
+
+// At most `wanted` work-items, as many as the device has in a group; 1 where that is below `least`.
+int group_of(int wanted, const DeviceInfo& device, int least = 1) {
+    const auto most = std::bit_floor(static_cast<unsigned>(std::max(device.max_work_group, 1)));
+    const int group = std::min(wanted, static_cast<int>(most));
+    return group >= least ? group : 1;
+}
+
+constexpr int kLeastShared = 32;  // work-items that share a tile's triangles or shadows, if any do
+
+}  // namespace
+
 Tuning default_tuning(const DeviceInfo& device) {
     Tuning tuning;
+    const int columns = std::max(FINE_TILE / device.lane_width, 1);
     if (device.is_cpu) {
         // A tile's rows meet in the caches: a sixth less than row by row. With all 16 a thread's
         // share is too large to be even on many cores.
-        tuning.shade_rows = 8;
+        tuning.shade_rows = std::max(group_of(8 * columns, device) / columns, 1);
         // With few lights pixels are waited for longer than they are shaded. Oclgrind and rusticl's
         // SPIR-V translator know no such instruction; the latter ends the process.
         tuning.shade_prefetch = device.platform == "Portable Computing Language" ? 1 : 0;
         tuning.cull_chunks = 16 * device.compute_units;
-        tuning.light_group = 16;
+        tuning.light_group = group_of(16, device);
         // Triangles are narrow: wider vectors are mostly empty. A tile of this size stays in the
         // nearest cache.
         tuning.raster_lanes = 8;
@@ -38,19 +57,19 @@ Tuning default_tuning(const DeviceInfo& device) {
         tuning.raster_tile_height = 32;
         return tuning;
     }
-    tuning.shade_rows = 16;
-    tuning.shade_stage = 128;
-    tuning.cull_group = 64;
+    tuning.shade_rows = std::max(group_of(FINE_TILE * columns, device) / columns, 1);
+    tuning.shade_stage = tuning.shade_rows == FINE_TILE ? 128 : 0;
+    tuning.cull_group = group_of(64, device);
     tuning.cull_chunks = 16 * device.compute_units;
-    tuning.refine_group = 64;
-    tuning.prefix_group = 256;
+    tuning.refine_group = group_of(64, device);
+    tuning.prefix_group = group_of(256, device);
     tuning.prefix_per_item = 8;
-    tuning.tile_group = 64;
-    tuning.light_group = 64;
-    tuning.raster_group = 256;
+    tuning.tile_group = group_of(64, device);
+    tuning.light_group = group_of(64, device);
+    tuning.raster_group = group_of(256, device, kLeastShared);
     tuning.raster_tile_width = 32;
     tuning.raster_tile_height = 16;
-    tuning.shadow_group = 64;
+    tuning.shadow_group = group_of(64, device, kLeastShared);
     return tuning;
 }
 

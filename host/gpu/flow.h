@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "host/gpu/buffer.h"
+#include "host/gpu/device_tables.h"
+#include "host/gpu/kernel_types.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/clusters.h"
 #include "kernels/shared/gbuffer.h"
@@ -15,7 +17,8 @@
 #include "kernels/shared/view.h"
 
 /// Everything that passes between stages. Arrays belong to the stage that made them and stay valid
-/// until its next enqueue().
+/// until its next enqueue(). each() passes a bundle to a kernel, see Kernel: its order and names
+/// are those of a macro of kernels/device/arguments.h.
 namespace kilolux {
 
 /// A G-buffer on the device: planes of view.stride * view.height elements in one buffer.
@@ -24,6 +27,13 @@ struct GBuffer {
     GBufferLayout layout{};
     View view{};
     std::uint64_t version = 0;  // the same only where the planes and the view are; 0: not known
+
+    void each(auto&& set) const {  // GBUFFER_ARGS
+        set("gbuffer", bytes);
+        set("layout", layout);
+        set("view", view);
+        set("srgb", SrgbTable{});
+    }
 };
 
 /// The photometric webs of point and spot lights, with KernelFeatures::light_profiles.
@@ -59,12 +69,27 @@ struct PreparedLights {
     uint node_count = 0;    // see LightInput
     DeviceArray<TreeNode> nodes{};
     uint rows() const { return count + node_count; }
+
+    void each(auto&& set) const {  // LIGHT_ARGS
+        set("lights", lights);
+        set("bounds", bounds);
+        set("extents", extents);
+        set("light_count", count);
+        set("directional_lights", directional);
+        set("directional_count", directional_count);
+        set("aimed_profiles", profiles.lights);
+        set("profile_tables", profiles.tables);
+        set("tree_nodes", nodes);
+        set("node_count", node_count);
+    }
 };
 
 /// The two ends of a box along one axis [m].
 struct BoxInterval {
     float lo, hi;
 };
+template <>
+inline constexpr std::string_view kKernelType<BoxInterval> = "float2";
 
 /// Boxes of the coarse clusters: products of intervals.
 struct ClusterBoxes {
@@ -72,6 +97,13 @@ struct ClusterBoxes {
     DeviceArray<BoxInterval> columns;  // [slices][tiles_x]
     DeviceArray<BoxInterval> rows;     // [slices][tiles_y]
     DeviceArray<BoxInterval> depths;   // [slices]
+
+    void each(auto&& set) const {  // BOX_ARGS
+        set("grid", grid);
+        set("columns", columns);
+        set("rows", rows);
+        set("depths", depths);
+    }
 };
 
 /// Light indices of 16 or 32 bits, as KernelFeatures::light_index_bits says.
@@ -82,24 +114,45 @@ struct CoarseLists {
     DeviceArray<uint> offsets;  // [cluster_count + 1]
     LightIndexBytes lists;      // [capacity] indices
     uint capacity = 0;
+
+    void each(auto&& set) const {  // COARSE_LIST_ARGS
+        set("coarse_offsets", offsets);
+        set("coarse_lists", lists);
+        set("coarse_capacity", capacity);
+    }
 };
 
 /// Active clusters of each fine tile: clusters[offsets[tile] .. offsets[tile + 1]).
 struct ActiveClusters {
+    ClusterGrid grid{};
     DeviceArray<uint> offsets;            // [tile_count + 1]
     DeviceArray<ActiveCluster> clusters;  // [capacity]
     uint capacity = 0;
     uint tile_count = 0;
     // [tile_count][FINE_TILE_PIXELS]: row * FINE_TILE + column of a tile's pixels, cluster by
-    // cluster and then background; undefined in tiles without clusters.
+    // cluster and then background; undefined in tiles without clusters, and after the pixels of the
+    // picture's last rows.
     DeviceArray<std::uint8_t> order;
     DeviceArray<std::uint8_t> occupied;  // [cluster_count]: 1 for coarse clusters with active ones
+
+    void each(auto&& set) const {  // CLUSTER_ARGS
+        set("grid", grid);
+        set("cluster_offsets", offsets);
+        set("clusters", clusters);
+        set("cluster_capacity", capacity);
+        set("order", order);
+    }
 };
 
 /// Lists of the active clusters, where ActiveCluster::list_begin and list_count say.
 struct RefinedLists {
     LightIndexBytes lists;  // [capacity] indices
     uint capacity = 0;
+
+    void each(auto&& set) const {  // LIST_ARGS
+        set("lists", lists);
+        set("list_capacity", capacity);
+    }
 };
 
 /// Of two halves of the samples, those that a fine tile's mean ends with; 0 while it takes more. A
@@ -112,9 +165,15 @@ struct TileCounts {
 struct LitPixels {
     GBuffer gbuffer;
     PreparedLights lights;
-    ClusterGrid grid{};
     ActiveClusters clusters;
     RefinedLists refined;
+
+    void each(auto&& set) const {  // LIT_ARGS
+        set(gbuffer);
+        set(lights);
+        set(clusters);
+        set(refined);
+    }
 };
 
 /// Linear HDR radiance as three planes.
@@ -129,10 +188,14 @@ struct DisplayTarget {
     static constexpr std::size_t kPixelBytes = sizeof(uint);
     DeviceArray<uint> pixels;  // [height][stride]: R | G << 8 | B << 16 | 255 << 24
     View view{};
-    int tone_curve = 0;                  // TONE_CURVE_*
-    float gain = 1.0f;                   // 2^exposure
-    DeviceArray<float> bucket_boundary;  // [SRGB_BUCKETS]
-    DeviceArray<uint> bucket_code;       // [SRGB_BUCKETS]
+    int tone_curve = 0;  // TONE_CURVE_*
+    float gain = 1.0f;   // 2^exposure
+
+    void each(auto&& set) const {  // DISPLAY_ARGS
+        set("gain", gain);
+        set(SrgbBucketTables{});
+        set("display", pixels);
+    }
 };
 
 }  // namespace kilolux

@@ -5,23 +5,39 @@
 
 namespace kilolux {
 
-WorkSize pixel_items(const View& view, int lanes, int rows) {
-    const auto width = static_cast<std::size_t>(FINE_TILE / lanes);
+WorkSize Kernel::pixel_items(const View& view, int rows) const {
+    const std::size_t width = FINE_TILE / lanes_;
     const auto height = static_cast<std::size_t>(rows);
     return {cl::NDRange(view.stride / FINE_TILE * width, round_up(view.height, height)),
             cl::NDRange(width, height)};
 }
 
-WorkSize block_items(const View& view, int lanes, int rows) {
+WorkSize Kernel::block_items(const View& view, int rows) const {
     View tiles = view;
     tiles.height = static_cast<uint>(round_up(view.height, FINE_TILE));
-    return pixel_items(tiles, lanes, rows);
+    return pixel_items(tiles, rows);
 }
 
-Kernel::Kernel(const Gpu& gpu, const cl::Program& program, std::string_view stage, const char* name)
+Kernel::Kernel(const Gpu& gpu, const KernelProgram& program, std::string_view stage,
+               const char* name)
     : queue_(gpu.queue),
       kernel_(in_stage(stage, [&] { return cl::Kernel(program, name); })),
-      stage_(stage) {}
+      stage_(stage),
+      lanes_(static_cast<std::size_t>(program.lanes)),
+      tables_(in_stage(stage, [&] { return device_tables(gpu); })) {
+    if (gpu.checks_arguments) {
+        parameters_ = in_stage(stage, [&] { return parameters_of(kernel_); });
+    }
+}
+
+void Kernel::compare_argument(cl_uint index, std::string_view name, std::string_view type,
+                              bool is_memory) const {
+    const KernelParameter& parameter = parameters_.at(index);
+    if (accepts(parameter, name, type, is_memory)) return;
+    throw Error(stage_ + ": argument " + std::to_string(index) + " is '" + std::string(name) +
+                "' of type " + std::string(type) + (is_memory ? "*" : "") +
+                "; the kernel's parameter is '" + parameter.name + "' of type " + parameter.type);
+}
 
 cl::Event Kernel::launch(const WorkSize& size) {
     cl::Event event;

@@ -6,8 +6,11 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "host/gpu/buffer.h"
+#include "host/gpu/device_tables.h"
+#include "host/gpu/kernel_types.h"
 #include "host/gpu/program.h"
 #include "host/gpu/stage_timer.h"
 #include "kernels/shared/view.h"
@@ -31,51 +34,97 @@ inline WorkSize groups(std::size_t count, int group) {
     return {cl::NDRange(count * size), cl::NDRange(size)};
 }
 
-/// A work-item for every `lanes` pixels of a row. A work-group is as wide as a fine tile and `rows`
-/// high.
-WorkSize pixel_items(const View& view, int lanes, int rows);
-
-/// The same for whole tiles: of blocks of pixels (kernels/surfaces/block.h).
-WorkSize block_items(const View& view, int lanes, int rows);
+/// Arguments that kernels take together. `each(set)` calls set(name, value) for every parameter of
+/// a macro of kernels/device/arguments.h, in its order, and set(bundle) for a bundle within it.
+template <typename T>
+concept ArgumentBundle = requires(const T& value) {
+    value.each([](const auto&...) {});
+};
 
 /// One kernel of a stage, made once. A launch sets all arguments in their order.
 class Kernel {
  public:
     /// `stage` names the launches in times and error messages. Throws Error with it.
-    Kernel(const Gpu& gpu, const cl::Program& program, std::string_view stage, const char* name);
+    Kernel(const Gpu& gpu, const KernelProgram& program, std::string_view stage, const char* name);
 
-    /// Enqueues only. Arguments are buffers, uint, float and structs of kernels/shared; an optional
-    /// one is none where it is empty. Throws Error with stage and error name.
+    /// Lanes of the kernel's FV.
+    std::size_t lanes() const { return lanes_; }
+    /// A work-item for every vector of `count` elements, in groups of `group`.
+    WorkSize vector_items(std::size_t count, int group) const {
+        return items((count + lanes_ - 1) / lanes_, group);
+    }
+    /// A work-item for every vector of pixels of a row. A work-group is as wide as a fine tile and
+    /// `rows` high.
+    WorkSize pixel_items(const View& view, int rows) const;
+    /// The same for whole tiles: of blocks of pixels (kernels/surfaces/block.h).
+    WorkSize block_items(const View& view, int rows) const;
+
+    /// Enqueues only. Arguments are bundles, buffers, uint, float and structs of kernels/shared; an
+    /// optional bundle or buffer that is empty is null. Throws Error with stage and error name, and
+    /// with Gpu::checks_arguments where an argument is not the kernel's parameter.
     template <typename... Arguments>
     void enqueue(const WorkSize& size, StageTimer& timer, const Arguments&... arguments) {
         in_stage(stage_, [&] {
-            cl_uint index = 0;
-            (set(index, arguments), ...);
+            Setter set{*this};
+            (set(arguments), ...);
             timer.record(stage_, launch(size));
         });
     }
 
  private:
-    template <typename T>
-    void set(cl_uint& index, const T& value) {
-        static_assert(std::is_same_v<T, uint> || std::is_same_v<T, float> || std::is_class_v<T>,
-                      "bool, size_t and int have other sizes or signs on the device");
-        kernel_.setArg(index++, value);
-    }
-    template <typename T>
-    void set(cl_uint& index, const DeviceArray<T>& array) {
-        kernel_.setArg(index++, array.buffer());
-    }
-    template <typename T>
-    void set(cl_uint& index, const std::optional<T>& value) {
-        if (value) set(index, *value);
-    }
+    // Sets arguments one after the other.
+    struct Setter {
+        Kernel& kernel;
+        cl_uint index = 0;
 
+        void operator()(const ArgumentBundle auto& bundle) { bundle.each(*this); }
+        template <typename T>
+        requires(!ArgumentBundle<T>) void operator()(const T& value) {
+            (*this)(std::string_view(), value);
+        }
+        template <typename T>
+        void operator()(std::string_view name, const T& value) {
+            static_assert(std::is_same_v<T, uint> || std::is_same_v<T, float> || std::is_class_v<T>,
+                          "bool, size_t and int have other sizes or signs on the device");
+            if constexpr (std::is_base_of_v<cl::Memory, T>) {
+                kernel.check_argument(index, name, {}, true);
+            } else {
+                kernel.check_argument(index, name, kKernelType<T>, false);
+            }
+            kernel.kernel_.setArg(index++, value);
+        }
+        template <typename T>
+        void operator()(std::string_view name, const DeviceArray<T>& array) {
+            kernel.check_argument(index, name, kKernelType<T>, true);
+            kernel.kernel_.setArg(index++, array.buffer());
+        }
+        template <typename T>
+        void operator()(std::string_view name, const std::optional<DeviceArray<T>>& array) {
+            (*this)(name, array.value_or(DeviceArray<T>()));
+        }
+        void operator()(std::string_view name, SrgbTable) {
+            (*this)(name, DeviceArray<float>(kernel.tables_->srgb, 0));
+        }
+        void operator()(SrgbBucketTables) {
+            (*this)("bucket_boundary", DeviceArray<float>(kernel.tables_->bucket_boundary, 0));
+            (*this)("bucket_code", DeviceArray<uint>(kernel.tables_->bucket_code, 0));
+        }
+    };
+
+    void check_argument(cl_uint index, std::string_view name, std::string_view type,
+                        bool is_memory) const {
+        if (!parameters_.empty()) compare_argument(index, name, type, is_memory);
+    }
+    void compare_argument(cl_uint index, std::string_view name, std::string_view type,
+                          bool is_memory) const;
     cl::Event launch(const WorkSize& size);
 
     cl::CommandQueue queue_;
     cl::Kernel kernel_;
     std::string stage_;
+    std::size_t lanes_;
+    std::shared_ptr<const DeviceTables> tables_;
+    std::vector<KernelParameter> parameters_;  // with Gpu::checks_arguments
 };
 
 }  // namespace kilolux

@@ -16,8 +16,8 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
     }
 }
 
-cl::Program build(const Gpu& gpu, const std::string& file, const std::string& text,
-                  const std::string& options) {
+KernelProgram build(const Gpu& gpu, const std::string& file, const std::string& text,
+                    const std::string& options) {
     const auto fail = [&](int code, const std::string& log) {
         throw Error(file + ": build failed with " + cl_error_name(code) + " on " + gpu.info.name +
                     ", options '" + options + "': " + log);
@@ -32,7 +32,7 @@ cl::Program build(const Gpu& gpu, const std::string& file, const std::string& te
     const int code =
         ::clBuildProgram(program(), 1, &gpu.device(), options.c_str(), nullptr, nullptr);
     if (code != CL_SUCCESS) fail(code, build_log(program, gpu.device));
-    return program;
+    return {program, gpu.info.lane_width};
 }
 
 }  // namespace
@@ -51,16 +51,17 @@ BuildOptions& BuildOptions::flag(std::string_view text) {
     return *this;
 }
 
-cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options) {
+KernelProgram build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options) {
     const std::string file = kernel_path(stem);
     return build_text(gpu, file, splice_source(file, false).text, options);
 }
 
-cl::Program build_text(const Gpu& gpu, const std::string& name, std::string_view text,
-                       const BuildOptions& options) {
+KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_view text,
+                         const BuildOptions& options) {
     const std::string all_options =
         "-cl-std=CL1.2 -Werror -DVW=" + std::to_string(gpu.info.lane_width) +
-        (options.text().empty() ? "" : " ") + options.text();
+        (gpu.checks_arguments ? " -cl-kernel-arg-info" : "") + (options.text().empty() ? "" : " ") +
+        options.text();
     const std::string source = std::string(kKernelPrologue) + std::string(text);
     return gpu.programs->find(all_options + "\n" + source, [&] {
         check_interrupt();

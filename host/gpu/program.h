@@ -9,6 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/gpu/device.h"
+#include "host/gpu/device_tables.h"
 
 namespace kilolux {
 
@@ -35,32 +36,47 @@ inline constexpr std::string_view kKernelPrologue =
     "#endif\n"
     "#endif\n";
 
-/// The programs of one context by options and text. They live as long as a Gpu that shares them.
+/// A built program, and the lanes that its kernels' FV has.
+struct KernelProgram : cl::Program {
+    int lanes = 1;
+};
+
+/// What copies of a Gpu share: the programs of one context by options and text, and the tables that
+/// kernels read. They live as long as a Gpu that shares them.
 class ProgramCache {
  public:
     /// The program of `key`; made by `build` if it is new.
     template <typename Build>
-    cl::Program find(const std::string& key, const Build& build) {
+    KernelProgram find(const std::string& key, const Build& build) {
         const std::scoped_lock lock(mutex_);
         auto found = programs_.find(key);
         if (found == programs_.end()) found = programs_.emplace(key, build()).first;
         return found->second;
     }
+    /// The tables; made by `make` if there are none yet.
+    template <typename Make>
+    std::shared_ptr<const DeviceTables> tables(const Make& make) {
+        const std::scoped_lock lock(mutex_);
+        if (!tables_) tables_ = std::make_shared<const DeviceTables>(make());
+        return tables_;
+    }
 
  private:
     std::mutex mutex_;
-    std::map<std::string, cl::Program> programs_;
+    std::map<std::string, KernelProgram> programs_;
+    std::shared_ptr<const DeviceTables> tables_;
 };
 
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.
 /// Copies of a Gpu share programs: the same text and options are built once.
 /// Throws Error with file, device, options and the compiler's log; Interrupted, before it builds,
 /// once a signal has asked for the end.
-cl::Program build_program(const Gpu& gpu, std::string_view stem, const BuildOptions& options = {});
+KernelProgram build_program(const Gpu& gpu, std::string_view stem,
+                            const BuildOptions& options = {});
 
 /// The same of a text without includes, which `name` names in messages.
-cl::Program build_text(const Gpu& gpu, const std::string& name, std::string_view text,
-                       const BuildOptions& options);
+KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_view text,
+                         const BuildOptions& options);
 
 /// Rounds a global size up to whole work-groups.
 constexpr std::size_t round_up(std::size_t value, std::size_t multiple) {

@@ -24,6 +24,17 @@ struct SurfaceBuffers {
     DeviceArray<SurfaceMaterial> materials;
     DeviceArray<TextureRow> textures;
     DeviceArray<std::uint64_t> texels;
+
+    void each(auto&& set) const {  // SCENE_ARGS
+        set("instances", instances);
+        set("instance_blocks", instance_blocks);
+        set("meshes", meshes);
+        set("vertices", vertices);
+        set("indices", indices);
+        set("materials", materials);
+        set("textures", textures);
+        set("texels", texels);
+    }
 };
 
 /// What casts shadows, in shadow space, as kernels/shared/shadow.h has it; and the materials and
@@ -35,6 +46,15 @@ struct ShadowCasters {
     DeviceArray<SurfaceMaterial> materials;
     DeviceArray<TextureRow> textures;
     DeviceArray<std::uint64_t> texels;
+
+    void each(auto&& set) const {  // CASTER_ARGS
+        set("shadow_nodes", nodes);
+        set("casters", triangles);
+        set("masked_casters", masked);
+        set("materials", materials);
+        set("textures", textures);
+        set("texels", texels);
+    }
 };
 
 /// What a frame's shadows are cast by, and where its pixels' rays end.
@@ -45,6 +65,12 @@ struct ShadowInput {
     // With KernelFeatures::sampled_shadows, see kernels/shadows/shadow_draw.h.
     float rays = 0.0f;  // a pixel at most, on average
     uint seed = 0;      // of the frame and sample
+
+    void each(auto&& set) const {  // SHADOW_ARGS
+        set("shadow", view);
+        set("origins", origins);
+        set(casters);
+    }
 };
 
 /// What sampled shadows are drawn by.
@@ -52,6 +78,12 @@ struct ShadowSamples {
     DeviceArray<float> whole;  // [3][height][stride]: radiance if all lights are seen
     float rays = 0.0f;         // see ShadowInput
     uint seed = 0;
+
+    void each(auto&& set) const {  // SAMPLE_ARGS
+        set("whole", whole);
+        set("rays", rays);
+        set("seed", seed);
+    }
 };
 
 /// What kernels that cast shadows are compiled with.
@@ -61,6 +93,11 @@ void define_casters(BuildOptions& options, const SurfaceFeatures& surfaces, cons
 struct ShadowWords {
     DeviceArray<uint> offsets;  // [tile_count + 1]
     DeviceArray<uint> words;
+
+    void each(auto&& set) const {  // WORD_ARGS
+        set("word_offsets", offsets);
+        set("words", words);
+    }
 };
 
 /// Triangles of each tile of the picture: lists[offsets[t] .. offsets[t + 1]), numbers along the
@@ -71,6 +108,13 @@ struct TriangleLists {
     DeviceArray<uint> lists;           // [capacity]
     uint capacity = 0;
     uint tile_count = 0;
+
+    void each(auto&& set) const {  // TRIANGLE_LIST_ARGS
+        set("triangles", triangles);
+        set("offsets", offsets);
+        set("lists", lists);
+        set("capacity", capacity);
+    }
 };
 
 /// What of the tiles is compiled into bin_triangles and raster_triangles.

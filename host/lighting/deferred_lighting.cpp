@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/deferred_lighting.h"
 
+#include "host/lighting/check_input.h"
+
 namespace kilolux {
 
 DeferredLighting::DeferredLighting(const Gpu& gpu, const Tuning& tuning,
@@ -49,6 +51,7 @@ AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,
 }
 
 Radiance AllLightsLighting::enqueue(const LightingInput& input, StageTimer& timer) {
+    check_input(input.gbuffer, input.lights);
     lights_ = prepare_.enqueue(input.lights, input.gbuffer.view, input.grid, timer);
     ShadowSamples samples;
     if (unshadowed_) {

@@ -42,10 +42,12 @@ bool is_finite(std::span<const float> values) {
     return true;
 }
 
-// Normalised in another program, perhaps in halves.
-bool is_unit(const float (&v)[3]) {
+// A direction of another program, whose length is 1 but for its rounding, perhaps to halves; none:
+// it has another length.
+std::optional<float4> unit_of(const float (&v)[3], float w) {
     const float length = std::hypot(v[0], v[1], v[2]);
-    return std::abs(length - 1.0f) < 1e-2f;  // false for NaN
+    if (!(std::abs(length - 1.0f) < 1e-2f)) return std::nullopt;  // NaN, too
+    return float4{v[0] / length, v[1] / length, v[2] / length, w};
 }
 
 [[noreturn]] void refuse_light(std::size_t i, const std::string& what) {
@@ -66,13 +68,14 @@ WorldLight row_of(const kilolux_light& light, std::size_t i) {
               {0, 0, 0, -1.0f}};
     if (light.is_spot != 0) {
         const float width = light.cos_inner - light.cos_outer;
-        if (!is_unit(light.axis)) refuse_light(i, "its axis is no unit vector");
+        const std::optional<float4> axis = unit_of(light.axis, light.cos_outer);
+        if (!axis) refuse_light(i, "its axis is no unit vector");
         if (!(width >= 0.0f) || !(light.cos_outer > -1.0f) || !(light.cos_inner <= 1.0f)) {
             refuse_light(i, "cosines " + std::to_string(light.cos_inner) + " and " +
                                 std::to_string(light.cos_outer) + " are no inner and outer ones");
         }
         row.color_scale.w = 1.0f / std::max(width, 1e-3f);
-        row.axis_cos = {light.axis[0], light.axis[1], light.axis[2], light.cos_outer};
+        row.axis_cos = *axis;
     }
     return world_light(point_pair(p[0], p[1], p[2]), row);
 }
@@ -81,10 +84,10 @@ DirectionalLight row_of(const kilolux_directional_light& light, std::size_t i) {
     const auto refuse = [i](const char* what) {
         throw Error("kilolux_set_lights: directional light " + std::to_string(i) + ": " + what);
     };
-    if (!is_unit(light.to_light)) refuse("to_light is no unit vector");
+    const std::optional<float4> to_light = unit_of(light.to_light, 0.0f);
+    if (!to_light) refuse("to_light is no unit vector");
     if (!is_finite(light.illuminance)) refuse("its illuminance is not finite");
-    return {{light.to_light[0], light.to_light[1], light.to_light[2], 0},
-            {light.illuminance[0], light.illuminance[1], light.illuminance[2], 0}};
+    return {*to_light, {light.illuminance[0], light.illuminance[1], light.illuminance[2], 0}};
 }
 
 ViewMatrices matrices_of(const kilolux_frame& f) {

@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "host/lighting/check_input.h"
+
 namespace kilolux {
 
 LightLists::LightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
@@ -27,6 +29,7 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
 
 ListedLights LightLists::enqueue(const LightInput& input, const GBuffer& gbuffer,
                                  const ClusterGrid& grid, StageTimer& timer) {
+    check_input(gbuffer, input);
     const ListSource source{gbuffer.version, input.version, input.seed, grid};
     if (made_ && is_checked_ && source.matches(made_of_)) return *made_;
     made_.reset();  // arrays that grow must not be held twice
@@ -96,8 +99,7 @@ ListedLights LightLists::make(const LightInput& input, const GBuffer& gbuffer,
     const CoarseLighting coarse =
         coarse_.enqueue(input, gbuffer.view, grid, timer,
                         everywhere_ ? DeviceArray<std::uint8_t>() : active.occupied);
-    RefinedLists lists =
-        refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, grid, timer);
+    RefinedLists lists = refine_.enqueue(coarse.lights, coarse.lists, active, gbuffer.view, timer);
     refine_room_ = lists.capacity;
     has_cuts_ = coarse.lights.node_count > 0;
     if (has_cuts_) {
@@ -110,12 +112,11 @@ PixelLists LightLists::at_pixel(const ListedLights& lists, const View& view, uin
                                 float z) const {
     const ClusterGrid& grid = lists.grid;
     PixelLists out;
-    const uint coarse =
-        cluster_index(grid, x / grid.tile_width, y / grid.tile_height, slice_of_depth(grid, z));
+    const uint row = (y + view.first_row) / grid.tile_height;
+    const uint coarse = cluster_index(grid, x / grid.tile_width, row, slice_of_depth(grid, z));
     const auto ends = download(gpu_, lists.coarse.offsets, 2, coarse);
     out.coarse_count = ends[1] - ends[0];
-    const uint tile = y / FINE_TILE * fine_tiles_x(view) + x / FINE_TILE;
-    const auto range = download(gpu_, lists.clusters.offsets, 2, tile);
+    const auto range = download(gpu_, lists.clusters.offsets, 2, fine_tile_of(view, x, y));
     for (const ActiveCluster& cluster :
          download(gpu_, lists.clusters.clusters, range[1] - range[0], range[0])) {
         if (cluster.slice != fine_slice_of_depth(grid, z)) continue;

@@ -23,9 +23,7 @@ struct ListedLights {
     std::uint64_t version = 0;  // the same only where the lists are; 0: none
 
     /// With the G-buffer that they were made for.
-    LitPixels at(const GBuffer& gbuffer) const {
-        return {gbuffer, lights, grid, clusters, refined};
-    }
+    LitPixels at(const GBuffer& gbuffer) const { return {gbuffer, lights, clusters, refined}; }
 };
 
 /// What lists are of.
@@ -61,7 +59,10 @@ class LightLists {
 
     /// Also lists the lights of coarse clusters without pixels: for blended surfaces, which are in
     /// no G-buffer.
-    void list_everywhere() { everywhere_ = true; }
+    void list_everywhere() {
+        everywhere_ = true;
+        made_.reset();
+    }
 
     /// Enqueues the stages. Active clusters are kept while gbuffer.version and the grid stay, lists
     /// while input.version and its seed do, too. Valid until the next call. Throws Error when the

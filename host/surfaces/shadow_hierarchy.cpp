@@ -157,4 +157,18 @@ std::vector<ShadowNode> build_shadow_hierarchy(std::span<const CasterBox> boxes)
     return nodes;
 }
 
+uint level_count(std::span<const ShadowNode> nodes) {
+    std::vector<uint> levels(nodes.size(), 1);  // of each node, the root's is 1
+    uint most = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        most = std::max(most, levels[i]);
+        for (std::size_t j = 0; j < SHADOW_WIDTH; ++j) {
+            const bool is_there = nodes[i].low_x[j] <= nodes[i].high_x[j];
+            const uint child = nodes[i].child[j];
+            if (is_there && (child & SHADOW_LEAF) == 0u) levels.at(child) = levels[i] + 1;
+        }
+    }
+    return most;
+}
+
 }  // namespace kilolux

@@ -20,4 +20,8 @@ struct CasterBox {
 /// there is no memory, or the hierarchy is deeper than SHADOW_LEVELS.
 std::vector<ShadowNode> build_shadow_hierarchy(std::span<const CasterBox> boxes);
 
+/// Levels of nodes from the root to the lowest, of a hierarchy whose nodes come before their
+/// children.
+uint level_count(std::span<const ShadowNode> nodes);
+
 }  // namespace kilolux

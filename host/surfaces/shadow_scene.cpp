@@ -154,6 +154,7 @@ void ShadowScene::build() {
     for (const Instance& instance : scene_.instances) add_instance(scene_, instance, anchor_, all);
     extent_ = all.extent;
     const std::vector<ShadowNode> nodes = build_shadow_hierarchy(all.boxes);
+    levels_ = level_count(nodes);
     upload<ShadowNode>(gpu_, nodes_.reserve(nodes.size()), nodes);
     upload<float>(gpu_, triangles_.reserve(all.triangles.size()), all.triangles);
     if (masks_) upload<MaskedCaster>(gpu_, masked_.reserve(all.masked.size()), all.masked);
@@ -175,6 +176,7 @@ ShadowView ShadowScene::view(const Camera& camera) const {
     ShadowView out{};
     for (int i = 0; i < 3; ++i) out.shadow_from_view[i] = row(rows[i], offset[i]);
     out.extent = extent_;
+    out.levels = levels_;
     return out;
 }
 

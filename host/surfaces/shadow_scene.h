@@ -41,6 +41,7 @@ class ShadowScene {
     std::array<std::uint32_t, 2> revision_{};  // of the surfaces
     std::uint64_t built_ = 0;
     glm::dvec3 anchor_{0.0};  // shadow space's origin in the world [m]
+    uint levels_ = 0;
     float extent_ = 0.0f;
     GrowingArray<ShadowNode> nodes_;
     GrowingArray<float> triangles_;

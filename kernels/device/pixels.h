@@ -51,6 +51,11 @@ static inline Pixels row_pixels(View view, uint x, uint y) {
     return pixels;
 }
 
+// Rows of a fine tile that the planes have.
+static inline uint rows_of_tile(View view, uint tile_y) {
+    return min((uint)FINE_TILE, view.height - tile_y * FINE_TILE);
+}
+
 #if ORDERED_PIXELS
 // The VW pixels that `order` names, of the tile whose first pixel is (tile_x, tile_y): row *
 // FINE_TILE + column each.
@@ -67,6 +72,13 @@ static inline Pixels ordered_pixels(View view, uint tile_x, uint tile_y,
     pixels.first = pixels.place[0];
     pixels.in_row = !lane_any(lane_mask(place != lane_numbers + pixels.first));
     return pixels;
+}
+
+// VW pixels of a tile from `place` in its order on. `order`: of all tiles.
+static inline Pixels pixels_of_tile(View view, uint tile, uint place, global const uchar* order) {
+    uint tiles_x = fine_tiles_x(view);
+    return ordered_pixels(view, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE,
+                          order + tile * FINE_TILE_PIXELS + place);
 }
 
 // Place in its tile's order of the first pixel of the work-item at (x, y).

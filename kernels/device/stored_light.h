@@ -37,7 +37,7 @@ static inline ShadeLight load_light(global const StoredLight* stored) {
 }
 #define LIGHT_AT(lights, i) load_light((lights) + (i))
 #else
-typedef ShadeLight StoredLight;
+#define StoredLight ShadeLight
 // No function: PoCL then copies the light lane by lane.
 #define LIGHT_AT(lights, i) (lights)[i]
 #endif

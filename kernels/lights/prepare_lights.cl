@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera-relative lights -> view space, and the part of the coarse grid that each can touch.
 // One work-item prepares VW lights; the last one may have fewer.
+#include "kernels/device/arguments.h"
 #include "kernels/device/lanes.h"
-#include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/clusters.h"
-#include "kernels/shared/light.h"
 #include "kernels/shared/light_transform.h"
-#include "kernels/shared/view.h"
 
 #ifndef HAS_LIGHT_PROFILES
 #define HAS_LIGHT_PROFILES 0
@@ -85,24 +82,22 @@ static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint
     store_extents(extents, first, count, select(slices, (UV)(1u), behind), columns, rows);
 }
 
-kernel void prepare_lights(
-    global const Light* restrict lights,  // [count], camera-relative, world axes
-    uint count, uint seed,                // of drawn ranges; 0: none is drawn
-    View view, ClusterGrid grid,
-    global ShadeLight* restrict shade_lights,  // out [count], view space
-    global float4* restrict bounds,            // out [count]: p_view, 1/range^2
-    global LightExtent* restrict extents) {    // out [count]
+kernel void prepare_lights(global const Light* restrict own,  // camera-relative, world axes
+                           uint seed,                         // of drawn ranges; 0: none is drawn
+                           View view, ClusterGrid grid,
+                           LIGHT_ARGS()) {  // out: lights, bounds, extents
+    uint count = light_count + node_count;
     uint first = (uint)get_global_id(0) * VW;
     if (first >= count) return;
     float x[VW], y[VW], z[VW], r[VW];
     for (uint i = 0; i < VW; ++i) {
         uint light = min(first + i, count - 1u);
-        ShadeLight out = shade_light(view, lights[light], light, seed);
+        ShadeLight out = shade_light(view, own[light], light, seed);
         float4 p = out.position_inv_range2;
-        float range = fabs(lights[light].position_range.w);
+        float range = fabs(own[light].position_range.w);
         if (p.w < 0.0f) range = sqrt(-1.0f / p.w);
         p.w = fabs(p.w);
-        shade_lights[light] = out;
+        lights[light] = out;
         bounds[light] = p;
         x[i] = p.x;
         y[i] = p.y;
@@ -132,8 +127,6 @@ kernel void prepare_directional_lights(
 }
 
 #if HAS_LIGHT_PROFILES
-#include "kernels/shared/light_profile.h"
-
 // Profiles' directions in view space.
 kernel void aim_profiles(global const AimedProfile* restrict profiles,  // [count], world axes
                          uint count, View view,

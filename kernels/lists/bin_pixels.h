@@ -13,10 +13,8 @@
 // the row crosses.
 #ifndef KILOLUX_DEVICE_BIN_PIXELS_H
 #define KILOLUX_DEVICE_BIN_PIXELS_H
-#include "kernels/device/gbuffer.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/lists/coarse_tile.h"
-#include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/clusters.h"
 
 // A strip: VW pixels of a row of the tile.
 #define STRIPS (FINE_TILE / VW)
@@ -30,10 +28,6 @@ static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels, FV
     UV slice = fine_slice_of_depth(grid, *z);
     MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(g.view, pixels);
     return select((UV)(NO_SLICE), slice, drawn);
-}
-
-static inline uint rows_of_tile(View view, uint tile_y) {
-    return min((uint)FINE_TILE, view.height - tile_y * FINE_TILE);
 }
 
 static inline Pixels strip_pixels(View view, uint tile_x, uint tile_y, uint strip) {

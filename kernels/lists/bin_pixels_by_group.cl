@@ -62,14 +62,14 @@ static inline uint count_slices(local const uint* seen, ClusterGrid grid) {
 }
 
 kernel void bin_pixels_count(
-    global const uchar* restrict gbuffer, GBufferLayout layout, View view, ClusterGrid grid,
+    GBUFFER_ARGS, ClusterGrid grid,
     global uint* restrict counts,  // out [tiles]: active clusters
     // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
     global uchar* restrict occupied) {  // [cluster_count]
     local uint seen[SLICE_WORDS];
     uint tiles_x = fine_tiles_x(view);
     uint tile = get_group_id(0);
-    GBuffer g = {gbuffer, layout, view, 0};
+    GBuffer g = GBUFFER_OF_ARGS;
     UV slices[ROUNDS];
     load_slices(g, grid, tile % tiles_x, tile / tiles_x, slices, seen);
     if (get_local_id(0) == 0) counts[tile] = count_slices(seen, grid);
@@ -209,20 +209,15 @@ static inline void place_strip(UV slices, uint pixel, local const uint* seen, ui
     }
 }
 
-kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                            ClusterGrid grid,
-                            global const uint* restrict offsets,      // [tiles + 1]
-                            global ActiveCluster* restrict clusters,  // out [capacity]
-                            uint capacity,
-                            global uchar* restrict order) {  // out [tiles][FINE_TILE_PIXELS]
+kernel void bin_pixels_fill(GBUFFER_ARGS, CLUSTER_ARGS()) {  // out: clusters and order
     local uint seen[SLICE_WORDS];
     local TileClusters made;
     uint tiles_x = fine_tiles_x(view);
     uint tile = get_group_id(0);
     uint tile_x = tile % tiles_x;
     uint tile_y = tile / tiles_x;
-    uint count = offsets[tile + 1] - offsets[tile];
-    GBuffer g = {gbuffer, layout, view, 0};
+    uint count = cluster_offsets[tile + 1] - cluster_offsets[tile];
+    GBuffer g = GBUFFER_OF_ARGS;
     UV slices[ROUNDS];
     load_slices(g, grid, tile_x, tile_y, slices, seen);
     clear_clusters(&made, count);
@@ -241,7 +236,8 @@ kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout 
     if (get_local_id(0) == 0) number_clusters(grid, seen, &made);
     barrier(CLK_LOCAL_MEM_FENCE);  // numbered before any is written
     for (uint i = get_local_id(0); i < count; i += GROUP) {
-        if (offsets[tile] + i < capacity) clusters[offsets[tile] + i] = finished_cluster(&made, i);
+        if (cluster_offsets[tile] + i < cluster_capacity)
+            clusters[cluster_offsets[tile] + i] = finished_cluster(&made, i);
     }
     for (uint round = 0; round < ROUNDS; ++round) {
         uint strip = strip_of_round(round);

@@ -39,13 +39,13 @@ static inline uint next_slice(const TileSlices* tile, uint slice) {
 }
 
 kernel void bin_pixels_count(
-    global const uchar* restrict gbuffer, GBufferLayout layout, View view, ClusterGrid grid,
+    GBUFFER_ARGS, ClusterGrid grid,
     global uint* restrict counts,  // out [tiles]: active clusters
     // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
     global uchar* restrict occupied) {  // [cluster_count]
     uint tiles_x = fine_tiles_x(view);
     uint tile = get_global_id(0);
-    GBuffer g = {gbuffer, layout, view, 0};
+    GBuffer g = GBUFFER_OF_ARGS;
     TileSlices slices;
     load_slices(g, grid, tile % tiles_x, tile / tiles_x, &slices);
     CoarseTile coarse = coarse_tile(view, grid, tile);
@@ -109,25 +109,20 @@ static inline uint append_pixels(const TileSlices* tile, uint slice, uint strips
     return count;
 }
 
-kernel void bin_pixels_fill(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                            ClusterGrid grid,
-                            global const uint* restrict offsets,      // [tiles + 1]
-                            global ActiveCluster* restrict clusters,  // out [capacity]
-                            uint capacity,
-                            global uchar* restrict order) {  // out [tiles][FINE_TILE_PIXELS]
+kernel void bin_pixels_fill(GBUFFER_ARGS, CLUSTER_ARGS()) {  // out: clusters and order
     uint tiles_x = fine_tiles_x(view);
     uint tile = get_global_id(0);
     uint tile_y = tile / tiles_x;
-    uint place = offsets[tile];
-    if (place == offsets[tile + 1]) return;
-    GBuffer g = {gbuffer, layout, view, 0};
+    uint place = cluster_offsets[tile];
+    if (place == cluster_offsets[tile + 1]) return;
+    GBuffer g = GBUFFER_OF_ARGS;
     TileSlices slices;
     load_slices(g, grid, tile % tiles_x, tile_y, &slices);
     uint strips = rows_of_tile(view, tile_y) * STRIPS;
     uchar tile_order[FINE_TILE_PIXELS + 1];
     uint ordered = 0;
     for (uint slice = slices.first; slice != NO_SLICE; slice = next_slice(&slices, slice)) {
-        if (place < capacity)
+        if (place < cluster_capacity)
             clusters[place] = cluster_of_slice(g, tile % tiles_x, tile_y, &slices, slice);
         ordered = append_pixels(&slices, slice, strips, tile_order, ordered);
         ++place;

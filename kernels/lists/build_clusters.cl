@@ -2,8 +2,7 @@
 // Boxes of the coarse clusters in view space. A box is a product of three intervals, and x depends
 // only on (tile column, slice), y on (tile row, slice), z on the slice: so only those are stored.
 // Work-item (i, slice) writes column i's and row i's interval of the slice.
-#include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/view.h"
+#include "kernels/device/arguments.h"
 
 // Depths [m] of a slice's two ends; the outermost slices take what lies beyond the grid.
 static inline float2 slice_depths(ClusterGrid grid, uint slice, bool orthographic) {
@@ -31,10 +30,7 @@ static inline float2 view_interval(float p0, float p1, float step, float offset,
 }
 
 kernel void build_clusters(
-    View view, ClusterGrid grid,
-    global float2* restrict columns,   // out [slices][tiles_x]: x of the boxes [m]
-    global float2* restrict rows,      // out [slices][tiles_y]: y
-    global float2* restrict depths) {  // out [slices]: z, positive forward
+    View view, BOX_ARGS()) {  // out [m]: x by column, y by row, z by slice, positive forward
     uint i = get_global_id(0);
     uint slice = get_global_id(1);
     bool orthographic = view.orthographic != 0u;

@@ -3,7 +3,7 @@
 //   count_pairs_sum_shares  each work-item sums every get_global_size(0)-th active cluster
 //   count_pairs             one work-group of GROUP joins the shares and the lists' totals
 // All sums are of integers: the same in any order.
-#include "kernels/shared/clusters.h"
+#include "kernels/device/arguments.h"
 
 #ifndef GROUP
 #define GROUP 1
@@ -11,11 +11,10 @@
 
 // Sums over active clusters: x: list_count, y: pixel_count, z: their products.
 kernel void count_pairs_sum_shares(
-    global const ActiveCluster* restrict clusters,  // [capacity]
-    uint capacity,
+    CLUSTER_ARGS(const),
     global const ulong* restrict active_clusters,  // [1]: may exceed the capacity
     global ulong4* restrict shares) {              // out [work-items]
-    uint count = (uint)min(*active_clusters, (ulong)capacity);
+    uint count = (uint)min(*active_clusters, (ulong)cluster_capacity);
     ulong lists = 0, pixels = 0, evaluations = 0;
     for (size_t i = get_global_id(0); i < count; i += get_global_size(0)) {
         ulong lights = clusters[i].list_count;

@@ -9,10 +9,9 @@
 // A work-group walks one contiguous chunk of the lights in order and spreads one light's rows of
 // clusters over its work-items, so no two of them ever meet in a cluster: lists ascend by light
 // index without atomics, and are the same for every group size and number of chunks.
+#include "kernels/device/arguments.h"
 #include "kernels/device/chunk_starts.h"
-#include "kernels/device/light_index.h"
 #include "kernels/lists/light_reach.h"
-#include "kernels/shared/clusters.h"
 
 typedef struct ClusterBoxes {
     global const float2* columns;  // [slices][tiles_x]
@@ -162,13 +161,7 @@ static inline void walk_chunk(global const ShadeLight* lights, global const floa
 }
 
 kernel void cull_lights_count(
-    global const ShadeLight* restrict lights,    // [count], view space
-    global const float4* restrict bounds,        // [count]
-    global const LightExtent* restrict extents,  // [count]
-    uint count, ClusterGrid grid,
-    global const float2* restrict columns,  // [slices][tiles_x]
-    global const float2* restrict rows,     // [slices][tiles_y]
-    global const float2* restrict depths,   // [slices]
+    LIGHT_ARGS(const), BOX_ARGS(const),
     global const uchar* restrict occupied,  // [cluster_count], or null
     global uint* restrict cursors) {        // out [chunks][cursor_stride]: pairs
     ClusterBoxes boxes = {columns, rows, depths, occupied};
@@ -177,7 +170,7 @@ kernel void cull_lights_count(
     for (uint i = get_local_id(0); i < stride; i += get_local_size(0)) sink.cursors[i] = 0u;
     // Zeroed by all before any counts.
     barrier(CLK_GLOBAL_MEM_FENCE);
-    walk_chunk(lights, bounds, extents, count, grid, boxes, sink, false);
+    walk_chunk(lights, bounds, extents, light_count, grid, boxes, sink, false);
 }
 
 // One work-item for VW clusters: chunk counts become chunk starts within the cluster.
@@ -190,18 +183,13 @@ kernel void cull_lights_offset(
 }
 
 kernel void cull_lights_fill(
-    global const ShadeLight* restrict lights, global const float4* restrict bounds,
-    global const LightExtent* restrict extents, uint count, ClusterGrid grid,
-    global const float2* restrict columns, global const float2* restrict rows,
-    global const float2* restrict depths, global const uchar* restrict occupied,
-    global uint* restrict cursors,        // in: starts [chunks][cursor_stride]; used up
-    global const uint* restrict offsets,  // [cluster_count + 1], of the lists
-    global LIGHT_INDEX* restrict lists,   // out [capacity]
-    uint capacity) {
+    LIGHT_ARGS(const), BOX_ARGS(const), global const uchar* restrict occupied,
+    global uint* restrict cursors,  // in: starts [chunks][cursor_stride]; used up
+    COARSE_LIST_ARGS()) {           // out: lists
     ClusterBoxes boxes = {columns, rows, depths, occupied};
-    PairSink sink = {cursors + chunk_of_group() * cursor_stride(grid.cluster_count), offsets, lists,
-                     capacity};
-    walk_chunk(lights, bounds, extents, count, grid, boxes, sink, true);
+    PairSink sink = {cursors + chunk_of_group() * cursor_stride(grid.cluster_count), coarse_offsets,
+                     coarse_lists, coarse_capacity};
+    walk_chunk(lights, bounds, extents, light_count, grid, boxes, sink, true);
 }
 
 static inline bool holds(uint interval, uint i) {
@@ -210,14 +198,9 @@ static inline bool holds(uint interval, uint i) {
 
 // The oracle: every light against every cluster. One work-item a cluster. With `lists` null it
 // counts, else it fills at `offsets`. Ships for tests and as the benchmark's baseline.
-kernel void cull_lights_brute_force(
-    global const ShadeLight* restrict lights, global const float4* restrict bounds,
-    global const LightExtent* restrict extents, uint count, ClusterGrid grid,
-    global const float2* restrict columns, global const float2* restrict rows,
-    global const float2* restrict depths, uint fill,
-    global uint* restrict counts,          // out [cluster_count]
-    global const uint* restrict offsets,   // [cluster_count + 1], if fill
-    global LIGHT_INDEX* restrict lists) {  // out, if fill
+kernel void cull_lights_brute_force(LIGHT_ARGS(const), BOX_ARGS(const), uint fill,
+                                    global uint* restrict counts,  // out [cluster_count]
+                                    COARSE_LIST_ARGS()) {          // out: lists, if fill
     uint cluster = get_global_id(0);
     if (cluster >= grid.cluster_count) return;
     uint column = cluster % grid.tiles_x;
@@ -227,7 +210,7 @@ kernel void cull_lights_brute_force(
     float2 y = rows[slice * grid.tiles_y + row];
     float2 z = depths[slice];
     uint found = 0;
-    for (uint light = 0; light < count; ++light) {
+    for (uint light = 0; light < light_count; ++light) {
         float4 b = bounds[light];
         bool reaches =
             sphere_reaches(interval_distance(b.x, x.x, x.y), interval_distance(b.y, y.x, y.y),
@@ -241,7 +224,7 @@ kernel void cull_lights_brute_force(
         reaches =
             reaches && holds(e.columns, column) && holds(e.rows, row) && holds(e.slices, slice);
         if (!reaches) continue;
-        if (fill) lists[offsets[cluster] + found] = (LIGHT_INDEX)light;
+        if (fill) coarse_lists[coarse_offsets[cluster] + found] = (LIGHT_INDEX)light;
         ++found;
     }
     counts[cluster] = found;

@@ -23,7 +23,9 @@ static inline bool sphere_reaches(float dx, float dy, float dz, float inv_range2
 }
 
 // A spot's cone against the bounding sphere of a box: false only if no point of the sphere is
-// inside. Distance from the centre to the cone's surface; valid for half angles up to 90 degrees.
+// inside. Distance from the centre to the cone's surface, whose nearest point lies on it wherever
+// the centre is outside: of cones narrower than 90 degrees that holds in front of their apex, of
+// wider ones everywhere.
 static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float3 q = 0.5f * (lo + hi) - light.position_inv_range2.xyz;
     float radius = 0.5f * length(hi - lo);
@@ -35,6 +37,8 @@ static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float cos_out = light.axis_cos.w;
     float sin_out = sqrt(max(1.0f - cos_out * cos_out, 0.0f));
     float slack = 1e-3f * (radius + sqrt(q2));  // more than float32 loses here
-    return cos_out * across - sin_out * along <= radius + slack && along >= -(radius + slack);
+    // Chosen, not branched on: PoCL 3.1 loses values across cull_lights' barriers otherwise.
+    float back = cos_out < 0.0f ? -1e30f : -(radius + slack);
+    return cos_out * across - sin_out * along <= radius + slack && along >= back;
 }
 #endif

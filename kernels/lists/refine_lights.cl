@@ -4,13 +4,9 @@
 //   (prefix_sum over tiles)
 //   refine_lights          the lists, ascending, one after the other within the tile's reserve
 // One work-group takes one tile; its GROUP work-items test VW lights each at a time.
-#include "kernels/device/lanes.h"
-#include "kernels/device/light_index.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/lists/coarse_tile.h"
 #include "kernels/lists/light_reach.h"
-#include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/clusters.h"
-#include "kernels/shared/view.h"
 
 #ifndef GROUP
 #define GROUP 1
@@ -23,20 +19,16 @@ static inline uint coarse_cluster(View view, ClusterGrid grid, uint tile, uint s
     return cluster_index(grid, coarse.column, coarse.row, slice >> grid.fine_slice_bits);
 }
 
-kernel void refine_lights_reserve(
-    View view, ClusterGrid grid, uint tile_count,
-    global const uint* restrict cluster_offsets,    // [tile_count + 1], of active clusters
-    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-    uint cluster_capacity,
-    global const uint* restrict coarse_offsets,  // [coarse clusters + 1]
-    global uint* restrict reserves) {            // out [tile_count]
+kernel void refine_lights_reserve(View view, CLUSTER_ARGS(const), uint tile_count,
+                                  COARSE_LIST_ARGS(const),
+                                  global uint* restrict reserves) {  // out [tile_count]
     uint tile = get_global_id(0);
     if (tile >= tile_count) return;
+    Clusters active = CLUSTERS_OF_ARGS;
     // Saturates: the prefix sum's total then says that 32-bit offsets do not suffice.
     ulong sum = 0;
     // More clusters than there is room for: the host grows the buffer and runs the stage again.
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+    FOR_EACH_CLUSTER(i, active, tile) {
         uint coarse = coarse_cluster(view, grid, tile, clusters[i].slice);
         sum += coarse_offsets[coarse + 1] - coarse_offsets[coarse];
     }
@@ -145,24 +137,15 @@ static inline uint append(UV flags, const Batch* batch, global LIGHT_INDEX* out,
 #endif
 }
 
-kernel void refine_lights(
-    global const ShadeLight* restrict lights,  // [count], view space
-    global const float4* restrict bounds,      // [count]
-    View view, ClusterGrid grid,
-    global const uint* restrict coarse_offsets,       // [coarse clusters + 1]
-    global const LIGHT_INDEX* restrict coarse_lists,  // [coarse_capacity]
-    uint coarse_capacity,
-    global const uint* restrict cluster_offsets,  // [tiles + 1]
-    global ActiveCluster* restrict clusters,      // in/out [cluster_capacity]: lists set
-    uint cluster_capacity,
-    global const uint* restrict list_offsets,  // [tiles + 1], reserves
-    global LIGHT_INDEX* restrict lists,        // out [list_capacity]
-    uint list_capacity) {
+kernel void refine_lights(LIGHT_ARGS(const), View view, COARSE_LIST_ARGS(const),
+                          CLUSTER_ARGS(),  // in/out: the clusters' lists set
+                          global const uint* restrict list_offsets,  // [tiles + 1], reserves
+                          LIST_ARGS()) {
     local uint ballots[(BATCH + 31) / 32];
     uint tile = get_group_id(0);
     uint place = list_offsets[tile];
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+    Clusters active = CLUSTERS_OF_ARGS;
+    FOR_EACH_CLUSTER(i, active, tile) {
         ActiveCluster c = clusters[i];
         uint coarse = coarse_cluster(view, grid, tile, c.slice);
         uint coarse_begin = coarse_offsets[coarse];

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Linear HDR radiance -> 8-bit sRGB: exposure, tone curve, transfer function, exact rounding.
 // One work-item makes VW neighbouring pixels of a row.
+#include "kernels/device/arguments.h"
 #include "kernels/device/display.h"
 
-kernel void tonemap(
-    global const float* restrict radiance,         // [3][height][stride]
-    uint pixel_count,                              // height * stride
-    float gain,                                    // 2^exposure
-    global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
-    global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
-    global uint* restrict display) {  // out [height][stride]: R | G << 8 | B << 16 | 255 << 24
+kernel void tonemap(global const float* restrict radiance,  // [3][height][stride]
+                    uint pixel_count,                       // height * stride
+                    DISPLAY_ARGS) {
     uint pixel = (uint)get_global_id(0) * VW;
     if (pixel >= pixel_count) return;
     DisplayCurve curve = {gain, bucket_boundary, bucket_code};

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The environment's light where no surface covers a pixel. One work-item fills VW neighbouring
 // pixels of a row.
-#include "kernels/device/lanes.h"
-#include "kernels/device/pixels.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/shading/environment.h"
-#include "kernels/shared/view.h"
 
 // World direction of the ray through a pixel, of any length.
 static inline FV3 ray_direction(View view, Pixels pixels) {
@@ -13,21 +11,17 @@ static inline FV3 ray_direction(View view, Pixels pixels) {
     return rotate_to_world(view, p);
 }
 
-kernel void fill_background(global const uchar* restrict gbuffer,  // one byte where `everywhere`
-                            uint depth_offset,                     // of the depth plane [byte]
-                            uint everywhere,                       // 1: there are no surfaces
-                            View view,
+kernel void fill_background(GBUFFER_ARGS,
+                            uint everywhere,  // 1: there are no surfaces, and no G-buffer
                             global const float* restrict texels,  // RGB, [texels of all levels][3]
                             uint4 size,  // of the level: width, height, first texel
                             global float* restrict radiance) {  // in, out [3][height][stride]
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    Pixels pixels = row_pixels(view, x, y);
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside) return;
+    Pixels pixels = row_pixels(view, at.x, at.y);
     MASK open = within_width(view, pixels);
     if (everywhere == 0u) {
-        global const float* depth01 = (global const float*)(gbuffer + depth_offset);
-        open &= lane_mask(lane_load(depth01 + pixels.first) == fv(0.0f));
+        open &= lane_mask(load_depth01(GBUFFER_OF_ARGS, pixels) == fv(0.0f));
     }
     if (!lane_any(open)) return;
     Texels t = texels_towards(ray_direction(view, pixels), size);

@@ -20,6 +20,12 @@ typedef struct LightTarget {
 #endif
 } LightTarget;
 
+#if DISPLAYED
+#define LIGHT_TARGET_OF_ARGS ((LightTarget){display, {gain, bucket_boundary, bucket_code}})
+#else
+#define LIGHT_TARGET_OF_ARGS ((LightTarget){radiance})
+#endif
+
 static inline void store_light(LightTarget to, View view, Pixels pixels, FV3 color) {
 #if DISPLAYED
     store_plane_codes(to.codes, pixels, display_codes(to.curve, color));

@@ -2,7 +2,7 @@
 // Adds an environment's light to the lit surfaces: diffuse light from a map of irradiance, specular
 // light from maps prefiltered by roughness, times the reflectance of a table (Karis 2013, "Real
 // Shading in Unreal Engine 4", split sum). One work-item takes VW neighbouring pixels of a row.
-#include "kernels/device/gbuffer.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
 #include "kernels/shading/environment.h"
 #include "kernels/shared/surface.h"
@@ -16,6 +16,11 @@ typedef struct ReflectionMaps {
     global const float* table;   // [table_size][table_size][3]: by n.v and roughness from 0 to 1
     uint table_size;
 } ReflectionMaps;
+
+// ReflectionBuffers of host/stages/shading/reflect_environment.h.
+#define REFLECTION_ARGS                                                       \
+    global const float *restrict texels, global const uint4 *restrict levels, \
+        uint roughness_levels, global const float *restrict table, uint table_size
 
 #if SHADING == SHADING_PBR
 // A level of each lane: lanes go one by one where their levels differ.
@@ -102,25 +107,16 @@ static inline FV3 reflected(ReflectionMaps maps, View view, Surface s, FV3 irrad
 }
 #endif
 
-kernel void reflect_environment(
-    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-    global const float* restrict srgb,    // [256]
-    global const float* restrict texels,  // RGB, [texels of all levels][3]
-    global const uint4* restrict levels,  // [roughness_levels + 1]
-    uint roughness_levels,
-    global const float* restrict table,  // [table_size][table_size][3]
-    uint table_size,
-    global float* restrict radiance) {  // in, out [3][height][stride]
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    GBuffer g = {gbuffer, layout, view, srgb};
-    Pixels pixels = row_pixels(view, x, y);
-    FV depth01 = load_depth01(g, pixels);
-    MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
-    if (!lane_any(drawn)) return;
-    FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
-    Surface s = load_surface(g, pixels, z);
+kernel void reflect_environment(GBUFFER_ARGS, REFLECTION_ARGS,
+                                global float* restrict radiance) {  // in, out [3][height][stride]
+    GBuffer g = GBUFFER_OF_ARGS;
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside) return;
+    LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
+    if (!item.any) return;
+    Pixels pixels = item.pixels;
+    MASK drawn = item.drawn;
+    Surface s = load_surface(g, pixels, item.z);
     ReflectionMaps maps = {texels, levels, roughness_levels, table, table_size};
     Texels around = texels_towards(rotate_to_world(view, s.normal), levels[roughness_levels]);
     FV3 added = reflected(maps, view, s, filtered_rgb(texels, around));

@@ -6,8 +6,8 @@
 #define KILOLUX_DEVICE_SUM_LIGHTS_H
 #include "kernels/device/light_index.h"
 #include "kernels/device/stored_light.h"
-#include "kernels/shared/clusters.h"  // not where a switch may leave it out
 #include "kernels/shared/evaluate.h"
+#include "kernels/shared/light_profile.h"
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
 // SHADOWS_RAYS: found out where it is asked. SAMPLED_SHADOWS: only of the lights that are drawn.
@@ -60,6 +60,16 @@ typedef struct LightSet {
     LightProfiles profiles;
 #endif
 } LightSet;
+
+static inline LightSet light_set(global const StoredLight* lights,
+                                 global const AimedProfile* profiles, global const float* tables) {
+    LightSet set;
+    set.lights = lights;
+#if HAS_LIGHT_PROFILES
+    set.profiles = (LightProfiles){profiles, tables};
+#endif
+    return set;
+}
 
 #if SHADOWS
 static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {

@@ -11,11 +11,9 @@
 #ifndef DRAWN_ONLY
 #define DRAWN_ONLY 0
 #endif
-#include "kernels/device/light_index.h"
-#include "kernels/device/pixels.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/shadows/shadow_bits.h"
 #include "kernels/shadows/shadow_space.h"
-#include "kernels/shared/clusters.h"
 
 // The j-th light of a cluster, directional ones first.
 static inline ShadowLight light_of_cluster(ShadowView shadow, global const ActiveCluster* cluster,
@@ -27,18 +25,15 @@ static inline ShadowLight light_of_cluster(ShadowView shadow, global const Activ
     return shadow_point_light(shadow, bounds[light]);
 }
 
-kernel void cast_shadows_reserve(
-    uint tile_count, uint directional_count,
-    global const uint* restrict cluster_offsets,  // [tile_count + 1]
-    global ActiveCluster* restrict clusters,      // in/out [cluster_capacity]: shadow_words set
-    uint cluster_capacity,
-    global uint* restrict reserves) {  // out [tile_count]
+kernel void cast_shadows_reserve(uint tile_count, uint directional_count,
+                                 CLUSTER_ARGS(),                    // in/out: shadow_words set
+                                 global uint* restrict reserves) {  // out [tile_count]
     uint tile = get_global_id(0);
     if (tile >= tile_count) return;
+    Clusters active = CLUSTERS_OF_ARGS;
     ulong sum = 0;  // saturates, as in refine_lights
     uint first = 0;
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+    FOR_EACH_CLUSTER(i, active, tile) {
         clusters[i].first_pixel = first;
         clusters[i].first_word = (uint)sum;
         uint last = first + clusters[i].pixel_count;

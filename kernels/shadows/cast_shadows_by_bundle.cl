@@ -18,48 +18,29 @@ static inline void put_seen(ShadowBits bits, uint j, MASK mine, MASK seen, globa
 }
 
 kernel void cast_shadows(
-    View view, ShadowView shadow, global const float* restrict origins,
-    global const float4* restrict bounds,                        // [light_count]
-    global const DirectionalLight* restrict directional_lights,  // [directional_count]
-    uint directional_count,
-    global const uint* restrict cluster_offsets,    // [tiles + 1]
-    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-    uint cluster_capacity,
-    global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
-    global const LIGHT_INDEX* restrict lists,
-    global const uint* restrict word_offsets,  // [tiles + 1]
-    global const ShadowNode* restrict nodes, global const float* restrict casters,
-    global const MaskedCaster* restrict masked_casters,
-    global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
-    global const ulong* restrict texels,
-#if COUNT_SHADOWS
-    global ShadowCounts* restrict counts,  // out [work-items]: where the tile has lights
-#endif
-    global uint* restrict words) {  // out
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    uint tile = fine_tile_of(view, x, y);
-    uint place = place_of_item(x, y);
-    if (word_offsets[tile] == word_offsets[tile + 1]) return;
+    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(),
+    global ShadowCounts* restrict counts) {  // out [work-items] with COUNT_SHADOWS, where the tile
+                                             // has lights
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside || word_offsets[at.tile] == word_offsets[at.tile + 1]) return;
+    uint place = place_of_item(at.x, at.y);
+    Clusters active = CLUSTERS_OF_ARGS;
     ShadowPoints points;
     reset_counts(&points);
     load_origins(&points, 0u, origins, view.stride * view.height,
-                 pixels_of_item(view, x, y, order));
+                 pixels_of_item(view, at.x, at.y, order));
     ShadowRays rays;
-    rays.scene =
-        (ShadowScene){nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
+    rays.scene = SHADOW_SCENE_OF_ARGS;
     rays.points = &points;
     rays.bounds = bounds;
     rays.directional = directional_lights;
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+    FOR_EACH_CLUSTER(i, active, at.tile) {
         uint first = clusters[i].first_pixel;
         UV places = lane_numbers + place;
         MASK mine = lane_mask(places >= (UV)(first)) &
                     lane_mask(places < (UV)(first + clusters[i].pixel_count));
         if (!lane_any(mine)) continue;
-        ShadowBits bits = bits_of_cluster(words + word_offsets[tile], clusters + i, place);
+        ShadowBits bits = bits_of_cluster(words + word_offsets[at.tile], clusters + i, place);
         for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
             ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
                                                  directional_count, bounds, lists);

@@ -44,14 +44,12 @@ static inline uint place_of_point(uint first, uint k) { return first + k * GROUP
 static inline void load_points_of_item(global const float* origins, View view, uint tile,
                                        global const uchar* order, uint first, uint end,
                                        ShadowPoints* points) {
-    uint tiles_x = fine_tiles_x(view);
     points->row_count = (end - first + GROUP - 1u) / GROUP;
 #pragma unroll
     for (uint k = 0; k < SHADOW_POINTS; ++k) {
         uint place = min(place_of_point(first, k), end - 1u);
-        Pixels pixels = ordered_pixels(view, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE,
-                                       order + tile * FINE_TILE_PIXELS + place);
-        load_origins(points, k, origins, view.stride * view.height, pixels);
+        load_origins(points, k, origins, view.stride * view.height,
+                     pixels_of_tile(view, tile, place, order));
     }
 }
 
@@ -165,10 +163,19 @@ static inline void test_found(ShadowScene scene, ShadowLight light, Shaft shaft,
     }
 }
 
-// Takes the next nodes off the stack, and puts their children that the shaft meets where they
-// belong.
-static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, local GroupWalk* walk) {
+// How many of the `top` nodes on the stack are taken at once: so many that afterwards a walk that
+// takes one at a time still has room, which needs SHADOW_WIDTH - 1 entries a level.
+static inline uint nodes_to_take(ShadowView view, uint top) {
+    uint levels = view.levels != 0u ? view.levels : SHADOW_LEVELS;
+    uint room = SHADOW_STACK - 1u - levels * (SHADOW_WIDTH - 1u);
     uint take = min(top, (uint)NODES_AT_ONCE);
+    return top + take * (SHADOW_WIDTH - 1u) <= room ? take : 1u;
+}
+
+// Takes `take` of the nodes off the stack, and puts their children that the shaft meets where they
+// belong.
+static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint take,
+                              local GroupWalk* walk) {
     if (this_item() == 0u) walk->top = top - take;
     if (this_item() < take) walk->nodes[this_item()] = walk->stack[top - 1u - this_item()];
     barrier(CLK_LOCAL_MEM_FENCE);  // popped before any is pushed
@@ -220,8 +227,9 @@ static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, S
             test_found(scene, light, shaft, count, walk, points);
             if (this_item() == 0u) walk->count = 0u;
         } else if (goes_on) {
-            ADD_COUNT(points, nodes, min(top, (uint)NODES_AT_ONCE));
-            walk_nodes(scene, shaft, top, walk);
+            uint take = nodes_to_take(scene.view, top);
+            ADD_COUNT(points, nodes, take);
+            walk_nodes(scene, shaft, top, take, walk);
         }
     }
 }
@@ -285,32 +293,17 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void cast_shadows(
-    View view, ShadowView shadow, global const float* restrict origins,
-    global const float4* restrict bounds,                        // [light_count]
-    global const DirectionalLight* restrict directional_lights,  // [directional_count]
-    uint directional_count,
-    global const uint* restrict cluster_offsets,    // [tiles + 1]
-    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-    uint cluster_capacity,
-    global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
-    global const LIGHT_INDEX* restrict lists,
-    global const uint* restrict word_offsets,  // [tiles + 1]
-    global const ShadowNode* restrict nodes, global const float* restrict casters,
-    global const MaskedCaster* restrict masked_casters,
-    global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
-    global const ulong* restrict texels,
-#if COUNT_SHADOWS
-    global ShadowCounts* restrict counts,  // out [tiles * SPLIT]: where the tile has lights
-#endif
-    global uint* restrict words) {  // out
+    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(),
+    global ShadowCounts* restrict counts) {  // out [tiles * SPLIT] with COUNT_SHADOWS, where the
+                                             // tile has lights
     local GroupWalk walk;
     uint tile = get_group_id(0) / SPLIT;
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     if (word_offsets[tile] == word_offsets[tile + 1]) return;
-    ShadowScene scene = {nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
+    ShadowScene scene = SHADOW_SCENE_OF_ARGS;
+    Clusters active = CLUSTERS_OF_ARGS;
     ShadowPoints points;
     reset_counts(&points);
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+    FOR_EACH_CLUSTER(i, active, tile) {
         uint first = clusters[i].first_pixel;
         uint last = first + clusters[i].pixel_count;
         load_points_of_item(origins, view, tile, order, first, last, &points);

@@ -9,14 +9,13 @@
 #include "kernels/shadows/cast_shadows.h"
 #include "kernels/shadows/shadow_cast.h"
 
-// The tile's pixels in the order of its clusters.
+// The tile's pixels in the order of its clusters, as many as the planes have.
 static inline void load_tile(global const float* origins, View view, uint tile,
                              global const uchar* order, ShadowPoints* points) {
-    uint tiles_x = fine_tiles_x(view);
-    for (uint row = 0; row < SHADOW_POINTS / VW; ++row) {
-        Pixels pixels = ordered_pixels(view, tile % tiles_x * FINE_TILE, tile / tiles_x * FINE_TILE,
-                                       order + tile * FINE_TILE_PIXELS + row * VW);
-        load_origins(points, row, origins, view.stride * view.height, pixels);
+    uint count = rows_of_tile(view, tile / fine_tiles_x(view)) * FINE_TILE;
+    for (uint row = 0; row < count / VW; ++row) {
+        load_origins(points, row, origins, view.stride * view.height,
+                     pixels_of_tile(view, tile, row * VW, order));
     }
 }
 
@@ -75,35 +74,19 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
 }
 
 kernel __attribute__((reqd_work_group_size(1, 1, 1))) void cast_shadows(
-    View view, ShadowView shadow, global const float* restrict origins,
-    global const float4* restrict bounds,                        // [light_count]
-    global const DirectionalLight* restrict directional_lights,  // [directional_count]
-    uint directional_count,
-    global const uint* restrict cluster_offsets,    // [tiles + 1]
-    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-    uint cluster_capacity,
-    global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
-    global const LIGHT_INDEX* restrict lists,
-    global const uint* restrict word_offsets,  // [tiles + 1]
-    global const ShadowNode* restrict nodes, global const float* restrict casters,
-    global const MaskedCaster* restrict masked_casters,
-    global const SurfaceMaterial* restrict materials, global const TextureRow* restrict textures,
-    global const ulong* restrict texels,
-#if COUNT_SHADOWS
-    global ShadowCounts* restrict counts,  // out [tiles]: where the tile has lights
-#endif
-    global uint* restrict words) {  // out
+    LIT_ARGS, SHADOW_ARGS, WORD_ARGS(),
+    global ShadowCounts* restrict counts) {  // out [tiles] with COUNT_SHADOWS, where the tile has
+                                             // lights
     uint tile = get_global_id(0);
-    uint begin = cluster_offsets[tile];
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
     if (word_offsets[tile] == word_offsets[tile + 1]) return;
-    ShadowScene scene = {nodes, casters, {masked_casters, materials, {textures, texels}}, shadow};
+    ShadowScene scene = SHADOW_SCENE_OF_ARGS;
+    Clusters active = CLUSTERS_OF_ARGS;
     ShadowPoints points;
     reset_counts(&points);
     load_tile(origins, view, tile, order, &points);
     global uint* out = words + word_offsets[tile];
     uint first = 0;
-    for (uint i = begin; i < end; ++i) {
+    FOR_EACH_CLUSTER(i, active, tile) {
         uint last = first + clusters[i].pixel_count;
         for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
             ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,

@@ -5,13 +5,12 @@
 //   draw_shadows        one work-item draws for VW pixels, neighbours in the order of their tile's
 //                       clusters
 #define ORDERED_PIXELS 1
+#include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
-#include "kernels/device/stored_light.h"
 #include "kernels/shadows/cast_shadows.h"
 #include "kernels/shadows/shadow_draw.h"
 
-kernel void draw_shadows_clear(global const uint* restrict word_offsets, uint tile_count,
-                               global uint* restrict words) {  // out
+kernel void draw_shadows_clear(WORD_ARGS(), uint tile_count) {
     for (size_t i = get_global_id(0); i < word_offsets[tile_count]; i += get_global_size(0)) {
         words[i] = 0u;
     }
@@ -22,52 +21,26 @@ static inline void put_bits(ShadowBits bits, uint i, MASK drawn, global uint* wo
     atomic_or(words + (bits.words - words) + i * bits.stride, lane_ballot(drawn) << bits.shift);
 }
 
-kernel void draw_shadows(
-    global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-    global const float* restrict srgb,      // [256]
-    global const float* restrict radiance,  // [3][height][stride], if all lights are seen
-    global const DirectionalLight* restrict directional, uint directional_count,
-    global const StoredLight* restrict lights,
-#if HAS_LIGHT_PROFILES
-    global const AimedProfile* restrict aimed_profiles,  // [light_count], view space
-    global const float* restrict profile_tables,
-#endif
-    ClusterGrid grid,
-    global const uint* restrict cluster_offsets,    // [tiles + 1]
-    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-    uint cluster_capacity,
-    global const uchar* restrict order,  // [tiles][FINE_TILE_PIXELS]
-    global const LIGHT_INDEX* restrict lists,
-    global const uint* restrict word_offsets,  // [tiles + 1]
-    float rays, uint seed,
-    global uint* restrict words) {  // out: bits set
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    uint tile = fine_tile_of(view, x, y);
-    uint place = place_of_item(x, y);
-    if (cluster_offsets[tile] == cluster_offsets[tile + 1]) return;
-    Pixels pixels = pixels_of_item(view, x, y, order);
-    GBuffer g = {gbuffer, layout, view, srgb};
-    FV depth01 = load_depth01(g, pixels);
-    MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
-    if (!lane_any(drawn)) return;
-    FV z = view_depth(view, pixels.x, pixels.y, lane_select(drawn, depth01, fv(1.0f)));
-    Surface s = load_surface(g, pixels, z);
+kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
+    GBuffer g = GBUFFER_OF_ARGS;
+    Clusters active = CLUSTERS_OF_ARGS;
+    ItemPlace at = place_in_planes(view);
+    LitItem item = ordered_item(g, active, at);
+    if (!item.any) return;
+    Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    ShadowDraw draw = make_draw(s, radiance, view, pixels, x, y, rays, seed);
+    ShadowDraw draw = make_draw(s, whole, view, item.pixels, at.x, at.y, rays, seed);
 #if HAS_LIGHT_PROFILES
     LightProfiles profiles = {aimed_profiles, profile_tables};
 #endif
-    UV slice = fine_slice_of_depth(grid, z);
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
-        MASK mine = lane_mask(slice == (UV)(clusters[i].slice)) & drawn;
+    FOR_EACH_CLUSTER(i, active, at.tile) {
+        MASK mine = lanes_in_cluster(item, active, i);
         if (!lane_any(mine)) continue;
-        ShadowBits bits = bits_of_cluster(words + word_offsets[tile], clusters + i, place);
+        ShadowBits bits =
+            bits_of_cluster(words + word_offsets[at.tile], clusters + i, place_of_item(at.x, at.y));
 #if HAS_DIRECTIONAL_LIGHTS
         for (uint j = 0; j < directional_count; ++j) {
-            LightSum one = evaluate_directional(zero_sum(), p, directional[j]);
+            LightSum one = evaluate_directional(zero_sum(), p, directional_lights[j]);
             FV alone = light_alone(draw, one);
             put_bits(bits, j, mine & draws_light(draw, alone, DRAWN_DIRECTIONAL + j), words);
         }

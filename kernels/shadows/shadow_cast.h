@@ -27,6 +27,8 @@ typedef struct ShadowScene {
     MaskedScene masked;
     ShadowView view;
 } ShadowScene;
+#define SHADOW_SCENE_OF_ARGS \
+    ((ShadowScene){shadow_nodes, casters, {masked_casters, materials, {textures, texels}}, shadow})
 
 // Points in rows of VW.
 typedef struct ShadowPoints {

@@ -7,7 +7,7 @@
 // coordinates, wherever the G-buffer's depth has it along the ray. The offset is
 // ORIGIN_OFFSET times their size: twice what shadow_triangle.h grants in front of a plane.
 // One work-item takes VW neighbouring pixels of a row, and their triangles one by one.
-#include "kernels/device/gbuffer.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/device/triangle.h"
 #include "kernels/shadows/shadow_space.h"
 
@@ -49,19 +49,16 @@ static inline FV3 towards_eye(View view, ShadowView shadow, FV3 p) {
 
 kernel void shadow_origins(
     global const uint* restrict ids,  // [height][stride]: triangle + 1; 0 for background
-    global const uchar* restrict gbuffer, GBufferLayout layout, View view, ShadowView shadow,
-    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
-    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
-    global const float* restrict casters,          // [caster_count][3][3], shadow space
-    global float* restrict origins) {              // out [ORIGIN_PLANES][height][stride]
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    Pixels pixels = row_pixels(view, x, y);
+    GBUFFER_ARGS, ShadowView shadow, SCENE_ARGS,
+    global const float* restrict casters,  // [caster_count][3][3], shadow space
+    global float* restrict origins) {      // out [ORIGIN_PLANES][height][stride]
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside) return;
+    Pixels pixels = row_pixels(view, at.x, at.y);
     UV id = lane_load(ids + pixels.first);
     MASK drawn = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
     if (!lane_any(drawn)) return;
-    GBuffer g = {gbuffer, layout, view, 0};
+    GBuffer g = GBUFFER_OF_ARGS;
     FV depth01 = lane_select(drawn, load_depth01(g, pixels), fv(1.0f));
     FV3 v = load_position(g, pixels, view_depth(view, pixels.x, pixels.y, depth01));
     FV3 p = fv3(lane_shadow_row(shadow.shadow_from_view[0], v),
@@ -70,7 +67,7 @@ kernel void shadow_origins(
     FV3 to_eye = towards_eye(view, shadow, p);
     FV3 out = p;
     FV3 normal = to_eye;
-    SurfaceScene scene = {instances, instance_blocks, 0, 0, 0, 0, 0, 0};
+    SurfaceScene scene = SCENE_OF_ARGS;
     for (MASK left = drawn; lane_any(left);) {
         uint number = first_of(id, left) - 1u;
         MASK mask = lane_mask(id == (UV)(number + 1u)) & drawn;

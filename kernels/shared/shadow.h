@@ -57,7 +57,8 @@ SHARED_ASSERT(masked_caster_size, sizeof(MaskedCaster) == 48);
 SHARED_STRUCT(ShadowView) {
     float4 shadow_from_view[3];  // xyz: a row of the rotation; w: of the camera's position [m]
     float extent;                // no caster's |x| + |y| + |z| is larger [m]
-    uint unused0, unused1, unused2;
+    uint levels;                 // of the hierarchy; 0: not known
+    uint unused0, unused1;
 };
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
 

@@ -16,6 +16,7 @@
 #ifndef GROUP
 #define GROUP 1
 #endif
+#include "kernels/device/arguments.h"
 #include "kernels/device/chunk_starts.h"
 #include "kernels/device/scan_group.h"
 #include "kernels/surfaces/raster_set_up.h"
@@ -185,22 +186,21 @@ kernel void bin_triangles_clear(uint count, global uint* restrict cursors) {
     if (i < count) cursors[i] = 0u;
 }
 
-kernel void bin_triangles_set_up(
-    View view,
-    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
-    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    uint triangle_count,
-    uint some_closed,                     // 0: `closed` is not read
-    global const uchar* restrict closed,  // [tiles]: 1 where no triangle is needed
-    global RasterRow* triangles,          // out [triangle_count]: kept ones, by number
-    global uint* restrict boxes,    // out [triangle_count][4]: TileBox; GROUP == 1: of kept ones,
-                                    // from each chunk's beginning on; else by number
-    global uint* restrict kept,     // out [chunks]: kept triangles; GROUP == 1 only
-    global uint* restrict cursors)  // out [chunks][cursor_stride]: pairs
-{
-    SurfaceScene scene = {instances, instance_blocks, meshes, vertices, indices, materials, 0, 0};
+// Binning of host/stages/surfaces/bin_triangles.cpp.
+// some_closed: 0: `closed` is not read. closed: [tiles]: 1 where no triangle is needed. boxes:
+// [triangle_count][4]: TileBox; GROUP == 1: of kept ones, from each chunk's beginning on; else by
+// number. kept: [chunks]: kept triangles; GROUP == 1 only. cursors: [chunks][cursor_stride]: pairs,
+// then starts, which filling uses up.
+#define BINNING_ARGS(access)                                                    \
+    uint triangle_count, uint some_closed, global const uchar *restrict closed, \
+        global access uint *restrict boxes, global access uint *restrict kept,  \
+        global uint *restrict cursors
+
+kernel void bin_triangles_set_up(View view, SCENE_ARGS,
+                                 global RasterRow* triangles,  // out [triangle_count]: kept ones,
+                                                               // by number
+                                 BINNING_ARGS()) {             // out: boxes, kept, cursors
+    SurfaceScene scene = SCENE_OF_ARGS;
     uint tiles = raster_tiles_x(view) * raster_tiles_y(view);
 #if GROUP == 1
     uint chunk = get_group_id(0);
@@ -247,14 +247,8 @@ kernel void bin_triangles_offset(
     if (tile < tile_count) chunk_starts(cursors, tile_count, chunk_count, tile, counts);
 }
 
-kernel void bin_triangles_fill(
-    View view, uint triangle_count, uint some_closed, global const uchar* restrict closed,
-    global const RasterRow* restrict triangles, global const uint* restrict boxes,
-    global const uint* restrict kept,     // all as bin_triangles_set_up made them
-    global uint* restrict cursors,        // in: starts [chunks][cursor_stride]; used up
-    global const uint* restrict offsets,  // [tiles + 1]
-    global uint* restrict lists,          // out [capacity]
-    uint capacity) {
+kernel void bin_triangles_fill(View view, BINNING_ARGS(const),  // as bin_triangles_set_up made them
+                               TRIANGLE_LIST_ARGS()) {          // out: lists
 #if GROUP == 1
     uint chunk = get_group_id(0);
     uint stride = cursor_stride(raster_tiles_x(view) * raster_tiles_y(view));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The G-buffer as shading sees it, in float planes: for AOVs, views and the float64 references.
 // One work-item decodes VW neighbouring pixels of a row.
-#include "kernels/device/gbuffer.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/shared/surface_planes.h"
 
 // Where the decoded pixels go.
@@ -23,24 +23,16 @@ static inline void store_vector(SurfacePlanes to, uint first_plane, FV3 value) {
     store_scalar(to, first_plane + 2, value.z);
 }
 
-kernel void decode_gbuffer(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                           global const float* restrict srgb,  // [256]
+kernel void decode_gbuffer(GBUFFER_ARGS,
                            // out [SURFACE_PLANES(_WITH_SPECULAR)][height][stride]; 0 for background
                            global float* restrict planes) {
-    uint x = (uint)get_global_id(0) * VW;
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    GBuffer g = {gbuffer, layout, view, srgb};
-    Pixels pixels = row_pixels(view, x, y);
-    FV depth01 = load_depth01(g, pixels);
-    SurfacePlanes to;
-    to.planes = planes;
-    to.plane_size = view.stride * view.height;
-    to.first = pixels.first;
-    to.drawn = lane_mask(depth01 > fv(0.0f)) & within_width(view, pixels);
-    FV z = view_depth(view, pixels.x, pixels.y, lane_select(to.drawn, depth01, fv(1.0f)));
-    Surface s = load_surface(g, pixels, z);
-    store_scalar(to, SURFACE_DEPTH, z);
+    GBuffer g = GBUFFER_OF_ARGS;
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside) return;
+    LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
+    SurfacePlanes to = {planes, view.stride * view.height, item.pixels.first, item.drawn};
+    Surface s = load_surface(g, item.pixels, item.z);
+    store_scalar(to, SURFACE_DEPTH, item.z);
     store_vector(to, SURFACE_POSITION, s.position);
     store_vector(to, SURFACE_NORMAL, s.normal);
     store_vector(to, SURFACE_ALBEDO, s.albedo);

@@ -9,6 +9,7 @@
 #ifndef GROUP
 #define GROUP 256
 #endif
+#include "kernels/device/arguments.h"
 #include "kernels/surfaces/raster_tile.h"
 #include "kernels/surfaces/raster_triangle.h"
 #if HAS_MASKS
@@ -198,21 +199,11 @@ static inline void draw_asking(SurfaceScene scene, View view, local const Shared
 }
 
 kernel void raster_triangles(
-    View view,
-    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
-    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    global const TextureRow* restrict textures, global const ulong* restrict texels,
-    global const RasterRow* restrict triangles,  // by number; listed ones
-    global const uint* restrict offsets,         // [tiles + 1]
-    global const uint* restrict lists,           // [capacity]: triangles of each tile, in any order
-    uint capacity,
+    View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // in any order
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
     local SharedTriangle batch[GROUP];
     local RegionList region_lists[REGIONS];
-    SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
-                          indices,   materials,       textures, texels};
+    SurfaceScene scene = SCENE_OF_ARGS;
     uint tiles_x = raster_tiles_x(view);
     uint tile = get_group_id(0);
     uint tile_x = tile % tiles_x * TILE_WIDTH;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles' triangles -> the triangle that each pixel shows, by one work-item a tile, triangle by
 // triangle, VW pixels at a time. For CPUs.
+#include "kernels/device/arguments.h"
 #include "kernels/device/prefetch.h"
 #include "kernels/surfaces/tile_strips.h"
 #if HAS_MASKS
@@ -32,19 +33,9 @@ static inline void draw_opaque(Canvas c, global const RasterRow* t, uint number,
 }
 
 kernel void raster_triangles(
-    View view,
-    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
-    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    global const TextureRow* restrict textures, global const ulong* restrict texels,
-    global const RasterRow* restrict triangles,  // by number; listed ones
-    global const uint* restrict offsets,         // [tiles + 1]
-    global const uint* restrict lists,           // [capacity]: triangles of each tile, ascending
-    uint capacity,
+    View view, SCENE_ARGS, TRIANGLE_LIST_ARGS(const),  // ascending
     global uint* restrict ids) {  // out [height][stride]: triangle + 1; 0 for background
-    SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
-                          indices,   materials,       textures, texels};
+    SurfaceScene scene = SCENE_OF_ARGS;
     uint tiles_x = raster_tiles_x(view);
     uint tile_number = get_global_id(0);
     Tile tile;

@@ -7,20 +7,14 @@
 // material's are asked for, of all its textures, before the first is read.
 // With one lane there are no blocks: their code costs an H200 a fifth of the time of this kernel.
 #define BLOCK_PIXELS (VW > 1)
+#include "kernels/device/arguments.h"
 #include "kernels/surfaces/resolved_surface.h"
 #include "kernels/surfaces/store_gbuffer.h"
 
 kernel void resolve_surfaces(
     global const uint* restrict ids,  // [height][stride]: triangle + 1; 0 for background
-    View view, GBufferLayout layout,
-    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
-    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    global const TextureRow* restrict textures, global const ulong* restrict texels,
-    global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
-    global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
-    global uchar* restrict gbuffer) {              // out: the layout's planes
+    View view, GBufferLayout layout, SCENE_ARGS, BUCKET_ARGS,
+    global uchar* restrict gbuffer) {  // out: the layout's planes
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     if (y - y % BLOCK_ROWS >= view.height) return;
@@ -32,8 +26,7 @@ kernel void resolve_surfaces(
         store_surface(to, background_surface(), fv(1.0f));
         return;
     }
-    SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
-                          indices,   materials,       textures, texels};
+    SurfaceScene scene = SCENE_OF_ARGS;
     Fragment fragment = interpolate_fragment(scene, view, pixels, id, drawn);
     Surface s = resolve_materials(scene, &fragment, drawn);
     s.position = view_position(view, pixels.x, pixels.y, fragment.z);

@@ -4,8 +4,7 @@
 //   (prefix_sum over clusters)
 //   cut_light_tree_fill   the lists, and where they are
 // One work-item takes VW clusters. They walk the tree together: a lane waits where it is ahead.
-#include "kernels/device/light_index.h"
-#include "kernels/shared/clusters.h"
+#include "kernels/device/arguments.h"
 #include "kernels/tails/tree_cut.h"
 
 static inline Receivers load_receivers(global const ActiveCluster* clusters,
@@ -45,6 +44,13 @@ typedef struct Tree {
     float share;
 } Tree;
 
+// TreeCut of host/stages/tails/cut_light_tree.cpp. active_clusters: [1], may exceed the capacity;
+// cones: [cluster_capacity].
+#define CUT_ARGS(access)                                                \
+    CLUSTER_ARGS(access), global const ulong *restrict active_clusters, \
+        global const ClusterCone *restrict cones, LIGHT_ARGS(const), float share
+#define TREE_OF_ARGS ((Tree){tree_nodes, bounds + light_count, node_count, share})
+
 // One step of a walk of VW clusters: `next` is each lane's next node. Returns those that take
 // `node`.
 static inline MASK step_walk(Tree tree, Receivers r, uint node, UV* next) {
@@ -60,15 +66,8 @@ static inline UV start_walk(uint count, uint node_count) {
     return select((UV)(node_count), (UV)(0u), lane_bits(lane_mask(lane_numbers < (UV)(count))));
 }
 
-kernel void cut_light_tree_count(
-    global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-    uint cluster_capacity,
-    global const ulong* restrict active_clusters,  // [1]: may exceed the capacity
-    global const ClusterCone* restrict cones,      // [cluster_capacity]
-    global const TreeNode* restrict nodes,         // [node_count]
-    global const float4* restrict bounds,          // [first_node + node_count]
-    uint first_node, uint node_count, float share,
-    global uint* restrict counts) {  // out [cluster_capacity]
+kernel void cut_light_tree_count(CUT_ARGS(const),
+                                 global uint* restrict counts) {  // out [cluster_capacity]
     uint first = (uint)get_global_id(0) * VW;
     if (first >= cluster_capacity) return;
     uint active = (uint)min(*active_clusters, (ulong)cluster_capacity);
@@ -76,7 +75,7 @@ kernel void cut_light_tree_count(
     UV taken = (UV)(0u);
     uint count = first < active ? min(active - first, (uint)VW) : 0u;
     if (count > 0u) {
-        Tree tree = {nodes, bounds + first_node, node_count, share};
+        Tree tree = TREE_OF_ARGS;
         Receivers r = load_receivers(clusters, cones, first, count);
         UV next = start_walk(count, node_count);
         for (uint node = 0; node < node_count; node = lane_min_uint(next)) {
@@ -99,18 +98,10 @@ static inline uint copy_list(global const LIGHT_INDEX* from, uint count, global 
     return copied;
 }
 
-kernel void cut_light_tree_fill(
-    global ActiveCluster* restrict clusters,  // in/out [cluster_capacity]: lists set
-    uint cluster_capacity,
-    global const ulong* restrict active_clusters,  // [1]
-    global const ClusterCone* restrict cones,      // [cluster_capacity]
-    global const TreeNode* restrict nodes,         // [node_count]
-    global const float4* restrict bounds,          // [first_node + node_count]
-    uint first_node, uint node_count, float share,
-    global const LIGHT_INDEX* restrict refined,  // the lists until then
-    global const uint* restrict offsets,         // [cluster_capacity + 1]
-    global LIGHT_INDEX* restrict lists,          // out [list_capacity]
-    uint list_capacity) {
+kernel void cut_light_tree_fill(CUT_ARGS(),  // in/out: the clusters' lists set
+                                global const LIGHT_INDEX* restrict refined,  // the lists until then
+                                global const uint* restrict offsets,  // [cluster_capacity + 1]
+                                LIST_ARGS()) {
     uint first = (uint)get_global_id(0) * VW;
     uint active = (uint)min(*active_clusters, (ulong)cluster_capacity);
     if (first >= active) return;
@@ -122,14 +113,14 @@ kernel void cut_light_tree_fill(
         place[i] =
             begin + copy_list(refined + c.list_begin, c.list_count, lists, begin, list_capacity);
     }
-    Tree tree = {nodes, bounds + first_node, node_count, share};
+    Tree tree = TREE_OF_ARGS;
     Receivers r = load_receivers(clusters, cones, first, count);
     UV next = start_walk(count, node_count);
     for (uint node = 0; node < node_count; node = lane_min_uint(next)) {
         uint takers = lane_ballot(step_walk(tree, r, node, &next));
         for (uint i = 0; takers != 0u; ++i, takers >>= 1) {
             if ((takers & 1u) == 0u || place[i] >= list_capacity) continue;
-            lists[place[i]++] = (LIGHT_INDEX)(first_node + node);
+            lists[place[i]++] = (LIGHT_INDEX)(light_count + node);
         }
     }
     for (uint i = 0; i < count; ++i) {

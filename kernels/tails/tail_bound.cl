@@ -5,10 +5,9 @@
 // Of the light from directions l with weights w, the surface takes sum w max(n.l, 0) = sum w (|n.l|
 // + n.l) / 2, and sum w |n.l| <= sqrt(sum w * sum w (n.l)^2) by Cauchy and Schwarz. Directions
 // stray by s within a cluster, which adds sum w s.
-#include "kernels/device/gbuffer.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
 #include "kernels/lists/coarse_tile.h"
-#include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/evaluate.h"
 #include "kernels/tails/tail_moments.h"
 
@@ -48,26 +47,21 @@ static inline float radiance_bound(Surface s, ShadingPoint p, float albedo, floa
 #endif
 }
 
-kernel void tail_bound(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                       global const float* restrict srgb,  // [256]
-                       ClusterGrid grid,
+kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
                        global const float* restrict moments,  // [cluster_count][TAIL_ROWS]
                        global float* restrict bound) {        // out [3][height][stride]
-    uint x = get_global_id(0);
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    Pixels pixels = row_pixels(view, x, y);
-    GBuffer g = {gbuffer, layout, view, srgb};
-    float depth01 = load_depth01(g, pixels);
-    if (!(depth01 > 0.0f) || x >= view.width) {
-        store_radiance(bound, view, pixels, zero3());
+    GBuffer g = GBUFFER_OF_ARGS;
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside) return;
+    LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
+    if (!item.any) {
+        store_radiance(bound, view, item.pixels, zero3());
         return;
     }
-    float z = view_depth(view, pixels.x, pixels.y, depth01);
-    Surface s = load_surface(g, pixels, z);
+    Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    CoarseTile tile = coarse_tile(view, grid, fine_tile_of(view, x, y));
-    uint cluster = cluster_index(grid, tile.column, tile.row, slice_of_depth(grid, z));
+    CoarseTile tile = coarse_tile(view, grid, at.tile);
+    uint cluster = cluster_index(grid, tile.column, tile.row, slice_of_depth(grid, item.z));
     global const float* m = moments + cluster * TAIL_ROWS;
     FV3 f0 = mixed_f0(s, dielectric_f0(s));
     const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
@@ -81,5 +75,5 @@ kernel void tail_bound(global const uchar* restrict gbuffer, GBufferLayout layou
         if (!(s.roughness > 0.0f)) out[c] = 0.0f;
 #endif
     }
-    store_radiance(bound, view, pixels, fv3(out[0], out[1], out[2]));
+    store_radiance(bound, view, item.pixels, fv3(out[0], out[1], out[2]));
 }

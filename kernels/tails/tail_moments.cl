@@ -2,9 +2,8 @@
 // What the ranges of lights without one of their own take from each coarse cluster, as moments of
 // the lost light: see kernels/tails/tail_moments.h. For the bound of a picture's error; no part of
 // a frame otherwise. One work-item sums for VW clusters, over all lights in their order.
+#include "kernels/device/arguments.h"
 #include "kernels/device/lanes.h"
-#include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/light.h"
 #include "kernels/shared/surface.h"
 #include "kernels/tails/tail_moments.h"
 
@@ -113,11 +112,8 @@ static inline bool any_occupied(global const uchar* occupied, uint first, uint e
 }
 
 kernel void tail_moments(
-    global const Light* restrict own,          // [count]: which have no range of their own
-    global const ShadeLight* restrict lights,  // [count], view space
-    uint count, ClusterGrid grid,
-    global const float2* restrict columns,  // of the clusters' boxes, as build_clusters makes them
-    global const float2* restrict rows, global const float2* restrict depths,
+    global const Light* restrict own,  // [light_count]: which have no range of their own
+    LIGHT_ARGS(const), BOX_ARGS(const),
     global const uchar* restrict occupied,  // [cluster_count]
     global float* restrict moments) {       // out [cluster_count][TAIL_ROWS], where occupied
     uint first = (uint)get_global_id(0) * VW;
@@ -128,7 +124,7 @@ kernel void tail_moments(
     for (uint c = 0; c < 3; ++c) {
         for (uint i = 0; i < TAIL_MOMENTS; ++i) sums[c][i] = fv(0.0f);
     }
-    for (uint i = 0; i < count; ++i) {
+    for (uint i = 0; i < light_count; ++i) {
         if (own[i].position_range.w > 0.0f) continue;
         LostLight lost = lost_light(boxes, lights[i]);
         float4 color = lights[i].color_scale;

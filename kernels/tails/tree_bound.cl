@@ -6,11 +6,8 @@
 // A direction to a node's light is within `stray` of that to its centre, and the half vector within
 // stray / (|h| - stray / 2), h = l + v: |a/|a| - b/|b|| <= 2 |a - b| / (|a| + |b|). The cosine
 // v.h moves by at most half as much as l: it is sqrt((1 + l.v) / 2).
-#include "kernels/device/gbuffer.h"
-#include "kernels/device/light_index.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
-#include "kernels/shared/cluster_grid.h"
-#include "kernels/shared/clusters.h"
 #include "kernels/shared/evaluate.h"
 #include "kernels/tails/tree_cut.h"
 
@@ -92,57 +89,40 @@ static inline float radiance_error(Surface s, ShadingPoint p, float albedo, floa
 #endif
 }
 
-// The cluster of a pixel at depth z [m] among those of its tile; `end`: none.
-static inline uint cluster_of(ClusterGrid grid, global const ActiveCluster* clusters, uint first,
-                              uint end, float z) {
-    uint slice = fine_slice_of_depth(grid, z);
-    for (uint i = first; i < end; ++i) {
-        if (clusters[i].slice == slice) return i;
-    }
-    return end;
-}
-
-kernel void tree_bound(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                       global const float* restrict srgb,  // [256]
-                       ClusterGrid grid,
-                       global const uint* restrict cluster_offsets,    // [tiles + 1]
-                       global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-                       uint cluster_capacity, global const LIGHT_INDEX* restrict lists,
-                       global const ShadeLight* restrict lights,  // [first_node + node_count]
-                       uint first_node,
-                       global const TreeNode* restrict nodes,  // [node_count]
-                       global float* restrict bound) {         // out [3][height][stride]
-    uint x = get_global_id(0);
-    uint y = get_global_id(1);
-    if (y >= view.height) return;
-    Pixels pixels = row_pixels(view, x, y);
-    GBuffer g = {gbuffer, layout, view, srgb};
-    float depth01 = load_depth01(g, pixels);
+kernel void tree_bound(LIT_ARGS,
+                       global float* restrict bound) {  // out [3][height][stride]
+    GBuffer g = GBUFFER_OF_ARGS;
+    Clusters active = CLUSTERS_OF_ARGS;
+    ItemPlace at = place_in_planes(view);
+    if (!at.inside) return;
+    LitItem item = clustered_item(g, active, row_pixels(view, at.x, at.y));
     float out[3] = {0.0f, 0.0f, 0.0f};
-    if (depth01 > 0.0f && x < view.width) {
-        float z = view_depth(view, pixels.x, pixels.y, depth01);
-        Surface s = load_surface(g, pixels, z);
+    if (item.any) {
+        Surface s = load_surface(g, item.pixels, item.z);
         ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
         FV3 f0 = mixed_f0(s, dielectric_f0(s));
         const float albedo[3] = {s.albedo.x, s.albedo.y, s.albedo.z};
         const float f0_of[3] = {f0.x, f0.y, f0.z};
-        uint tile = fine_tile_of(view, x, y);
-        uint end = min(cluster_offsets[tile + 1], cluster_capacity);
-        uint cluster = cluster_of(grid, clusters, cluster_offsets[tile], end, z);
-        uint count = cluster < end ? clusters[cluster].list_count : 0u;
-        for (uint i = 0; i < count; ++i) {
-            uint light = lists[clusters[cluster].list_begin + i];
-            if (light < first_node || !(nodes[light - first_node].radius > 0.0f)) continue;
-            ShadeLight row = lights[light];
-            NodeError e = node_error(s, p, nodes[light - first_node], row.position_inv_range2);
-            const float intensity[3] = {row.color_scale.x, row.color_scale.y, row.color_scale.z};
-            for (uint c = 0; c < 3; ++c) {
-                out[c] += ROUNDING * intensity[c] * radiance_error(s, p, albedo[c], f0_of[c], e);
+        FOR_EACH_CLUSTER(cluster, active, at.tile) {
+            if (!lane_any(lanes_in_cluster(item, active, cluster))) continue;
+            for (uint i = 0; i < clusters[cluster].list_count; ++i) {
+                uint light = lists[clusters[cluster].list_begin + i];
+                if (light < light_count || !(tree_nodes[light - light_count].radius > 0.0f))
+                    continue;
+                ShadeLight row = lights[light];
+                NodeError e =
+                    node_error(s, p, tree_nodes[light - light_count], row.position_inv_range2);
+                const float intensity[3] = {row.color_scale.x, row.color_scale.y,
+                                            row.color_scale.z};
+                for (uint c = 0; c < 3; ++c) {
+                    out[c] +=
+                        ROUNDING * intensity[c] * radiance_error(s, p, albedo[c], f0_of[c], e);
+                }
             }
         }
 #if HAS_UNLIT
         if (!(s.roughness > 0.0f)) out[0] = out[1] = out[2] = 0.0f;
 #endif
     }
-    store_radiance(bound, view, pixels, fv3(out[0], out[1], out[2]));
+    store_radiance(bound, view, item.pixels, fv3(out[0], out[1], out[2]));
 }

@@ -2,8 +2,7 @@
 // The cone of each active cluster's normals, for cuts through the light tree. One work-item takes
 // one fine tile: VW is 1.
 #define ORDERED_PIXELS 1
-#include "kernels/device/gbuffer.h"
-#include "kernels/shared/clusters.h"
+#include "kernels/device/lit_item.h"
 #include "kernels/shared/surface.h"
 #include "kernels/tails/tree_cut.h"
 
@@ -19,12 +18,6 @@ static inline float sharpness_of(float roughness) {
 #endif
 }
 
-static inline Pixels pixel_at(View view, uint tile, global const uchar* order, uint place) {
-    uint tiles = fine_tiles_x(view);
-    return ordered_pixels(view, tile % tiles * FINE_TILE, tile / tiles * FINE_TILE,
-                          order + tile * FINE_TILE_PIXELS + place);
-}
-
 static inline float3 normal_at(GBuffer g, Pixels pixel) {
     FV3 n = load_normal(g, pixel);
     return (float3)(n.x, n.y, n.z);
@@ -35,7 +28,7 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
     float3 sum = (float3)(0.0f);
     float sharpness = 1.0f;
     for (uint i = first; i < first + count; ++i) {
-        Pixels pixel = pixel_at(g.view, tile, order, i);
+        Pixels pixel = pixels_of_tile(g.view, tile, i, order);
         sum += normal_at(g, pixel);
 #if SHADING != SHADING_LAMBERT
         Surface s = load_surface(g, pixel, 1.0f);
@@ -46,7 +39,7 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
     float3 axis = sum * (length2 > 0.0f ? 1.0f / sqrt(length2) : 0.0f);
     float cosine = 1.0f;
     for (uint i = first; i < first + count; ++i) {
-        cosine = min(cosine, dot(axis, normal_at(g, pixel_at(g.view, tile, order, i))));
+        cosine = min(cosine, dot(axis, normal_at(g, pixels_of_tile(g.view, tile, i, order))));
     }
     ClusterCone out;
     cosine = max(cosine - 1e-5f, 0.0f);  // more than float32 and normals' lengths lose
@@ -57,19 +50,14 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
     return out;
 }
 
-kernel void tree_cones(global const uchar* restrict gbuffer, GBufferLayout layout, View view,
-                       global const float* restrict srgb,              // [256]
-                       global const uint* restrict cluster_offsets,    // [tile_count + 1]
-                       global const ActiveCluster* restrict clusters,  // [cluster_capacity]
-                       uint cluster_capacity, uint tile_count,
-                       global const uchar* restrict order,    // [tile_count][FINE_TILE_PIXELS]
+kernel void tree_cones(GBUFFER_ARGS, CLUSTER_ARGS(const), uint tile_count,
                        global ClusterCone* restrict cones) {  // out [cluster_capacity]
     uint tile = get_global_id(0);
     if (tile >= tile_count) return;
-    GBuffer g = {gbuffer, layout, view, srgb};
-    uint end = min(cluster_offsets[tile + 1], cluster_capacity);
+    GBuffer g = GBUFFER_OF_ARGS;
+    Clusters active = CLUSTERS_OF_ARGS;
     uint first = 0;
-    for (uint i = cluster_offsets[tile]; i < end; ++i) {
+    FOR_EACH_CLUSTER(i, active, tile) {
         uint count = clusters[i].pixel_count;
         cones[i] = cone_of_pixels(g, tile, order, first, count);
         first += count;

@@ -79,7 +79,7 @@ file(WRITE ${WORK}/c/CMakeLists.txt "cmake_minimum_required(VERSION 3.22)
 project(LightPlane LANGUAGES C)
 find_package(Kilolux 0.1 REQUIRED)
 add_executable(light_plane light_plane.c)
-target_compile_definitions(light_plane PRIVATE CL_TARGET_OPENCL_VERSION=300)
+
 target_link_libraries(light_plane PRIVATE Kilolux::c)
 ")
 file(COPY ${ROOT}/tests/install/light_plane.c DESTINATION ${WORK}/c)

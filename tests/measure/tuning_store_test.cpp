@@ -219,6 +219,21 @@ TEST_F(TuningStore, BuiltInTableIsValid) {
     EXPECT_TRUE(is_valid(built_in_tuning(device), device));
 }
 
+TEST_F(TuningStore, BuiltInTableIsValidForSmallGroups) {
+    for (const bool is_cpu : {false, true}) {
+        for (const int lanes : {1, 2, 8, 16}) {
+            for (const int group : {16, 48, 64, 128, 256, 1024}) {
+                DeviceInfo device = device_named("a");
+                device.is_cpu = is_cpu;
+                device.lane_width = lanes;
+                device.max_work_group = group;
+                EXPECT_TRUE(is_valid(built_in_tuning(device), device))
+                    << is_cpu << ", " << lanes << " lanes, groups of " << group;
+            }
+        }
+    }
+}
+
 class ShippedTunings : public CacheSandbox {};
 
 const std::vector<ShippedTuning>& some_table() {

@@ -51,6 +51,19 @@ TEST(Device, UnknownChoiceListsWhatThereIs) {
     }
 }
 
+TEST(Device, AWholeNumberIsAnIndexAndNoPartOfAName) {
+    const std::string name = describe(all_devices().front()).name;
+    const std::size_t first = name.find_first_of("0123456789");
+    if (first == std::string::npos) GTEST_SKIP() << name << " has no digit";
+    const std::string digits =
+        name.substr(first, name.find_first_not_of("0123456789", first) - first);
+    if (std::stoul(digits) < all_devices().size()) GTEST_SKIP() << digits << " is an index";
+    const std::string message = error_of(digits);
+    EXPECT_NE(message.find("no device '" + digits + "'; the devices are, by index: 0: "),
+              std::string::npos)
+        << message;
+}
+
 TEST(DeviceDeathTest, WithoutADriverSaysWhatToInstall) {
     testing::GTEST_FLAG(death_test_style) = "threadsafe";
     EXPECT_EXIT(

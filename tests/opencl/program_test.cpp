@@ -44,6 +44,31 @@ TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
     expect_contains(message, "no_such_function");
 }
 
+// A text that an #if leaves out is there where it is included next.
+TEST(Program, IncludesFollowConditions) {
+    const auto folder = std::filesystem::temp_directory_path() / "kilolux_splice_test";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "a.h") << "#ifndef A_H\n#define A_H\n#include \"b.h\"\nint a;\n#endif\n";
+    std::ofstream(folder / "b.h") << "#ifndef B_H\n#define B_H\nint b;\n#endif\n";
+    std::ofstream(folder / "c.cl") << "#if 0\n#include \"a.h\"\n#endif\n#include \"b.h\"\n#include "
+                                      "\"a.h\"\n#include \"b.h\"\n";
+    setenv("KILOLUX_SOURCE_DIR", folder.c_str(), 1);
+    const SplicedSource source = splice_source("c.cl", false);
+    unsetenv("KILOLUX_SOURCE_DIR");
+    std::filesystem::remove_all(folder);
+    const std::string rest = source.text.substr(source.text.find("#line 3 \"c.cl\""));
+    const auto count = [&](const std::string& line) {
+        std::size_t found = 0;
+        for (std::size_t at = rest.find(line); at != std::string::npos;
+             at = rest.find(line, at + 1))
+            ++found;
+        return found;
+    };
+    EXPECT_EQ(count("int a;"), 1u) << source.text;
+    EXPECT_EQ(count("int b;"), 1u) << source.text;
+    EXPECT_EQ(source.files, (std::vector<std::string>{"c.cl", "a.h", "b.h"}));
+}
+
 TEST(Program, CompilerMessagesNameTheFileAndLineOfAnInclude) {
     if (!test_gpu().info.is_cpu) GTEST_SKIP() << "NVIDIA's compiler ignores #line";
     const auto folder = std::filesystem::temp_directory_path() / "kilolux_program_test";

@@ -8,7 +8,9 @@ namespace {
 
 Gpu first_gpu() {
     const char* choice = std::getenv("KILOLUX_TEST_DEVICE");
-    return Gpu(choose_device(choice != nullptr ? choice : ""));
+    Gpu gpu(choose_device(choice != nullptr ? choice : ""));
+    gpu.checks_arguments = true;
+    return gpu;
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include "host/certify/cases.h"
 #include "host/certify/scene_case.h"
 #include "host/gpu/buffer.h"
+#include "host/gpu/list_size.h"
 #include "host/render/plan/scene_plan.h"
 #include "host/render/renderer.h"
-#include "host/stages/lists/prefix_sum.h"
 
 namespace kilolux {
 namespace {
@@ -208,9 +208,9 @@ void try_wide_indices(const Gpu& gpu, Findings& findings) {
     check_lists(findings, gpu, input);
     // Offsets are 32 bits: 2^31 entries fit, 2^32 do not, and more than the device has is refused.
     findings.require("2^31 entries fit 32-bit offsets",
-                     checked_list_size(std::uint64_t{1} << 31, "lists") == 0x80000000u);
+                     checked_list_size(std::uint64_t{1} << 31, "lists", "entries") == 0x80000000u);
     const std::string too_many =
-        error_of([] { checked_list_size(std::uint64_t{1} << 32, "lists"); });
+        error_of([] { checked_list_size(std::uint64_t{1} << 32, "lists", "entries"); });
     findings.require("2^32 entries are an error with the number",
                      too_many.find("4294967296") != std::string::npos, too_many);
     GrowingBuffer buffer(gpu, "lists");

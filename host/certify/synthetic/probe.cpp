@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-cl::Program build_probe(const Gpu& gpu, std::span<const std::string_view> headers,
-                        std::string_view text, const BuildOptions& options) {
+KernelProgram build_probe(const Gpu& gpu, std::span<const std::string_view> headers,
+                          std::string_view text, const BuildOptions& options) {
     std::string source;
     for (const std::string_view header : headers) source += splice_source(header, false).text;
     source += "#line 1 \"probe\"\n" + std::string(text);

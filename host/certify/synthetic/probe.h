@@ -13,8 +13,8 @@ namespace kilolux {
 
 /// A program of `headers` (embedded, spliced) followed by `text`, built as the stages are: for
 /// running a shared function on the device. Throws Error with the compiler's log.
-cl::Program build_probe(const Gpu& gpu, std::span<const std::string_view> headers,
-                        std::string_view text, const BuildOptions& options = {});
+KernelProgram build_probe(const Gpu& gpu, std::span<const std::string_view> headers,
+                          std::string_view text, const BuildOptions& options = {});
 
 /// Uploads `values` to a new buffer of at least 16 bytes.
 template <typename T>

@@ -48,7 +48,7 @@ double best_rate(double unit, uint most, Run run) {
     return unit * n / seconds;
 }
 
-cl::Program texel_program(const Gpu& gpu) {
+KernelProgram texel_program(const Gpu& gpu) {
     return build_program(gpu, "measure_texels", BuildOptions().define("TEXELS", kTexels));
 }
 

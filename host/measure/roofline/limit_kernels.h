@@ -57,10 +57,10 @@ class LimitKernels {
     double walk_bytes_per_s(const char* kernel, const Walk& walk);
 
     Gpu gpu_;
-    cl::Program program_;
+    KernelProgram program_;
     struct Width {
         int lanes;
-        cl::Program program, texels;
+        KernelProgram program, texels;
     };
     std::vector<Width> widths_;  // of the *_rate kernels
     std::size_t group_;          // work-items of a group

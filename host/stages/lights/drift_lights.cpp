@@ -29,6 +29,12 @@ uint lower(ulong v) { return static_cast<uint>(v); }
 // Time since the start as kernels take it.
 struct Elapsed {
     uint seconds, rest_high, rest_low;
+
+    void each(auto&& set) const {
+        set("seconds", seconds);
+        set("rest_high", rest_high);
+        set("rest_low", rest_low);
+    }
 };
 
 Elapsed elapsed(double seconds) {
@@ -106,25 +112,25 @@ void DriftLights::order(double seconds, StageTimer& timer) {
     const DeviceArray<uint> counts = counts_.reserve(kDigits * chunks);
     const DeviceArray<uint> offsets = offsets_.reserve(kDigits * chunks + 1);
     DeviceArray<std::uint64_t> from = order_.reserve(lights_), to = unsorted_.reserve(lights_);
-    const Elapsed t = elapsed(seconds);
     keys_.enqueue(items(lights_, tuning_.light_group), timer, drifts_.get(), count, boxes_.get(),
-                  t.seconds, t.rest_high, t.rest_low, from);
+                  elapsed(seconds), from.buffer());
     for (uint shift = 0; shift < 32; shift += kDigitBits) {  // an even number of passes
-        count_.enqueue(by_chunk, timer, from, count, chunks, shift, counts);
+        count_.enqueue(by_chunk, timer, from.buffer(), count, chunks, shift, counts);
         prefix_sum_.enqueue(counts, static_cast<uint>(kDigits) * chunks, offsets, timer);
-        scatter_.enqueue(by_chunk, timer, from, count, chunks, shift, offsets, to);
+        scatter_.enqueue(by_chunk, timer, from.buffer(), count, chunks, shift, offsets,
+                         to.buffer());
         std::swap(from, to);
     }
-    permute_.enqueue(items(lights_, tuning_.light_group), timer, drifts_.get(), count, from,
-                     ordered_.reserve(lights_));
+    // Whole rows are moved, whatever is in them.
+    permute_.enqueue(items(lights_, tuning_.light_group), timer, drifts_.get().buffer(), count,
+                     from.buffer(), ordered_.reserve(lights_).buffer());
 }
 
 void DriftLights::place(const DeviceArray<WorldLight>& world, std::size_t first, double seconds,
                         StageTimer& timer) {
     if (lights_ == 0) return;
-    const Elapsed t = elapsed(seconds);
     place_.enqueue(items(lights_, tuning_.light_group), timer, ordered_.get(),
-                   static_cast<uint>(lights_), boxes_.get(), t.seconds, t.rest_high, t.rest_low,
+                   static_cast<uint>(lights_), boxes_.get(), elapsed(seconds),
                    static_cast<uint>(first), world);
 }
 

@@ -55,7 +55,7 @@ class DriftLights {
  private:
     Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel keys_, count_, scatter_, permute_, place_;
     PrefixSum prefix_sum_;
     PinnedMemory staging_;

@@ -45,10 +45,8 @@ PreparedLights PrepareLights::enqueue(const LightInput& input, const View& view,
     out.extents = extents_.reserve(rows);
     out.directional = directional_.reserve(input.directional_count);
     if (rows > 0) {
-        const auto lanes = static_cast<std::size_t>(gpu_.info.lane_width);
-        prepare_.enqueue(items((rows + lanes - 1) / lanes, tuning_.light_group), timer,
-                         input.lights, rows, input.seed, view, grid, out.lights, out.bounds,
-                         out.extents);
+        prepare_.enqueue(prepare_.vector_items(rows, tuning_.light_group), timer, input.lights,
+                         input.seed, view, grid, out);
     }
     if (input.directional_count > 0) {
         prepare_directional_.enqueue(items(input.directional_count, 1), timer, input.directional,

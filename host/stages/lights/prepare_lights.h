@@ -32,7 +32,7 @@ class PrepareLights {
 
     Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel prepare_, prepare_directional_;
     std::optional<Kernel> aim_profiles_;  // made for the first lights that have some
     GrowingArray<ShadeLight> lights_;

@@ -7,7 +7,7 @@
 namespace kilolux {
 namespace {
 
-cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
+KernelProgram bin_program(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features) {
     return build_program(gpu, tuning.tile_group == 1 ? "bin_pixels_by_item" : "bin_pixels_by_group",
                          BuildOptions()
                              .define("GROUP", tuning.tile_group)
@@ -20,11 +20,11 @@ constexpr std::size_t kFewest = 1024;  // active clusters that there is room for
 
 BinPixels::BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),
-      program_(program_of(gpu, tuning, features)),
+      program_(bin_program(gpu, tuning, features)),
       clear_(gpu, program_, kBinPixelsStage, "bin_pixels_clear"),
       count_(gpu, program_, kBinPixelsStage, "bin_pixels_count"),
       fill_(gpu, program_, kBinPixelsStage, "bin_pixels_fill"),
-      clusters_(gpu, tuning, kBinPixelsStage, sizeof(ActiveCluster)),
+      clusters_(gpu, tuning, kBinPixelsStage, "active clusters", sizeof(ActiveCluster)),
       order_(gpu, kBinPixelsStage),
       occupied_(gpu, kBinPixelsStage) {}
 
@@ -32,6 +32,7 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
                                   StageTimer& timer) {
     const View& view = gbuffer.view;
     ActiveClusters out;
+    out.grid = grid;
     out.tile_count = fine_tile_count(view);
     // Most tiles have one or two; a small picture's may all have many.
     if (clusters_.capacity() == 0) {
@@ -45,10 +46,9 @@ ActiveClusters BinPixels::enqueue(const GBuffer& gbuffer, const ClusterGrid& gri
     const WorkSize tiles = groups(out.tile_count, tuning_.tile_group);
     clear_.enqueue(items(grid.cluster_count, tuning_.light_group), timer, grid.cluster_count,
                    out.occupied);
-    count_.enqueue(tiles, timer, gbuffer.bytes, gbuffer.layout, view, grid, counts, out.occupied);
+    count_.enqueue(tiles, timer, gbuffer, grid, counts, out.occupied);
     out.offsets = clusters_.enqueue_offsets(out.tile_count, timer);
-    fill_.enqueue(tiles, timer, gbuffer.bytes, gbuffer.layout, view, grid, out.offsets,
-                  out.clusters, out.capacity, out.order);
+    fill_.enqueue(tiles, timer, gbuffer, out);
     return out;
 }
 

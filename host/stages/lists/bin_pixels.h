@@ -36,7 +36,7 @@ class BinPixels {
 
  private:
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel clear_, count_, fill_;
     CountedList clusters_;
     GrowingArray<std::uint8_t> order_, occupied_;

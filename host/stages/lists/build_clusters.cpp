@@ -63,7 +63,7 @@ ClusterBoxes BuildClusters::enqueue(const View& view, const ClusterGrid& grid, S
                            rows_.reserve(slices * grid.tiles_y), depths_.reserve(slices)};
     const WorkSize size{cl::NDRange(std::max(grid.tiles_x, grid.tiles_y), slices),
                         cl::NDRange(1, 1)};
-    kernel_.enqueue(size, timer, view, grid, out.columns, out.rows, out.depths);
+    kernel_.enqueue(size, timer, view, out);
     return out;
 }
 

@@ -24,7 +24,6 @@ class CountLights {
     LightCounts enqueue(const LitPixels& lit, StageTimer& timer);
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     Kernel kernel_;
     GrowingArray<uint> evaluated_, covering_;

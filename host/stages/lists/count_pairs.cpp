@@ -32,8 +32,7 @@ DeviceArray<PairCounts> CountPairs::enqueue(const ListTotals& totals,
     const WorkSize size = items(kShares, group_);
     const auto share_count = sums ? kShares : 0u;
     if (sums) {
-        sum_shares_.enqueue(size, timer, clusters.clusters, clusters.capacity,
-                            totals.active_clusters, shares_.get());
+        sum_shares_.enqueue(size, timer, clusters, totals.active_clusters, shares_.get());
     }
     gather_.enqueue(groups(1, group_), timer, totals.coarse_pairs, totals.active_clusters,
                     totals.refine_tests, shares_.get(), share_count, counts_.get());

@@ -39,7 +39,7 @@ class CountPairs {
  private:
     Gpu gpu_;
     int group_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel sum_shares_, gather_;
     GrowingArray<std::uint64_t> shares_;
     GrowingArray<PairCounts> counts_;

@@ -29,21 +29,20 @@ BuildOptions cull_options(const KernelFeatures& features) {
 }  // namespace
 
 CullLights::CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : gpu_(gpu),
-      tuning_(tuning),
+    : tuning_(tuning),
       program_(build_program(gpu, kCullLightsStage, cull_options(features))),
       count_(gpu, program_, kCullLightsStage, "cull_lights_count"),
       offset_(gpu, program_, kCullLightsStage, "cull_lights_offset"),
       fill_(gpu, program_, kCullLightsStage, "cull_lights_fill"),
       brute_force_(gpu, program_, kBruteForce, "cull_lights_brute_force"),
       cursors_(gpu, kCullLightsStage),
-      lists_(gpu, tuning, kCullLightsStage, light_index_bytes(features)) {
+      lists_(gpu, tuning, kCullLightsStage, "(light, cluster) pairs", light_index_bytes(features)) {
     lists_.reserve(kFirstCoarseEntries);
 }
 
 // Of kernels/lists/cull_lights.cl: as many vectors of lanes as hold a chunk's clusters.
 std::size_t CullLights::cursor_stride(const ClusterGrid& grid) const {
-    return round_up(grid.cluster_count, static_cast<std::size_t>(gpu_.info.lane_width));
+    return round_up(grid.cluster_count, offset_.lanes());
 }
 
 CoarseLists CullLights::lists_so_far(const DeviceArray<uint>& offsets) const {
@@ -58,15 +57,11 @@ CoarseLists CullLights::enqueue(const PreparedLights& lights, const ClusterBoxes
     const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
     const DeviceArray<uint> counts = lists_.counts(stride);
     const WorkSize size = groups(chunks, tuning_.cull_group);
-    count_.enqueue(size, timer, lights.lights, lights.bounds, lights.extents, lights.count, grid,
-                   boxes.columns, boxes.rows, boxes.depths, occupied, cursors);
-    offset_.enqueue(
-        items(stride / static_cast<std::size_t>(gpu_.info.lane_width), tuning_.light_group), timer,
-        grid.cluster_count, static_cast<uint>(chunks), cursors, counts);
+    count_.enqueue(size, timer, lights, boxes, occupied, cursors);
+    offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, grid.cluster_count,
+                    static_cast<uint>(chunks), cursors, counts);
     const CoarseLists out = lists_so_far(lists_.enqueue_offsets(grid.cluster_count, timer));
-    fill_.enqueue(size, timer, lights.lights, lights.bounds, lights.extents, lights.count, grid,
-                  boxes.columns, boxes.rows, boxes.depths, occupied, cursors, out.offsets,
-                  out.lists, out.capacity);
+    fill_.enqueue(size, timer, lights, boxes, occupied, cursors, out);
     return out;
 }
 
@@ -75,9 +70,8 @@ CoarseLists CullLights::brute_force(const PreparedLights& lights, const ClusterB
     const ClusterGrid& grid = boxes.grid;
     const DeviceArray<uint> counts = lists_.counts(cursor_stride(grid));
     const auto run = [&](uint fill, const CoarseLists& out) {
-        brute_force_.enqueue(items(grid.cluster_count, tuning_.light_group), timer, lights.lights,
-                             lights.bounds, lights.extents, lights.count, grid, boxes.columns,
-                             boxes.rows, boxes.depths, fill, counts, out.offsets, out.lists);
+        brute_force_.enqueue(items(grid.cluster_count, tuning_.light_group), timer, lights, boxes,
+                             fill, counts, out);
     };
     run(0, {});
     const DeviceArray<uint> offsets = lists_.enqueue_offsets(grid.cluster_count, timer);

@@ -47,9 +47,8 @@ class CullLights {
     std::size_t cursor_stride(const ClusterGrid& grid) const;
     CoarseLists lists_so_far(const DeviceArray<uint>& offsets) const;
 
-    Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel count_, offset_, fill_, brute_force_;
     GrowingArray<uint> cursors_;
     CountedList lists_;

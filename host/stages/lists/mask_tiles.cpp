@@ -9,15 +9,14 @@ constexpr std::string_view kMaskTilesStage = "mask_tiles";
 }  // namespace
 
 MaskTiles::MaskTiles(const Gpu& gpu, const Tuning& tuning)
-    : lanes_(gpu.info.lane_width),
-      tuning_(tuning),
+    : tuning_(tuning),
       kernel_(gpu, build_program(gpu, kMaskTilesStage), kMaskTilesStage, "mask_tiles"),
       masked_(gpu, kMaskTilesStage) {}
 
 DeviceArray<uint> MaskTiles::enqueue(const TileCounts& done, const View& view,
                                      const DeviceArray<uint>& ids, StageTimer& timer) {
     const auto out = masked_.reserve(std::size_t{view.stride} * view.height);
-    kernel_.enqueue(pixel_items(view, lanes_, tuning_.shade_rows), timer, view, done.fixed, ids,
+    kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, view, done.fixed, ids,
                     out);
     return out;
 }

@@ -17,7 +17,6 @@ class MaskTiles {
                               const DeviceArray<uint>& ids, StageTimer& timer);
 
  private:
-    int lanes_;
     Tuning tuning_;
     Kernel kernel_;
     GrowingArray<uint> masked_;

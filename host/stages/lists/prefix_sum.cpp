@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "host/gpu/list_size.h"
+
 namespace kilolux {
 namespace {
-
-constexpr uint kMostEntries = 0xfffffff0u;
 
 BuildOptions options_of(const Tuning& tuning) {
     return BuildOptions()
@@ -15,14 +15,6 @@ BuildOptions options_of(const Tuning& tuning) {
 }
 
 }  // namespace
-
-uint checked_list_size(std::uint64_t entries, std::string_view stage) {
-    if (entries > kMostEntries) {
-        throw Error(std::string(stage) + ": " + std::to_string(entries) +
-                    " (light, cluster) pairs exceed 2^32; use a coarser grid or smaller lights");
-    }
-    return static_cast<uint>(entries);
-}
 
 PrefixSum::PrefixSum(const Gpu& gpu, const Tuning& tuning, std::string_view stage)
     : tuning_(tuning),
@@ -54,9 +46,10 @@ void PrefixSum::enqueue(const DeviceArray<uint>& counts, uint n, const DeviceArr
 }
 
 CountedList::CountedList(const Gpu& gpu, const Tuning& tuning, std::string_view stage,
-                         std::size_t entry_bytes)
+                         std::string_view entries, std::size_t entry_bytes)
     : gpu_(gpu),
       stage_(stage),
+      name_(entries),
       entry_bytes_(entry_bytes),
       prefix_sum_(gpu, tuning, stage),
       counts_(gpu, stage),
@@ -74,7 +67,7 @@ uint CountedList::capacity() const {
 }
 
 bool CountedList::fits(std::uint64_t entries) {
-    const std::size_t needed = checked_list_size(entries, stage_);
+    const std::size_t needed = checked_list_size(entries, stage_, name_);
     if (needed <= capacity()) return true;
     entries_.reserve(needed * entry_bytes_, needed / 8 * entry_bytes_);
     return false;

@@ -32,7 +32,7 @@ class PrefixSum {
 
  private:
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel one_block_, sum_blocks_, scan_totals_, apply_;
     GrowingArray<std::uint64_t> block_sums_, total_;
 };
@@ -41,9 +41,9 @@ class PrefixSum {
 /// last frame; the exact total says afterwards whether that was enough.
 class CountedList {
  public:
-    /// Entries of `entry_bytes` each.
+    /// Entries of `entry_bytes` each, which `entries` names in error messages.
     CountedList(const Gpu& gpu, const Tuning& tuning, std::string_view stage,
-                std::size_t entry_bytes);
+                std::string_view entries, std::size_t entry_bytes);
 
     /// Makes room for at least `entries`.
     void reserve(std::size_t entries) { entries_.reserve(entries * entry_bytes_); }
@@ -73,15 +73,11 @@ class CountedList {
 
  private:
     Gpu gpu_;
-    std::string stage_;
+    std::string stage_, name_;
     std::size_t entry_bytes_;
     PrefixSum prefix_sum_;
     GrowingArray<uint> counts_, offsets_;
     GrowingBuffer entries_;
 };
-
-/// Throws Error if a list needs more entries than 32-bit offsets address; else the count as 32
-/// bits.
-uint checked_list_size(std::uint64_t entries, std::string_view stage);
 
 }  // namespace kilolux

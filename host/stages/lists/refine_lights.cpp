@@ -20,21 +20,21 @@ RefineLights::RefineLights(const Gpu& gpu, const Tuning& tuning, const KernelFea
       program_(build_program(gpu, kRefineLightsStage, options_of(tuning, features))),
       reserve_(gpu, program_, kRefineLightsStage, "refine_lights_reserve"),
       refine_(gpu, program_, kRefineLightsStage, "refine_lights"),
-      lists_(gpu, tuning, kRefineLightsStage, light_index_bytes(features)) {
+      lists_(gpu, tuning, kRefineLightsStage, "tests of lights against active clusters",
+             light_index_bytes(features)) {
     lists_.reserve(kFirstEntries);
 }
 
 RefinedLists RefineLights::enqueue(const PreparedLights& lights, const CoarseLists& coarse,
                                    const ActiveClusters& clusters, const View& view,
-                                   const ClusterGrid& grid, StageTimer& timer) {
+                                   StageTimer& timer) {
     const uint tiles = clusters.tile_count;
     const RefinedLists out{lists_.entries<std::byte>(), lists_.capacity()};
-    reserve_.enqueue(items(tiles, tuning_.light_group), timer, view, grid, tiles, clusters.offsets,
-                     clusters.clusters, clusters.capacity, coarse.offsets, lists_.counts(tiles));
+    reserve_.enqueue(items(tiles, tuning_.light_group), timer, view, clusters, tiles, coarse,
+                     lists_.counts(tiles));
     const DeviceArray<uint> offsets = lists_.enqueue_offsets(tiles, timer);
-    refine_.enqueue(groups(tiles, tuning_.refine_group), timer, lights.lights, lights.bounds, view,
-                    grid, coarse.offsets, coarse.lists, coarse.capacity, clusters.offsets,
-                    clusters.clusters, clusters.capacity, offsets, out.lists, out.capacity);
+    refine_.enqueue(groups(tiles, tuning_.refine_group), timer, lights, view, coarse, clusters,
+                    offsets, out);
     return out;
 }
 

@@ -20,8 +20,7 @@ class RefineLights {
 
     /// Sets list_begin and list_count of every active cluster. Enqueues only.
     RefinedLists enqueue(const PreparedLights& lights, const CoarseLists& coarse,
-                         const ActiveClusters& clusters, const View& view, const ClusterGrid& grid,
-                         StageTimer& timer);
+                         const ActiveClusters& clusters, const View& view, StageTimer& timer);
 
     /// Lights that the last enqueue tested, once for each active cluster: on the device; on the
     /// host, which blocks.
@@ -35,7 +34,7 @@ class RefineLights {
 
  private:
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel reserve_, refine_;
     CountedList lists_;
 };

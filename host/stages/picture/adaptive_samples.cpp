@@ -31,8 +31,8 @@ void AdaptiveSamples::add(uint half, const Radiance& radiance, StageTimer& timer
         upload<uint>(gpu_, fixed_.reserve(size), std::vector<uint>(size));
         state_.reserve(2 * kStatePlanes * size_of(view_));
     }
-    add_.enqueue(pixel_items(view_, gpu_.info.lane_width, tuning_.shade_rows), timer, view_, half,
-                 ++taken_[half], radiance.planes, fixed_.get(), state_.get());
+    add_.enqueue(add_.pixel_items(view_, tuning_.shade_rows), timer, view_, half, ++taken_[half],
+                 radiance.planes, fixed_.get(), state_.get());
 }
 
 void AdaptiveSamples::decide(float error, float floor, StageTimer& timer) {
@@ -52,7 +52,7 @@ std::vector<bool> AdaptiveSamples::open_tiles() const {
 
 Radiance AdaptiveSamples::mean(StageTimer& timer) {
     const Radiance out{mean_.reserve(3 * size_of(view_)), view_};
-    mean_kernel_.enqueue(pixel_items(view_, gpu_.info.lane_width, tuning_.shade_rows), timer, view_,
+    mean_kernel_.enqueue(mean_kernel_.pixel_items(view_, tuning_.shade_rows), timer, view_,
                          taken_[0], state_.get(), fixed_.get(), out.planes,
                          variance_.reserve(size_of(view_)));
     return out;

@@ -54,7 +54,7 @@ class AdaptiveSamples {
  private:
     Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel add_, decide_, mean_kernel_;
     View view_{};
     uint taken_[2] = {0, 0};

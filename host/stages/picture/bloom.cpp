@@ -37,8 +37,7 @@ Radiance Bloom::enqueue(const Radiance& radiance, float share, StageTimer& timer
     if (share <= 0.0f || sizes.size() == 1) return radiance;
     while (levels_.size() < sizes.size()) levels_.emplace_back(gpu_, kBloomStage);
     const auto work = [&](std::size_t i) {
-        const auto lanes = static_cast<std::size_t>(gpu_.info.lane_width);
-        return WorkSize{cl::NDRange(sizes[i].z / lanes, sizes[i].y, 3), cl::NullRange};
+        return WorkSize{cl::NDRange(sizes[i].z / down_.lanes(), sizes[i].y, 3), cl::NullRange};
     };
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         levels_[i].reserve(std::size_t{3} * sizes[i].y * sizes[i].z);

@@ -29,7 +29,7 @@ class Bloom {
 
  private:
     Gpu gpu_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel down_, up_;
     std::vector<GrowingArray<float>> levels_;  // [0]: the result; [i]: the image 2^i times smaller
 };

@@ -12,15 +12,14 @@ uint floats_of(const View& view) { return 3 * view.stride * view.height; }
 }  // namespace
 
 SumSamples::SumSamples(const Gpu& gpu, const Tuning& tuning)
-    : lanes_(static_cast<uint>(gpu.info.lane_width)),
-      group_(tuning.light_group),
+    : group_(tuning.light_group),
       program_(build_program(gpu, kSumSamplesStage)),
       add_(gpu, program_, kSumSamplesStage, "sum_samples_add"),
       mean_kernel_(gpu, program_, kSumSamplesStage, "sum_samples_mean"),
       sums_(gpu, kSumSamplesStage),
       mean_(gpu, kSumSamplesStage) {}
 
-WorkSize SumSamples::work_size() const { return items(floats_of(view_) / lanes_, group_); }
+WorkSize SumSamples::work_size() const { return add_.vector_items(floats_of(view_), group_); }
 
 void SumSamples::add(const Radiance& radiance, StageTimer& timer) {
     view_ = radiance.view;

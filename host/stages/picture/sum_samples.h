@@ -31,9 +31,8 @@ class SumSamples {
  private:
     WorkSize work_size() const;
 
-    uint lanes_;
     int group_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel add_, mean_kernel_;
     View view_{};
     uint count_ = 0;

@@ -28,12 +28,10 @@ class Tonemap {
     DisplayTarget target(DeviceArray<uint> pixels, const View& view, float exposure_ev) const;
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     int tone_curve_;
     Kernel kernel_;
-    GrowingArray<float> boundary_;
-    GrowingArray<uint> code_, display_;
+    GrowingArray<uint> display_;
 };
 
 }  // namespace kilolux

@@ -56,15 +56,15 @@ uint4 FillBackground::level_for(const View& view) const {
 
 void FillBackground::enqueue(const GBuffer& gbuffer, const Radiance& radiance, StageTimer& timer) {
     const View& view = radiance.view;
-    kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer,
-                    gbuffer.bytes, gbuffer.layout.offset_bytes[PLANE_DEPTH], 0u, view,
+    kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, gbuffer, 0u,
                     texels_.get(), level_for(view), radiance.planes);
 }
 
 void FillBackground::enqueue_everywhere(const Radiance& radiance, StageTimer& timer) {
     const View& view = radiance.view;
-    kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer,
-                    texels_.get(), 0u, 1u, view, texels_.get(), level_for(view), radiance.planes);
+    const GBuffer none{{}, {}, view};
+    kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, none, 1u, texels_.get(),
+                    level_for(view), radiance.planes);
 }
 
 // Neighbouring pixels share texels.

@@ -21,6 +21,23 @@ struct ReflectionMapsView {
     uint table_size = 0;
 };
 
+/// The same on the device.
+struct ReflectionBuffers {
+    DeviceArray<float> texels;
+    DeviceArray<uint4> levels;
+    uint roughness_levels = 0;  // from 0 to 1
+    DeviceArray<float> table;
+    uint table_size = 0;
+
+    void each(auto&& set) const {  // REFLECTION_ARGS
+        set("texels", texels);
+        set("levels", levels);
+        set("roughness_levels", roughness_levels);
+        set("table", table);
+        set("table_size", table_size);
+    }
+};
+
 /// Adds an environment's diffuse and specular light to lit surfaces.
 class ReflectEnvironment {
  public:
@@ -36,10 +53,9 @@ class ReflectEnvironment {
     Gpu gpu_;
     Tuning tuning_;
     Kernel kernel_;
-    GrowingArray<float> srgb_, texels_, table_;
+    GrowingArray<float> texels_, table_;
     GrowingArray<uint4> levels_;
-    uint roughness_levels_ = 0;
-    uint table_size_ = 0;
+    ReflectionBuffers maps_;
 };
 
 }  // namespace kilolux

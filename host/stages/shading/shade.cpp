@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/shading/shade.h"
 
-#include "host/base/srgb.h"
 #include "host/stages/shading/instruction_counts.h"
 
 namespace kilolux {
@@ -14,6 +13,20 @@ Tuning usable(Tuning tuning, const DeviceInfo& device) {
     if (device.lane_width >= FINE_TILE) tuning.shade_stage = 0;
     return tuning;
 }
+
+// What shading adds to the lights' sum, and where it stores: OUTPUT_ARGS.
+struct ShadingOutput {
+    float ambient;
+    DeviceArray<float> radiance, variance;
+    DisplayTarget display{};
+
+    void each(auto&& set) const {
+        set("ambient", ambient);
+        set("radiance", radiance);
+        set("variance", variance);
+        set(display);
+    }
+};
 
 // Of kernels/device/stored_light.h: float4 rows of a StoredLight.
 std::size_t stored_light_rows(const KernelFeatures& features) {
@@ -46,11 +59,8 @@ ShadingResources::ShadingResources(const Gpu& gpu, const Tuning& tuning,
     : gpu_(gpu),
       tuning_(usable(tuning, gpu.info)),
       features_(features),
-      srgb_(gpu, kShadeStage),
       radiance_(gpu, kShadeStage),
       stored_(gpu, kShadeStage) {
-    const auto table = srgb_to_linear_table();
-    upload<float>(gpu_, srgb_.reserve(table.size()), table);
     if (features.half_light_colors) {
         store_lights_.emplace(gpu, build_program(gpu, "store_lights", options()), kShadeStage,
                               "store_lights");
@@ -68,19 +78,20 @@ BuildOptions ShadingResources::options() const {
     return options;
 }
 
-WorkSize ShadingResources::work_size(const View& view) const {
+WorkSize ShadingResources::work_size(const Kernel& kernel, const View& view) const {
     // Staging is a whole tile's common work.
-    return pixel_items(view, gpu_.info.lane_width,
-                       tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
+    return kernel.pixel_items(view, tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
 }
 
-cl::Buffer ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {
-    if (!store_lights_ || lights.rows() == 0) return lights.lights;
+PreparedLights ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {
+    if (!store_lights_ || lights.rows() == 0) return lights;
     const DeviceArray<float4> stored =
         stored_.reserve(lights.rows() * stored_light_rows(features_));
     store_lights_->enqueue({cl::NDRange(lights.rows()), cl::NullRange}, timer, lights.lights,
                            stored);
-    return stored;
+    PreparedLights out = lights;
+    out.lights = DeviceArray<ShadeLight>(stored.buffer(), lights.rows());
+    return out;
 }
 
 Radiance ShadingResources::radiance(const View& view) {
@@ -96,16 +107,10 @@ DrawShadows::DrawShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
 void DrawShadows::enqueue(const LitPixels& lit, const ShadowWords& words,
                           const ShadowSamples& samples, StageTimer& timer) {
     constexpr std::size_t kClearItems = 16384;
-    const GBuffer& gbuffer = lit.gbuffer;
-    const PreparedLights& lights = lit.lights;
-    const ActiveClusters& clusters = lit.clusters;
-    clear_.enqueue(items(kClearItems, 1), timer, words.offsets, clusters.tile_count, words.words);
-    draw_.enqueue(resources_.work_size(gbuffer.view), timer, gbuffer.bytes, gbuffer.layout,
-                  gbuffer.view, resources_.srgb(), samples.whole, lights.directional,
-                  lights.directional_count, resources_.stored_lights(lights, timer),
-                  lights.profiles.lights, lights.profiles.tables, lit.grid, clusters.offsets,
-                  clusters.clusters, clusters.capacity, clusters.order, lit.refined.lists,
-                  words.offsets, samples.rays, samples.seed, words.words);
+    clear_.enqueue(items(kClearItems, 1), timer, words, lit.clusters.tile_count);
+    LitPixels stored = lit;
+    stored.lights = resources_.stored_lights(lit.lights, timer);
+    draw_.enqueue(resources_.work_size(draw_, lit.gbuffer.view), timer, stored, words, samples);
 }
 
 Shade::Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
@@ -130,38 +135,19 @@ Radiance Shade::enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWor
         display ? std::optional(display->tone_curve) : std::nullopt;
     build(tone_curve);
     Kernel& kernel = kernels_.at(tone_curve);
-    if (display) {
-        enqueue_shadowed(kernel, lit, timer, shadows, samples, display->gain,
-                         display->bucket_boundary, display->bucket_code, display->pixels);
-        return {{}, lit.gbuffer.view};
-    }
-    const Radiance out = resources_.radiance(lit.gbuffer.view);
-    enqueue_shadowed(kernel, lit, timer, shadows, samples, out.planes);
-    return out;
-}
-
-template <typename... Output>
-void Shade::enqueue_shadowed(Kernel& kernel, const LitPixels& lit, StageTimer& timer,
-                             const ShadowWords& shadows, const ShadowSamples& samples,
-                             const Output&... output) {
     const View& view = lit.gbuffer.view;
-    const PreparedLights& lights = lit.lights;
-    const ActiveClusters& clusters = lit.clusters;
-    const auto enqueue = [&](const auto&... rest) {
-        kernel.enqueue(resources_.work_size(view), timer, lit.gbuffer.bytes, lit.gbuffer.layout,
-                       view, resources_.srgb(), lights.directional, lights.directional_count,
-                       resources_.stored_lights(lights, timer), lights.profiles.lights,
-                       lights.profiles.tables, lit.grid, clusters.offsets, clusters.clusters,
-                       clusters.capacity, clusters.order, lit.refined.lists, ambient_, rest...);
-    };
-    if (features_.sampled_shadows) {
-        enqueue(shadows.offsets, shadows.words, samples.whole, samples.rays, samples.seed,
-                variance_.reserve(std::size_t{view.stride} * view.height), output...);
-    } else if (features_.shadows) {
-        enqueue(shadows.offsets, shadows.words, output...);
+    ShadingOutput out{ambient_, {}, {}};
+    if (display) {
+        out.display = *display;
     } else {
-        enqueue(output...);
+        out.radiance = resources_.radiance(view).planes;
     }
+    if (features_.sampled_shadows)
+        out.variance = variance_.reserve(std::size_t{view.stride} * view.height);
+    LitPixels stored = lit;
+    stored.lights = resources_.stored_lights(lit.lights, timer);
+    kernel.enqueue(resources_.work_size(kernel, view), timer, stored, shadows, samples, out);
+    return {out.radiance, view};
 }
 
 ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
@@ -170,32 +156,17 @@ ShadeAll::ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& f
       kernel_(gpu,
               build_program(gpu, "shade_all", all_options(resources_, features, surfaces, tuning)),
               kShadeStage, "shade_all"),
-      has_shadows_(features.shadows),
       samples_shadows_(features.sampled_shadows),
       variance_(gpu, kShadeStage) {}
 
 Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
                            const ShadowInput& shadows, const ShadowSamples& samples) {
     const View& view = gbuffer.view;
-    const Radiance out = resources_.radiance(view);
-    const auto enqueue = [&](const auto&... rest) {
-        kernel_.enqueue(resources_.work_size(view), timer, gbuffer.bytes, gbuffer.layout, view,
-                        resources_.srgb(), lights.directional, lights.directional_count,
-                        resources_.stored_lights(lights, timer), lights.profiles.lights,
-                        lights.profiles.tables, lights.count, ambient_, rest...);
-    };
-    const ShadowCasters& c = shadows.casters;
-    if (samples_shadows_) {
-        enqueue(shadows.view, shadows.origins, lights.bounds, c.nodes, c.triangles, c.masked,
-                c.materials, c.textures, c.texels, samples.whole, samples.rays, samples.seed,
-                variance_.reserve(std::size_t{view.stride} * view.height), out.planes);
-    } else if (has_shadows_) {
-        enqueue(shadows.view, shadows.origins, lights.bounds, c.nodes, c.triangles, c.masked,
-                c.materials, c.textures, c.texels, out.planes);
-    } else {
-        enqueue(out.planes);
-    }
-    return out;
+    ShadingOutput out{ambient_, resources_.radiance(view).planes, {}};
+    if (samples_shadows_) out.variance = variance_.reserve(std::size_t{view.stride} * view.height);
+    kernel_.enqueue(resources_.work_size(kernel_, view), timer, gbuffer,
+                    resources_.stored_lights(lights, timer), shadows, samples, out);
+    return {out.radiance, view};
 }
 
 // Sampled shadows shade twice: with all lights, and without hidden ones that were drawn.

@@ -24,12 +24,11 @@ class ShadingResources {
     ShadingResources(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     BuildOptions options() const;
-    WorkSize work_size(const View& view) const;
+    WorkSize work_size(const Kernel& kernel, const View& view) const;
 
     /// The lights as the kernels read them: as they are, or with colours in half precision.
-    cl::Buffer stored_lights(const PreparedLights& lights, StageTimer& timer);
+    PreparedLights stored_lights(const PreparedLights& lights, StageTimer& timer);
 
-    DeviceArray<float> srgb() const { return srgb_.get(); }
     Radiance radiance(const View& view);
 
  private:
@@ -37,7 +36,7 @@ class ShadingResources {
     Tuning tuning_;
     KernelFeatures features_;
     std::optional<Kernel> store_lights_;  // with half_light_colors
-    GrowingArray<float> srgb_, radiance_;
+    GrowingArray<float> radiance_;
     GrowingArray<float4> stored_;
 };
 
@@ -52,7 +51,7 @@ class DrawShadows {
 
  private:
     ShadingResources resources_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel clear_, draw_;
 };
 
@@ -80,11 +79,6 @@ class Shade {
     void set_ambient(float ambient) { ambient_ = ambient; }
 
  private:
-    template <typename... Output>
-    void enqueue_shadowed(Kernel& kernel, const LitPixels& lit, StageTimer& timer,
-                          const ShadowWords& shadows, const ShadowSamples& samples,
-                          const Output&... output);
-
     Gpu gpu_;
     KernelFeatures features_;
     ShadingResources resources_;
@@ -113,7 +107,7 @@ class ShadeAll {
  private:
     ShadingResources resources_;
     Kernel kernel_;
-    bool has_shadows_, samples_shadows_;
+    bool samples_shadows_;
     GrowingArray<float> variance_;
     float ambient_ = 0.0f;
 };

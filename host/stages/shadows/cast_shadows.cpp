@@ -20,8 +20,8 @@ Tuning usable_for_shadows(Tuning tuning, const DeviceInfo& device) {
     return tuning;
 }
 
-cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
-                       const SurfaceFeatures& surfaces, bool counts) {
+KernelProgram cast_program(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                           const SurfaceFeatures& surfaces, bool counts) {
     BuildOptions options = feature_options(features);
     define_casters(options, surfaces, tuning);
     options.define("DRAWN_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
@@ -38,10 +38,10 @@ CastShadows::CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatu
     : gpu_(gpu),
       tuning_(usable_for_shadows(tuning, gpu.info)),
       has_counts_(counts),
-      program_(program_of(gpu, tuning_, features, surfaces, counts)),
+      program_(cast_program(gpu, tuning_, features, surfaces, counts)),
       reserve_(gpu, program_, kCastShadowsStage, "cast_shadows_reserve"),
       cast_(gpu, program_, kCastShadowsStage, "cast_shadows"),
-      words_(gpu, tuning, kCastShadowsStage, sizeof(uint)),
+      words_(gpu, tuning, kCastShadowsStage, "words of shadow bits", sizeof(uint)),
       counts_(gpu, kCastShadowsStage) {
     words_.reserve(kFirstWords);
 }
@@ -50,7 +50,7 @@ ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClust
                                  StageTimer& timer) {
     const uint tiles = clusters.tile_count;
     reserve_.enqueue(items(tiles, tuning_.light_group), timer, tiles, lights.directional_count,
-                     clusters.offsets, clusters.clusters, clusters.capacity, words_.counts(tiles));
+                     clusters, words_.counts(tiles));
     ShadowWords out;
     out.offsets = words_.enqueue_offsets(tiles, timer);
     words_.fits(words_.read_total());
@@ -61,29 +61,21 @@ ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClust
 // Of the kernel that casts.
 WorkSize CastShadows::work_size(uint tiles, const View& view) const {
     const int group = tuning_.shadow_group;
-    if (group == 0) return pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows);
+    if (group == 0) return cast_.pixel_items(view, tuning_.shade_rows);
     return groups(std::size_t{tiles} * (group == 1 ? 1 : kSplit), group);
 }
 
 void CastShadows::enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
                           StageTimer& timer) {
-    const View& view = lit.gbuffer.view;
-    const PreparedLights& lights = lit.lights;
-    const ActiveClusters& clusters = lit.clusters;
-    const ShadowCasters& c = input.casters;
-    const WorkSize size = work_size(clusters.tile_count, view);
-    const auto enqueue = [&](const auto&... rest) {
-        cast_.enqueue(size, timer, view, input.view, input.origins, lights.bounds,
-                      lights.directional, lights.directional_count, clusters.offsets,
-                      clusters.clusters, clusters.capacity, clusters.order, lit.refined.lists,
-                      words.offsets, c.nodes, c.triangles, c.masked, c.materials, c.textures,
-                      c.texels, rest...);
-    };
-    if (!has_counts_) return enqueue(words.words);
-    const std::size_t items = size.global[0] * (size.global.dimensions() > 1 ? size.global[1] : 1);
-    const auto counts = counts_.reserve(items);
-    gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
-    enqueue(counts, words.words);
+    const WorkSize size = work_size(lit.clusters.tile_count, lit.gbuffer.view);
+    DeviceArray<ShadowCounts> counts;
+    if (has_counts_) {
+        const std::size_t items =
+            size.global[0] * (size.global.dimensions() > 1 ? size.global[1] : 1);
+        counts = counts_.reserve(items);
+        gpu_.queue.enqueueFillBuffer(counts.buffer(), cl_uint{0}, 0, items * sizeof(ShadowCounts));
+    }
+    cast_.enqueue(size, timer, lit, input, words, counts);
 }
 
 ShadowCounts CastShadows::counts() const {

@@ -44,7 +44,7 @@ class CastShadows {
     Gpu gpu_;
     Tuning tuning_;
     bool has_counts_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel reserve_, cast_;
     CountedList words_;
     GrowingArray<ShadowCounts> counts_;  // of work-items or groups

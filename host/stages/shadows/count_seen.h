@@ -23,7 +23,6 @@ class CountSeen {
     SeenCounts enqueue(const LitPixels& lit, const ShadowWords& shadows, StageTimer& timer);
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     Kernel kernel_;
     GrowingArray<uint> facing_, seen_;

@@ -8,8 +8,7 @@ namespace {
 }  // namespace
 
 ShadowOrigins::ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
-    : gpu_(gpu),
-      tuning_(tuning),
+    : tuning_(tuning),
       kernel_(gpu, build_program(gpu, kShadowOriginsStage, feature_options(features)),
               kShadowOriginsStage, "shadow_origins"),
       origins_(gpu, kShadowOriginsStage) {}
@@ -20,9 +19,8 @@ DeviceArray<float> ShadowOrigins::enqueue(const DeviceArray<uint>& ids, const Su
     const View& view = gbuffer.view;
     const DeviceArray<float> out =
         origins_.reserve(kPlanes * std::size_t{view.stride} * view.height);
-    kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, ids,
-                    gbuffer.bytes, gbuffer.layout, view, shadow, scene.instances,
-                    scene.instance_blocks, casters.triangles, out);
+    kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, ids, gbuffer, shadow,
+                    scene, casters.triangles, out);
     return out;
 }
 

@@ -27,7 +27,6 @@ class ShadowOrigins {
                                const ShadowView& shadow, StageTimer& timer);
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     Kernel kernel_;
     GrowingArray<float> origins_;

@@ -11,11 +11,29 @@ constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room
 
 // Work-items that share their triangles' tiles: many, so that large triangles are shared by many.
 // 1: each has a chunk of its own.
-int bin_group(const Tuning& tuning) { return tuning.raster_group == 1 ? 1 : 256; }
+int bin_group(const Gpu& gpu, const Tuning& tuning) {
+    return tuning.raster_group == 1 ? 1 : std::min(256, gpu.info.max_work_group);
+}
 
-BuildOptions bin_options(const Tuning& tuning) {
+// BINNING_ARGS of the kernels.
+struct Binning {
+    uint triangle_count, some_closed;
+    DeviceArray<std::uint8_t> closed;
+    DeviceArray<uint> boxes, kept, cursors;
+
+    void each(auto&& set) const {
+        set("triangle_count", triangle_count);
+        set("some_closed", some_closed);
+        set("closed", closed);
+        set("boxes", boxes);
+        set("kept", kept);
+        set("cursors", cursors);
+    }
+};
+
+BuildOptions bin_options(const Gpu& gpu, const Tuning& tuning) {
     BuildOptions options;
-    options.define("GROUP", bin_group(tuning));
+    options.define("GROUP", bin_group(gpu, tuning));
     define_tiles(options, tuning);
     return options;
 }
@@ -25,7 +43,7 @@ BuildOptions bin_options(const Tuning& tuning) {
 BinTriangles::BinTriangles(const Gpu& gpu, const Tuning& tuning)
     : gpu_(gpu),
       tuning_(tuning),
-      program_(build_program(gpu, kBinTrianglesStage, bin_options(tuning))),
+      program_(build_program(gpu, kBinTrianglesStage, bin_options(gpu, tuning))),
       clear_(gpu, program_, kBinTrianglesStage, "bin_triangles_clear"),
       set_up_(gpu, program_, kBinTrianglesStage, "bin_triangles_set_up"),
       offset_(gpu, program_, kBinTrianglesStage, "bin_triangles_offset"),
@@ -35,7 +53,7 @@ BinTriangles::BinTriangles(const Gpu& gpu, const Tuning& tuning)
       kept_(gpu, kBinTrianglesStage),
       cursors_(gpu, kBinTrianglesStage),
       closed_(gpu, kBinTrianglesStage),
-      lists_(gpu, tuning, kBinTrianglesStage, sizeof(uint)) {
+      lists_(gpu, tuning, kBinTrianglesStage, "(triangle, tile) pairs", sizeof(uint)) {
     lists_.reserve(kFirstPairs);
     closed_.reserve(1);
 }
@@ -47,36 +65,32 @@ void BinTriangles::close_tiles(std::span<const std::uint8_t> closed) {
 
 TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_count,
                                     const View& view, StageTimer& timer) {
-    const auto lanes = static_cast<std::size_t>(gpu_.info.lane_width);
-    const int group = bin_group(tuning_);
+    const int group = bin_group(gpu_, tuning_);
     const bool by_group = group > 1;
     TriangleLists out;
     out.tile_count = raster_tile_count(view, tuning_);
-    const std::size_t stride = round_up(out.tile_count, lanes);
+    const std::size_t stride = round_up(out.tile_count, offset_.lanes());
     const std::size_t chunks =
         by_group ? 1
                  : std::clamp<std::size_t>(triangle_count, 1,
                                            static_cast<std::size_t>(tuning_.cull_chunks));
     const std::size_t some = std::max<std::size_t>(triangle_count, 1);
     out.triangles = triangles_.reserve(some);
-    const DeviceArray<uint> boxes = boxes_.reserve(kBoxWords * some);
-    const DeviceArray<uint> kept = kept_.reserve(chunks);
-    const DeviceArray<uint> cursors = cursors_.reserve(chunks * stride);
+    const Binning binning{triangle_count,        some_closed_,
+                          closed_.get(),         boxes_.reserve(kBoxWords * some),
+                          kept_.reserve(chunks), cursors_.reserve(chunks * stride)};
     const DeviceArray<uint> counts = lists_.counts(stride);
     const WorkSize walk = by_group ? items(some, group) : groups(chunks, 1);
     if (by_group) {
-        clear_.enqueue(items(stride, group), timer, static_cast<uint>(stride), cursors);
+        clear_.enqueue(items(stride, group), timer, static_cast<uint>(stride), binning.cursors);
     }
-    set_up_.enqueue(walk, timer, view, scene.instances, scene.instance_blocks, scene.meshes,
-                    scene.vertices, scene.indices, scene.materials, triangle_count, some_closed_,
-                    closed_.get(), out.triangles, boxes, kept, cursors);
-    offset_.enqueue(items(stride / lanes, tuning_.light_group), timer, out.tile_count,
-                    static_cast<uint>(chunks), cursors, counts);
+    set_up_.enqueue(walk, timer, view, scene, out.triangles, binning);
+    offset_.enqueue(offset_.vector_items(stride, tuning_.light_group), timer, out.tile_count,
+                    static_cast<uint>(chunks), binning.cursors, counts);
     out.offsets = lists_.enqueue_offsets(out.tile_count, timer);
     out.lists = lists_.entries<uint>();
     out.capacity = lists_.capacity();
-    fill_.enqueue(walk, timer, view, triangle_count, some_closed_, closed_.get(), out.triangles,
-                  boxes, kept, cursors, out.offsets, out.lists, out.capacity);
+    fill_.enqueue(walk, timer, view, binning, out);
     return out;
 }
 

@@ -41,7 +41,7 @@ class BinTriangles {
  private:
     Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel clear_, set_up_, offset_, fill_;
     GrowingArray<RasterRow> triangles_;
     GrowingArray<uint> boxes_, kept_, cursors_;

@@ -23,7 +23,7 @@ class BuildMips {
  private:
     Gpu gpu_;
     Tuning tuning_;
-    cl::Program program_;
+    KernelProgram program_;
     Kernel first_, next_;
     GrowingArray<std::uint16_t> srgb_, linear_;
     GrowingArray<std::uint8_t> image_;

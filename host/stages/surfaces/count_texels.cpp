@@ -6,7 +6,8 @@ namespace {
 
 constexpr std::string_view kCountTexelsStage = "count_texels";
 
-cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& surfaces) {
+KernelProgram texel_count_program(const Gpu& gpu, const Tuning& tuning,
+                                  const SurfaceFeatures& surfaces) {
     BuildOptions options;
     define_surfaces(options, surfaces, tuning);
     return build_program(gpu, kCountTexelsStage, options);
@@ -15,17 +16,14 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatur
 }  // namespace
 
 CountTexels::CountTexels(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& surfaces)
-    : gpu_(gpu),
-      tuning_(tuning),
-      kernel_(gpu, program_of(gpu, tuning, surfaces), kCountTexelsStage, "count_texels"),
+    : tuning_(tuning),
+      kernel_(gpu, texel_count_program(gpu, tuning, surfaces), kCountTexelsStage, "count_texels"),
       counts_(gpu, kCountTexelsStage) {}
 
 DeviceArray<uint> CountTexels::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                                        const View& view, StageTimer& timer) {
     const DeviceArray<uint> counts = counts_.reserve(std::size_t{view.stride} * view.height);
-    kernel_.enqueue(pixel_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, ids, view,
-                    scene.instances, scene.instance_blocks, scene.meshes, scene.vertices,
-                    scene.indices, scene.materials, scene.textures, scene.texels, counts);
+    kernel_.enqueue(kernel_.pixel_items(view, tuning_.shade_rows), timer, ids, view, scene, counts);
     return counts;
 }
 

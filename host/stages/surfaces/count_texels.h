@@ -19,7 +19,6 @@ class CountTexels {
                               const View& view, StageTimer& timer);
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     Kernel kernel_;
     GrowingArray<uint> counts_;

@@ -24,11 +24,10 @@ class DecodeGBuffer {
     uint plane_count() const { return plane_count_; }
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     uint plane_count_;
     Kernel kernel_;
-    GrowingArray<float> srgb_, planes_;
+    GrowingArray<float> planes_;
 };
 
 }  // namespace kilolux

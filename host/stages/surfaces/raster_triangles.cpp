@@ -10,7 +10,7 @@ namespace {
 // which then waits for memory: half of the time on an H200.
 constexpr std::string_view kFewerRegisters = "-cl-nv-maxrregcount=64";
 
-cl::Program raster_program(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
+KernelProgram raster_program(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {
     features.anisotropy = 1;
     features.texture_uses &= 1u << USE_BASE_COLOR;
     BuildOptions options;
@@ -35,10 +35,7 @@ RasterTriangles::RasterTriangles(const Gpu& gpu, const Tuning& tuning,
 DeviceArray<uint> RasterTriangles::enqueue(const SurfaceBuffers& scene, const TriangleLists& lists,
                                            const View& view, StageTimer& timer) {
     const DeviceArray<uint> ids = ids_.reserve(std::size_t{view.stride} * view.height);
-    kernel_.enqueue(groups(lists.tile_count, tuning_.raster_group), timer, view, scene.instances,
-                    scene.instance_blocks, scene.meshes, scene.vertices, scene.indices,
-                    scene.materials, scene.textures, scene.texels, lists.triangles, lists.offsets,
-                    lists.lists, lists.capacity, ids);
+    kernel_.enqueue(groups(lists.tile_count, tuning_.raster_group), timer, view, scene, lists, ids);
     return ids;
 }
 

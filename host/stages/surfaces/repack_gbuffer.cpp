@@ -2,13 +2,28 @@
 #include "host/stages/surfaces/repack_gbuffer.h"
 
 #include "host/base/gbuffer_layout.h"
-#include "host/base/srgb.h"
 #include "host/gpu/picture_memory.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::string_view kRepackGbufferStage = "repack_gbuffer";
+
+// The source as the kernel takes it.
+struct RepackSource {
+    const SourceGBuffer& planes;
+    uint pitch, invert, world_normals;
+
+    void each(auto&& set) const {
+        set("depth", planes.depth);
+        set("normal", planes.normal);
+        set("albedo", planes.albedo);
+        set("pitch", pitch);
+        set("invert", invert);
+        set("world_normals", world_normals);
+        set("roughness", planes.roughness);
+    }
+};
 
 BuildOptions options_of(const SourceFormat& format) {
     BuildOptions options = feature_options(KernelFeatures{});
@@ -24,18 +39,11 @@ BuildOptions options_of(const SourceFormat& format) {
 }  // namespace
 
 RepackGBuffer::RepackGBuffer(const Gpu& gpu, const Tuning& tuning, const SourceFormat& format)
-    : gpu_(gpu),
-      tuning_(tuning),
+    : tuning_(tuning),
       format_(format),
       kernel_(gpu, build_program(gpu.with_lanes(1), kRepackGbufferStage, options_of(format)),
               kRepackGbufferStage, "repack_gbuffer"),
-      boundary_(gpu, kRepackGbufferStage),
-      code_(gpu, kRepackGbufferStage),
-      gbuffer_(gpu, kRepackGbufferStage) {
-    const SrgbBuckets buckets = srgb_buckets();
-    upload<float>(gpu_, boundary_.reserve(buckets.boundary.size()), buckets.boundary);
-    upload<uint>(gpu_, code_.reserve(buckets.code.size()), buckets.code);
-}
+      gbuffer_(gpu, kRepackGbufferStage) {}
 
 GBuffer RepackGBuffer::enqueue(const SourceGBuffer& source, const MatrixView& camera,
                                StageTimer& timer) {
@@ -50,10 +58,10 @@ GBuffer RepackGBuffer::enqueue(const SourceGBuffer& source, const MatrixView& ca
     check("albedo", source.albedo, format_.albedo == AlbedoFormat::half4 ? 8 : 4);
     const GBufferLayout layout = make_gbuffer_layout({}, view.stride, view.height);
     GBuffer out{gbuffer_.reserve(gbuffer_bytes(layout, view.stride, view.height)), layout, view};
-    kernel_.enqueue(items(std::size_t{view.stride} * view.height, tuning_.light_group), timer,
-                    source.depth, source.normal, source.albedo, pitch,
-                    camera.invert_depth ? 1u : 0u, format_.world_normals ? 1u : 0u,
-                    source.roughness, layout, view, boundary_.get(), code_.get(), out.bytes);
+    const RepackSource from{source, pitch, camera.invert_depth ? 1u : 0u,
+                            format_.world_normals ? 1u : 0u};
+    kernel_.enqueue(items(std::size_t{view.stride} * view.height, tuning_.light_group), timer, from,
+                    layout, view, SrgbBucketTables{}, out.bytes);
     return out;
 }
 

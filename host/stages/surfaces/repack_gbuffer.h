@@ -50,12 +50,9 @@ class RepackGBuffer {
     GBuffer enqueue(const SourceGBuffer& source, const MatrixView& view, StageTimer& timer);
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     SourceFormat format_;
     Kernel kernel_;
-    GrowingArray<float> boundary_;
-    GrowingArray<uint> code_;
     GrowingArray<std::byte> gbuffer_;
 };
 

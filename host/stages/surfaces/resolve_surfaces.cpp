@@ -2,13 +2,12 @@
 #include "host/stages/surfaces/resolve_surfaces.h"
 
 #include "host/base/gbuffer_layout.h"
-#include "host/base/srgb.h"
 
 namespace kilolux {
 namespace {
 
-cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
-                       const SurfaceFeatures& surfaces) {
+KernelProgram resolve_program(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
+                              const SurfaceFeatures& surfaces) {
     BuildOptions options = feature_options(features);
     options.define("HAS_UNLIT_MATERIALS", features.unlit_materials);
     define_surfaces(options, surfaces, tuning);
@@ -19,17 +18,10 @@ cl::Program program_of(const Gpu& gpu, const Tuning& tuning, const KernelFeature
 
 ResolveSurfaces::ResolveSurfaces(const Gpu& gpu, const Tuning& tuning,
                                  const KernelFeatures& features, const SurfaceFeatures& surfaces)
-    : gpu_(gpu),
-      tuning_(tuning),
-      kernel_(gpu, program_of(gpu, tuning, features, surfaces), kResolveSurfacesStage,
+    : tuning_(tuning),
+      kernel_(gpu, resolve_program(gpu, tuning, features, surfaces), kResolveSurfacesStage,
               "resolve_surfaces"),
-      boundary_(gpu, kResolveSurfacesStage),
-      code_(gpu, kResolveSurfacesStage),
-      planes_(gpu, kResolveSurfacesStage) {
-    const SrgbBuckets buckets = srgb_buckets();
-    upload<float>(gpu_, boundary_.reserve(buckets.boundary.size()), buckets.boundary);
-    upload<uint>(gpu_, code_.reserve(buckets.code.size()), buckets.code);
-}
+      planes_(gpu, kResolveSurfacesStage) {}
 
 GBuffer ResolveSurfaces::enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                                  const GBufferLayout& layout, const View& view, StageTimer& timer) {
@@ -37,10 +29,8 @@ GBuffer ResolveSurfaces::enqueue(const DeviceArray<uint>& ids, const SurfaceBuff
     out.layout = layout;
     out.view = view;
     out.bytes = planes_.reserve(gbuffer_bytes(layout, view.stride, view.height));
-    kernel_.enqueue(block_items(view, gpu_.info.lane_width, tuning_.shade_rows), timer, ids, view,
-                    layout, scene.instances, scene.instance_blocks, scene.meshes, scene.vertices,
-                    scene.indices, scene.materials, scene.textures, scene.texels, boundary_.get(),
-                    code_.get(), out.bytes);
+    kernel_.enqueue(kernel_.block_items(view, tuning_.shade_rows), timer, ids, view, layout, scene,
+                    SrgbBucketTables{}, out.bytes);
     return out;
 }
 

@@ -25,11 +25,8 @@ class ResolveSurfaces {
                     const GBufferLayout& layout, const View& view, StageTimer& timer);
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     Kernel kernel_;
-    GrowingArray<float> boundary_;
-    GrowingArray<uint> code_;
     GrowingArray<std::byte> planes_;
 };
 

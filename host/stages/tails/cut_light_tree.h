@@ -40,12 +40,10 @@ class CutLightTree {
     bool fits(std::uint64_t entries) { return lists_.fits(entries); }
 
  private:
-    Gpu gpu_;
     Tuning tuning_;
     float share_;
     Kernel cones_, count_, fill_;
     CountedList lists_;
-    GrowingArray<float> srgb_;
     GrowingBuffer cone_rows_;
 };
 

@@ -40,7 +40,7 @@ class TailErrors {
     Tuning tuning_;
     KernelFeatures features_;
     std::optional<Kernel> moments_, bound_, tree_bound_, variance_;  // made when first asked for
-    GrowingArray<float> srgb_, moment_rows_, bounds_, variances_;
+    GrowingArray<float> moment_rows_, bounds_, variances_;
 };
 
 }  // namespace kilolux

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/random.h"
+#include "host/gpu/list_size.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -75,14 +76,17 @@ TEST(PrefixSum, TotalIsExactBeyond32Bits) {
     }
 }
 
-TEST(PrefixSum, ListsThat32BitsCannotAddressAreAnError) {
-    EXPECT_EQ(checked_list_size(0xfffffff0u, "cull_lights"), 0xfffffff0u);
+TEST(CountedList, TooManyEntriesAreNamed) {
+    EXPECT_EQ(checked_list_size(kMostEntries, "cull_lights", "pairs"), kMostEntries);
+    const Gpu gpu = test_gpu();
+    CountedList list(gpu, default_tuning(gpu.info), "bin_triangles", "(triangle, tile) pairs", 4);
     try {
-        checked_list_size(0x100000000u, "cull_lights");
+        list.fits(std::uint64_t{0xfffffff1});
         FAIL() << "no error";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("cull_lights: 4294967296"), std::string::npos)
-            << error.what();
+        EXPECT_STREQ(error.what(),
+                     "bin_triangles: 4294967281 (triangle, tile) pairs are more than "
+                     "32 bits number");
     }
 }
 

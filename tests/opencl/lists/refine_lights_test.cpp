@@ -101,15 +101,13 @@ TEST(RefineLights, LacksRoomOnceThenGrows) {
         list_everywhere(gpu, tuning, features, {gbuffer, upload_lights(gpu, lights), grid});
     RefineLights refine(gpu, tuning, features);
     StageTimer timer;
-    device.refined =
-        refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
+    device.refined = refine.enqueue(device.lights, device.coarse, device.clusters, view, timer);
     ASSERT_LT(device.refined.capacity, 12u * lights.size()) << "the case does not overflow";
     HostLists cut = download_lists(gpu, features, device);
     for (const ActiveCluster& c : cut.clusters)
         EXPECT_LE(c.list_begin + c.list_count, device.refined.capacity);
     EXPECT_FALSE(refine.fits());
-    device.refined =
-        refine.enqueue(device.lights, device.coarse, device.clusters, view, grid, timer);
+    device.refined = refine.enqueue(device.lights, device.coarse, device.clusters, view, timer);
     EXPECT_TRUE(refine.fits());
     const HostLists lists = download_lists(gpu, features, device);
     ASSERT_EQ(lists.clusters.size(), 12u);
@@ -145,6 +143,37 @@ TEST(RefineLights, SpotsThatShineAwayAreLeftOut) {
     }
 }
 
+// Half angles above 90 degrees: light goes backwards, too.
+TEST(RefineLights, WideSpotsReachWhatLiesBehindThem) {
+    const Gpu gpu = test_gpu();
+    ViewShape shape;
+    shape.rotated = false;
+    const View view = make_view(shape);
+    const ClusterGrid grid = make_cluster_grid(kRequest, view.width, view.height);
+    KernelFeatures features;
+    features.spot_lights = true;
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(9, 9.5, 64)));
+    const Light point = point_light({0, 0, -5}, 100);
+    const std::vector<Light> lights = {
+        spot_light(point, {0, 0, 1}, 0.2, 3.1),   // dark only straight ahead of the camera
+        spot_light(point, {0, 1, 0}, 0.2, 2.8),   // surfaces are 40 to 140 degrees off its axis
+        spot_light(point, {0, 0, 1}, 0.2, 1.7)};  // surfaces are more than 120 degrees off
+    const HostLists lists =
+        download_lists(gpu, features,
+                       list_everywhere(gpu, default_tuning(gpu.info), features,
+                                       {gbuffer, upload_lights(gpu, lights), grid}));
+    ASSERT_FALSE(lists.clusters.empty());
+    std::size_t wide = 0;
+    for (const ActiveCluster& c : lists.clusters) {
+        const auto list = lists.refined_of(c);
+        wide += std::ranges::find(list, 0u) != list.end() ? 1 : 0;
+        EXPECT_NE(std::ranges::find(list, 1u), list.end());
+        EXPECT_EQ(std::ranges::find(list, 2u), list.end());
+    }
+    EXPECT_GT(wide, lists.clusters.size() / 2);
+}
+
 // Two active clusters of one tile whose coarse lists together have 2^32 entries and some.
 TEST(RefineLights, MoreTestsInATileThan32BitsCountAreAnError) {
     const Gpu gpu = test_gpu();
@@ -156,6 +185,7 @@ TEST(RefineLights, MoreTestsInATileThan32BitsCountAreAnError) {
     // The second list ends where 32 bits wrap: offsets do not ascend.
     const std::vector<uint> offsets{0, 0xffffffffu, 15};
     ActiveClusters clusters;
+    clusters.grid = grid;
     clusters.offsets = new_buffer(gpu, std::vector<uint>{0, 2});
     clusters.clusters = new_buffer(gpu, active);
     clusters.capacity = 2;
@@ -166,7 +196,7 @@ TEST(RefineLights, MoreTestsInATileThan32BitsCountAreAnError) {
     lights.bounds = new_buffer(gpu, std::vector<float4>(1));
     RefineLights stage(gpu, default_tuning(gpu.info), {});
     StageTimer timer;
-    stage.enqueue(lights, coarse, clusters, view, grid, timer);
+    stage.enqueue(lights, coarse, clusters, view, timer);
     EXPECT_EQ(stage.tests(), 0xffffffffu) << "saturates";
     EXPECT_THROW(stage.fits(), Error);
 }

@@ -104,6 +104,19 @@ struct CastFrame {
     ShadowCounts counts{};
 };
 
+// What bin_pixels leaves undefined in the order of tiles that the picture has a part of.
+void spoil_order(const Gpu& gpu, const View& view, const ActiveClusters& clusters) {
+    std::vector<std::uint8_t> order = download(gpu, clusters.order);
+    const uint tiles_x = fine_tiles_x(view);
+    for (uint tile = 0; tile < clusters.tile_count; ++tile) {
+        const uint rows = std::min<uint>(FINE_TILE, view.height - tile / tiles_x * FINE_TILE);
+        for (uint i = rows * FINE_TILE; i < FINE_TILE_PIXELS; ++i) {
+            order[tile * FINE_TILE_PIXELS + i] = 255;
+        }
+    }
+    upload<std::uint8_t>(gpu, clusters.order, order);
+}
+
 CastFrame cast_frame(int lanes, int group, std::uint32_t light_count = 70) {
     const Gpu gpu = test_gpu(lanes);
     Tuning tuning = default_tuning(gpu.info);
@@ -129,6 +142,7 @@ CastFrame cast_frame(int lanes, int group, std::uint32_t light_count = 70) {
     StageTimer timer;
     LightLists stages(gpu, tuning, features);
     const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
+    spoil_order(gpu, view, lists.clusters);
     const ShadowInput input{random_casters(gpu), unmoved_view(),
                             origins_of(gpu, features, gbuffer)};
     CastShadows cast(gpu, tuning, features, {}), counting(gpu, tuning, features, {}, true);
@@ -181,6 +195,59 @@ TEST(EveryKernel, Shadows) { expect_shadows(4, 1); }
 // One lane takes long under oclgrind: a whole word of lights and a part of one.
 TEST(EveryKernel, ShadowsByGroup) { expect_shadows(1, 32, 40); }
 TEST(EveryKernel, ShadowsByBundle) { expect_shadows(4, 0); }
+
+// Nodes all of whose children are the next node, and one of leaves that hide everything.
+ShadowCasters deep_casters(const Gpu& gpu, std::size_t levels) {
+    std::vector<ShadowNode> nodes(levels, empty_node());
+    for (std::size_t i = 0; i < levels; ++i) {
+        const bool is_last = i + 1 == levels;
+        for (int child = 0; child < SHADOW_WIDTH; ++child)
+            set_child(nodes[i], child, is_last ? SHADOW_LEAF : static_cast<uint>(i + 1));
+    }
+    const std::vector<uint> none(64, 0);
+    return {new_buffer(gpu, nodes),
+            new_buffer(gpu, std::vector<float>{-90, -40, -5, 90, -40, -5, 0, 90, -5}),
+            new_buffer(gpu, none),
+            new_buffer(gpu, none),
+            new_buffer(gpu, none),
+            new_buffer(gpu, none)};
+}
+
+// A work-group pops several nodes at once: their children must not outgrow its stack.
+void expect_deep_shadows(int group, uint levels, bool are_known) {
+    const Gpu gpu = test_gpu(1);
+    Tuning tuning = default_tuning(gpu.info);
+    tuning.shadow_group = group;
+    KernelFeatures features;
+    features.shading = SHADING_LAMBERT;
+    features.shadows = true;
+    ViewShape shape;
+    shape.width = shape.height = 16;
+    shape.rotated = false;
+    const View view = make_view(shape);
+    const ClusterGrid grid = make_cluster_grid({1, 1, 1, 1.0f, 30.0f}, 16, 16);
+    const GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, features, slanted_depth(9, 9, 16)));
+    const LightInput lights = upload_lights(gpu, {point_light({0, 0, -1}, 100)});
+    StageTimer timer;
+    LightLists stages(gpu, tuning, features);
+    const ListedLights lists = stages.run(lights, gbuffer, grid, timer);
+    ShadowInput input{deep_casters(gpu, levels), unmoved_view(),
+                      origins_of(gpu, features, gbuffer)};
+    if (are_known) input.view.levels = levels;
+    CastShadows cast(gpu, tuning, features, {}, true);
+    const ShadowWords words = cast.reserve(lists.lights, lists.clusters, timer);
+    cast.enqueue(input, lists.at(gbuffer), words, timer);
+    EXPECT_GT(cast.counts().rays, 0u);
+    EXPECT_EQ(cast.counts().seen, 0u);
+    for (const uint word : download(gpu, words.words, cast.words())) EXPECT_EQ(word, 0u);
+}
+
+TEST(EveryKernel, DeepShadowsByGroup) {
+    expect_deep_shadows(64, 10, true);
+    expect_deep_shadows(64, 10, false);
+    expect_deep_shadows(64, SHADOW_LEVELS, true);
+}
 
 TEST(CastShadows, LanesChangeNoBit) {
     const CastFrame one = cast_frame(1, 1);

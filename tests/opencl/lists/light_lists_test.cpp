@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// What LightLists does beside running its stages: checks sizes, keeps lists, answers for a pixel.
+#include "host/lighting/light_lists.h"
+
+#include <gtest/gtest.h>
+
+#include "host/certify/synthetic/host_lists.h"
+#include "tests/support/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+const GridRequest kRequest{4, 4, 1, 1.0f, 50.0f, 0.0f};
+constexpr float kDepth = 9.0f;
+
+// 64 x 16 pixels at one depth, of a picture of 64 x 64 from row 32 on.
+struct Band {
+    Gpu gpu = test_gpu();
+    View view = band_view();
+    ClusterGrid grid = make_cluster_grid(kRequest, 64, 64);
+    GBuffer gbuffer =
+        upload_gbuffer(gpu, make_synthetic(view, {}, slanted_depth(kDepth, kDepth, 64)));
+    LightInput lights = upload_lights(gpu, some_lights());
+    LightLists stage{gpu, default_tuning(gpu.info), {}};
+    StageTimer timer;
+
+    static View band_view() {
+        View view = make_view({64, 64});
+        view.first_row = 32;
+        view.height = 16;
+        return view;
+    }
+    std::vector<Light> some_lights() const {
+        LightMix mix;
+        mix.count = 300;
+        mix.range_max = 4;
+        return random_lights(view, mix);
+    }
+    std::string error_of(const LightInput& input, const GBuffer& from) {
+        try {
+            stage.run(input, from, grid, timer);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+TEST(LightLists, RefuseBuffersThatAreTooSmall) {
+    Band band;
+    GBuffer small = band.gbuffer;
+    small.bytes = cl::Buffer(band.gpu.context, CL_MEM_READ_WRITE, std::size_t{1000});
+    EXPECT_EQ(band.error_of(band.lights, small),
+              "lighting: G-buffer: a buffer of 1000 bytes; planes of 64 x 16 take 12288");
+    LightInput many = band.lights;
+    many.count = 30000000;
+    EXPECT_NE(
+        band.error_of(many, band.gbuffer).find("lights: a buffer of 14400 bytes; 30000000 rows"),
+        std::string::npos)
+        << band.error_of(many, band.gbuffer);
+    many = band.lights;
+    many.directional_count = 1;
+    EXPECT_NE(band.error_of(many, band.gbuffer).find("directional lights: a buffer of"),
+              std::string::npos);
+    EXPECT_EQ(band.error_of(band.lights, band.gbuffer), "");
+}
+
+TEST(LightLists, APixelOfABandHasTheListsOfItsPlaceInThePicture) {
+    Band band;
+    band.stage.list_everywhere();
+    const ListedLights lists = band.stage.run(band.lights, band.gbuffer, band.grid, band.timer);
+    const HostLists host = download_lists(band.gpu, {}, lists);
+    std::size_t different = 0;
+    for (uint x = 0; x < 64; x += 16) {
+        const PixelLists found = band.stage.at_pixel(lists, band.view, x, 3, kDepth);
+        const uint slice = slice_of_depth(band.grid, kDepth);
+        const auto coarse_at = [&](uint row) {
+            return host.coarse_of(cluster_index(band.grid, x / 16, row, slice)).size();
+        };
+        EXPECT_EQ(found.coarse_count, coarse_at(2)) << x;
+        different += coarse_at(2) != coarse_at(0) ? 1 : 0;
+    }
+    EXPECT_GT(different, 0u);
+}
+
+TEST(LightLists, AreMadeAnewWhereAllClustersAreAskedForAfterwards) {
+    Band band;
+    band.gbuffer.version = 1;
+    band.lights.version = 1;
+    const auto entries = [&] {
+        const ListedLights lists = band.stage.run(band.lights, band.gbuffer, band.grid, band.timer);
+        return download_lists(band.gpu, {}, lists).coarse.size();
+    };
+    const std::size_t of_pixels = entries();
+    band.stage.list_everywhere();
+    EXPECT_GT(entries(), of_pixels);
+}
+
+}  // namespace
+}  // namespace kilolux
