@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "host/base/atomic_write.h"
+#include "host/base/srgb.h"
 #include "host/images/images.h"
 #include "host/scene/lights/environment.h"
 #include "tests/support/messages.h"
@@ -290,7 +291,7 @@ TEST(ImageFile, ATruncatedExrIsAnErrorAndNotAPicture) {
     EXPECT_THROW(read_image(folder / "a.exr"), Error);
 }
 
-// An environment's light is what its file stores, whatever its alpha.
+// An environment's light is what its file's sRGB codes say, whatever its alpha.
 TEST(ImageFile, AlphaDarkensNoEnvironment) {
     const TemporaryFolder folder;
     const std::vector<unsigned char> half(std::size_t{4} * 4 * 2, 128);
@@ -300,7 +301,7 @@ TEST(ImageFile, AlphaDarkensNoEnvironment) {
     }
     write_atomically(folder / "a.png", encode_pixels("a.png", "png", layout, half, 4));
     for (const glm::vec3& light : read_environment(folder / "a.png").rows) {
-        EXPECT_NEAR(light.x, 128.0f / 255.0f, 1e-6f);
+        EXPECT_NEAR(light.x, srgb_to_linear(128.0 / 255.0), 1e-6);
     }
 }
 

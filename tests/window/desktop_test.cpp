@@ -94,13 +94,13 @@ TEST(Desktop, LeavesWhileAPictureIsMade) {
 // comes in parts, and the window has its turn between them.
 TEST(Desktop, AnswersWhileAForwardPictureIsMade) {
     const Desktop desktop({"--manager"});
-    Viewer viewer(desktop, {"--renderer", "forward", "--lights", "60000"});
+    Viewer viewer(desktop, {"--renderer", "forward", "--lights", "20000"});
     viewer.activate();
     const auto frames = [&viewer](std::size_t more) {
         const std::size_t swaps = viewer.count("swap");
         wait_for("frames", [&] { return viewer.count("swap") >= swaps + more; });
     };
-    frames(4);  // each counts the seconds
+    frames(2);  // each counts the seconds
     viewer.key("h");
     viewer.wait_for_change();  // the help, while there is no picture yet
     frames(2);

@@ -85,12 +85,11 @@ Json& at_path(Json& object, std::string_view path) {
     return end == path.size() ? member : at_path(member, path.substr(end + 1));
 }
 
-// Whether a factor of this path says something: it is of no map that the material lacks, and
-// nothing that unlit surfaces or opaque ones leave out.
+// Whether a factor of this path says something: it is of no map that the material lacks, and no
+// cutoff of a surface that has none.
 bool is_written(const Material& m, std::string_view path) {
     if (path == "emissiveFactor") return false;  // see add_emission()
     if (path == "alphaCutoff") return m.alpha_mode == AlphaMode::mask;
-    if (path.starts_with("extensions.")) return !m.unlit;
     return std::ranges::all_of(kMaterialMaps, [&](const MaterialMap& map) {
         return (m.*map.member).present() || !path.starts_with(std::string(map.path) + ".");
     });
@@ -129,10 +128,8 @@ Json material_json(const Material& m) {
     Json out = Json::object();
     if (!m.name.empty()) out["name"] = m.name;
     for (const MaterialMap& map : kMaterialMaps) {
-        const bool reflects = map.path.starts_with("extensions.");
-        if ((m.*map.member).present() && !(m.unlit && reflects)) {
-            at_path(out, map.path) = use_json(m.*map.member);
-        }
+        const TextureUse& use = m.*map.member;
+        if (use.present()) at_path(out, map.path) = use_json(use);
     }
     add_factors(out, m);
     add_emission(out, m);

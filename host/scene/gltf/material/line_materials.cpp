@@ -8,7 +8,7 @@ namespace {
 
 // Base colour and emission are added where no texture or vertex colour multiplies only one.
 void make_unlit(const GltfDocument& document, Material& material, bool colored) {
-    material.unlit = true;
+    set_unlit(material);
     const glm::vec3 emissive = material.emissive;
     if (std::max({emissive.x, emissive.y, emissive.z}) == 0.0f) return;
     if (colored || material.base_color_texture.present() || material.emissive_texture.present()) {

@@ -66,7 +66,7 @@ Material convert_material(const json& source, FileTextures& textures) {
     }
     out.alpha_mode = convert_alpha_mode(source.value("alphaMode", ""));
     out.double_sided = source.value("doubleSided", false);
-    out.unlit = find_member(source, "extensions.KHR_materials_unlit") != nullptr;
+    if (find_member(source, "extensions.KHR_materials_unlit") != nullptr) set_unlit(out);
     return out;
 }
 
@@ -99,6 +99,15 @@ std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& ma
 }
 
 }  // namespace
+
+void set_unlit(Material& material) {
+    const Material standard;
+    material.unlit = true;
+    material.ior = standard.ior;
+    material.specular = standard.specular;
+    material.specular_color = standard.specular_color;
+    material.specular_texture = material.specular_color_texture = {};
+}
 
 GltfMaterials convert_materials(const GltfDocument& document) {
     GltfMaterials out;

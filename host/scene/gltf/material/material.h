@@ -36,6 +36,9 @@ struct GltfMaterials {
 /// Converts all materials. Factors are clamped to the ranges that the specification gives them.
 GltfMaterials convert_materials(const GltfDocument& document);
 
+/// Makes a material show its base colour alone; what it would reflect goes.
+void set_unlit(Material& material);
+
 /// What a primitive needs of its mesh.
 MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive& primitive);
 
