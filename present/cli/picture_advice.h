@@ -11,8 +11,8 @@
 namespace kilolux {
 
 /// Why a lit picture shows nothing, nothing but ambient light or no shadows, in one line for
-/// people; empty where none is known. Counts of `stats` that only `deferred` has are used where it made them.
-/// `framed`: the camera is the automatic one.
+/// people; empty where none is known. Counts of `stats` that only `deferred` has are used where it
+/// made them. `framed`: the camera is the automatic one.
 std::string picture_advice(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                            const FrameStats& stats, bool framed = false);
 

@@ -19,7 +19,8 @@ bool fuzz_load_scene(FuzzInput input);
 /// rest is a configuration file. True if they can be obeyed.
 bool fuzz_options(FuzzInput input);
 
-/// Reads the bytes as an IES file; an Error must be one line that names the file. True if it is one.
+/// Reads the bytes as an IES file; an Error must be one line that names the file. True if it is
+/// one.
 bool fuzz_ies(FuzzInput input);
 
 /// Inputs to start from.
