@@ -7,7 +7,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -20,15 +22,15 @@
 namespace kilolux {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using Entries = std::vector<std::pair<std::string, std::string>>;  // option's name and text
 
 std::string read_text(const std::filesystem::path& file) {
+    errno = 0;
     std::ifstream in(file);
-    std::ostringstream text;
-    if (in) text << in.rdbuf();
-    if (!in || !text) throw Error(file.string() + ": cannot read: " + std::strerror(errno));
-    return text.str();
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    if (!in || errno != 0) throw Error(file.string() + ": cannot read: " + std::strerror(errno));
+    return text;
 }
 
 std::string value_text(const std::filesystem::path& file, const std::string& name,
@@ -46,11 +48,16 @@ std::string value_text(const std::filesystem::path& file, const std::string& nam
 }
 
 Entries json_entries(const std::filesystem::path& file, const std::string& text) {
-    const Json root = Json::parse(text, nullptr, false, true);
+    std::vector<std::string> names;  // a parsed object has each name once
+    const auto note_name = [&names](int depth, Json::parse_event_t event, const Json& name) {
+        if (event == Json::parse_event_t::key && depth == 1) names.push_back(name);
+        return true;
+    };
+    const Json root = Json::parse(text, note_name, false, true);
     if (root.is_discarded()) throw UsageError(file.string() + ": is not valid JSON");
     Entries entries;
-    for (const auto& [name, value] : root.items()) {
-        entries.emplace_back(name, value_text(file, name, value));
+    for (const std::string& name : names) {
+        entries.emplace_back(name, value_text(file, name, root.at(name)));
     }
     return entries;
 }
@@ -97,7 +104,11 @@ void apply_config_file(CLI::App& command, const std::filesystem::path& file) {
     const std::string text = read_text(file);
     const bool is_json = trim(text).starts_with('{');
     const Entries entries = is_json ? json_entries(file, text) : toml_entries(file, text);
+    std::set<std::string> seen;
     for (const auto& [name, value] : entries) {
+        if (!seen.insert(name).second) {
+            throw UsageError(fmt::format("{}: '{}' stands twice", file.string(), name));
+        }
         apply(option_of(command, file, name), file, name, value);
     }
 }

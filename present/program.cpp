@@ -10,9 +10,9 @@
 #include "host/base/suggest.h"
 #include "host/base/version.h"
 #include "host/render/renderer.h"
-#include "present/cli/help.h"
 #include "present/cli/option_builder.h"
 #include "present/config_file.h"
+#include "present/help.h"
 
 namespace kilolux {
 namespace {
@@ -69,10 +69,13 @@ Program::Program() : app_(kMeaning, "kilolux") {
     app_.allow_extras();
     app_.require_subcommand(0, 1);
     app_.footer(kExitCodes);
+    const auto question = [this](const char* name, const char* meaning) {
+        add_question(app_, "Options", name, meaning);
+    };
+    question("--help,-h", "Print this help and leave; kilolux help COMMAND for a command's");
+    question("--version,-V", "Print the version and leave");
+    question("--list-devices", "Print the OpenCL devices and leave");
     OptionBuilder(app_, "Options")
-        .question("--help,-h", "Print this help and leave; kilolux help COMMAND for a command's")
-        .question("--version,-V", "Print the version and leave")
-        .question("--list-devices", "Print the OpenCL devices and leave")
         .choice({"--completion", "", "", "Print a script that completes options in a shell"},
                 completion_shell_, Choices(Words{"bash"}));
     add_render_command(*this);
@@ -91,9 +94,9 @@ CLI::App& Program::add_command(const std::string& name, const std::string& meani
     command.allow_extras();
     command.footer(
         fmt::format("kilolux {} --help-all lists every option.\n\nExamples:\n{}", name, examples));
+    add_question(command, "General", "--help,-h", "Print this help and leave");
+    add_question(command, "General", "--help-all", "Print the help of every option and leave");
     OptionBuilder(command, "General")
-        .question("--help,-h", "Print this help and leave")
-        .question("--help-all", "Print the help of every option and leave")
         .text({"--config", "FILE", "", "Options from a file, TOML or JSON; the command line wins"},
               config_file_);
     commands_.push_back({&command, std::move(run)});

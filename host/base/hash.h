@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -8,37 +9,12 @@
 
 namespace kilolux {
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo): names cache entries and compares pictures. Not for security.
-class Fnv1a {
- public:
-    /// Adds each byte of `text`.
-    constexpr Fnv1a& add(std::string_view text) {
-        for (const char c : text) mix(static_cast<unsigned char>(c));
-        return *this;
-    }
-    /// Adds each 32-bit word in one step: four times as fast as by bytes, and another hash.
-    constexpr Fnv1a& add_words(std::span<const std::uint32_t> words) {
-        for (const std::uint32_t word : words) mix(word);
-        return *this;
-    }
-    constexpr std::uint64_t value() const { return hash_; }
+/// XXH3, 64 bits (Collet, xxhash 0.8): names cache entries, compares pictures and files. Not for
+/// security.
+std::uint64_t hash64(std::span<const std::byte> bytes);
+std::uint64_t hash64(std::string_view text);
 
-    /// 16 hexadecimal digits.
-    std::string hex() const {
-        std::string digits(16, '0');
-        for (std::size_t i = 0; i < 16; ++i) {
-            digits[i] = "0123456789abcdef"[hash_ >> (60 - 4 * i) & 15u];
-        }
-        return digits;
-    }
-
- private:
-    constexpr void mix(std::uint64_t value) { hash_ = (hash_ ^ value) * 0x100000001b3u; }
-
-    std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
-
-// "foobar" of the authors' test vectors.
-static_assert(Fnv1a().add("foobar").value() == 0x85944171f73967e8u);
+/// hash64() as 16 hexadecimal digits.
+std::string hash_text(std::string_view text);
 
 }  // namespace kilolux

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +36,12 @@ inline std::string_view trim(std::string_view text) {
     if (first == std::string_view::npos) return {};
     return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
+
+/// A word as a shell reads it back: in single quotes, unless it is a plain one.
+std::string shell_word(std::string_view word);
+
+/// A whole number, also as "5k", "2M" (powers of 1000) or "1e6"; none for any other text.
+std::optional<std::uint64_t> count_of(std::string_view text);
 
 /// "a, b, c"
 inline std::string joined(const std::vector<std::string>& words,

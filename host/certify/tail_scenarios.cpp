@@ -100,17 +100,13 @@ TailAgreement compare_tails(const TailScenario& scenario, RenderSettings setting
     settings.want.aovs = {"error-bound"};
     Renderer renderer(scenario.scene, settings);
     const Frame frame = renderer.render(scenario.camera, 0.0);
-    const KernelFeatures& kernels = renderer.plan().kernels;
     RenderSettings unlimited = settings;
     unlimited.tails = Tails::exact;
     const std::vector<SceneLight> lights =
         lights_at(scenario.scene, unlimited, scenario.camera, 0.0);
-    const ReferencePicture truth =
-        shade_reference(surface_samples(renderer.lit_surfaces().surfaces),
-                        reference_lights(lights, scenario.camera),
-                        {.shading = shading_of(kernels),
-                         .ambient = settings.ambient,
-                         .light_d_min = double{kernels.light_d_min}});
+    const ReferencePicture truth = shade_reference(
+        surface_samples(renderer.lit_surfaces().surfaces),
+        reference_lights(lights, scenario.camera), reference_options(renderer, scenario.camera));
     TailAgreement out;
     for (std::size_t i = 0; i < frame.radiance.size(); ++i) {
         const double scale = truth.scale.rgb[i];

@@ -80,7 +80,7 @@ std::optional<std::string_view> checked_text(std::string_view entry) {
     const std::size_t line = entry.rfind(kChecksum);
     if (line == std::string_view::npos) return std::nullopt;
     const std::string_view text = entry.substr(0, line);
-    const std::string expected = std::string(kChecksum) + Fnv1a().add(text).hex() + "\n";
+    const std::string expected = std::string(kChecksum) + hash_text(text) + "\n";
     if (entry.substr(line) != expected) return std::nullopt;
     return text;
 }
@@ -116,7 +116,7 @@ std::string shortest(double value) {
 std::string entry_text(const std::string& head, const CacheValues& values) {
     std::string text = head;
     for (const auto& [key, value] : values) text += key + " " + shortest(value) + "\n";
-    return text + std::string(kChecksum) + Fnv1a().add(text).hex() + "\n";
+    return text + std::string(kChecksum) + hash_text(text) + "\n";
 }
 
 [[noreturn]] void fail(const fs::path& path, const char* what, int code) {
@@ -160,8 +160,7 @@ void write_cache_file(const fs::path& file, std::string_view bytes) {
 fs::path device_cache_file(const DeviceInfo& device, CacheKind kind) {
     const fs::path folder = cache_folder();
     if (folder.empty()) return {};
-    return folder /
-           (std::string(kind.name) + "-" + Fnv1a().add(device_lines(device)).hex() + ".txt");
+    return folder / (std::string(kind.name) + "-" + hash_text(device_lines(device)) + ".txt");
 }
 
 std::optional<CacheValues> read_device_cache(const DeviceInfo& device, CacheKind kind) {

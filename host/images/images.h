@@ -35,8 +35,7 @@ struct ImageLayout {
     int width = 0;                       // [pixel]
     int height = 0;                      // [pixel]
     std::vector<ImageChannel> channels;  // in the order of a pixel's samples
-    // By OpenImageIO's names. Of a file that is read only "chromaticities": x and y of red, green,
-    // blue and white.
+    // By OpenImageIO's names. Of a file that is read: texts whose names begin with "kilolux:".
     std::vector<std::pair<std::string, ImageAttribute>> attributes{};
     bool associated_alpha = false;  // of a file that is read: its colours are multiplied by alpha
     // Of a file that is read: x and y of red, green, blue and white (CIE 1931); else empty.

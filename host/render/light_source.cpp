@@ -38,7 +38,7 @@ bool is_near(const glm::dvec3& p) {
 
 uint tail_seed(const RenderSettings& settings, uint sample) {
     if (settings.tails != Tails::stochastic) return 0;
-    return std::max(1u, hash_of(hash_of(settings.tail_seed) + sample));
+    return std::max(1u, hash_of(hash_of(settings.seed) + sample));
 }
 
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,

@@ -97,7 +97,7 @@ struct RenderSettings {
     LightOptions lights;
     Tails tails = Tails::automatic;             // of the scene's lights without a range
     double range_budget = kDefaultRangeBudget;  // of bounded and stochastic ones: range_of_light()
-    uint tail_seed = 1;                         // of stochastic ones
+    uint seed = 1;                              // of stochastic tails and sampled shadows
     float tree_share = kDefaultTreeShare;       // of a tree's nodes: error over light
     uint gbuffer = GBUFFER_PACKED;
     Geometry geometry = Geometry::automatic;
@@ -107,7 +107,6 @@ struct RenderSettings {
     Shading shading = Shading::automatic;
     Shadows shadows = Shadows::off;
     int shadow_rays = 4;    // of sampled shadows: a pixel at most, on average
-    uint shadow_seed = 1;   // of sampled shadows
     float ambient = 0.02f;  // radiance that falls in from everywhere
     // Seen where no surface covers a pixel; null: black. Changes no surface's light.
     std::shared_ptr<const Environment> background;

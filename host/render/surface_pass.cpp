@@ -222,7 +222,7 @@ ShadowInput SurfacePass::shadows(const Sample& sample) const {
     constexpr uint kSeedStep = 0x9e3779b9u;  // spreads the samples of neighbouring seeds
     ShadowInput out = shadows_;
     out.rays = static_cast<float>(context_.settings.shadow_rays);
-    out.seed = context_.settings.shadow_seed * kSeedStep + sample.number;
+    out.seed = context_.settings.seed * kSeedStep + sample.number;
     return out;
 }
 

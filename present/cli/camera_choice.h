@@ -21,6 +21,7 @@ struct CameraChoice {
     std::optional<glm::dvec3> view_up{};
     std::optional<double> view_angle{};  // vertical [degree]
     bool orthographic = false;
+    bool operator==(const CameraChoice&) const = default;
 };
 
 /// Where a camera stands, what it looks at, and what is up.

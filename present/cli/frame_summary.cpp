@@ -73,17 +73,17 @@ std::string comparison_text(const Comparison& comparison) {
 ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                          const FrameStats& stats) {
     ImageNotes notes;
-    notes.strings = {{"scene", options.scene},
-                     {"lights", fmt::format("{}", stats.lights_given)},
-                     {"seed", fmt::format("{}", options.settings.lights.seed)},
-                     {"renderer", name_of(options.settings.renderer)},
-                     {"shading", name_of(options.settings.shading)},
-                     {"shadows", name_of(options.settings.shadows)},
-                     {"geometry", name_of(options.settings.geometry)},
-                     {"gbuffer", gbuffer_layout_name(options.settings.gbuffer)},
-                     {"grid", grid_text(stats)},
-                     {"device", device.name + ", " + device.version},
-                     {"version", version()}};
+    SharedOptions shown = options;
+    for (const Setting& setting : settings_of(shown)) {
+        const std::string text = setting.show();
+        const bool is_noted = setting.text.effect.changes == Changes::picture && !text.empty();
+        if (is_noted) notes.strings.emplace_back(setting.word(), text);
+    }
+    const std::string lights = fmt::format("{}", stats.lights_given);
+    notes.strings.insert(notes.strings.end(), {{"lights-given", lights},
+                                               {"clusters", grid_text(stats)},
+                                               {"device", device.name + ", " + device.version},
+                                               {"version", version()}});
     return notes;
 }
 

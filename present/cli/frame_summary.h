@@ -13,7 +13,8 @@ namespace kilolux {
 /// "rmse 0.0012 (threshold 0.01)"
 std::string comparison_text(const Comparison& comparison);
 
-/// Scene, seed, lights, renderer, grid, device and version, for an image's own attributes.
+/// Every shared option that changes the picture by its word, lights, clusters, device and version,
+/// for an image's own attributes.
 ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                          const FrameStats& stats);
 

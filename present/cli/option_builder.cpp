@@ -6,7 +6,14 @@
 namespace kilolux {
 namespace {
 
-std::string long_name(const std::string& names) { return names.substr(0, names.find(',')); }
+// HelpFormat prints each line after the first as a row below the option.
+OptionText described(OptionText text, const Choices& choices) {
+    text.form = joined(choices.names, "|");
+    for (std::size_t i = 0; i < choices.meanings.size(); ++i) {
+        text.meaning += "\n" + choices.names[i] + " - " + choices.meanings[i];
+    }
+    return text;
+}
 
 }  // namespace
 
@@ -18,80 +25,103 @@ void leave_to_help_all(CLI::App& command, const std::vector<std::string>& names)
     }
 }
 
+void add_option(CLI::App& command, const Setting& setting) {
+    const OptionText& text = setting.text;
+    CLI::Option* option =
+        setting.kind == SettingKind::flag
+            ? command.add_flag_function(
+                  text.name,
+                  [take = setting.take](std::int64_t count) { take(count > 0 ? "true" : "false"); },
+                  text.meaning)
+            : command.add_option_function<std::string>(text.name, setting.take, text.meaning)
+                  ->type_name(text.form)
+                  ->default_str(text.standard);
+    option->group(setting.heading)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+void add_question(CLI::App& command, const std::string& heading, const std::string& name,
+                  const std::string& meaning) {
+    command.add_flag(name, meaning)->group(heading);
+}
+
+OptionBuilder::OptionBuilder(SettingVisitor visitor, std::string heading)
+    : visitor_(std::move(visitor)), heading_(std::move(heading)) {}
+
 OptionBuilder::OptionBuilder(CLI::App& command, std::string heading)
-    : command_(command), heading_(std::move(heading)) {}
+    : OptionBuilder([&command](const Setting& setting) { add_option(command, setting); },
+                    std::move(heading)) {}
 
 OptionBuilder& OptionBuilder::rest() {
     heading_ += kRestSuffix;
     return *this;
 }
 
-OptionBuilder& OptionBuilder::value(const OptionText& text, Take take, Show show) {
-    const std::string name = long_name(text.name);
-    const auto taker = [take = std::move(take), name](const std::string& seen) {
-        take(name, seen);
-    };
-    CLI::Option* option = command_.add_option_function<std::string>(text.name, taker, text.meaning);
-    option->type_name(text.form)->group(heading_)->default_str(text.standard);
-    option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->default_function(show);
+void OptionBuilder::hand_over(Setting setting) {
+    setting.heading = heading_;
+    visitor_(setting);
+}
+
+OptionBuilder& OptionBuilder::value(SettingKind kind, const OptionText& text, const Take& take,
+                                    Show show) {
+    Setting setting{.text = text, .heading = {}, .kind = kind, .show = std::move(show)};
+    setting.take = [take, name = setting.option()](const std::string& seen) { take(name, seen); };
+    hand_over(std::move(setting));
     return *this;
 }
 
-OptionBuilder& OptionBuilder::flag(const std::string& name, bool& out, const std::string& meaning) {
-    command_.add_flag(name, out, meaning)
-        ->group(heading_)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
-        ->default_function([&out]() -> std::string { return out ? "true" : ""; });
-    return *this;
-}
-
-OptionBuilder& OptionBuilder::question(const std::string& name, const std::string& meaning) {
-    command_.add_flag(name, meaning)->group(heading_);
+OptionBuilder& OptionBuilder::flag(const std::string& name, bool& out, const std::string& meaning,
+                                   Effect effect) {
+    hand_over({.text = {name, "", "", meaning, effect},
+               .heading = {},
+               .kind = SettingKind::flag,
+               .take = [&out](const std::string& seen) { out = seen == "true"; },
+               .show = [&out]() -> std::string { return out ? "true" : ""; }});
     return *this;
 }
 
 OptionBuilder& OptionBuilder::number_or_auto(const OptionText& text, double& out,
                                              const NumberRange& range) {
-    return value(text, out, [range](const std::string& name, const std::string& seen) {
-        return parse_number_or_auto(name, seen, range);
-    });
+    return value(
+        text, out,
+        [range](const std::string& name, const std::string& seen) {
+            return parse_number_or_auto(name, seen, range);
+        },
+        [&out] { return out == 0.0 ? "auto" : text_of(out); });
 }
 
 OptionBuilder& OptionBuilder::choice(const OptionText& text, const Choices& choices,
                                      std::function<void(std::size_t)> take, Show show) {
-    const auto take_name = [names = choices.names, take = std::move(take)](
-                               const std::string& name, const std::string& seen) {
-        take(parse_name(name, seen, names));
-    };
-    return value(described(text, choices), take_name, std::move(show));
+    Setting setting{.text = described(text, choices),
+                    .heading = {},
+                    .kind = SettingKind::choice,
+                    .words = choices.names,
+                    .show = std::move(show)};
+    setting.take = [names = choices.names, take = std::move(take), name = setting.option()](
+                       const std::string& seen) { take(parse_name(name, seen, names)); };
+    hand_over(std::move(setting));
+    return *this;
 }
 
 OptionBuilder& OptionBuilder::choice(const OptionText& text, std::string& out,
                                      const Choices& choices) {
-    return value(described(text, choices), out,
-                 [names = choices.names](const std::string& name, const std::string& seen) {
-                     return names[parse_name(name, seen, names)];
-                 });
+    return choice(
+        text, choices, [&out, names = choices.names](std::size_t place) { out = names[place]; },
+        [&out] { return out; });
 }
 
 OptionBuilder& OptionBuilder::choice_list(const OptionText& text, std::vector<std::string>& out,
                                           const Choices& choices) {
-    OptionText list = described(text, choices);
-    list.form += ",...";
-    const auto take = [&out, names = choices.names](const std::string& name,
-                                                    const std::string& seen) {
+    Setting setting{.text = described(text, choices),
+                    .heading = {},
+                    .kind = SettingKind::list,
+                    .words = choices.names,
+                    .show = [&out] { return joined(out, ","); }};
+    setting.text.form += ",...";
+    setting.take = [&out, names = choices.names, name = setting.option()](const std::string& seen) {
         out = parse_name_list(name, seen, names);
     };
-    return value(list, take, [&out] { return joined(out, ","); });
-}
-
-// HelpFormat prints each line after the first as a row below the option.
-OptionText OptionBuilder::described(OptionText text, const Choices& choices) {
-    text.form = joined(choices.names, "|");
-    for (std::size_t i = 0; i < choices.meanings.size(); ++i) {
-        text.meaning += "\n" + choices.names[i] + " - " + choices.meanings[i];
-    }
-    return text;
+    hand_over(std::move(setting));
+    return *this;
 }
 
 }  // namespace kilolux

@@ -11,16 +11,9 @@
 
 #include "present/cli/names.h"
 #include "present/cli/option_values.h"
+#include "present/cli/setting.h"
 
 namespace kilolux {
-
-/// How an option presents itself in --help.
-struct OptionText {
-    std::string name;  // "--lights", or "--output,-o"
-    std::string form;  // of the value: "N"; words in lower case between '|' are names to complete
-    std::string standard;  // default as text; empty: the meaning says what happens
-    std::string meaning;
-};
 
 /// The end of a heading whose options --help leaves to --help-all.
 inline constexpr std::string_view kRestSuffix = " (more)";
@@ -29,21 +22,39 @@ inline constexpr std::string_view kRestSuffix = " (more)";
 /// options, but has little use for.
 void leave_to_help_all(CLI::App& command, const std::vector<std::string>& names);
 
-/// Registers options of a command under one heading. Values are checked while the command line is
-/// parsed, with the long name and the text seen in the UsageError; the last one given counts.
+/// How a value of a type is written.
+template <typename T>
+constexpr SettingKind kind_of() {
+    if constexpr (requires(T value) { value.has_value(); })
+        return kind_of<typename T::value_type>();
+    if constexpr (requires { typename T::value_type; } && !std::is_convertible_v<T, std::string>) {
+        if constexpr (std::is_same_v<T, std::vector<std::string>>) return SettingKind::list;
+        if constexpr (std::is_floating_point_v<typename T::value_type>) return SettingKind::numbers;
+        return kind_of<typename T::value_type>();
+    }
+    if constexpr (std::is_same_v<T, Box>) return SettingKind::numbers;
+    if constexpr (std::is_integral_v<T>) return SettingKind::count;
+    if constexpr (std::is_floating_point_v<T>) return SettingKind::number;
+    return SettingKind::text;
+}
+
+/// Makes settings under one heading and hands each to a visitor. Texts are checked when a setting
+/// takes them, with the long name and the text seen in the UsageError.
 class OptionBuilder {
  public:
+    OptionBuilder(SettingVisitor visitor, std::string heading);
+
+    /// Registers them as options of a command: see add_option().
     OptionBuilder(CLI::App& command, std::string heading);
 
     /// Leaves the options that follow to --help-all.
     OptionBuilder& rest();
 
-    /// Any text that `take` accepts; it gets the long name for its messages, and the text. `show`
-    /// tells the present value,
-    /// see shared_option_texts().
+    /// Any text that `take` accepts; it gets the long name for its messages, and the text. `show`:
+    /// see Setting.
     using Take = std::function<void(const std::string& name, const std::string& text)>;
     using Show = std::function<std::string()>;
-    OptionBuilder& value(const OptionText& text, Take take, Show show = {});
+    OptionBuilder& value(SettingKind kind, const OptionText& text, const Take& take, Show show);
 
     /// What `parse` makes of the long name and the text.
     template <typename T, typename Parse>
@@ -51,10 +62,14 @@ class OptionBuilder {
         const OptionText& text, T& out, Parse parse) {
         Show show;
         if constexpr (requires { text_of(out); }) show = [&out] { return text_of(out); };
+        return value(text, out, parse, show);
+    }
+    template <typename T, typename Parse>
+    OptionBuilder& value(const OptionText& text, T& out, Parse parse, Show show) {
         const auto take = [&out, parse](const std::string& name, const std::string& seen) {
             out = static_cast<T>(parse(name, seen));
         };
-        return value(text, take, show);
+        return value(kind_of<T>(), text, take, std::move(show));
     }
 
     /// A text, or a path.
@@ -62,9 +77,8 @@ class OptionBuilder {
     OptionBuilder& text(const OptionText& text, Text& out) {
         return value(text, out, [](const std::string&, const std::string& seen) { return seen; });
     }
-    OptionBuilder& flag(const std::string& name, bool& out, const std::string& meaning);
-    /// A flag that Program itself obeys.
-    OptionBuilder& question(const std::string& name, const std::string& meaning);
+    OptionBuilder& flag(const std::string& name, bool& out, const std::string& meaning,
+                        Effect effect = kNeither);
     template <typename T>
     OptionBuilder& number(const OptionText& text, T& out, const NumberRange& range = {}) {
         return value(text, out, [range](const std::string& name, const std::string& seen) {
@@ -77,6 +91,7 @@ class OptionBuilder {
             return parse_count(name, seen, range);
         });
     }
+    /// 0 is "auto".
     OptionBuilder& number_or_auto(const OptionText& text, double& out, const NumberRange& range);
 
     /// One of `choices`, whose place `take` gets; `text.form` is made of them.
@@ -101,10 +116,17 @@ class OptionBuilder {
                                const Choices& choices);
 
  private:
-    static OptionText described(OptionText text, const Choices& choices);
+    void hand_over(Setting setting);
 
-    CLI::App& command_;
+    SettingVisitor visitor_;
     std::string heading_;
 };
+
+/// Registers a setting as an option; of several values given the last one counts.
+void add_option(CLI::App& command, const Setting& setting);
+
+/// A flag that Program itself obeys.
+void add_question(CLI::App& command, const std::string& heading, const std::string& name,
+                  const std::string& meaning);
 
 }  // namespace kilolux

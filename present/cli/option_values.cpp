@@ -19,28 +19,21 @@ namespace {
     throw UsageError(fmt::format("{}: '{}' is not {}", option, text, wanted));
 }
 
+// "+5" is 5.
+std::string_view without_plus(std::string_view text) {
+    return text.size() > 1 && text[0] == '+' && text[1] != '-' ? text.substr(1) : text;
+}
+
 template <typename Number>
 std::optional<Number> number_of(std::string_view text) {
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    text = without_plus(text);
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
 }
 
-// Also "5k", "2M", "1e6": a whole number that a double holds exactly.
-std::optional<std::uint64_t> count_of(std::string_view text) {
-    if (const auto value = number_of<std::uint64_t>(text)) return value;
-    double unit = 1.0;
-    if (text.ends_with('k')) unit = 1e3;
-    if (text.ends_with('M')) unit = 1e6;
-    if (unit > 1.0) text.remove_suffix(1);
-    const double value = unit * number_of<double>(text).value_or(-1.0);
-    const bool whole = value >= 0.0 && value <= 0x1p53 && value == std::floor(value);
-    return whole ? std::optional(static_cast<std::uint64_t>(value)) : std::nullopt;
-}
-
-std::string describe(const NumberRange& range) {
+std::string range_text(const NumberRange& range) {
     const bool bounded_above = range.max < NumberRange{}.max;
     if (range.min == NumberRange{}.min && !bounded_above) return "a finite number";
     if (!bounded_above) {
@@ -51,7 +44,7 @@ std::string describe(const NumberRange& range) {
     return fmt::format("a number from {:g} to {:g}", range.min, range.max);
 }
 
-std::string describe(const CountRange& range) {
+std::string range_text(const CountRange& range) {
     return fmt::format("a whole number from {} to {}", range.min, range.max);
 }
 
@@ -94,7 +87,7 @@ bool contains(const CountRange& range, double value) {
 
 double parse_number(const std::string& option, std::string_view text, const NumberRange& range) {
     const auto value = number_of<double>(text);
-    if (!value || !contains(range, *value)) refuse(option, text, describe(range));
+    if (!value || !contains(range, *value)) refuse(option, text, range_text(range));
     return *value;
 }
 
@@ -102,22 +95,22 @@ double parse_number_or_auto(const std::string& option, std::string_view text,
                             const NumberRange& range) {
     if (text == "auto") return 0.0;
     const auto value = number_of<double>(text);
-    if (!value || !contains(range, *value)) refuse(option, text, "'auto' or " + describe(range));
+    if (!value || !contains(range, *value)) refuse(option, text, "'auto' or " + range_text(range));
     return *value;
 }
 
 std::uint64_t parse_count(const std::string& option, std::string_view text,
                           const CountRange& range) {
-    const auto value = count_of(text);
-    if (!value || *value < range.min || *value > range.max) refuse(option, text, describe(range));
+    const auto value = count_of(without_plus(text));
+    if (!value || *value < range.min || *value > range.max) refuse(option, text, range_text(range));
     return *value;
 }
 
 std::uint64_t parse_count_or_auto(const std::string& option, std::string_view text,
                                   const CountRange& range) {
-    const auto value = count_of(text);
+    const auto value = count_of(without_plus(text));
     if (value && *value >= range.min && *value <= range.max) return *value;
-    if (text != "auto") refuse(option, text, "'auto' or " + describe(range));
+    if (text != "auto") refuse(option, text, "'auto' or " + range_text(range));
     return 0;
 }
 
@@ -146,7 +139,7 @@ std::vector<int> parse_counts(const std::string& option, std::string_view text,
             values.push_back(static_cast<int>(*value));
     }
     if (values.size() != wanted || parts.size() != wanted) {
-        refuse(option, text, fmt::format("{}, each {}", form, describe(range)));
+        refuse(option, text, fmt::format("{}, each {}", form, range_text(range)));
     }
     return values;
 }

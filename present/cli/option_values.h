@@ -14,10 +14,16 @@
 #include <vector>
 
 #include "host/scene/gltf/load_scene.h"
-#include "present/cli/background_choice.h"
 #include "present/cli/sequence.h"
 
 namespace kilolux {
+
+/// What is behind the scene.
+struct BackgroundChoice {
+    enum class Kind { environment, none, color } kind = Kind::environment;
+    glm::vec3 color{0.0f};  // linear Rec. 709 radiance
+    bool operator==(const BackgroundChoice&) const = default;
+};
 
 /// Numbers an option takes; the ends belong to the range unless `open`.
 struct NumberRange {

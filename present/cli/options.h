@@ -12,9 +12,10 @@
 #include "host/render/settings.h"
 #include "host/scene/gltf/load_scene.h"
 #include "host/scene/lights/rig.h"
-#include "present/cli/background_choice.h"
 #include "present/cli/camera_choice.h"
+#include "present/cli/option_values.h"
 #include "present/cli/sequence.h"
+#include "present/cli/setting.h"
 #include "present/image/display_picture.h"
 
 namespace kilolux {
@@ -43,6 +44,7 @@ struct SharedOptions {
     bool show_error = false;  // --show error: the picture's error against --reference
     bool quiet = false;
     bool verbose = false;
+    bool operator==(const SharedOptions&) const = default;
 };
 
 /// Options of commands that write pictures.
@@ -64,16 +66,24 @@ struct OutputOptions {
     std::filesystem::path difference;  // empty: none
 };
 
-/// Scene, picture, lights, camera, grid and device options.
+/// Calls `visit` with each shared option and its value in `options`, in the order of --help. The
+/// one list of them: see Setting.
+void visit_settings(SharedOptions& options, const SettingVisitor& visit);
+void visit_picture_settings(SharedOptions& options, const SettingVisitor& visit);  // a part of it
+
+/// The same as a list, which refers to `options`.
+std::vector<Setting> settings_of(SharedOptions& options);
+
+/// What a shell has to say for the options that are not the defaults: " --lights 77 --rig none",
+/// without the scene, and what is printed.
+std::string option_words(SharedOptions options);
+
+/// Registers the shared options.
 void add_shared_options(CLI::App& command, SharedOptions& options);
 
 /// Sets what is printed. Throws UsageError for shared options that exclude or need each other;
 /// `compares`: the command line has --reference.
 void begin_command(const SharedOptions& options, bool compares = false);
-
-/// Long names and values of the shared options, in their order: what a command line would have to
-/// say for them. A flag's value is "true" or empty.
-std::vector<std::pair<std::string, std::string>> shared_option_texts(SharedOptions options);
 
 /// Output, sequence, statistics and comparison options.
 void add_output_options(CLI::App& command, OutputOptions& options);

@@ -23,15 +23,9 @@ std::string_view bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-std::string hash_of(std::string_view bytes) {
-    std::vector<std::uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), 4 * words.size());
-    return Fnv1a().add_words(words).hex();
-}
-
 // What it is made of, and by which program.
 std::string head_of(const Environment& environment) {
-    return std::string(kFormat) + version() + " " + hash_of(bytes_of(environment.rows)) + "\n";
+    return std::string(kFormat) + version() + " " + hash_text(bytes_of(environment.rows)) + "\n";
 }
 
 std::string body_of(const PrefilteredEnvironment& maps) {
@@ -67,7 +61,7 @@ std::optional<PrefilteredEnvironment> parsed(std::string_view file, const std::s
     const std::string_view checksum = file.substr(0, file.find('\n'));
     file.remove_prefix(std::min(checksum.size() + 1, file.size()));
     PrefilteredEnvironment out;
-    if (hash_of(file) != checksum || !take(file, out.levels) || !take(file, out.texels) ||
+    if (hash_text(file) != checksum || !take(file, out.levels) || !take(file, out.texels) ||
         !take(file, out.table)) {
         return std::nullopt;
     }
@@ -89,7 +83,7 @@ PrefilteredEnvironment kept_prefiltered(const std::string& name, const Environme
     PrefilteredEnvironment made = prefiltered(environment);
     const std::string body = body_of(made);
     try {
-        write_cache_file(file, head + hash_of(body) + "\n" + body);
+        write_cache_file(file, head + hash_text(body) + "\n" + body);
     } catch (const Error& error) {
         detail(error.what());
     }

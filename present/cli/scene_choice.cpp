@@ -30,6 +30,14 @@ bool is_picture(const std::filesystem::path& file) {
     return extensions.contains(lower(file.extension().string()));
 }
 
+// Whether the extension is that of a scene in another format than glTF.
+bool is_other_scene(const std::filesystem::path& file) {
+    static const std::set<std::string> extensions = {
+        ".3ds", ".abc", ".blend", ".c4d", ".dae",  ".fbx",  ".ma",   ".max", ".mb",
+        ".obj", ".ply", ".stl",   ".usd", ".usda", ".usdc", ".usdz", ".x3d"};
+    return extensions.contains(lower(file.extension().string()));
+}
+
 // The file that a name stands for which is not a generated scene's.
 std::filesystem::path scene_file(const std::string& name_or_file) {
     std::filesystem::path file(name_or_file);
@@ -47,6 +55,11 @@ std::filesystem::path scene_file(const std::string& name_or_file) {
             fmt::format("scene '{}' is a picture; a scene is a .gltf or .glb file, or one of {} "
                         "(--output names the picture to write)",
                         name_or_file, joined(generated_scene_names())));
+    }
+    if (is_other_scene(file)) {
+        throw UsageError(fmt::format(
+            "scene '{}' is a {} file; a scene is a .gltf or .glb file: export it as glTF 2.0",
+            name_or_file, file.extension().string()));
     }
     if (!std::filesystem::exists(file)) throw Error(name_or_file + ": no such scene file");
     return file;

@@ -118,6 +118,7 @@ void FrameLog::add(const FrameRecord& record) {
 }
 
 void FrameLog::read(const std::function<void(std::string_view)>& take) const {
+    if (std::fflush(file_.get()) != 0) fail_to_write(std::filesystem::temp_directory_path());
     std::rewind(file_.get());
     std::array<char, 65536> text;
     while (const std::size_t size = std::fread(text.data(), 1, text.size(), file_.get())) {

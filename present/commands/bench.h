@@ -12,8 +12,9 @@
 #include "host/measure/bench/run.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/bench/table.h"
-#include "present/cli/error_budget_options.h"
+#include "present/cli/conditions.h"
 #include "present/cli/options.h"
+#include "present/commands/error_budget_options.h"
 
 namespace kilolux {
 
@@ -24,7 +25,6 @@ struct BenchAxes {
     std::optional<std::vector<std::uint64_t>> lights;
     std::optional<std::vector<std::array<int, 3>>> grids;
     std::optional<std::vector<int>> lanes;
-    std::optional<std::vector<int>> group_heights;
     std::optional<std::vector<uint>> gbuffers;
 };
 
@@ -58,7 +58,6 @@ BenchFrames bench_frames(const BenchOptions& options);
 /// The command line of this process as a shell would take it.
 std::string command_line();
 
-nlohmann::ordered_json program_json();
 nlohmann::ordered_json tuning_json(const StoredTuning& tuning);
 /// Of tuning_json(): "lanes 8, group_height 4".
 std::string tuning_text(const nlohmann::ordered_json& tuning);
@@ -68,9 +67,6 @@ std::string tuning_text(const nlohmann::ordered_json& tuning);
 nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFrames& frames,
                                      const Scene& scene, const Camera& camera,
                                      const DeviceInfo& device);
-
-/// The first entry in which a context differs from an earlier one, with both values; empty: none.
-std::string context_difference(const nlohmann::ordered_json& was, const nlohmann::ordered_json& is);
 
 /// Throws Error unless the context file was written with the same context.
 void require_same_context(const std::filesystem::path& file, const nlohmann::ordered_json& context);

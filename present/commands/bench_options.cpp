@@ -62,9 +62,6 @@ void add_sweep_options(CLI::App& command, BenchAxes& a) {
                 "Coarse grids: tiles across and down, slices for each doubling of depth"},
                a.grids, parse_grids)
         .value({"--lanes", "N,...", "auto", "auto, 1, 2, 4, 8, 16"}, a.lanes, parse_lane_list)
-        .value({"--group-height", "N,...", "auto",
-                "Rows of pixels that a work-group shades: auto, 1, 2, 4, 8, 16"},
-               a.group_heights, parse_lane_list)
         .value({"--gbuffer", "NAME,...", "packed", "packed, full, half, normal-xy, oct-2x4"},
                a.gbuffers, choices_parser<uint>(gbuffer_choices().names));
 }
@@ -72,7 +69,7 @@ void add_sweep_options(CLI::App& command, BenchAxes& a) {
 void add_mode_options(CLI::App& command, BenchOptions& o) {
     using Text = const std::string&;
     OptionBuilder(command, "What is measured, instead of the frames of a sweep")
-        .flag("--quick", o.quick, "A small sweep of lights, grid and groups")
+        .flag("--quick", o.quick, "A small sweep of lights and grid")
         .flag("--tune", o.tune,
               "Search the fastest work sizes of this device and keep them for all commands")
         .value({"--table", "FILE,...", "",

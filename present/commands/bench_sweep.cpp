@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <span>
 
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/text.h"
 #include "host/measure/bench/plots.h"
 #include "host/measure/bench/row.h"
 #include "host/measure/roofline/stages.h"
@@ -30,23 +32,20 @@ SweepAxes with_given(SweepAxes axes, const BenchAxes& given) {
     if (given.lights) axes.lights = *given.lights;
     if (given.grids) axes.grids = *given.grids;
     if (given.lanes) axes.lanes = *given.lanes;
-    if (given.group_heights) axes.group_heights = *given.group_heights;
     if (given.gbuffers) axes.gbuffers = *given.gbuffers;
     return axes;
 }
 
-// Three small sweeps that share a point.
+// Two small sweeps that share a point.
 std::vector<SweepAxes> quick_sweeps(const BenchAxes& given) {
     SweepAxes base;
     base.resolutions = {{480, 270}};
-    SweepAxes lights = base, grids = base, groups = base;
+    SweepAxes lights = base, grids = base;
     lights.renderers = {RendererKind::deferred, RendererKind::deferred_all};
     lights.lights = {500, 1000, 2000, 5000};
     grids.grids = {{4, 4, 1}, {16, 9, 4}, {30, 17, 16}};
-    groups.group_heights = {1, 4, 16};
     std::vector<SweepAxes> sweeps = {with_given(lights, given)};
     if (!given.grids) sweeps.push_back(with_given(grids, given));
-    if (!given.group_heights) sweeps.push_back(with_given(groups, given));
     return sweeps;
 }
 
@@ -84,8 +83,9 @@ std::string estimate_of(const BenchRun& run, std::span<const SweepPoint> left,
                        left.size());
 }
 
+// `begin` is called once old rows are gone and before there are new ones.
 void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
-                    std::optional<BenchLog>& log) {
+                    std::optional<BenchLog>& log, const std::function<void()>& begin) {
     const BenchFrames frames = bench_frames(options);
     const std::vector<SweepPoint> left = take_found(sweep, log);
     Progress progress("measuring", run.frame_count(left, frames), !options.shared.quiet);
@@ -96,7 +96,7 @@ void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
     std::set<std::string> explained;
     for (std::size_t i = 0; i < left.size(); ++i) {
         const std::vector<BenchRow> rows = run.measure(left[i], frames);
-        if (log) log->append(rows);
+        if (log) log->append(rows, begin);
         sweep.rows.insert(sweep.rows.end(), rows.begin(), rows.end());
         progress.erase();
         const std::string grid = grid_explanation(left[i], run.grid());
@@ -189,8 +189,21 @@ BenchOptions with_budget(BenchOptions options, const Scene& scene, const Camera&
     return options;
 }
 
+// Says what lights there are: of a sweep the first number, and then all.
+Scene open_swept_scene(BenchOptions& options) {
+    std::vector<std::string> counts;
+    for (const SweepPoint& point : bench_points(options)) {
+        const std::string count = fmt::to_string(point.lights);
+        if (std::ranges::find(counts, count) == counts.end()) counts.push_back(count);
+    }
+    options.shared.settings.lights.count = bench_points(options).front().lights;
+    Scene scene = open_scene(options.shared);
+    if (counts.size() > 1) note("sweep   generated lights: " + joined(counts));
+    return scene;
+}
+
 void run_sweep(BenchOptions& asked) {
-    const Scene scene = open_scene(asked.shared);
+    const Scene scene = open_swept_scene(asked);
     const Camera camera = choose_camera(asked.shared, scene);
     const BenchOptions options = with_budget(asked, scene, camera);
     Sweep sweep;
@@ -205,13 +218,15 @@ void run_sweep(BenchOptions& asked) {
         const fs::path csv = options.output / "bench.csv";
         log.emplace(csv, options.resume);
         if (!log->rows().empty()) require_same_context(context_file(csv), document["context"]);
-        write_json(context_file(csv).string(), document);
     }
+    const auto write_context = [&] {
+        write_json(context_file(options.output / "bench.csv").string(), document);
+    };
     BenchRun run(scene, options.shared.settings, camera, options.shared.time);
-    measure_points(options, run, sweep, log);
+    measure_points(options, run, sweep, log, write_context);
     sort_rows(sweep);
     document["limits"] = limits_json(run.limits());
-    if (log) write_json(context_file(options.output / "bench.csv").string(), document);
+    if (log) write_context();
     document["rows"] = table_json(bench_table(sweep.rows));
     const std::vector<BenchRow> shown = shown_rows(options, sweep);
     print_result(options.json, document,

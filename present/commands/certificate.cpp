@@ -13,12 +13,12 @@
 #include "host/base/child_process.h"
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
+#include "host/base/temporary_folder.h"
 #include "host/base/text.h"
 #include "host/measure/bench/run.h"
 #include "host/render/renderer.h"
 #include "present/cli/names.h"
 #include "present/cli/scene_choice.h"
-#include "present/cli/scratch_folder.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
 
@@ -109,8 +109,8 @@ Json oclgrind(const cl::Device& device, const Step& step) {
                       : !has_program("oclgrind")              ? "not installed"
                                                               : nullptr;
     if (why != nullptr) return {{"passed", true}, {"ran", false}, {"why", why}};
-    const ScratchFolder scratch;
-    const std::string log = scratch.file("log"), picture = scratch.file("picture.exr");
+    const TemporaryFolder scratch;
+    const std::string log = scratch / "log", picture = scratch / "picture.exr";
     const std::vector<std::string> frame = {"render",       "plain", "--geometry", "compute",
                                             "--resolution", "48,32", "--lights",   "8",
                                             "--shading",    "pbr",   "--bloom",    "0.1"};

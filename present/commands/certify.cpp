@@ -122,7 +122,8 @@ std::vector<std::string> part_names() {
 void add_certify_options(CLI::App& command, CertifyOptions& options) {
     using Text = const std::string&;
     OptionBuilder(command, "What is run")
-        .value({"--case", "NAME,...", "all",
+        .value(SettingKind::list,
+               {"--case", "NAME,...", "all",
                 "Cases by name or label, e.g. tiny-lights,M3; none for none"},
                [&options](Text name, Text text) {
                    options.cases.emplace();
@@ -131,17 +132,21 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
                    for (const std::string& word : parse_name_list(name, text, words)) {
                        options.cases->insert(parse_name(name, word, words) % hard_cases().size());
                    }
-               })
+               },
+               {})
         .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, options.device)
-        .value({"--lanes", "1|2|4|8|16,...", "1,2,4,8,16", "Lane widths that every case runs at"},
+        .value(SettingKind::list,
+               {"--lanes", "1|2|4|8|16,...", "1,2,4,8,16", "Lane widths that every case runs at"},
                [&options](Text name, Text text) {
                    options.lanes.clear();
                    for (const std::string& width :
                         parse_name_list(name, text, {"1", "2", "4", "8", "16"})) {
                        options.lanes.push_back(std::stoi(width));
                    }
-               })
-        .value({"--with", "NAME,...|all", "",
+               },
+               {})
+        .value(SettingKind::list,
+               {"--with", "NAME,...|all", "",
                 "Also: equality (pictures by lists against those by all lights), oclgrind (a "
                 "frame's kernels), stages (times of a frame), tuning"},
                [&options](Text name, Text text) {
@@ -151,20 +156,23 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
                        for (std::size_t i = 0; i + 1 < words.size(); ++i)
                            if (word == "all" || i == place) options.parts.insert(i);
                    }
-               })
+               },
+               {})
         .flag("--isolate", options.isolate,
-              "Each in a process of its own: a driver that ends the process fails one of them")
-        .question("--list-devices", "Print the OpenCL devices and leave");
+              "Each in a process of its own: a driver that ends the process fails one of them");
+    add_question(command, "What is run", "--list-devices", "Print the OpenCL devices and leave");
     OptionBuilder(command, "Output")
         .text({"--output,-o", "FILE", "",
                "Write the result as JSON; - prints it instead of the table"},
               options.output)
-        .value({"--table", "FILE,...", "", "Print the table of certificates (-o FILE)"},
+        .value(SettingKind::list,
+               {"--table", "FILE,...", "", "Print the table of certificates (-o FILE)"},
                [&options](Text, Text text) {
                    for (const std::string_view file : split(text, ',')) {
                        options.tables.emplace_back(file);
                    }
-               })
+               },
+               {})
         .flag("--quiet", options.quiet, "No progress bar");
 }
 

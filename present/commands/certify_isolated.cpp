@@ -8,7 +8,7 @@
 
 #include "host/base/child_process.h"
 #include "host/base/interrupt.h"
-#include "present/cli/scratch_folder.h"
+#include "host/base/temporary_folder.h"
 
 namespace kilolux {
 namespace {
@@ -23,8 +23,8 @@ struct Outcome {
 };
 
 Outcome run(const std::string& device, std::vector<std::string> more) {
-    const ScratchFolder scratch;
-    const fs::path file = scratch.file("result.json");
+    const TemporaryFolder scratch;
+    const fs::path file = scratch / "result.json";
     std::vector<std::string> words = {"timeout", "--foreground", fmt::to_string(kIsolatedSeconds),
                                       fs::read_symlink("/proc/self/exe").string(), "certify"};
     words.insert(words.end(), more.begin(), more.end());

@@ -29,7 +29,6 @@ struct InfoOptions {
     bool costs = false;
     bool measure_limits = false;
     bool check_limits = false;
-    std::string stats;
 };
 
 Json vector_json(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -225,12 +224,9 @@ void run_info(InfoOptions& options) {
     begin_command(options.shared);
     if (options.check_limits) return run_check(options);
     const Json document = info_json(options);
-    if (!options.stats.empty()) write_json(options.stats, document);
-    if (options.json) return write_json("-", document);
-    if (options.stats == "-") return;
     std::string text;
     add_lines(text, document, "");
-    std::fputs(text.c_str(), stdout);
+    print_result(options.json, document, text);
 }
 
 void add_info_options(CLI::App& command, InfoOptions& options) {
@@ -243,9 +239,7 @@ void add_info_options(CLI::App& command, InfoOptions& options) {
               "Measure the device's limits again, and keep them")
         .flag("--check-limits", options.check_limits,
               "Measure the device's limits again and compare them with C++ loops on a CPU or with "
-              "published peaks of a GPU; exit 3 if they differ by more than a factor of 1.6")
-        .text({"--stats", "FILE", "", "Write the JSON to a file; - for standard output"},
-              options.stats);
+              "published peaks of a GPU; exit 3 if they differ by more than a factor of 1.6");
 }
 
 constexpr const char* kInfoExamples =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
@@ -8,12 +9,13 @@
 #include "host/base/error.h"
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
-#include "present/cli/camera_motion.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
-#include "present/cli/picture_advice.h"
 #include "present/cli/progress.h"
+#include "present/commands/camera_motion.h"
+#include "present/commands/made_picture.h"
+#include "present/commands/picture_advice.h"
 #include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
 #include "present/image/display_picture.h"
@@ -31,6 +33,7 @@ struct RenderOptions {
     OutputOptions output;
     BudgetOptions budget;
     bool has_alpha = false;  // the picture: see wants_alpha()
+    std::string command{};   // picture_command() of what was asked for
 };
 
 // One picture to make: a frame of the sequence, or the only one.
@@ -41,6 +44,8 @@ struct Task {
     fs::path reference;   // empty: none
     fs::path difference;  // empty: none
 };
+
+std::string noted_time(double time) { return text_of(time) + " s"; }
 
 // The pictures asked for, computed one at a time: a sequence may have 2^31 of them.
 class Tasks {
@@ -60,9 +65,11 @@ class Tasks {
                 frame_file(out.reference, frame), frame_file(out.difference, frame)};
     }
 
-    // Files are written whole, so an existing one counts as done.
     bool is_done(const Task& task) const {
-        return options_.output.skip_existing && fs::exists(task.file);
+        if (is_video(task.file)) return options_.output.skip_existing && fs::exists(task.file);
+        const RenderSettings& s = options_.shared.settings;
+        return options_.output.skip_existing &&
+               is_made({task.file, s.width, s.height, options_.command, noted_time(task.time)});
     }
 
     std::size_t first_to_do() const {
@@ -95,7 +102,9 @@ bool wants_own_display(const RenderOptions& options) {
 ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
                     const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, pictures.renderer().device(), record.stats);
-    notes.strings.emplace_back("time", text_of(record.time) + " s");
+    notes.strings.emplace_back("command", options.command);
+    std::erase_if(notes.strings, [](const auto& entry) { return entry.first == "time"; });
+    notes.strings.emplace_back("time", noted_time(record.time));
     if (record.comparison) {
         notes.strings.emplace_back("error", comparison_text(*record.comparison));
     }
@@ -283,10 +292,16 @@ bool wants_alpha(const RenderOptions& options) {
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
+    options.command = picture_command(options.shared, out);
     options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
     const Tasks tasks(options);
+    if (tasks.size() == 0) {
+        return note(fmt::format("nothing to render: shard {}/{} has none of the frames {}:{}",
+                                out.shard.index, out.shard.count, out.frames->first,
+                                out.frames->last));
+    }
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");
     const Task first = tasks[begin];

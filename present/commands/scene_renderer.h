@@ -9,9 +9,9 @@
 #include "host/measure/roofline/device_limits.h"
 #include "host/render/renderer.h"
 #include "host/scene/animated_scene.h"
-#include "present/cli/error_budget_options.h"
 #include "present/cli/options.h"
 #include "present/cli/stats_json.h"
+#include "present/commands/error_budget_options.h"
 
 namespace kilolux {
 

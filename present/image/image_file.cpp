@@ -216,6 +216,8 @@ bool holds_alpha(const std::filesystem::path& file) {
     return std::string_view(format_of(file).plugin) == "png" || holds_layers(file);
 }
 
+bool holds_notes(const std::filesystem::path& file) { return holds_alpha(file); }
+
 bool holds_layers(const std::filesystem::path& file) {
     return std::string_view(format_of(file).plugin) == "openexr";
 }

@@ -28,12 +28,15 @@ bool holds_16_bits(const std::filesystem::path& file);
 /// Whether the format can say how much of a pixel is covered: PNG and EXR.
 bool holds_alpha(const std::filesystem::path& file);
 
+/// Whether a file of the format tells what ImageNotes said: PNG and EXR.
+bool holds_notes(const std::filesystem::path& file);
+
 /// Whether the format keeps named channels beside the colour: EXR.
 bool holds_layers(const std::filesystem::path& file);
 
 /// What a file says about its picture, beside the pixels.
 struct ImageNotes {
-    /// Written as "kilolux:<name>": scene, seed, lights, renderer, ... in this order.
+    /// Written as "kilolux:<name>": scene, lights, renderer, ... in this order.
     std::vector<std::pair<std::string, std::string>> strings;
     std::optional<Camera> camera;  // becomes worldToCamera and worldToNDC
 };

@@ -30,6 +30,11 @@ foreach(file IN LISTS python_files)
   file(CREATE_LINK ${file} ${python_folder}/${name} SYMBOLIC)
 endforeach()
 
+# The types of the keywords, from the list of options that was built.
+set(make_options ${CMAKE_SOURCE_DIR}/present/python/make_options.py)
+add_custom_command(TARGET kilolux_python POST_BUILD COMMAND ${Python3_EXECUTABLE} -B ${make_options} ${python_folder}
+  BYPRODUCTS ${python_folder}/options.py VERBATIM)
+
 # Where this Python looks below a prefix: lib/python3.11/dist-packages.
 execute_process(COMMAND ${Python3_EXECUTABLE} -c "import os, sysconfig; print(os.path.basename(sysconfig.get_path('purelib')))"
   OUTPUT_VARIABLE python_packages OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -37,4 +42,4 @@ set(KILOLUX_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_M
   "Where the Python module is installed, below the prefix")
 install(TARGETS kilolux_python LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
 install(TARGETS kilolux_images_module LIBRARY DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
-install(FILES ${python_files} DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)
+install(FILES ${python_files} ${python_folder}/options.py DESTINATION ${KILOLUX_PYTHON_FOLDER}/kilolux COMPONENT python)

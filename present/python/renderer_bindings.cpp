@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "present/python/arrays.h"
 #include "present/python/bindings.h"
 #include "present/python/thread_renderer.h"
@@ -71,9 +73,31 @@ py::dict reference_dict(ReferencePicture picture) {
     return out;
 }
 
+// What the options are, and their values after `words`.
+py::list settings(const Words& words) {
+    constexpr const char* kKinds[] = {"text",    "flag",   "number", "count",
+                                      "numbers", "choice", "list"};
+    RendererOptions options = parse_renderer_options(SharedOptions().scene, words);
+    py::list out;
+    for (const Setting& setting : settings_of(options)) {
+        py::dict row;
+        std::string name = setting.word();
+        std::ranges::replace(name, '-', '_');
+        row["name"] = name;
+        row["kind"] = kKinds[static_cast<int>(setting.kind)];
+        row["words"] = setting.words;
+        row["form"] = setting.text.form;
+        row["meaning"] = setting.text.meaning;
+        row["value"] = setting.show();
+        out.append(row);
+    }
+    return out;
+}
+
 }  // namespace
 
 void add_renderer(py::module_& module) {
+    module.def("settings", settings, py::arg("words") = Words());
     py::class_<Frame, std::shared_ptr<Frame>>(module, "Frame");
     py::class_<ThreadRenderer>(module, "Renderer")
         .def(py::init([](const std::string& scene, const Words& words, const Scene* made,

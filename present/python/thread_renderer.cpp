@@ -45,6 +45,13 @@ FrameRequest request_of(const SharedOptions& shared, bool counts, bool probes) {
 
 }  // namespace
 
+std::vector<Setting> settings_of(RendererOptions& options) {
+    std::vector<Setting> out = settings_of(options.shared);
+    visit_budget_settings(options.budget,
+                          [&out](const Setting& setting) { out.push_back(setting); });
+    return out;
+}
+
 RendererOptions parse_renderer_options(const std::string& scene,
                                        const std::vector<std::string>& words) {
     RendererOptions options;
@@ -220,11 +227,9 @@ ReferencePicture ThreadRenderer::reference() {
     return run([this] {
         if (!rendered_) render_now(options_.shared.time);
         Renderer& renderer = pictures_->renderer();
-        return shade_reference(renderer.lit_surfaces(),
-                               {.shading = shading_of(renderer.plan().kernels),
-                                .ambient = static_cast<double>(renderer.settings().ambient),
-                                .orthographic = pictures_->camera().orthographic,
-                                .progress = [this](double) { check(*running_); }});
+        ReferenceOptions model = reference_options(renderer, pictures_->camera());
+        model.progress = [this](double) { check(*running_); };
+        return shade_reference(renderer.lit_surfaces(), model);
     });
 }
 

@@ -21,6 +21,9 @@ struct RendererOptions {
     std::string scene_words, light_words;  // what was said of the scene, of the lights
 };
 
+/// The options of a renderer with their values in `options`.
+std::vector<Setting> settings_of(RendererOptions& options);
+
 /// Throws UsageError or CLI::ParseError as the command line would. `scene`: a generated scene, a
 /// file, or the name of a scene that was made.
 RendererOptions parse_renderer_options(const std::string& scene,

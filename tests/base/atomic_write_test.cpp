@@ -38,7 +38,7 @@ TEST(AtomicWrite, WritesAndReplaces) {
     const std::string large(5'000'000, 'x');
     write_atomically(folder / "a", large);
     EXPECT_EQ(text_of_file(folder / "a"), large);
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"a"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"a"}));
 }
 
 TEST(AtomicWrite, KeepsPermissionsOfTheOldFileAndAsksTheMaskForNewOnes) {
@@ -84,7 +84,7 @@ TEST(AtomicWrite, NoFolderOrAFolderOfThatName) {
     EXPECT_EQ(message_of<Error>([&] { check_can_write(folder.path()); }),
               folder.path().string() + ": cannot write: Is a directory");
     EXPECT_THROW(write_atomically(folder.path(), "x"), Error);
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(names_in(folder).empty());
 }
 
 TEST(AtomicWrite, FolderWithoutPermission) {
@@ -101,7 +101,7 @@ TEST(AtomicWrite, FolderWithoutPermission) {
             _exit(asked == wanted && written == wanted ? 0 : 51);
         });
         EXPECT_EQ(WEXITSTATUS(status), 0);
-        EXPECT_TRUE(folder.names().empty());
+        EXPECT_TRUE(names_in(folder).empty());
         return;
     }
     const TemporaryFolder folder;
@@ -125,7 +125,7 @@ TEST(AtomicWrite, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
     ASSERT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
     EXPECT_EQ(WEXITSTATUS(status), 0);
     EXPECT_EQ(text_of_file(folder / "a"), "old");
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"a"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"a"}));
 }
 
 // The first signal; returns when it has been noted.
@@ -159,7 +159,7 @@ TEST(Interrupt, TheFirstSignalAsksTheSecondKillsAndRemovesTheUnfinishedFile) {
     });
     ASSERT_TRUE(WIFSIGNALED(status)) << "exit code " << WEXITSTATUS(status);
     EXPECT_EQ(WTERMSIG(status), SIGINT);
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(names_in(folder).empty());
 }
 
 TEST(AtomicWrite, WithoutCommitNothingChanges) {
@@ -168,10 +168,10 @@ TEST(AtomicWrite, WithoutCommitNothingChanges) {
     {
         AtomicFile file(folder / "a");
         file.write("new");
-        EXPECT_EQ(folder.names().size(), 2u);
+        EXPECT_EQ(names_in(folder).size(), 2u);
     }
     EXPECT_EQ(text_of_file(folder / "a"), "old");
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"a"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"a"}));
 }
 
 TEST(AtomicWrite, OwnerOnlyReplacesLinks) {
@@ -195,8 +195,8 @@ TEST(AtomicWrite, LeavesFilesOfOthersAlone) {
         end_by(SIGTERM);
     });
     EXPECT_EQ(WTERMSIG(status), SIGTERM);
-    ASSERT_EQ(folder.names().size(), 1u);
-    EXPECT_EQ(text_of_file(folder / *folder.names().begin()), "theirs");
+    ASSERT_EQ(names_in(folder).size(), 1u);
+    EXPECT_EQ(text_of_file(folder / *names_in(folder).begin()), "theirs");
 }
 
 // The name may mean another file by the time of the signal.
@@ -212,7 +212,7 @@ TEST(Interrupt, TheSecondSignalRemovesOnlyTheFileThatWasNamed) {
         end_by(SIGTERM);
     });
     EXPECT_EQ(WTERMSIG(status), SIGTERM);
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"part", "whole"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"part", "whole"}));
 }
 
 }  // namespace

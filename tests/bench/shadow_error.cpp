@@ -155,7 +155,7 @@ std::vector<SampledShadowError> measure_shadow_error(const ReportView& view,
         for (int seed = 1; seed <= seeds; ++seed) {
             on_step();
             sampled.shadow_rays = rays;
-            sampled.shadow_seed = static_cast<uint>(seed);
+            sampled.seed = static_cast<uint>(seed);
             renderer.change(sampled);
             sums.add(renderer.render(view.camera, view.time));
         }

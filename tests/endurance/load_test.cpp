@@ -29,7 +29,7 @@ TEST(Load, TwentyFourProcessesAtOnceAllFinishRight) {
     const std::string first = text_of_file(file(0));
     EXPECT_GT(first.size(), 500u);
     for (int i = 1; i < kProcesses; ++i) EXPECT_EQ(text_of_file(file(i)), first) << i;
-    EXPECT_EQ(folder.names().size(), std::size_t{kProcesses});
+    EXPECT_EQ(names_in(folder).size(), std::size_t{kProcesses});
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class Faults : public testing::Test {
     Faults() { write_text(picture_, kOld); }
 
     void expect_untouched() const {
-        EXPECT_EQ(folder_.names(), std::set<std::string>{"a.png"});
+        EXPECT_EQ(names_in(folder_), std::set<std::string>{"a.png"});
         EXPECT_EQ(text_of_file(picture_), kOld);
     }
     void expect_refused(const Words& before, std::string_view part, const Words& more = {}) const {
@@ -92,7 +92,7 @@ TEST_F(Faults, AFolderOfKernelsThatCannotBeUsed) {
                     "PoCL's folder of kernels /dev/null/x/.cache/pocl/kcache: cannot be "
                     "made: Not a directory; this run keeps them in a temporary folder"))
         << made.err;
-    EXPECT_EQ(elsewhere_.names(), std::set<std::string>{});
+    EXPECT_EQ(names_in(elsewhere_), std::set<std::string>{});
     write_text(picture_, kOld);
     Words nowhere = homeless;
     nowhere.emplace_back("TMPDIR=/nowhere");
@@ -222,7 +222,7 @@ TEST_F(Faults, OutputsThatCannotBeWritten) {
     const ChildResult result = run_child(render_words({}, lost));
     expect_failure(result, "there is no folder");
     expect_refused({}, "there is no folder", {"--stats", (other / "gone/stats.json").string()});
-    EXPECT_TRUE(other.names().empty());
+    EXPECT_TRUE(names_in(other).empty());
 }
 
 // SIGINT and SIGTERM at any moment from start to end.
@@ -248,7 +248,7 @@ TEST_F(Faults, SignalsAtRandomMoments) {
         SCOPED_TRACE("signal " + std::to_string(number) + " after " +
                      std::to_string(std::chrono::duration<double>(moment).count()) + " s\n" +
                      result.err);
-        EXPECT_EQ(folder_.names(), std::set<std::string>{"a.png"});
+        EXPECT_EQ(names_in(folder_), std::set<std::string>{"a.png"});
         if (result.signal != 0) {
             // Before main() has asked for signals: libraries are being loaded.
             EXPECT_EQ(result.signal, number);
@@ -273,14 +273,14 @@ TEST_F(Faults, InterruptedSequenceLeavesWholeFrames) {
     const ChildResult result =
         run_child(render_words({}, picture_, {"-o", pattern, "--frames", "0:999", "--quiet"}),
                   [&](pid_t child) {
-                      while (elsewhere_.names().size() < 5) {
+                      while (names_in(elsewhere_).size() < 5) {
                           std::this_thread::sleep_for(std::chrono::milliseconds(20));
                       }
                       kill(child, SIGTERM);
                   });
     EXPECT_EQ(result.code, 130) << result.err;
     std::uintmax_t size = 0;
-    for (const std::string& name : elsewhere_.names()) {
+    for (const std::string& name : names_in(elsewhere_)) {
         EXPECT_TRUE(name.starts_with("f.") && name.ends_with(".exr")) << name;
         EXPECT_GT(fs::file_size(elsewhere_ / name), 500u) << name;
         size += fs::file_size(elsewhere_ / name);

@@ -3,13 +3,13 @@
 #include "host/measure/bench/row.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "host/base/error.h"
+#include "host/base/temporary_folder.h"
 #include "host/measure/bench/plots.h"
 #include "host/measure/bench/run.h"
 
@@ -61,21 +61,14 @@ void expect_same(const BenchRow& a, const BenchRow& b) {
 // A CSV of its own in a folder that goes away.
 class BenchLogFile : public testing::Test {
  protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "kilolux-bench-XXXXXX").string();
-        ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-        folder_ = pattern;
-        file_ = folder_ / "bench.csv";
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::string text() const {
         std::ifstream in(file_, std::ios::binary);
         return {std::istreambuf_iterator<char>(in), {}};
     }
     void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
 
-    fs::path folder_, file_;
+    const TemporaryFolder folder_;
+    const fs::path file_ = folder_ / "bench.csv";
 };
 
 TEST(BenchRow, ComesBackFromCsv) {
@@ -86,7 +79,6 @@ TEST(BenchRow, ComesBackFromCsv) {
                  std::uint64_t{1} << 31,
                  {64, 36, 64},
                  16,
-                 8,
                  GBUFFER_OCT_2X4};
     odd.error.max_relative = std::numeric_limits<double>::infinity();
     const std::vector<BenchRow> rows = {row_of(500, "shade", 0.1), odd};

@@ -101,9 +101,8 @@ TEST(SceneScale, KernelsShadersAndReferenceHaveOneLeastDistance) {
         Renderer renderer(scene, settings);
         EXPECT_EQ(renderer.plan().kernels.light_d_min, light_d_min(scene));
         const Frame frame = renderer.render(camera, 0.0);
-        const ReferenceOptions options{.shading = shading_of(renderer.plan().kernels),
-                                       .light_d_min = d_min};
-        const ReferencePicture reference = shade_reference(renderer.lit_surfaces(), options);
+        const ReferencePicture reference =
+            shade_reference(renderer.lit_surfaces(), reference_options(renderer, camera));
         const Frame forward =
             Renderer(scene, settings_of(0, RendererKind::forward)).render(camera, 0.0);
         double brightest = 0.0;

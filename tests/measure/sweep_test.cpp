@@ -32,6 +32,8 @@ TEST(Sweep, ParsesNumbersRangesAndFactors) {
         {"1:100:*10,5,10", {1, 10, 100, 5}},
         {"3:100:*5", {3, 15, 75}},
         {"2147483648", {2147483648u}},
+        {"20k,1e6", {20000, 1000000}},
+        {"1k:3k:1k", {1000, 2000, 3000}},
         {"0:2147483648:2147483648", {0, 2147483648u}},
     };
     for (const auto& c : cases) EXPECT_EQ(parse(c.text), c.values) << c.text;
@@ -69,7 +71,7 @@ TEST(Sweep, MakesEveryCombinationOnce) {
     axes.renderers = {RendererKind::deferred, RendererKind::deferred_all};
     axes.lights = {10, 20, 30};
     axes.grids = {{4, 4, 1}, {16, 9, 4}};
-    axes.group_heights = {1, 16};
+    axes.lanes = {1, 16};
     const auto points = sweep_points(axes);
     // All-lights shading has no grid: only the first.
     EXPECT_EQ(points.size(), 3u * 2u * 2u + 3u * 2u);
@@ -80,14 +82,14 @@ TEST(Sweep, MakesEveryCombinationOnce) {
         }
     }
     EXPECT_EQ(varying_fields(points),
-              (std::vector<std::string>{"renderer", "lights", "grid", "group height"}));
+              (std::vector<std::string>{"renderer", "lights", "grid", "lanes"}));
     EXPECT_EQ(sweep_points(SweepAxes{}), std::vector<SweepPoint>{SweepPoint{}});
     EXPECT_TRUE(varying_fields({SweepPoint{}}).empty());
     EXPECT_TRUE(varying_fields({}).empty());
 }
 
 TEST(Sweep, PutsAPointIntoSettings) {
-    const SweepPoint point{RendererKind::deferred_all, {64, 36}, 7, {3, 2, 8}, 4, 2, GBUFFER_HALF};
+    const SweepPoint point{RendererKind::deferred_all, {64, 36}, 7, {3, 2, 8}, 4, GBUFFER_HALF};
     RenderSettings base;
     base.ambient = 0.5f;
     base.grid.fine_per_octave = 64;
@@ -100,7 +102,6 @@ TEST(Sweep, PutsAPointIntoSettings) {
     EXPECT_EQ(settings.grid.tiles_y, 2);
     EXPECT_EQ(settings.grid.slices_per_octave, 8);
     EXPECT_EQ(settings.kernels.lanes, 4);
-    EXPECT_EQ(settings.kernels.group_height, 2);
     EXPECT_EQ(settings.gbuffer, static_cast<uint>(GBUFFER_HALF));
     EXPECT_EQ(settings.ambient, 0.5f) << "what the point does not say stays";
     EXPECT_EQ(settings.grid.fine_per_octave, 64);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras of sequences: files of keys and their mistakes, turntables, shards.
-#include "present/cli/camera_motion.h"
+#include "present/commands/camera_motion.h"
 
 #include <gtest/gtest.h>
 

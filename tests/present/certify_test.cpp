@@ -51,7 +51,7 @@ TEST_F(Certify, RunsTheChosenCasesAndWritesTheirJson) {
     for (const char* key : {"what", "worst", "limit", "checked", "where"}) {
         EXPECT_TRUE(nothing.at("findings").at(0).contains(key)) << key;
     }
-    EXPECT_EQ(folder.names(), std::set<std::string>{"device.json"});
+    EXPECT_EQ(names_in(folder), std::set<std::string>{"device.json"});
 }
 
 TEST_F(Certify, PrintsJsonInsteadOfTheTableAndTheSameOneEachTime) {
@@ -204,18 +204,18 @@ TEST_F(Certify, AnInterruptedRunWritesNothing) {
     EXPECT_EQ(result.code, 130) << result.err;
     EXPECT_EQ(result.err, "kilolux: interrupted\n");
     EXPECT_EQ(result.out, "");
-    EXPECT_EQ(folder.names(), std::set<std::string>{});
+    EXPECT_EQ(names_in(folder), std::set<std::string>{});
 }
 
 // Whether PoCL is writing a file of a build; LLVM names it so and removes it at a signal.
 bool is_compiling(const TemporaryFolder& cache) {
-    const auto names = cache.names();
+    const auto names = names_in(cache);
     return std::ranges::any_of(names, [](const auto& n) { return n.ends_with(".cl.tmp"); });
 }
 
 // PoCL keeps programs in folders of two letters, by their hash.
 std::ptrdiff_t built_programs(const TemporaryFolder& cache) {
-    const auto names = cache.names();
+    const auto names = names_in(cache);
     return std::ranges::count_if(names, [](const auto& n) { return n.size() == 2; });
 }
 

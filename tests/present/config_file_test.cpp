@@ -66,6 +66,8 @@ TEST(ConfigFile, UnknownNamesAndBadValues) {
         {"quiet = 3\n", "quiet: '3' is not true or false"},
         {"[camera]\nposition = \"0,0,0\"\n", "[camera]"},
         {"{\"lights\": 5", "is not valid JSON"},
+        {"lights = 5\nquiet = true\nlights = 6\n", "config: 'lights' stands twice"},
+        {"{\"lights\": 5, \"lights\": 6}", "config: 'lights' stands twice"},
     };
     for (const auto& c : cases) {
         const auto message = message_of<UsageError>([&] { parse(c.text); });
@@ -73,8 +75,17 @@ TEST(ConfigFile, UnknownNamesAndBadValues) {
     }
 }
 
-TEST(ConfigFile, AFileThatIsNotThere) {
+TEST(ConfigFile, AnEmptyOneSaysNothing) {
+    for (const char* text : {"", "\n", "# a comment\n", "{}"}) {
+        EXPECT_EQ(parse(text), SharedOptions()) << text;
+    }
+}
+
+TEST(ConfigFile, AFileThatCannotBeRead) {
     CLI::App app;
+    const TemporaryFolder folder;
+    EXPECT_EQ(message_of<Error>([&] { apply_config_file(app, folder.path()); }),
+              folder.path().string() + ": cannot read: Is a directory");
     const auto message = message_of<Error>([&] { apply_config_file(app, "/no/such/file"); });
     EXPECT_EQ(message, "/no/such/file: cannot read: No such file or directory");
 }

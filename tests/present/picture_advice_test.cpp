@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture that shows nothing says why.
-#include "present/cli/picture_advice.h"
+#include "present/commands/picture_advice.h"
 
 #include <gtest/gtest.h>
 

@@ -57,6 +57,8 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
         {{"help", "redner"}, "did you mean 'render'?"},
         {{"render", "-o", "a.png", "--threshold", "1"}, "--threshold: needs --reference"},
         {{"render", "photo.jpg", "-o", "a.png"}, "scene 'photo.jpg' is a picture"},
+        {{"render", "room.blend", "-o", "a.png"}, "is a .blend file; a scene is a .gltf or .glb"},
+        {{"info", "cube.OBJ"}, "is a .OBJ file; a scene is a .gltf or .glb"},
     };
     for (const auto& c : cases) {
         const ChildResult result = run_kilolux(c.arguments);
@@ -92,7 +94,7 @@ TEST(Program, RuntimeErrorsExitWithOne) {
         EXPECT_TRUE(contains(result.err, c.message)) << c.message << " / " << result.err;
         expect_one_line(result.err);
     }
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"broken.glb"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"broken.glb"}));
 }
 
 TEST(Program, StandardOutputThatIsFullIsAnError) {

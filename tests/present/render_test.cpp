@@ -56,7 +56,7 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
         EXPECT_EQ(stage.at("limit_ms").is_number(), modelled) << stage;
     }
     EXPECT_FALSE(stats.at("stages").empty());
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"a.exr"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"a.exr"}));
 }
 
 TEST(Render, AutomaticSamplesAreTold) {
@@ -161,7 +161,7 @@ TEST(Render, ASequenceOfTwoThousandMillionFramesStarts) {
         kill(child, SIGINT);
     });
     EXPECT_EQ(result.code, 130) << result.err;
-    EXPECT_TRUE(folder.names().contains("f.0.exr"));
+    EXPECT_TRUE(names_in(folder).contains("f.0.exr"));
 }
 
 TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
@@ -173,13 +173,33 @@ TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
     };
     const ChildResult first = shard("0/2");
     ASSERT_EQ(first.code, 0) << first.err;
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"f.03.exr", "f.05.exr"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"f.03.exr", "f.05.exr"}));
     const Json frames = Json::parse(first.out).at("frames");
     ASSERT_EQ(frames.size(), 2u);
     EXPECT_EQ(frames[1].at("frame"), 5);
     EXPECT_EQ(frames[1].at("time"), 2.5);
     ASSERT_EQ(shard("1/2").code, 0);
-    EXPECT_EQ(folder.names().size(), 4u);
+    EXPECT_TRUE(contains(shard("1/2").err, "every file is there"));
+    EXPECT_TRUE(contains(shard("7/8").err, "shard 7/8 has none of the frames 3:6"));
+    EXPECT_EQ(names_in(folder).size(), 4u);
+    // A file that holds no picture is made anew, another picture is refused by name.
+    write_text(folder / "f.05.exr", "");
+    const ChildResult again = shard("0/2");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_TRUE(contains(again.err, "f.05.exr") && contains(again.err, "made anew")) << again.err;
+    EXPECT_EQ(Json::parse(again.out).at("frames").size(), 1u);
+    const auto refusal = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"--frames", "3:6", "--fps", "2", "--skip-existing"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ChildResult result = run_kilolux(small_render(pattern, words));
+        EXPECT_EQ(result.code, 1) << result.err;
+        EXPECT_TRUE(contains(result.err, "f.03.exr: holds another picture")) << result.err;
+        return result.err;
+    };
+    EXPECT_TRUE(contains(refusal({"--resolution", "32,16"}), "size"));
+    EXPECT_TRUE(contains(refusal({"--light-seed", "9"}), "--light-seed 9"));
+    EXPECT_TRUE(contains(refusal({"--time", "7"}), "--time 7"));
+    EXPECT_TRUE(contains(refusal({"--fps", "3"}), "time is '1.5 s', asked for is '1 s'"));
     // Frame 5 alone at its time is the same picture: time comes from the frame's number.
     const fs::path alone = folder / "alone.exr";
     ASSERT_EQ(run_kilolux(small_render(alone, {"--time", "2.5", "-q"})).code, 0);
@@ -287,7 +307,7 @@ TEST(Render, ShowErrorNeedsAReferenceAndAPictureForTheEye) {
     EXPECT_EQ(light.code, 2);
     EXPECT_TRUE(contains(light.err, "holds light")) << light.err;
     EXPECT_EQ(run_kilolux({"info", "grid", "--show", "error"}).code, 2);
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(names_in(folder).empty());
 }
 
 TEST(Render, ASignalEndsASequenceBetweenFrames) {
@@ -300,7 +320,7 @@ TEST(Render, ASignalEndsASequenceBetweenFrames) {
         });
         EXPECT_EQ(result.code, 130) << "signal " << result.signal << " " << result.err;
         EXPECT_EQ(result.err, "kilolux: interrupted\n");
-        for (const std::string& name : folder.names()) {
+        for (const std::string& name : names_in(folder)) {
             EXPECT_TRUE(name.starts_with("f.")) << name;
             EXPECT_EQ(read_image(folder / name).width, 48) << name;
         }

@@ -45,7 +45,7 @@ TEST(Export, RefusesWhatIsNoSceneFile) {
     EXPECT_TRUE(contains(wrong.err, "none of .glb, .gltf")) << wrong.err;
     EXPECT_EQ(run_kilolux({"export", "grid"}).code, 2);
     EXPECT_EQ(run_kilolux({"export", "grid", "-o", (folder / "no/a.glb").string()}).code, 1);
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(names_in(folder).empty());
 }
 
 TEST(SceneFile, LeavesItsFolderOnlyWithPermission) {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
+
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -102,6 +106,22 @@ TEST(StatsJson, SequencesHaveEveryFrameAndTheLastOnTop) {
     EXPECT_EQ(json.at("frames")[0].at("frame_ms"), 103.0);
 }
 
+TEST(StatsJson, FramesOnAFullDiskAreAnError) {
+    const auto former = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    const rlimit full{10, limit.rlim_max};
+    FrameLog log;
+    setrlimit(RLIMIT_FSIZE, &full);
+    const auto message = message_of<Error>([&] {
+        log.add(make_record(1));
+        log.read([](std::string_view) {});
+    });
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, former);
+    EXPECT_TRUE(contains(message, "cannot write")) << message;
+}
+
 TEST(StatsJson, WrittenWholeOrNotAtAll) {
     const TemporaryFolder folder;
     write_json((folder / "s.json").string(), make_document(make_record(0)));
@@ -109,7 +129,7 @@ TEST(StatsJson, WrittenWholeOrNotAtAll) {
     const auto message =
         message_of<Error>([&] { write_json((folder / "no/s.json").string(), Json::object()); });
     EXPECT_TRUE(contains(message, "no/s.json")) << message;
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"s.json"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"s.json"}));
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST(Video, StandardOutputHoldsTheSameBytesAndOnePictureIsOneFrame) {
     ASSERT_EQ(piped.code, 0) << piped.err;
     EXPECT_EQ(piped.out, text_of_file(folder / "a.y4m"));
     EXPECT_EQ(parse_y4m(piped.out).frames.size(), 1u);
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"a.y4m"}));
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"a.y4m"}));
 }
 
 // Codes that the renderer does not make itself go through the same transform.
@@ -148,7 +148,7 @@ TEST(Video, ShowsTheErrorAgainstAReference) {
 void wait_for_bytes(const TemporaryFolder& folder, const std::string& end) {
     const timespec pause{0, 5'000'000};
     for (int i = 0; i < 24'000; ++i) {
-        for (const std::string& name : folder.names()) {
+        for (const std::string& name : names_in(folder)) {
             std::error_code gone;
             if (name.ends_with(end) && fs::file_size(folder / name, gone) > 0 && !gone) return;
         }
@@ -167,7 +167,7 @@ TEST(Video, ASignalLeavesNoFile) {
             });
         EXPECT_EQ(result.code, 130) << name << " signal " << result.signal << " " << result.err;
         EXPECT_EQ(result.err, "kilolux: interrupted\n");
-        EXPECT_EQ(folder.names(), std::set<std::string>{}) << name;
+        EXPECT_EQ(names_in(folder), std::set<std::string>{}) << name;
     }
 }
 
@@ -208,7 +208,7 @@ TEST_P(FfmpegVideo, HoldsThePicturesAndSaysItsColours) {
     ASSERT_EQ(run_kilolux(small_render(folder / "a.y4m", frames)).code, 0);
     const ChildResult result = run_kilolux(small_render(file, frames));
     ASSERT_EQ(result.code, 0) << result.err;
-    EXPECT_EQ(folder.names().size(), 2u);
+    EXPECT_EQ(names_in(folder).size(), 2u);
     const std::string streams =
         text_of_program({"ffprobe", "-v", "error", "-show_streams", "-count_frames", file});
     for (const char* said : {"color_range=tv", "color_space=bt709", "color_transfer=iec61966-2-1",
@@ -259,7 +259,7 @@ TEST(Video, AMissingOrFailingFfmpegIsOneLine) {
     const ChildResult failing = render_with_path(programs.path(), file);
     EXPECT_EQ(failing.code, 1);
     EXPECT_EQ(failing.err, "kilolux: " + file.string() + ": ffmpeg failed: no such encoder\n");
-    EXPECT_EQ(folder.names(), std::set<std::string>{});
+    EXPECT_EQ(names_in(folder), std::set<std::string>{});
 }
 
 TEST(Video, RefusesWhatAVideoCannotHold) {

@@ -139,6 +139,21 @@ def test_a_reference_in_float64_agrees():
     assert kilolux.relmse(radiance, renderer.reference().radiance) > 1e-3
 
 
+def test_a_reference_has_the_shadows_and_the_shading_of_its_picture():
+    lit = kilolux.Renderer("grid", **SMALL).render().radiance
+    renderer = kilolux.Renderer("grid", **SMALL, shadows="exact")
+    radiance, reference = renderer.render().radiance, renderer.reference().radiance
+    # Rays in float32 and float64 differ at a few edges of shadows.
+    assert kilolux.relmse(lit, reference) > 1e-2
+    assert np.isclose(radiance, reference, rtol=1e-4, atol=1e-6).all(axis=2).mean() > 0.99
+    # Of a scene a hundredth as large, d_min is smaller, too.
+    near = kilolux.Lights([[0, 0.004, 0]], intensity=1e-6)
+    floor = kilolux.Mesh([[-.01, 0, -.01], [-.01, 0, .01], [.01, 0, .01], [.01, 0, -.01]], [[0, 1, 2], [0, 2, 3]])
+    renderer = kilolux.Renderer(kilolux.Scene([floor], lights=near), resolution=(64, 48),
+                                camera_position=(0.01, 0.02, 0.01), camera_focal_point=(0, 0, 0))
+    assert kilolux.relmse(renderer.render().radiance, renderer.reference().radiance) < 1e-10
+
+
 def test_two_renderers_in_two_threads():
     def work(scene, out):
         renderer = kilolux.Renderer(scene, **SMALL)

@@ -74,7 +74,7 @@ TEST(AutoSamples, ThePictureIsAsNearAsAsked) {
         RenderSettings many = settings;
         many.auto_samples.on = false;
         many.samples = 600;
-        many.shadow_seed = 77;
+        many.seed = 77;
         const Frame reference = render_once(scene, many);
         EXPECT_EQ(frame.stats.samples.open_tiles, 0u);
         EXPECT_GT(frame.stats.samples.most, 2 * frame.stats.samples.least);

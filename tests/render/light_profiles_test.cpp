@@ -80,11 +80,10 @@ TEST(LightProfiles, ShadeAsTheReferenceDoes) {
     for (const Shading shading : {Shading::lambert, Shading::blinn_phong, Shading::pbr}) {
         const RenderSettings settings = profile_settings(shading);
         Renderer renderer(scene, settings);
-        const Frame frame = renderer.render(first_camera(scene), 0.0);
-        const ReferencePicture exact = shade_reference(
-            renderer.lit_surfaces(), {.shading = shading,
-                                      .ambient = settings.ambient,
-                                      .light_d_min = double{renderer.plan().kernels.light_d_min}});
+        const Camera camera = first_camera(scene);
+        const Frame frame = renderer.render(camera, 0.0);
+        const ReferencePicture exact =
+            shade_reference(renderer.lit_surfaces(), reference_options(renderer, camera));
         double worst = 0.0;
         for (std::size_t i = 0; i < exact.radiance.rgb.size(); ++i) {
             const double scale = exact.scale.rgb[i] + 1e-3;

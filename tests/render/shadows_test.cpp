@@ -366,7 +366,7 @@ TEST(SampledShadows, AreTheSameBitsHoweverTheyAreMade) {
     settings.kernels.lanes = 0;
     settings.renderer = RendererKind::deferred_all;
     expect_same("all lights");
-    settings.shadow_seed = 2;
+    settings.seed = 2;
     EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
 }
 
@@ -375,7 +375,7 @@ TEST(SampledShadows, AreKeptWhileNothingMoves) {
     settings.want.aovs.clear();
     expect_kept_until_something_moves(settings);
     KeptShadows kept(settings);
-    kept.expect_cast_with("another seed", [](RenderSettings& s) { s.shadow_seed = 7; });
+    kept.expect_cast_with("another seed", [](RenderSettings& s) { s.seed = 7; });
     kept.expect_cast_with("more rays", [](RenderSettings& s) { s.shadow_rays = 2; });
     kept.expect_cast_with("ambient light", [](RenderSettings& s) { s.ambient = 0.5f; });
 }
@@ -412,7 +412,7 @@ TEST(SampledShadows, AreRightInTheMeanAndTellTheirError) {
     Renderer renderer(scenario.scene, settings);
     std::vector<double> sum(kPixels), squares(kPixels), told(kPixels);
     for (int seed = 1; seed <= kSeeds; ++seed) {
-        settings.shadow_seed = static_cast<uint>(seed);
+        settings.seed = static_cast<uint>(seed);
         renderer.change(settings);
         const Frame frame = renderer.render(scenario.camera, 0.0);
         for (std::size_t i = 0; i < kPixels; ++i) {

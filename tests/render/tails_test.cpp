@@ -71,7 +71,7 @@ TEST(Tails, AreTheSameBitsHoweverTheyAreMade) {
         expect_same("lanes");
         settings.renderer = RendererKind::deferred_all;
         expect_same("all lights");
-        settings.tail_seed = 2;
+        settings.seed = 2;
         const bool drawn = tails == Tails::stochastic;
         EXPECT_EQ(render_once(scene, settings).radiance != listed.radiance, drawn);
     }
@@ -145,7 +145,7 @@ void expect_right_in_the_mean(const Scene& scene, Shadows shadows, int seeds) {
     Renderer renderer(scene, settings);
     std::vector<double> sum(kPixels), squares(kPixels), told(kPixels);
     for (int seed = 1; seed <= seeds; ++seed) {
-        settings.tail_seed = settings.shadow_seed = static_cast<uint>(seed);
+        settings.seed = static_cast<uint>(seed);
         renderer.change(settings);
         const Frame frame = renderer.render(first_camera(scene), 0.0);
         for (std::size_t i = 0; i < kPixels; ++i) {

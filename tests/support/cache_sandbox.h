@@ -9,17 +9,14 @@
 #include <optional>
 #include <string>
 
+#include "host/base/temporary_folder.h"
+
 namespace kilolux {
 
 /// A test with a cache folder of its own, and the environment as it was afterwards.
 class CacheSandbox : public testing::Test {
  protected:
-    void SetUp() override {
-        std::string pattern = testing::TempDir() + "kilolux-cache-XXXXXX";
-        ASSERT_NE(::mkdtemp(pattern.data()), nullptr) << pattern;
-        folder_ = pattern;
-        set("XDG_CACHE_HOME", pattern.c_str());
-    }
+    void SetUp() override { set("XDG_CACHE_HOME", folder_.path().c_str()); }
     void TearDown() override {
         for (const auto& [name, value] : before_) {
             if (value) {
@@ -28,7 +25,6 @@ class CacheSandbox : public testing::Test {
                 ::unsetenv(name.c_str());
             }
         }
-        std::filesystem::remove_all(folder_);
     }
 
     /// Sets or, with null, unsets an environment variable for this test.
@@ -42,10 +38,10 @@ class CacheSandbox : public testing::Test {
         }
     }
 
-    const std::filesystem::path& folder() const { return folder_; }
+    const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:
-    std::filesystem::path folder_;
+    TemporaryFolder folder_;
     std::map<std::string, std::optional<std::string>> before_;
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/gltf_builder.h"
 
-#include <stdlib.h>
-
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
@@ -94,14 +92,6 @@ std::string mesh_defect(const Mesh& mesh, std::size_t material_count) {
 }
 
 }  // namespace
-
-TempFolder::TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "kilolux-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-}
-
-TempFolder::~TempFolder() { std::filesystem::remove_all(path_); }
 
 void write_file(const std::filesystem::path& file, const Blob& bytes) {
     std::ofstream out(file, std::ios::binary);

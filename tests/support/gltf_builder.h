@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/base/temporary_folder.h"
 #include "host/scene/gltf/load_scene.h"
 
 namespace kilolux {
@@ -14,17 +15,7 @@ namespace kilolux {
 using Blob = std::vector<unsigned char>;
 
 /// A new folder that goes with its owner.
-class TempFolder {
- public:
-    TempFolder();
-    ~TempFolder();
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
- private:
-    std::filesystem::path path_;
-};
+using TempFolder = TemporaryFolder;
 
 void write_file(const std::filesystem::path& file, const Blob& bytes);
 void write_file(const std::filesystem::path& file, const std::string& text);

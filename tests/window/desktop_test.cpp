@@ -139,13 +139,13 @@ TEST(Desktop, KeepsItsSettingsWhenTheDisplayIsLost) {
     desktop->tool({"xdotool", "key", "space"});
     wait_for("the settings", [&] {
         return fs::exists(file) &&
-               text_of_file(file).find("\"lights_move\": true") != std::string::npos;
+               text_of_file(file).find("\"lights-move\": true") != std::string::npos;
     });
     desktop.reset();
     const ChildResult result = program.result();
     EXPECT_EQ(result.code, 1) << "signal " << result.signal;
     EXPECT_EQ(result.err, "kilolux: window: the display was closed\n");
-    EXPECT_NE(text_of_file(file).find("\"lights_move\": true"), std::string::npos);
+    EXPECT_NE(text_of_file(file).find("\"lights-move\": true"), std::string::npos);
 }
 
 TEST(Desktop, ComesBackFromMinimisedAsItWas) {

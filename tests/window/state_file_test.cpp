@@ -134,13 +134,14 @@ TEST(StateFile, WhatIsNotOursIsIgnoredAsAWhole) {
     const TemporaryFolder folder;
     const auto file = folder / "view.json";
     for (const char* text :
-         {"", "{", "[]", "nonsense", R"({"version": 99})", R"({"version": 1, "lights": "many"})",
-          R"({"version": 1, "exposure": 2, "renderer": "raytraced"})",
-          R"({"version": 1, "exposure": 2, "lights": -5})",
-          R"({"version": 1, "exposure": 2, "lights": 1.5})",
-          R"({"version": 1, "exposure": 2, "lights": 3e9})",
-          R"({"version": 1, "exposure": 2, "adaptive": 1})",
-          R"({"version": 1, "exposure": 2, "slices": "3"})"}) {
+         {"", "{", "[]", "nonsense", R"({"version": 99})", R"({"version": 2, "lights": "many"})",
+          R"({"version": 2, "exposure": 2, "renderer": "raytraced"})",
+          R"({"version": 2, "exposure": 2, "lights": -5})",
+          R"({"version": 2, "exposure": 2, "lights": 1.5})",
+          R"({"version": 2, "exposure": 2, "lights": 3e9})",
+          R"({"version": 2, "exposure": 2, "adaptive": 1})",
+          R"({"version": 2, "exposure": 2, "grid": "3"})",
+          R"({"version": 2, "exposure": 2, "fine-slices": 65})"}) {
         write_text(file, text);
         testing::internal::CaptureStderr();
         EXPECT_EQ(loaded(file), ViewState{}) << text;

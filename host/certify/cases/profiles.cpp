@@ -74,10 +74,8 @@ void try_light_profiles(const Gpu& gpu, Findings& findings) {
         settings.ambient = 0.0f;
         Renderer renderer(scene, settings);
         const std::vector<float> listed = renderer.render(camera, 0.0).radiance;
-        const ReferencePicture exact = shade_reference(
-            renderer.lit_surfaces(), {.shading = shading,
-                                      .ambient = settings.ambient,
-                                      .light_d_min = double{renderer.plan().kernels.light_d_min}});
+        const ReferencePicture exact =
+            shade_reference(renderer.lit_surfaces(), reference_options(renderer, camera));
         Worst worst;
         for (std::size_t i = 0; i < listed.size(); ++i) {
             const double scale = exact.scale.rgb[i];

@@ -24,6 +24,12 @@ ImageLayout layout_of(const OIIO::ImageSpec& spec, const std::string& where) {
     for (int i = 0; i < spec.nchannels; ++i) {
         out.channels.push_back({spec.channel_name(i), sample_type(spec.channelformat(i))});
     }
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (name.starts_with("kilolux:")) {
+            out.attributes.emplace_back(name, attribute.get_string());
+        }
+    }
     const OIIO::TypeDesc eight_floats(OIIO::TypeDesc::FLOAT, 8);
     if (const auto* found = spec.find_attribute("chromaticities", eight_floats)) {
         const auto* values = static_cast<const float*>(found->data());

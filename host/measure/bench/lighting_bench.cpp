@@ -165,7 +165,8 @@ LightingRun LightingBench::run(const LightingRequest& request) {
         }
         for (const StageTime& stage : out.stats.stages) out.ms += stage.ms;
         const std::size_t words = std::size_t{3} * gbuffer_.view.stride * gbuffer_.view.height;
-        out.picture = Fnv1a().add_words(download<uint>(gpu_, radiance.planes, words)).value();
+        const std::vector<uint> bits = download<uint>(gpu_, radiance.planes, words);
+        out.picture = hash64(std::as_bytes(std::span(bits)));
         return out;
     });
 }

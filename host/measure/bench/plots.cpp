@@ -25,8 +25,6 @@ constexpr PlotAxis kPlotAxes[] = {
     {"grid", "time_against_grid", "Time against the coarse grid",
      "tiles x * tiles y * slices per octave",
      [](const SweepPoint& p) { return 1.0 * p.grid[0] * p.grid[1] * p.grid[2]; }},
-    {"group height", "time_against_work_group", "Time against the shading work-group",
-     "rows of a work-group", [](const SweepPoint& p) { return 1.0 * p.group_height; }},
     {"lanes", "time_against_lanes", "Time against lanes", "lanes of a work-item",
      [](const SweepPoint& p) { return 1.0 * p.lanes; }},
     {"resolution", "time_against_resolution", "Time against resolution", "pixels",

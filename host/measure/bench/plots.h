@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-/// Frame and shading time against lights, grid, work-group height, lanes and pixels, and the
+/// Frame and shading time against lights, grid, lanes and pixels, and the
 /// speed-up over deferred-all against lights where that was measured. An axis with one value makes
 /// no plot; what else varies becomes curves.
 /// `subtitle`: scene and device; what the points share is added. Bars reach from p5 to p95.

@@ -57,7 +57,6 @@ constexpr CsvColumn kColumns[] = {
     MEMBER(point.grid[1])("tiles_y"),
     MEMBER(point.grid[2])("slices_per_octave"),
     MEMBER(point.lanes)("lanes"),
-    MEMBER(point.group_height)("group_height"),
     {"gbuffer", [](const BenchRow& r) { return Cell(gbuffer_layout_name(r.point.gbuffer)); },
      [](BenchRow& r, const std::string& field) { r.point.gbuffer = parse_gbuffer_layout(field); }},
     MEMBER(stage)("stage"),
@@ -213,7 +212,12 @@ std::vector<BenchRow> BenchLog::rows_of(const SweepPoint& point) const {
     return rows;
 }
 
-void BenchLog::append(const std::vector<BenchRow>& rows) {
+void BenchLog::append(const std::vector<BenchRow>& rows, const std::function<void()>& begin) {
+    if (rows_.empty() && begin) {
+        std::error_code none;
+        std::filesystem::remove(file_, none);
+        begin();
+    }
     rows_.insert(rows_.end(), rows.begin(), rows.end());
     write_atomically(file_, to_csv(bench_table(rows_)));
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,8 +75,10 @@ class BenchLog {
     /// The rows of a point; empty if it is not there.
     std::vector<BenchRow> rows_of(const SweepPoint& point) const;
 
-    /// Adds a complete point and writes the file. Throws Error with the system's reason.
-    void append(const std::vector<BenchRow>& rows);
+    /// Adds a complete point and writes the file. Before the first point of a new file the old one
+    /// is removed and `begin` called, so that no row stands beside the context of another run.
+    /// Throws Error with the system's reason.
+    void append(const std::vector<BenchRow>& rows, const std::function<void()>& begin = {});
 
  private:
     std::filesystem::path file_;

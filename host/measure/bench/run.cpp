@@ -197,7 +197,7 @@ const RgbImage& BenchRun::reference(const SweepPoint& point) {
     if (!is_new) return found->second;
     SweepPoint all = point;
     all.renderer = RendererKind::deferred_all;
-    all.lanes = all.group_height = 0;
+    all.lanes = 0;
     found->second = picture_of(render(settings_at(base_, all)));
     return found->second;
 }

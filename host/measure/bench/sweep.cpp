@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "host/base/error.h"
@@ -18,13 +17,6 @@ namespace {
 constexpr std::size_t kMostValues = 10000;
 constexpr std::string_view kRendererNames[] = {"deferred", "forward-plus", "forward",
                                                "deferred-all"};
-
-std::optional<std::uint64_t> count_of(std::string_view text) {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
 
 // The values of one piece; empty: it is malformed.
 std::vector<std::uint64_t> piece_values(std::string_view piece) {
@@ -108,7 +100,6 @@ std::vector<SweepPoint> sweep_points(const SweepAxes& axes) {
     cross(axes.grids, &SweepPoint::grid,
           [](const SweepPoint& point) { return !has_clusters(point.renderer); });
     cross(axes.lanes, &SweepPoint::lanes, never);
-    cross(axes.group_heights, &SweepPoint::group_height, never);
     cross(axes.lights, &SweepPoint::lights, never);
     return points;
 }
@@ -122,7 +113,6 @@ RenderSettings settings_at(RenderSettings base, const SweepPoint& point) {
     base.grid.tiles_y = point.grid[1];
     base.grid.slices_per_octave = point.grid[2];
     base.kernels.lanes = point.lanes;
-    base.kernels.group_height = point.group_height;
     base.gbuffer = point.gbuffer;
     return base;
 }
@@ -138,7 +128,6 @@ SweepFields fields_of(const SweepPoint& p) {
             {"lights", fmt::to_string(p.lights)},
             {"grid", fmt::format("{}x{}x{}", p.grid[0], p.grid[1], p.grid[2])},
             {"lanes", text(p.lanes)},
-            {"group height", text(p.group_height)},
             {"gbuffer", gbuffer_layout_name(p.gbuffer)}};
 }
 

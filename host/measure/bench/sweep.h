@@ -31,7 +31,6 @@ struct SweepPoint {
     std::uint64_t lights = 5000;                   // generated ones
     std::array<int, 3> grid = {16, 9, 4};          // tiles x, tiles y, slices per octave
     int lanes = 0;                                 // 0: the tuning's
-    int group_height = 0;                          // rows of a shading work-group; 0: the tuning's
     uint gbuffer = GBUFFER_PACKED;
     bool operator==(const SweepPoint&) const = default;
 };
@@ -43,7 +42,6 @@ struct SweepAxes {
     std::vector<std::uint64_t> lights = {SweepPoint{}.lights};
     std::vector<std::array<int, 3>> grids = {SweepPoint{}.grid};
     std::vector<int> lanes = {0};
-    std::vector<int> group_heights = {0};
     std::vector<uint> gbuffers = {GBUFFER_PACKED};
 };
 
@@ -56,8 +54,7 @@ RenderSettings settings_at(RenderSettings base, const SweepPoint& point);
 /// Whether a renderer finds each pixel's lights by clusters; else it evaluates all of them.
 bool has_clusters(RendererKind renderer);
 
-/// Names and texts of a point's fields: renderer, resolution, lights, grid, lanes, group height,
-/// gbuffer.
+/// Names and texts of a point's fields: renderer, resolution, lights, grid, lanes, gbuffer.
 using SweepFields = std::vector<std::pair<std::string, std::string>>;
 SweepFields fields_of(const SweepPoint& point);
 

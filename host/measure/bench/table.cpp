@@ -89,6 +89,8 @@ std::vector<std::string> take_csv_line(std::string_view& csv) {
             fields.emplace_back();
         } else if (c == '\n' && !quoted) {
             break;
+        } else if (c == '\r' && !quoted && csv.starts_with('\n')) {
+            continue;  // lines of other systems end in CR LF
         } else {
             fields.back() += c;
         }

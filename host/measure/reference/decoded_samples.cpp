@@ -40,6 +40,24 @@ SurfaceSamples surface_samples(const DecodedSurfaces& decoded) {
     return out;
 }
 
+ReferenceOptions reference_options(const KernelFeatures& kernels, const RenderSettings& settings,
+                                   const Camera& camera) {
+    return {.shading = shading_of(kernels),
+            .ambient = double{settings.ambient},
+            .orthographic = camera.orthographic,
+            .light_d_min = double{kernels.light_d_min},
+            .drawn_ranges = double{kernels.drawn_ranges}};
+}
+
+ReferenceOptions reference_options(const Renderer& renderer, const Camera& camera) {
+    const KernelFeatures& kernels = renderer.plan().kernels;
+    ReferenceOptions out = reference_options(kernels, renderer.settings(), camera);
+    if (kernels.shadows) {
+        out.shadows = std::make_shared<const ShadowCaster>(renderer.scene(), camera);
+    }
+    return out;
+}
+
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options) {
     return shade_reference(surface_samples(lit.surfaces),
                            reference_lights(lit.lights, lit.directional, lit.webs), options);

@@ -6,6 +6,7 @@
 
 #include "host/measure/reference/reference.h"
 #include "host/picture/decoded_surfaces.h"
+#include "host/render/renderer.h"
 
 namespace kilolux {
 
@@ -17,6 +18,13 @@ SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bo
 /// A decoded G-buffer as input of a reference. Normals are not renormalised, as in the kernels.
 /// Depth 0 is background.
 SurfaceSamples surface_samples(const DecodedSurfaces& decoded);
+
+/// The model of what a renderer with these kernels and settings shades, without shadows.
+ReferenceOptions reference_options(const KernelFeatures& kernels, const RenderSettings& settings,
+                                   const Camera& camera);
+
+/// The model of what a renderer shades. With shadows it refers to the renderer's scene.
+ReferenceOptions reference_options(const Renderer& renderer, const Camera& camera);
 
 /// The reference of what a renderer shaded: its stored surfaces and float32 lights.
 ReferencePicture shade_reference(const LitSurfaces& lit, const ReferenceOptions& options);

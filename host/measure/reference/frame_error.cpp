@@ -23,14 +23,9 @@ void make_small(RenderSettings& settings, std::uint64_t lights) {
 // The float64 reference of the surfaces of the renderer's last picture.
 ReferencePicture reference_of(Renderer& renderer, const Camera& camera,
                               const OnProgress& progress) {
-    std::optional<ShadowCaster> shadows;
-    if (renderer.plan().kernels.shadows) shadows.emplace(renderer.scene(), camera);
-    return shade_reference(renderer.lit_surfaces(),
-                           {.shading = shading_of(renderer.plan().kernels),
-                            .ambient = static_cast<double>(renderer.settings().ambient),
-                            .orthographic = camera.orthographic,
-                            .progress = progress,
-                            .shadows = shadows ? &*shadows : nullptr});
+    ReferenceOptions options = reference_options(renderer, camera);
+    options.progress = progress;
+    return shade_reference(renderer.lit_surfaces(), options);
 }
 
 ReferenceError error_of(const RgbImage& picture, const ReferencePicture& reference) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "host/gpu/features.h"
@@ -32,7 +33,7 @@ struct ReferenceOptions {
     double drawn_ranges = 0.0;           // DRAWN_RANGES of evaluate.h, for lights that have one
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     OnProgress progress{};
-    const ShadowCaster* shadows = nullptr;  // none: every light is seen
+    std::shared_ptr<const ShadowCaster> shadows{};  // none: every light is seen
 };
 
 struct ReferencePicture {

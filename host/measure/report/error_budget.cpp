@@ -27,14 +27,10 @@ std::string name_of(const Against& against, const ErrorMetric& metric) {
 constexpr int kVersion = 2;
 
 // The kind of a cache entry is part of its file's name.
-std::string kind_name(const BudgetKey& key) {
-    return fmt::format("choice-{:x}", Fnv1a().add(key).value());
-}
+std::string kind_name(const BudgetKey& key) { return "choice-" + hash_text(key); }
 
 // Cache values are numbers: 48 bits of the hash of a setting's name identify it.
-double name_number(const std::string& name) {
-    return static_cast<double>(Fnv1a().add(name).value() >> 16);
-}
+double name_number(const std::string& name) { return static_cast<double>(hash64(name) >> 16); }
 
 }  // namespace
 

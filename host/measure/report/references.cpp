@@ -46,20 +46,18 @@ ReferenceLights usable_lights(const ReportView& view, const RenderSettings& sett
 
 ReportReferences::ReportReferences(const ReportView& view, const RenderSettings& asked)
     : view_(view), asked_(asked) {
-    if (asked.shadows != Shadows::off) shadows_.emplace(view.scene, view.camera);
+    if (asked.shadows != Shadows::off) {
+        shadows_ = std::make_shared<const ShadowCaster>(view.scene, view.camera);
+    }
 }
 
 ReferenceOptions ReportReferences::options_of(const RenderSettings& settings, bool windowed) const {
     const auto& plan = make_scene_plan(view_.scene, settings, 0).kernels;
-    const bool casts = shadows_ && settings.shadows != Shadows::off;
-    return {.shading = shading_of(plan),
-            .ambient = settings.ambient,
-            .orthographic = view_.camera.orthographic,
-            .light_d_min = double{plan.light_d_min},
-            .drawn_ranges = double{plan.drawn_ranges},
-            .windowed = windowed,
-            .progress = [this](double) { on_step_(); },
-            .shadows = casts ? &*shadows_ : nullptr};
+    ReferenceOptions out = reference_options(plan, settings, view_.camera);
+    out.windowed = windowed;
+    out.progress = [this](double) { on_step_(); };
+    if (settings.shadows != Shadows::off) out.shadows = shadows_;
+    return out;
 }
 
 const ComparedReference& ReportReferences::kernels(const RenderSettings& settings) {

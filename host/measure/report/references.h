@@ -67,7 +67,7 @@ class ReportReferences {
     ReportView view_;
     RenderSettings asked_;
     std::function<void()> on_step_ = [] {};
-    std::optional<ShadowCaster> shadows_;  // where the settings asked for have some
+    std::shared_ptr<const ShadowCaster> shadows_;  // where the settings asked for have some
     std::optional<SurfaceSamples> cast_;
     std::map<std::string, ComparedReference> kernels_, surfaces_;
     std::optional<ComparedReference> unbounded_;

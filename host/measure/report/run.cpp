@@ -151,7 +151,7 @@ Frame ReportRun::picture_of(Renderer& renderer, const ReportSetting& setting) {
     one.samples = 1;
     for (int i = 0; i < samples; ++i) {
         on_step_();
-        if (i > 0) ++one.tail_seed;
+        if (i > 0) ++one.seed;
         renderer.change(one);
         const std::vector<float> light = renderer.render(view_.camera, view_.time).radiance;
         for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += light[k];

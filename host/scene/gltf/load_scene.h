@@ -29,6 +29,7 @@ struct LoadOptions {
     std::string variant{};  // of KHR_materials_variants, by name or index; empty: the default
     bool strict = false;    // throw where the picture would lack something of the file
     LineWidth line_width{};
+    bool operator==(const LoadOptions&) const = default;
 };
 
 /// Told how many of a file's images are decoded, which takes most of the loading time: first with

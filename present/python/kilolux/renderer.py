@@ -9,12 +9,17 @@ import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from operator import index
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _native
 from .scene import Lights, Scene
+
+if TYPE_CHECKING:
+    from typing import Unpack
+
+    from .options import Options
 
 
 @dataclass(frozen=True, repr=False)
@@ -127,7 +132,7 @@ class Renderer:
     Error with the words of the command line.
     """
 
-    def __init__(self, scene: str | os.PathLike[str] | Scene = "atrium", **options: Any) -> None:
+    def __init__(self, scene: str | os.PathLike[str] | Scene = "atrium", **options: Unpack[Options]) -> None:
         self._scene = scene.name if isinstance(scene, Scene) else os.fspath(scene)
         if isinstance(scene, Scene) and options.get("lights") is None and scene.lights is not None:
             options["lights"] = scene.lights
@@ -146,7 +151,7 @@ class Renderer:
             words.setdefault("rig", "none")
         return _words(words), (lights or []) if reads_lights else None
 
-    def change(self, **options: Any) -> None:
+    def change(self, **options: Unpack[Options]) -> None:
         """Sets options: camera, lights, time, settings. None takes one back to its default. Lights whose
         arrays were edited count once they are given again: change(lights=lights).
 
@@ -181,6 +186,6 @@ class Renderer:
         return Reference(**self._native.reference())
 
 
-def render(scene: str | os.PathLike[str] | Scene = "atrium", *, counts: bool = False, **options: Any) -> Frame:
+def render(scene: str | os.PathLike[str] | Scene = "atrium", *, counts: bool = False, **options: Unpack[Options]) -> Frame:
     """One picture: Renderer(scene, **options).render(counts=counts)."""
     return Renderer(scene, **options).render(counts=counts)

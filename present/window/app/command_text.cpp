@@ -3,25 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "host/base/text.h"
 #include "present/cli/names.h"
 #include "present/cli/option_values.h"
 #include "present/cli/scene_choice.h"
 
 namespace kilolux {
-namespace {
-
-// In single quotes unless it is a plain word for a shell.
-std::string quoted(const std::string& word) {
-    const bool plain = word.find_first_not_of(
-                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                           "0123456789_-./:,+@%") == std::string::npos;
-    if (plain && !word.empty()) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
-}  // namespace
 
 std::string camera_options(const CameraRig& rig, const SharedOptions& first, const Scene& scene) {
     const Camera& camera = rig.camera();
@@ -53,20 +40,7 @@ std::string render_command(const CameraRig& rig, const SharedOptions& options, c
     SharedOptions said = options;
     said.camera = {};                 // said by camera_options()
     said.settings.want.aovs.clear();  // a PNG has no layers
-    said.quiet = said.verbose = false;
-    const auto standard = shared_option_texts({});
-    // The standards of lights and ambient are not those of every rig.
-    const bool has_own_rig = said.rig != Rig::automatic;
-    std::string out = "kilolux render " + quoted(options.scene);
-    const auto texts = shared_option_texts(said);
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-        const auto& [name, value] = texts[i];
-        const bool of_rig = name == "--lights" || name == "--ambient";
-        const bool is_standard = value == standard[i].second && !(of_rig && has_own_rig);
-        if (is_standard || name == "SCENE") continue;
-        out +=
-            value == "true" ? fmt::format(" {}", name) : fmt::format(" {} {}", name, quoted(value));
-    }
+    const std::string out = "kilolux render " + shell_word(options.scene) + option_words(said);
     const std::string camera = camera_options(rig, options, scene);
     return fmt::format("{}{}{} -o kilolux.png", out, camera.empty() ? "" : " ", camera);
 }

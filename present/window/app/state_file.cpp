@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/state_file.h"
 
-#include <cmath>
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <fstream>
-#include <type_traits>
 
 #include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/log.h"
-#include "host/picture/views.h"
-#include "present/cli/names.h"
-#include "present/cli/option_values.h"
+#include "present/cli/conditions.h"
+#include "present/cli/option_builder.h"
+#include "present/cli/options.h"
 
 namespace kilolux {
 namespace {
@@ -20,102 +20,61 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
-// visit() below names each value once, for writing and for reading.
-struct Writer {
-    Json json = {{"version", kVersion}};
-
-    template <typename T, typename Range>
-    void number(const char* name, const char*, T& value, const Range&) {
-        json[name] = value;
-    }
-    void flag(const char* name, bool& value) { json[name] = value; }
-    template <typename Enum>
-    void choice(const char* name, const char*, Enum& value, const Names& known) {
-        json[name] = known.at(static_cast<std::size_t>(value));
-    }
-};
-
-struct Reader {
-    const Json& json;
-    const std::function<bool(const std::string&)>& is_given;
-
-    template <typename T, typename Range>
-    void number(const char* name, const char* option, T& value, const Range& range) {
-        if (!json.contains(name)) return;
-        if (!json[name].is_number()) throw Error(std::string(name) + " is not a number");
-        const double seen = json[name].get<double>();
-        const bool whole = json[name].is_number_integer() || std::trunc(seen) == seen;
-        if (!contains(range, seen) || (std::is_integral_v<T> && !whole)) {
-            throw Error(std::string(name) + " is " + json[name].dump());
-        }
-        if (!is_given(option)) value = json[name].get<T>();
-    }
-    void flag(const char* name, bool& value) {
-        if (!json.contains(name)) return;
-        if (!json[name].is_boolean()) throw Error(std::string(name) + " is not true or false");
-        value = json[name].get<bool>();
-    }
-    template <typename Enum>
-    void choice(const char* name, const char* option, Enum& value, const Names& known) {
-        const auto at = place(name, known);
-        if (at && !is_given(option)) value = static_cast<Enum>(*at);
-    }
-
- private:
-    std::optional<std::size_t> place(const char* name, const Names& known) const {
-        if (!json.contains(name)) return std::nullopt;
-        if (!json[name].is_string()) throw Error(std::string(name) + " is not a word");
-        return parse_name(name, json[name].get<std::string>(), known);
-    }
-};
-
-template <typename Visitor>
-void visit_picture(Visitor& v, RenderSettings& s) {
-    v.choice("renderer", "--renderer", s.renderer, names_of<RendererKind>());
-    v.choice("shading", "--shading", s.shading, names_of<Shading>());
-    v.choice("gbuffer", "--gbuffer", s.gbuffer, gbuffer_choices().names);
-    v.choice("show", "--show", s.want.view, view_names());
-    v.number("exposure", "--exposure", s.exposure, kExposureRange);
-    v.choice("tonemap", "--tonemap", s.tone_curve, names_of<ToneCurve>());
-    v.number("bloom", "--bloom", s.bloom, kBloomRange);
-    v.number("ambient", "--ambient", s.ambient, kAmbientRange);
-    v.number("samples", "--samples", s.samples, kSamplesRange);
-    v.number("lights", "--lights", s.lights.count, kLightsRange);
-    v.number("light_seed", "--light-seed", s.lights.seed, kLightSeedRange);
-    v.number("light_radius", "--light-radius", s.lights.radius, kZeroOrAboveRange);
-    v.number("light_intensity", "--light-intensity", s.lights.intensity, kZeroOrAboveRange);
-    v.number("tiles_x", "--grid", s.grid.tiles_x, kTilesRange);
-    v.number("tiles_y", "--grid", s.grid.tiles_y, kTilesRange);
-    v.number("slices", "--grid", s.grid.slices_per_octave, kSlicesRange);
-    v.number("fine_slices", "--grid", s.grid.fine_per_octave, kSlicesRange);
-    v.flag("count_useful", s.want.counts);
-}
-
-template <typename Visitor>
-void visit(Visitor& v, ViewState& state) {
-    visit_picture(v, state.settings);
-    v.choice("rig", "--rig", state.rig, names_of<Rig>());
-    v.flag("lights_move", state.lights_move);
-    v.number("light_speed", "", state.light_speed, NumberRange{0.01, 100.0});
-    v.choice("camera_mode", "", state.camera_mode, {"fly", "orbit"});
-    v.flag("adaptive", state.adaptive);
-    v.number("target_ms", "", state.target_ms, NumberRange{1.0, 1e4});
-    v.number("scale", "", state.fixed_scale, NumberRange{0.05, 1.0});
-    v.flag("continuous", state.continuous);
-    v.flag("vsync", state.vsync);
-    v.flag("panel", state.show_panel);
-    v.flag("overlay", state.show_overlay);
-    v.flag("probe", state.probe);
-    v.number("width", "--resolution", state.window_size[0], kEdgeRange);
-    v.number("height", "--resolution", state.window_size[1], kEdgeRange);
+// Calls `visit` with every value that is kept: what the panel shares with the command line, then
+// the window's own.
+void visit_state(ViewState& state, const SettingVisitor& visit) {
+    SharedOptions shared;
+    shared.settings = state.settings;
+    shared.rig = state.rig;
+    visit_settings(shared, [&visit](const Setting& setting) {
+        if (setting.text.effect.in_panel) visit(setting);
+    });
+    state.settings = shared.settings;
+    state.rig = shared.rig;
+    GridSettings& grid = state.settings.grid;
+    OptionBuilder(visit, "Window")
+        .count({"fine-slices"}, grid.fine_per_octave, kSlicesRange)
+        .flag("count-useful", state.settings.want.counts, "")
+        .flag("lights-move", state.lights_move, "")
+        .number({"light-speed"}, state.light_speed, {0.01, 100.0})
+        .choice({"camera-mode"}, state.camera_mode, Names{"fly", "orbit"})
+        .flag("adaptive", state.adaptive, "")
+        .number({"target-ms"}, state.target_ms, {1.0, 1e4})
+        .number({"scale"}, state.fixed_scale, {0.05, 1.0})
+        .flag("continuous", state.continuous, "")
+        .flag("vsync", state.vsync, "")
+        .flag("panel", state.show_panel, "")
+        .flag("overlay", state.show_overlay, "")
+        .flag("probe", state.probe, "")
+        .value(
+            SettingKind::numbers, {"--resolution"},
+            [&size = state.window_size](const auto& name, const auto& text) {
+                const auto [width, height] = parse_resolution(name, text);
+                size = {width, height};
+            },
+            [&size = state.window_size] { return fmt::format("{},{}", size[0], size[1]); });
 }
 
 Json values_of(ViewState state) {
-    Writer writer;
-    visit(writer, state);
-    return writer.json;
+    Json out = {{"version", kVersion}};
+    visit_state(state,
+                [&out](const Setting& setting) { out[setting.word()] = value_json(setting); });
+    return out;
+}
+
+// Takes the values of `json`, but for options that `is_given`.
+void take_values(const Json& json, ViewState& state,
+                 const std::function<bool(const std::string&)>& is_given) {
+    visit_state(state, [&](const Setting& setting) {
+        const auto found = json.find(setting.word());
+        if (found == json.end() || is_given(setting.option())) return;
+        if (setting.kind == SettingKind::flag && !found->is_boolean()) {
+            throw Error(setting.word() + " is not true or false");
+        }
+        setting.take(found->is_string() ? found->get<std::string>() : found->dump());
+    });
 }
 
 Json parse_file(const fs::path& file) {
@@ -147,10 +106,9 @@ ViewState StateFile::load(const ViewState& state,
     try {
         if (fs::exists(file_, error)) {
             const Json json = parse_file(file_);
-            Reader all{json, [](const std::string&) { return false; }};
-            visit(all, kept);  // throws before `started` changes
-            Reader not_given{json, is_given};
-            visit(not_given, started);
+            // Throws before `started` changes.
+            take_values(json, kept, [](const std::string&) { return false; });
+            take_values(json, started, is_given);
             written_ = json;
         }
     } catch (const std::exception& failure) {
@@ -165,7 +123,7 @@ ViewState StateFile::load(const ViewState& state,
 
 void StateFile::forget() {
     Json defaults = values_of({});
-    for (const char* name : {"width", "height"}) defaults[name] = kept_[name];
+    defaults["resolution"] = kept_["resolution"];
     kept_ = defaults;
 }
 

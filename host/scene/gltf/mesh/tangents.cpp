@@ -3,8 +3,8 @@
 #include "host/scene/gltf/mesh/directions.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 namespace kilolux {
@@ -17,9 +17,7 @@ using VertexKey = std::array<float, 8>;
 
 struct VertexKeyHash {
     std::size_t operator()(const VertexKey& key) const {
-        const std::size_t hash =
-            Fnv1a().add_words(std::bit_cast<std::array<std::uint32_t, 8>>(key)).value();
-        return hash ^ (hash >> 29);
+        return hash64(std::as_bytes(std::span(key)));
     }
 };
 

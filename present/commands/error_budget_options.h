@@ -14,11 +14,11 @@ struct BudgetOptions {
     std::optional<double> max_error;
     std::string metric = "flip";
     std::optional<int> error_width;  // [pixel]; none: see ErrorSizeLimits
-    bool choose_again = false;
 };
 
-/// Registers --max-error, --error-metric, --error-width and --choose-again.
+/// Registers --max-error, --error-metric and --error-width.
 void add_budget_options(CLI::App& command, BudgetOptions& options);
+void visit_budget_settings(BudgetOptions& options, const SettingVisitor& visit);
 
 /// The limits that --error-width sets.
 ErrorSizeLimits error_limits(const BudgetOptions& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/error_budget_options.h"
+#include "present/commands/error_budget_options.h"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,10 @@
 #include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/measure/report/tail_budget.h"
-#include "present/cli/commit.h"
+#include "present/cli/conditions.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"
-#include "present/cli/scene_fingerprint.h"
 
 namespace kilolux {
 namespace {
@@ -22,24 +21,12 @@ namespace {
 // Few frames suffice: each is compared with one of the default setting beside it.
 constexpr BenchFrames kFrames = {1, 6};
 
-// All shared options but the scene and the camera.
-std::string settings_text(SharedOptions shared) {
-    shared.scene.clear();
-    shared.camera = {};
-    shared.quiet = shared.verbose = false;
-    std::string out;
-    for (const auto& [name, value] : shared_option_texts(shared)) out += name + " " + value + "\n";
-    return out + fmt::format("group-height {}", shared.settings.kernels.group_height);
-}
-
 BudgetKey key_of(const SharedOptions& shared, const BudgetOptions& options,
                  const ErrorBudget& budget, const ReportView& view) {
-    const Camera& c = view.camera;
-    return fmt::format("{}\n{}\n{}\ncamera {} {} {} {} {} time {}\n{} {} {} {}", commit(),
-                       scene_fingerprint(shared.scene), settings_text(shared), text_of(c.position),
-                       text_of(c.world_from_view[1]), text_of(c.world_from_view[2]), c.y_fov,
-                       c.orthographic ? c.y_extent : 0.0, view.time, budget.metric,
-                       budget.max_error, options.error_width.value_or(0), budget.chooses_shadows);
+    return fmt::format("{}\ntime {}\n{} {} {} {}",
+                       conditions_json(shared, view.scene, view.camera).dump(), view.time,
+                       budget.metric, budget.max_error, options.error_width.value_or(0),
+                       budget.chooses_shadows);
 }
 
 void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when) {
@@ -101,7 +88,12 @@ RenderSettings tails_within_budget(const SharedOptions& shared, const BudgetOpti
 }  // namespace
 
 void add_budget_options(CLI::App& command, BudgetOptions& options) {
-    OptionBuilder(command, "Error budget")
+    visit_budget_settings(options,
+                          [&command](const Setting& setting) { add_option(command, setting); });
+}
+
+void visit_budget_settings(BudgetOptions& options, const SettingVisitor& visit) {
+    OptionBuilder(visit, "Error budget")
         .rest()
         .number({"--max-error", "E", "",
                  "Use the fastest setting whose error on this scene and device is at most E; of "
@@ -117,9 +109,7 @@ void add_budget_options(CLI::App& command, BudgetOptions& options) {
         .count({"--error-width", "W", "auto",
                 "Width of the pictures that errors are measured on; auto: at most 320 pixels, and "
                 "so few that the float64 reference takes seconds"},
-               options.error_width, kEdgeRange)
-        .flag("--choose-again", options.choose_again,
-              "Measure even if a choice is kept from before");
+               options.error_width, kEdgeRange);
 }
 
 ErrorSizeLimits error_limits(const BudgetOptions& options) {
@@ -140,11 +130,9 @@ RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetO
     const DeviceInfo device = describe(choose_device(shared.settings.device));
     const auto candidates = candidates_of(shared, view, budget, device);
     const BudgetKey key = key_of(shared, options, budget, view);
-    if (!options.choose_again) {
-        if (const auto kept = stored_choice(device, key, candidates)) {
-            say(*kept, budget, "kept from before");
-            return wanted(*kept);
-        }
+    if (const auto kept = stored_choice(device, key, candidates)) {
+        say(*kept, budget, "kept from before");
+        return wanted(*kept);
     }
     const BudgetChoice choice = measure_choice(shared, options, budget, view, candidates);
     store_choice(device, key, choice);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/help.h"
+#include "present/help.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/camera_motion.h"
+#include "present/commands/camera_motion.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 double number_of(const Json& value, const std::string& where) {
     if (!value.is_number() || !std::isfinite(value.get<double>())) {

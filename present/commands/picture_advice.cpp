@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/picture_advice.h"
+#include "present/commands/picture_advice.h"
 
 #include <fmt/format.h>
 

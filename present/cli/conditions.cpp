@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/conditions.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "host/base/error.h"
+#include "host/base/hash.h"
+#include "host/base/version.h"
+#include "host/scene/gltf/files.h"
+#include "present/cli/commit.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// Name, size and hash of a file, read piece by piece.
+std::string file_line(const fs::path& file) {
+    constexpr std::size_t kPiece = 1 << 20;
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return file.filename().string() + " missing\n";
+    std::string piece(kPiece, '\0'), hashes;
+    std::uint64_t size = 0;
+    do {
+        in.read(piece.data(), kPiece);
+        const std::string_view seen(piece.data(), static_cast<std::size_t>(in.gcount()));
+        size += seen.size();
+        hashes += hash_text(seen);
+    } while (in);
+    return fmt::format("{} {} {}\n", file.filename().string(), size, hash_text(hashes));
+}
+
+// The JSON of a .gltf or .glb file; discarded if there is none.
+nlohmann::json document_of(const fs::path& file) {
+    try {
+        return nlohmann::json::parse(read_gltf_text(file, file.string()).json, nullptr, false);
+    } catch (const Error&) {
+        return nlohmann::json::value_t::discarded;
+    }
+}
+
+// Lines of the files that a glTF document names, wherever it does.
+std::string named_files(const nlohmann::json& document, const fs::path& folder) {
+    if (!document.is_structured()) return "";
+    std::string out;
+    for (const auto& [name, value] : document.items()) {
+        if (name != "uri" || !value.is_string()) {
+            out += named_files(value, folder);
+            continue;
+        }
+        const std::string uri = value;
+        if (!uri.starts_with("data:")) out += file_line(folder / percent_decoded(uri));
+    }
+    return out;
+}
+
+bool is_file(const std::string& name) {
+    std::error_code error;
+    return fs::is_regular_file(name, error);
+}
+
+Json camera_json(const Camera& camera) {
+    const auto vector = [](const glm::dvec3& v) { return Json{v.x, v.y, v.z}; };
+    Json out = {{"position", vector(camera.position)},
+                {"backward", vector(camera.world_from_view[2])},
+                {"up", vector(camera.world_from_view[1])},
+                {"orthographic", camera.orthographic}};
+    out[camera.orthographic ? "half_height_m" : "y_fov_rad"] =
+        camera.orthographic ? camera.y_extent : camera.y_fov;
+    return out;
+}
+
+}  // namespace
+
+std::string scene_content(const SharedOptions& shared) {
+    std::string text = shared.scene;
+    if (is_file(shared.scene)) {
+        const fs::path file = fs::canonical(shared.scene);
+        text = file_line(file) + named_files(document_of(file), file.parent_path());
+    }
+    if (is_file(shared.environment)) text += file_line(shared.environment);
+    return is_file(shared.scene) || is_file(shared.environment) ? hash_text(text) : text;
+}
+
+Json value_json(const Setting& setting) {
+    const std::string text = setting.show();
+    if (setting.kind == SettingKind::flag) return text == "true";
+    const bool is_number =
+        setting.kind == SettingKind::number || setting.kind == SettingKind::count;
+    const Json number = is_number ? Json::parse(text, nullptr, false) : Json();
+    return number.is_number() ? number : Json(text);
+}
+
+Json settings_json(SharedOptions shared) {
+    Json out;
+    for (const Setting& setting : settings_of(shared)) {
+        if (setting.text.effect.changes != Changes::neither) {
+            // Files go by their contents: see scene_content().
+            const bool names_file = setting.kind == SettingKind::text && is_file(setting.show());
+            out[setting.word()] = names_file ? Json(fs::path(setting.show()).filename().string())
+                                             : value_json(setting);
+        }
+    }
+    return out;
+}
+
+Json program_json() { return {{"version", version()}, {"commit", commit()}}; }
+
+Json conditions_json(const SharedOptions& shared, const Scene& scene, const Camera& camera) {
+    return {{"program", program_json()},
+            {"scene",
+             {{"name",
+               is_file(shared.scene) ? fs::path(shared.scene).filename().string() : shared.scene},
+              {"content", scene_content(shared)},
+              {"triangles", triangle_count(scene)},
+              {"lights", scene.lights.size()}}},
+            {"camera", camera_json(camera)},
+            {"settings", settings_json(shared)}};
+}
+
+std::string first_difference(const Json& was, const Json& is) {
+    const Json before = was.flatten(), now = is.flatten();
+    const auto text = [](const Json& values, const std::string& path) {
+        return values.contains(path) ? values[path].dump() : "missing";
+    };
+    for (const Json* values : {&now, &before}) {
+        for (const auto& [path, value] : values->items()) {
+            const std::string former = text(before, path), present = text(now, path);
+            if (former == present) continue;
+            return fmt::format("{} was {}, is {}", path.substr(1), former, present);
+        }
+    }
+    return "";
+}
+
+}  // namespace kilolux

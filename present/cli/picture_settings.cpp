@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rows of visit_settings() that say what a picture shows, and how.
+#include <fmt/format.h>
+
+#include <tuple>
+
+#include "host/base/error.h"
+#include "present/cli/option_builder.h"
+#include "present/cli/options.h"
+
+namespace kilolux {
+namespace {
+
+// The renderer's views, and the comparison's.
+Choices show_choices() {
+    Choices choices = choices_of(ViewKind{});
+    choices.names.emplace_back("error");
+    choices.meanings.emplace_back("heat map of the relative error to --reference (render only)");
+    return choices;
+}
+
+void take_samples(SharedOptions& o, const std::string& name, const std::string& text) {
+    RenderSettings& s = o.settings;
+    if (text == "auto" && !o.takes_automatic_samples) {
+        throw UsageError(name + ": only render makes it automatic");
+    }
+    const auto parse = o.takes_automatic_samples ? parse_count_or_auto : parse_count;
+    const std::uint64_t count = parse(name, text, kSamplesRange);
+    s.auto_samples.on = count == 0;
+    if (count > 0) s.samples = static_cast<int>(count);
+}
+
+void visit_picture(const SettingVisitor& f, SharedOptions& o) {
+    RenderSettings& s = o.settings;
+    const auto resolution = [&s](const std::string& name, const std::string& text) {
+        std::tie(s.width, s.height) = parse_resolution(name, text);
+    };
+    const bool automatic = o.takes_automatic_samples;
+    OptionBuilder(f, "Picture")
+        .choice({"--renderer", "", "deferred", "How surfaces are lit", kPanelPicture}, s.renderer)
+        .value(SettingKind::numbers,
+               {"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good", kPicture},
+               resolution, [&s] { return fmt::format("{},{}", s.width, s.height); })
+        .value(
+            SettingKind::count,
+            {"--samples", automatic ? "N|auto" : "N", "1",
+             automatic ? "Jittered samples a pixel; auto: as many as each tile of 16x16 pixels "
+                         "needs, see --sample-error"
+                       : "Jittered samples a pixel",
+             kPanelPicture},
+            [&o](const auto& name, const auto& text) { take_samples(o, name, text); },
+            [&s] { return s.auto_samples.on ? "auto" : text_of(s.samples); })
+        .number(
+            {"--time", "T", "0", "Seconds: moves the lights and the file's animations", kPicture},
+            o.time)
+        .choice(
+            {"--show", "", "lit", "What the picture shows", kPanelPicture}, show_choices(),
+            [&o](std::size_t place) {
+                o.show_error = place == view_names().size();
+                o.settings.want.view = o.show_error ? ViewKind::lit : static_cast<ViewKind>(place);
+            },
+            [&o] { return o.show_error ? "error" : name_of(o.settings.want.view); })
+        .choice_list({"--aov", "", "none", "Layers of an EXR file beside its colour", kPicture},
+                     s.want.aovs, aov_choices());
+}
+
+void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
+    RenderSettings& s = o.settings;
+    const auto take_ambient = [&o](const std::string& name, const std::string& text) {
+        o.settings.ambient = static_cast<float>(parse_number(name, text, kAmbientRange));
+        o.ambient_given = true;
+    };
+    const auto take_rays = [&o](const std::string& name, const std::string& text) {
+        o.settings.shadow_rays = static_cast<int>(parse_count(name, text, kShadowRaysRange));
+        o.shadow_rays_given = true;
+    };
+    OptionBuilder(f, "Picture")
+        .rest()
+        .choice(
+            {"--gbuffer", "", "packed", "How a pixel is stored between the passes", kPanelPicture},
+            s.gbuffer, gbuffer_choices())
+        .choice({"--geometry", "", "auto", "How surfaces get into the G-buffer", kPicture},
+                s.geometry)
+        .value(
+            {"--anisotropy", "N", "1 on CPUs, 8 on GPUs", "Texture samples along a footprint",
+             kPicture},
+            s.anisotropy,
+            [](const auto& name, const auto& text) {
+                return parse_count(name, text, kAnisotropyRange);
+            },
+            [&s] { return s.anisotropy == 0 ? "" : text_of(s.anisotropy); })
+        .number({"--sample-error", "E", "0.05",
+                 "Of --samples auto: the standard error of a tile's luminance, relative to it, "
+                 "that ends its samples; dark light counts as 0.1 of white at least",
+                 kPicture},
+                s.auto_samples.error, kAboveZeroRange)
+        .count({"--max-samples", "N", "256", "Of --samples auto: a pixel takes no more", kPicture},
+               s.auto_samples.most, kAutoSamplesRange)
+        .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame", kTime)
+        .choice({"--shading", "", "auto", "How surfaces reflect light", kPanelPicture}, s.shading)
+        .choice({"--shadows", "", "off", "Which lights a surface sees", kPanelPicture}, s.shadows)
+        .value(SettingKind::count,
+               {"--shadow-rays", "N", "4; with --max-error as many as it takes",
+                "Rays a pixel of sampled shadows, at most on average", kPicture},
+               take_rays, [&s] { return text_of(s.shadow_rays); })
+        .count({"--seed", "N", "1", "Random numbers of sampled shadows and stochastic tails",
+                kPicture},
+               s.seed, kSeedRange)
+        .value(SettingKind::number,
+               {"--ambient", "L", "0.02; with the rig studio 0.2",
+                "Radiance from everywhere, times the albedo", kPanelPicture},
+               take_ambient, [&s] { return text_of(s.ambient); });
+}
+
+// The curves, and Khronos PBR Neutral by its whole name.
+Choices tone_curve_choices() {
+    Choices choices = choices_of(ToneCurve{});
+    choices.names.emplace_back("pbr-neutral");
+    choices.meanings.emplace_back("the same as neutral");
+    return choices;
+}
+
+void take_exposure(SharedOptions& o, const std::string& name, const std::string& text) {
+    o.automatic_exposure = text == "auto";
+    if (o.automatic_exposure && !o.takes_automatic_exposure) {
+        throw UsageError(name + ": only render makes it automatic");
+    }
+    const auto parse = o.takes_automatic_exposure ? parse_number_or_auto : parse_number;
+    o.settings.exposure = static_cast<float>(parse(name, text, kExposureRange));
+}
+
+void visit_display(const SettingVisitor& f, SharedOptions& o) {
+    RenderSettings& s = o.settings;
+    const auto take_curve = [&s](std::size_t place) {
+        const bool whole_name = place == names_of<ToneCurve>().size();
+        s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
+    };
+    const auto take_background = [&o](const std::string& name, const std::string& text) {
+        if (!o.shows_environment && text != "auto")
+            throw UsageError(name + ": only render and view show it");
+        return parse_background(name, text);
+    };
+    const bool automatic = o.takes_automatic_exposure;
+    OptionBuilder(f, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
+        .value(
+            SettingKind::number,
+            {"--exposure", automatic ? "EV|auto" : "EV", "0",
+             automatic ? "Each step doubles the brightness; auto: the log average of the picture's "
+                         "luminance becomes 0.18, or less where more than 2 % would clip; a "
+                         "sequence keeps that of its first frame"
+                       : "Each step doubles the brightness",
+             kPanelPicture},
+            [&o](const auto& name, const auto& text) { take_exposure(o, name, text); },
+            [&o] { return o.automatic_exposure ? "auto" : text_of(o.settings.exposure); })
+        .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range",
+                 kPanelPicture},
+                tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
+        .value(
+            {"--background", "COLOUR|none|auto", "auto",
+             "What is behind the scene: R,G,B linear or #RRGGBB in sRGB, as light that exposure "
+             "and tone curve apply to; none: black, and clear in PNG and EXR without bloom; auto: "
+             "the environment, else black",
+             kPicture},
+            o.background, take_background)
+        .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1", kPanelPicture},
+                s.bloom, kBloomRange);
+}
+
+}  // namespace
+
+void visit_picture_settings(SharedOptions& options, const SettingVisitor& f) {
+    visit_picture(f, options);
+    visit_surfaces(f, options);
+    visit_display(f, options);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// An option with its value and what is known of it. Whatever walks over options reads this: the
+// command line, config files, Python's keywords, the window's file, copied commands, the conditions
+// of measurements, and the notes of pictures.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/base/text.h"
+
+namespace kilolux {
+
+/// What a value decides. Measurements with another value of what is not `neither` do not compare.
+enum class Changes { neither, time, picture };
+
+struct Effect {
+    Changes changes = Changes::neither;
+    bool in_panel = false;  // the window sets it, too, and keeps it from one run to the next
+};
+inline constexpr Effect kNeither{Changes::neither};
+inline constexpr Effect kTime{Changes::time};
+inline constexpr Effect kPicture{Changes::picture};
+inline constexpr Effect kPanelTime{Changes::time, true};
+inline constexpr Effect kPanelPicture{Changes::picture, true};
+
+/// How an option presents itself in --help.
+struct OptionText {
+    std::string name;        // "--lights", or "--output,-o"
+    std::string form{};      // of the value: "N"; words in small letters between '|' are names
+    std::string standard{};  // default as text; empty: the meaning says what happens
+    std::string meaning{};   // with the unit
+    Effect effect = kNeither;
+};
+
+/// How a value is written: `numbers` are separated by commas, as are the words of a `list`.
+enum class SettingKind { text, flag, number, count, numbers, choice, list };
+
+struct Setting {
+    OptionText text;
+    std::string heading;  // of --help
+    SettingKind kind = SettingKind::text;
+    std::vector<std::string> words{};  // that a choice or a list takes
+
+    /// Throws UsageError for a text that is no value.
+    std::function<void(const std::string& text)> take{};
+
+    /// The text that `take` makes the present value of; empty: nothing was given. A flag's is
+    /// "true" or empty.
+    std::function<std::string()> show{};
+
+    /// "--light-seed", or "SCENE".
+    std::string option() const { return text.name.substr(0, text.name.find(',')); }
+
+    /// Its name in files: "light-seed", "scene".
+    std::string word() const {
+        const std::string name = option();
+        return name.starts_with("--") ? name.substr(2) : lower(name);
+    }
+};
+
+using SettingVisitor = std::function<void(const Setting&)>;
+
+}  // namespace kilolux

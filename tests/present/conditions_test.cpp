@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/cli/conditions.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <set>
+
+#include "tests/support/temporary_folder.h"
+
+namespace kilolux {
+namespace {
+
+std::string content_of(const std::filesystem::path& scene, const std::string& environment = "") {
+    SharedOptions options;
+    options.scene = scene.string();
+    options.environment = environment;
+    return scene_content(options);
+}
+
+TEST(SceneContent, ChangesWithEveryFileOfTheScene) {
+    const TemporaryFolder folder;
+    const std::string json =
+        R"({"buffers":[{"uri":"a%20b.bin"},{"uri":"data:x"}],"images":[{"uri":"t.png"}],
+            "extensions":{"EXT_lights_ies":{"lights":[{"uri":"lamp.ies"}]}}})";
+    const auto word = [](std::size_t value) {
+        const auto narrow = static_cast<std::uint32_t>(value);
+        return std::string(reinterpret_cast<const char*>(&narrow), 4);
+    };
+    write_text(folder / "s.gltf", json);
+    write_text(folder / "s.glb",
+               "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json);
+    for (const char* name : {"a b.bin", "t.png", "lamp.ies", "sky.hdr"}) {
+        write_text(folder / name, "1");
+    }
+    const std::string sky = (folder / "sky.hdr").string();
+    for (const char* scene : {"s.gltf", "s.glb"}) {
+        std::set<std::string> seen = {content_of(folder / scene, sky)};
+        EXPECT_EQ(content_of(folder / scene, sky), *seen.begin());
+        for (const char* name : {"a b.bin", "t.png", "lamp.ies", "sky.hdr"}) {
+            // Another byte, then another size.
+            for (const char* text : {"2", "22"}) {
+                write_text(folder / name, text);
+                EXPECT_TRUE(seen.insert(content_of(folder / scene, sky)).second)
+                    << scene << " " << name << " " << text;
+            }
+        }
+    }
+}
+
+TEST(SceneContent, IsThatOfACopyElsewhere) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "copy");
+    for (const char* place : {"", "copy"}) {
+        write_text(folder.path() / place / "s.gltf", R"({"buffers":[{"uri":"a.bin"}]})");
+        write_text(folder.path() / place / "a.bin", "12345");
+    }
+    EXPECT_EQ(content_of(folder / "s.gltf"), content_of(folder.path() / "copy" / "s.gltf"));
+}
+
+TEST(SceneContent, OfWhatIsNoSceneFile) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(content_of("atrium"), "atrium");
+    for (const char* text : {"", "glTF", "[1]", R"({"buffers":[{"uri":3},1],"images":{"a":1}})"}) {
+        write_text(folder / "s.gltf", text);
+        EXPECT_NE(content_of(folder / "s.gltf"), "") << text;
+    }
+}
+
+TEST(Conditions, DifferWhereEitherHasMore) {
+    const nlohmann::ordered_json less = {{"a", 1}}, more = {{"a", 1}, {"b", "x"}};
+    EXPECT_EQ(first_difference(less, less), "");
+    EXPECT_EQ(first_difference(less, more), "b was missing, is \"x\"");
+    EXPECT_EQ(first_difference(more, less), "b was \"x\", is missing");
+}
+
+}  // namespace
+}  // namespace kilolux

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks over every shared option: whatever reads the table of settings reads all of it.
+#include <gtest/gtest.h>
+
+#include <wordexp.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "host/scene/generated/scenes.h"
+#include "present/cli/scene_choice.h"
+#include "present/commands/bench.h"
+#include "present/config_file.h"
+#include "present/window/app/command_text.h"
+#include "present/window/app/state_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace kilolux {
+namespace {
+
+using Names = std::set<std::string>;
+
+SharedOptions render_options() {
+    SharedOptions options;
+    options.takes_automatic_exposure = options.takes_automatic_samples = true;
+    options.shows_environment = true;
+    return options;
+}
+
+// What the command line makes of words.
+SharedOptions parsed(std::vector<std::string> words) {
+    SharedOptions options = render_options();
+    CLI::App app;
+    add_shared_options(app, options);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    return options;
+}
+
+// Texts of options whose values no rule below makes.
+const std::map<std::string, std::string>& special_values() {
+    static const std::map<std::string, std::string> values = {
+        {"SCENE", "grid"},
+        {"--clip", "none,walk"},
+        {"--variant", "it's $red"},
+        {"--line-width", "1%"},
+        {"--resolution", "640,360"},
+        {"--background", "0.5,0.25,0"},
+        {"--environment", "sky"},
+        {"--light-box", "-1,-2,-3,1,2,3"},
+        {"--camera-index", "auto"},
+        {"--camera-position", "1,2,3"},
+        {"--camera-focal-point", "0,1,0.5"},
+        {"--camera-view-up", "0,0,1"},
+        {"--device", "pthread"},
+        {"--max-memory", "1073741824"},
+        {"--grid", "8,4,2"},
+        {"--lanes", "4"},
+    };
+    return values;
+}
+
+std::string other_value(const Setting& setting) {
+    const auto special = special_values().find(setting.option());
+    if (special != special_values().end()) return special->second;
+    switch (setting.kind) {
+        case SettingKind::flag:
+            return "true";
+        case SettingKind::number:
+            return "0.75";
+        case SettingKind::count:
+            return "9";
+        case SettingKind::list:
+            return setting.words.at(0);
+        case SettingKind::choice:
+            return setting.words.at(setting.words.at(0) == setting.show() ? 1 : 0);
+        default:
+            throw Error(setting.option() + ": this test needs a value for it");
+    }
+}
+
+struct ChangedOption {
+    std::string option, word, text;
+    SharedOptions options;  // as the command line gives it
+};
+
+std::vector<ChangedOption> changed_options() {
+    SharedOptions defaults = render_options();
+    std::vector<ChangedOption> out;
+    for (const Setting& setting : settings_of(defaults)) {
+        const std::string text = other_value(setting);
+        const bool positional = setting.option() == "SCENE";
+        out.push_back({setting.option(), setting.word(), text,
+                       parsed({positional ? text : setting.option() + "=" + text})});
+    }
+    return out;
+}
+
+std::map<std::string, std::string> texts_of(SharedOptions options) {
+    std::map<std::string, std::string> out;
+    for (const Setting& setting : settings_of(options)) out[setting.option()] = setting.show();
+    return out;
+}
+
+// Results do not depend on them, or on the device only, which is named on its own.
+const Names kOfNoResult = {"--strict", "--allow-outside-paths", "--quiet", "--verbose", "--device"};
+
+TEST(Settings, EachChangesItselfAlone) {
+    const auto before = texts_of(render_options());
+    for (const ChangedOption& changed : changed_options()) {
+        EXPECT_FALSE(changed.options == render_options()) << changed.option;
+        for (const auto& [option, text] : texts_of(changed.options)) {
+            EXPECT_EQ(text, option == changed.option ? changed.text : before.at(option))
+                << changed.option << " and " << option;
+        }
+    }
+}
+
+// A member that no option reaches is one of the renderer's own, or of tests.
+TEST(Settings, ReachEveryMember) {
+    SharedOptions all = render_options();
+    for (const Setting& setting : settings_of(all)) setting.take(other_value(setting));
+    all.settings.grid.fine_per_octave = 5;  // the window's
+    RenderSettings own;
+    own.background = all.settings.background;
+    own.reflections = all.settings.reflections;
+    own.opened = all.settings.opened;
+    auto& a = all.settings;
+    auto& b = own;
+    const auto differ = [](const auto&... pairs) {
+        std::vector<bool> out;
+        (out.push_back(!(pairs.first == pairs.second)), ...);
+        return out;
+    };
+#define BOTH(member) std::pair(a.member, b.member)
+    const auto reached =
+        differ(BOTH(renderer), BOTH(width), BOTH(height), BOTH(lights.count), BOTH(lights.seed),
+               BOTH(lights.radius), BOTH(lights.intensity), BOTH(lights.box), BOTH(tails),
+               BOTH(range_budget), BOTH(seed), BOTH(tree_share), BOTH(gbuffer), BOTH(geometry),
+               BOTH(anisotropy), BOTH(no_reuse), BOTH(shading), BOTH(shadows), BOTH(shadow_rays),
+               BOTH(ambient), BOTH(bloom), BOTH(exposure), BOTH(tone_curve), BOTH(samples),
+               BOTH(auto_samples.error), BOTH(auto_samples.most), BOTH(want.view), BOTH(want.aovs),
+               BOTH(grid.tiles_x), BOTH(grid.tiles_y), BOTH(grid.slices_per_octave),
+               BOTH(grid.fine_per_octave), BOTH(kernels.lanes), BOTH(kernels.math),
+               BOTH(kernels.light_colors), BOTH(max_memory_bytes), BOTH(device));
+#undef BOTH
+    for (std::size_t i = 0; i < reached.size(); ++i) EXPECT_TRUE(reached[i]) << "member " << i;
+}
+
+TEST(Settings, RefuseAResumeWithAnotherValue) {
+    const TemporaryFolder folder;
+    const DeviceInfo device = describe(choose_device(""));
+    const Scene scene = make_generated_scene("grid");
+    const auto context = [&](const SharedOptions& options) {
+        return bench_context(options, {}, scene, choose_camera(options, scene), device);
+    };
+    const std::filesystem::path file = folder / "bench.context.json";
+    write_text(file, nlohmann::json{{"context", context(render_options())}}.dump());
+    EXPECT_NO_THROW(require_same_context(file, context(render_options())));
+    // Rows say them; lanes are in the tuning, too.
+    const Names swept = {"--renderer", "--resolution", "--lights", "--grid", "--gbuffer"};
+    for (const ChangedOption& changed : changed_options()) {
+        std::string refusal;
+        try {
+            require_same_context(file, context(changed.options));
+        } catch (const Error& error) {
+            refusal = error.what();
+        }
+        const bool may_resume =
+            kOfNoResult.contains(changed.option) || swept.contains(changed.option);
+        EXPECT_EQ(refusal.empty(), may_resume) << changed.option << ": " << refusal;
+    }
+}
+
+TEST(Settings, AreInTheKeyOfAChoice) {
+    const Scene scene = make_generated_scene("grid");
+    const auto key = [&](const SharedOptions& options) {
+        return conditions_json(options, scene, choose_camera(options, scene)).dump();
+    };
+    for (const ChangedOption& changed : changed_options()) {
+        EXPECT_EQ(key(changed.options) == key(render_options()),
+                  kOfNoResult.contains(changed.option))
+            << changed.option;
+    }
+}
+
+// What the panel sets survives the end of the window.
+TEST(Settings, OfThePanelComeBack) {
+    const Names panel = {
+        "--renderer",   "--shading",         "--shadows",      "--gbuffer",    "--show",
+        "--exposure",   "--tonemap",         "--bloom",        "--ambient",    "--samples",
+        "--rig",        "--lights",          "--light-radius", "--light-seed", "--tails",
+        "--tree-share", "--light-intensity", "--grid",         "--lanes"};
+    std::size_t found = 0;
+    for (const ChangedOption& changed : changed_options()) {
+        if (!panel.contains(changed.option)) continue;
+        ++found;
+        const TemporaryFolder folder;
+        const auto nothing_given = [](const std::string&) { return false; };
+        ViewState state;
+        state.settings = changed.options.settings;
+        state.rig = changed.options.rig;
+        StateFile file(folder / "view.json");
+        const ViewState start = file.load({}, nothing_given);
+        file.save(state);
+        const ViewState again = StateFile(folder / "view.json").load({}, nothing_given);
+        EXPECT_EQ(again.settings, state.settings) << changed.option;
+        EXPECT_EQ(again.rig, state.rig) << changed.option;
+        EXPECT_FALSE(again == start) << changed.option;
+    }
+    EXPECT_EQ(found, panel.size());
+}
+
+TEST(Settings, ComeFromConfigFiles) {
+    const TemporaryFolder folder;
+    for (const ChangedOption& changed : changed_options()) {
+        const nlohmann::json text = changed.text;
+        write_text(folder / "a.toml", changed.word + " = " + text.dump() + "\n");
+        write_text(folder / "a.json", nlohmann::json{{changed.word, changed.text}}.dump());
+        for (const char* name : {"a.toml", "a.json"}) {
+            SharedOptions options = render_options();
+            CLI::App app;
+            add_shared_options(app, options);
+            app.parse(std::vector<std::string>{});
+            apply_config_file(app, folder / name);
+            EXPECT_EQ(options, changed.options) << changed.option << " by " << name;
+        }
+    }
+}
+
+// As a shell splits them.
+std::vector<std::string> shell_words(const std::string& line) {
+    wordexp_t words{};
+    if (wordexp(line.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) != 0) throw Error(line);
+    std::vector<std::string> out(words.we_wordv, words.we_wordv + words.we_wordc);
+    wordfree(&words);
+    return out;
+}
+
+TEST(Settings, AreInTheCopiedCommand) {
+    const Scene scene = make_generated_scene("grid");
+    // Of no picture, said as positions, or not in a PNG.
+    const Names not_said = {"--quiet",
+                            "--verbose",
+                            "--aov",
+                            "--camera-index",
+                            "--camera-position",
+                            "--camera-focal-point",
+                            "--camera-view-up",
+                            "--camera-view-angle",
+                            "--camera-orthographic",
+                            "--fit"};
+    for (const ChangedOption& changed : changed_options()) {
+        if (not_said.contains(changed.option)) continue;
+        const CameraRig rig(choose_camera(changed.options, scene), bounds(scene));
+        auto words = shell_words(render_command(rig, changed.options, scene));
+        words.erase(words.begin(), words.begin() + 2);  // kilolux render
+        words.resize(words.size() - 2);                 // -o kilolux.png
+        EXPECT_EQ(texts_of(parsed(words)), texts_of(changed.options)) << changed.option;
+    }
+}
+
+TEST(Settings, WordsAreSafeForAShell) {
+    for (const char* word : {"plain", "", "two words", "it's", "$HOME", "a;b", "`ls`", "*", "~",
+                             "a\\b", "#1", "\"", "a&b|c", "(x)", "<>", "{a,b}", "!"}) {
+        EXPECT_EQ(shell_words(shell_word(word)), std::vector<std::string>{word});
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
