@@ -262,6 +262,7 @@ std::string text_of(const std::vector<std::string>& words) { return joined(words
 std::string text_of(double value) { return fmt::format("{}", value); }
 std::string text_of(float value) { return fmt::format("{}", value); }
 std::string text_of(std::uint64_t value) { return fmt::format("{}", value); }
+std::string text_of(std::uint32_t value) { return fmt::format("{}", value); }
 std::string text_of(int value) { return fmt::format("{}", value); }
 std::string text_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 std::string text_of(const BackgroundChoice& choice) {

@@ -129,6 +129,7 @@ std::string text_of(const std::vector<std::string>& words);
 std::string text_of(double value);
 std::string text_of(float value);
 std::string text_of(std::uint64_t value);
+std::string text_of(std::uint32_t value);
 std::string text_of(int value);
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const Box& value);
