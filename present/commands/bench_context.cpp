@@ -28,7 +28,7 @@ std::string command_line() {
     std::string out = "kilolux", word;
     std::getline(in, word, '\0');  // the program's path
     while (std::getline(in, word, '\0')) {
-        out += " " + shell_word(word);
+        out.append(" ").append(shell_word(word));
     }
     return out;
 }

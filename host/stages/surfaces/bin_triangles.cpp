@@ -97,7 +97,7 @@ TriangleLists BinTriangles::enqueue(const SurfaceBuffers& scene, uint triangle_c
 // A triangle is three indices and about half a vertex: neighbours share theirs.
 StageWork bin_triangles_work(const StageCounts& c) {
     constexpr double kTriangle = 3 * sizeof(uint) + 0.5 * 3 * sizeof(float);
-    constexpr double kBox = kBoxWords * sizeof(uint);
+    constexpr double kBox = BinTriangles::kBoxWords * sizeof(uint);
     return {.bytes_read = kTriangle * c.triangles + kBox * c.seen_triangles,
             .bytes_written =
                 (sizeof(RasterRow) + kBox) * c.seen_triangles + sizeof(uint) * c.triangle_pairs,
