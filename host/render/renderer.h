@@ -17,7 +17,7 @@
 
 namespace kilolux {
 
-class Pipeline;
+struct Pipeline;
 class RenderScene;
 
 /// What list_devices() says of every OpenCL device, in the order that `--device INDEX` counts.

@@ -7,7 +7,6 @@
 namespace kilolux {
 namespace {
 
-
 std::size_t size_of(const View& view) { return std::size_t{view.stride} * view.height; }
 
 }  // namespace

@@ -2,10 +2,7 @@
 #include "host/stages/shadows/shadow_origins.h"
 
 namespace kilolux {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 ShadowOrigins::ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),
