@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texels of an environment by direction: float[height][width][3], longitude by latitude, its middle
-// column towards -Z, its first row towards +Y.
+// MapTexels of an environment by direction: float[height][width][3], longitude by latitude, its
+// middle column towards -Z, its first row towards +Y.
 #ifndef KILOLUX_DEVICE_ENVIRONMENT_H
 #define KILOLUX_DEVICE_ENVIRONMENT_H
 #include "kernels/device/lanes.h"
@@ -44,13 +44,13 @@ static inline FV3 rotate_to_world(View view, FV3 p) {
 }
 
 // Four texels and how far the pixel is from the first to the others.
-typedef struct Texels {
+typedef struct MapTexels {
     UV upper_left, upper_right, lower_left, lower_right;  // places
     FV right, down;                                       // 0..1
-} Texels;
+} MapTexels;
 
 // `size`: width, height and first place of a level.
-static inline Texels texels_towards(FV3 d, uint4 size) {
+static inline MapTexels texels_towards(FV3 d, uint4 size) {
     FV width = fv((float)size.x);
     FV last_row = fv((float)(size.y - 1u));
     // As Environment::direction(): columns from behind over -X and ahead, rows from above.
@@ -61,7 +61,7 @@ static inline Texels texels_towards(FV3 d, uint4 size) {
     FV left = floor(column), top = floor(row);
     FV right = left + 1.0f;
     right = lane_select(right >= width, fv(0.0f), right);
-    Texels t;
+    MapTexels t;
     t.right = column - left;
     t.down = row - top;
     left = lane_select(left < fv(0.0f), width - 1.0f, left);
@@ -86,7 +86,7 @@ static inline FV texel_channel(global const float* texels, UV place, uint channe
 #endif
 }
 
-static inline FV filtered(global const float* texels, Texels t, uint channel) {
+static inline FV filtered(global const float* texels, MapTexels t, uint channel) {
     FV a = texel_channel(texels, t.upper_left, channel);
     FV c = texel_channel(texels, t.lower_left, channel);
     FV upper = fma(t.right, texel_channel(texels, t.upper_right, channel) - a, a);
@@ -94,7 +94,7 @@ static inline FV filtered(global const float* texels, Texels t, uint channel) {
     return fma(t.down, lower - upper, upper);
 }
 
-static inline FV3 filtered_rgb(global const float* texels, Texels t) {
+static inline FV3 filtered_rgb(global const float* texels, MapTexels t) {
     return fv3(filtered(texels, t, 0u), filtered(texels, t, 1u), filtered(texels, t, 2u));
 }
 #endif

@@ -24,7 +24,7 @@ kernel void fill_background(GBUFFER_ARGS,
         open &= lane_mask(load_depth01(GBUFFER_OF_ARGS, pixels) == fv(0.0f));
     }
     if (!lane_any(open)) return;
-    Texels t = texels_towards(ray_direction(view, pixels), size);
+    MapTexels t = texels_towards(ray_direction(view, pixels), size);
     uint plane_size = view.stride * view.height;
     for (uint channel = 0; channel < 3u; ++channel) {
         global float* plane = radiance + channel * plane_size + pixels.first;

@@ -52,7 +52,7 @@ static inline FV3 table_at(ReflectionMaps maps, FV n_dot_v, FV roughness) {
     FV x = min(n_dot_v, fv(1.0f)) * last;
     FV y = min(roughness, fv(1.0f)) * last;
     FV left = min(floor(x), last - 1.0f), top = min(floor(y), last - 1.0f);
-    Texels t;
+    MapTexels t;
     t.right = x - left;
     t.down = y - top;
     t.upper_left = lane_to_uint(top) * maps.table_size + lane_to_uint(left);
@@ -118,7 +118,7 @@ kernel void reflect_environment(GBUFFER_ARGS, REFLECTION_ARGS,
     MASK drawn = item.drawn;
     Surface s = load_surface(g, pixels, item.z);
     ReflectionMaps maps = {texels, levels, roughness_levels, table, table_size};
-    Texels around = texels_towards(rotate_to_world(view, s.normal), levels[roughness_levels]);
+    MapTexels around = texels_towards(rotate_to_world(view, s.normal), levels[roughness_levels]);
     FV3 added = reflected(maps, view, s, filtered_rgb(texels, around));
 #if HAS_UNLIT
     drawn &= lane_mask(s.roughness > fv(0.0f));
