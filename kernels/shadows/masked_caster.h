@@ -45,7 +45,8 @@ static inline MASK is_opaque_at(MaskedScene scene, uint number, FV u0, FV u1, FV
         s = u;
 #endif
         Map map = make_map(scene.textures, texture, USE_BASE_COLOR);
-        alpha *= fetch_alpha(map, make_lookup(map, s, t, fv(-1.0f)));
+        const Lookup at = make_lookup(map, s, t, fv(-1.0f));
+        alpha *= fetch_alpha(map, REF(at));
     }
     return lane_mask(!(alpha < fv(material->row.emissive_cutoff.w)));
 }

@@ -113,7 +113,7 @@ TEST(BenchRow, RefusesOtherCsvWithTheLine) {
         const char* message;
     } cases[] = {
         {"a,b\n1,2\n", "line 1: is not this version's header"},
-        {header + "1,2\n", "line 2: has 2 fields, must have 33"},
+        {header + "1,2\n", "line 2: has 2 fields, must have 32"},
         {csv + "x" + line.substr(0, line.size() / 2) + "\n", "line 3: has "},
         {header + "backward" + line.substr(line.find(",1920")), "'backward' is no renderer"},
         {header + "deferred,12a" + line.substr(line.find(",1080")),

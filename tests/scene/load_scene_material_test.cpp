@@ -94,16 +94,25 @@ TEST(LoadSceneMaterial, ReadsMaterialExtensions) {
     file.add("materials", {{"emissiveFactor", {1, 0.5, 0}},
                            {"extensions",
                             {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
-                             {"KHR_materials_unlit", json::object()},
                              {"KHR_materials_ior", {{"ior", 1.33}}},
                              {"KHR_materials_specular",
                               {{"specularFactor", 0.25}, {"specularColorFactor", {1, 2, 0.5}}}}}}});
     const Material material = load(file).materials.at(0);
     EXPECT_EQ(material.emissive, glm::vec3(8, 4, 0));
-    EXPECT_TRUE(material.unlit);
+    EXPECT_FALSE(material.unlit);
     EXPECT_FLOAT_EQ(material.ior, 1.33f);
     EXPECT_EQ(material.specular, 0.25f);
     EXPECT_EQ(material.specular_color, glm::vec3(1, 2, 0.5f));
+}
+
+TEST(LoadSceneMaterial, AnUnlitMaterialReflectsNothing) {
+    GltfBuilder file = triangle_file();
+    file.add("materials",
+             {{"extensions",
+               {{"KHR_materials_unlit", json::object()}, {"KHR_materials_ior", {{"ior", 1.33}}}}}});
+    const Material material = load(file).materials.at(0);
+    EXPECT_TRUE(material.unlit);
+    EXPECT_EQ(material.ior, Material{}.ior);
 }
 
 TEST(LoadSceneMaterial, KeepsHugeIntegersOfExtensions) {
