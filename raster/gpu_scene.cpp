@@ -62,7 +62,6 @@ GpuScene::GpuScene(const Scene& scene, int anisotropy, GpuSceneUse use)
       anisotropy_(anisotropy),
       use_(use),
       srgb_(srgb_table()),
-      instances_(make_buffer()),
       vertex_array_(make_vertex_array()) {
     const TextureTable table(scene, features());
     rows_ = surface_rows(scene, features(), table);
@@ -122,8 +121,9 @@ void GpuScene::bind(std::span<const Draw> draws) const {
     std::vector<InstanceRow> instances;
     for (const Draw& draw : draws) instances.push_back(draw.row);
     instances.emplace_back();
-    glNamedBufferData(instances_.name(), static_cast<GLsizeiptr>(bytes_of(instances).size()),
-                      instances.data(), GL_STREAM_DRAW);
+    // A buffer of their own: llvmpipe overwrites one of the same size while fragments still read
+    // it.
+    instances_ = filled_buffer(bytes_of(instances));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INSTANCES_BLOCK, instances_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, MESHES_BLOCK, meshes_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, MATERIALS_BLOCK, materials_.name());

@@ -62,8 +62,8 @@ class GpuScene {
     GpuSceneUse use_;
     SurfaceRows rows_;  // without vertices and triangles
     GlBuffer meshes_, materials_, textures_;
-    GlBuffer srgb_;  // codes of linear light
-    GlBuffer instances_;
+    GlBuffer srgb_;               // codes of linear light
+    mutable GlBuffer instances_;  // rows of the draws that are bound
     Texels vertices_, indices_;
     std::vector<Texels> images_;
     std::vector<std::size_t> image_of_texture_;  // by TextureRow
