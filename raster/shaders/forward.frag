@@ -106,7 +106,7 @@ void main() {
 #endif
     sum = sum_lights(sum, p, light_range(f.z));
     FV3 radiance = finish_shading(s, sum, frame.ambient);
-    #if BLENDED
+#if BLENDED
     float alpha = alpha_of(scene, f.material, f);
 #else
     float alpha = 1.0;

@@ -26,9 +26,10 @@ constexpr int kWidth = 75;
 constexpr int kHeight = 41;
 constexpr uint kStride = 80;
 
-// Relative to the sum of what the lights could add: float32 sums in another order of rounding, and
-// divisions that a GPU may round otherwise.
-constexpr double kTolerance = 1e-5;
+// Relative to the sum of what the lights could add: float32 sums in another order of rounding,
+// divisions that a GPU may round otherwise, and points on the triangle's plane where the G-buffer's
+// come from its stored depth (1.2e-5 in the brightest highlight).
+constexpr double kTolerance = 2e-5;
 
 // A wall, metallic panels in front of it, and a fence with holes.
 Scene boxes_scene() {
