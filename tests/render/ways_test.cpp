@@ -167,9 +167,6 @@ void expect_one_surface(const Scene& scene, const Camera& camera, const RenderSe
         EXPECT_LT(quantile(surfaces, 0.99), 2e-5) << "texture coordinates, in texels, round";
         const std::vector<double> pictures = picture_differences(ids.frame, way.frame);
         EXPECT_LT(quantile(pictures, 0.5), 1e-5);
-        std::printf("surfaces %g %g %g pictures %g %g\n", quantile(surfaces, 0.5),
-                    quantile(surfaces, 0.99), quantile(surfaces, 1.0), quantile(pictures, 0.5),
-                    quantile(pictures, 0.99));
     }
     for (const RendererKind kind : {RendererKind::forward, RendererKind::forward_plus}) {
         SCOPED_TRACE(kind == RendererKind::forward ? "forward" : "forward-plus");
@@ -177,8 +174,6 @@ void expect_one_surface(const Scene& scene, const Camera& camera, const RenderSe
         const std::vector<double> pictures = picture_differences(ids.frame, way.frame);
         EXPECT_LT(quantile(pictures, 0.5), 1e-4);
         EXPECT_LT(quantile(pictures, 0.95), 1e-3);
-        std::printf("pictures %g %g %g\n", quantile(pictures, 0.5), quantile(pictures, 0.95),
-                    quantile(pictures, 0.99));
     }
 }
 
