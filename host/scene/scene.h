@@ -12,7 +12,7 @@
 
 namespace kilolux {
 
-/// An 8-bit RGBA image, row 0 on top. Whether it is sRGB is the using slot's business.
+/// An 8-bit RGBA image, row 0 on top. The slot that uses it decides whether it is sRGB.
 struct Image {
     std::string name;
     int width = 0;                   // [pixel], > 0
@@ -187,7 +187,7 @@ struct SceneRevisions {
     std::array<std::uint32_t, 2> surfaces() const { return {geometry, placement}; }
 };
 
-/// Everything that is drawn and lit. Indices are checked by whoever builds it: the renderer trusts
+/// Everything that is drawn and lit. The builder checks indices: the renderer trusts
 /// them.
 struct Scene {
     std::string name;

@@ -2,7 +2,7 @@
 // Means of as many samples as each fine tile needs, until the standard error of its mean is small
 // enough.
 //
-// Whoever stops where samples happen to agree loses what is rare: such a mean is too dark where few
+// Stopping as soon as samples agree would miss rare light: such a mean is too dark where few
 // samples are bright (Kirk and Arvo 1991, "Unbiased Sampling Techniques for Image Synthesis"). So
 // there are two halves of the samples, and each one's spread decides where the other's mean ends:
 // a mean's count then does not depend on its own samples, and it is right on average. A tile takes

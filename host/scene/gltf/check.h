@@ -30,7 +30,7 @@ struct GltfRule {
 /// All rules for the properties that the loader reads.
 std::vector<GltfRule> gltf_rules();
 
-/// Parses and checks a glTF file's JSON, so that whoever reads it meets only the types, ranges and
+/// Parses and checks a glTF file's JSON, so that its readers meet only the types, ranges and
 /// indices that the rules promise; a whole number written as 3.0 becomes an integer.
 ///
 /// Throws Error "<name>: accessors[7].count is "x", must be an integer from 0 to ...".
