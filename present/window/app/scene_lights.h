@@ -21,7 +21,8 @@ class SceneLights {
 
     /// Asks for the lights of the state's rig; `settings`: of the next picture.
     void replace(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
-    /// Takes them, and into the state what they decide. After a failure the former ones stay.
+    /// Takes the new lights, and writes the settings that depend on them to the state. After a
+    /// failure the former lights stay.
     void take(ViewState& state, const OnFailure& failed);
     bool are_changing() const { return relit_.is_open(); }
 
