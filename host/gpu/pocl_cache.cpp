@@ -79,6 +79,8 @@ std::string prepared() {
         }
         ::setenv("PATH", (path.empty() ? "/usr/bin" : path + ":/usr/bin").c_str(), 1);
     }
+    // PoCL ends with an assertion where the variable is there but empty.
+    if (environment("POCL_CACHE_DIR").empty()) ::unsetenv("POCL_CACHE_DIR");
     const fs::path folder = pocl_folder();
     const std::string problem = cache_problem(folder);
     if (problem.empty()) return "";

@@ -81,7 +81,7 @@ RendererOptions parse_renderer_options(const std::string& scene,
 }
 
 void ThreadRenderer::check(const Call& call) const {
-    if (call.cancelled || thread_.is_stopping()) throw Interrupted();
+    if (call.cancelled || thread_->is_stopping()) throw Interrupted();
 }
 
 template <typename Work>
@@ -91,7 +91,7 @@ auto ThreadRenderer::begin(Work work, const std::shared_ptr<Call>& call) {
             "a renderer is of no use in a process that was forked after it was made: take "
             "multiprocessing's start method 'spawn'");
     }
-    return thread_.ask([this, call, work = std::move(work)]() mutable {
+    return thread_->ask([this, call, work = std::move(work)]() mutable {
         Call::State waiting = Call::waiting;
         if (!call->state.compare_exchange_strong(waiting, Call::running)) throw Interrupted();
         const WorkWatch watch([this, &call](double) { check(*call); });
@@ -133,8 +133,8 @@ auto ThreadRenderer::run_to_end(Work work) {
 
 ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> made, Lights lights)
     : options_(std::move(options)),
-      thread_(
-          block_signals, [this] { pictures_.reset(); }, [] {}) {
+      thread_(std::make_unique<TaskThread>(
+          block_signals, [this] { pictures_.reset(); }, [] {})) {
     run_to_end([&] {
         const SharedOptions& shared = options_.shared;
         pictures_ = std::make_unique<SceneRenderer>(
@@ -148,10 +148,11 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
 ThreadRenderer::~ThreadRenderer() {
     if (::getpid() != process_) {  // a forked child has neither this thread nor the driver's
         (void)pictures_.release();
+        (void)thread_.release();
         return;
     }
     const py::gil_scoped_release other_threads_run;
-    thread_.stop(std::chrono::hours(1));
+    thread_->stop(std::chrono::hours(1));
 }
 
 void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) {

@@ -90,7 +90,7 @@ class ThreadRenderer {
     bool rendered_ = false;                    // whether there is one
     pid_t process_ = ::getpid();               // that the thread and OpenCL belong to
     std::unique_ptr<SceneRenderer> pictures_;  // used in the thread only
-    TaskThread thread_;                        // last: it ends first
+    std::unique_ptr<TaskThread> thread_;       // last: it ends first
 };
 
 }  // namespace kilolux

@@ -14,6 +14,7 @@
 #include "host/base/text.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/stage_timer.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -52,9 +53,8 @@ TEST(Program, IncludesFollowConditions) {
     std::ofstream(folder / "b.h") << "#ifndef B_H\n#define B_H\nint b;\n#endif\n";
     std::ofstream(folder / "c.cl") << "#if 0\n#include \"a.h\"\n#endif\n#include \"b.h\"\n#include "
                                       "\"a.h\"\n#include \"b.h\"\n";
-    setenv("KILOLUX_SOURCE_DIR", folder.c_str(), 1);
+    const EnvironmentVariable root("KILOLUX_SOURCE_DIR", folder.string());
     const SplicedSource source = splice_source("c.cl", false);
-    unsetenv("KILOLUX_SOURCE_DIR");
     std::filesystem::remove_all(folder);
     const std::string rest = source.text.substr(source.text.find("#line 3 \"c.cl\""));
     const auto count = [&](const std::string& line) {

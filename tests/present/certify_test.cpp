@@ -12,6 +12,7 @@
 #include "host/base/error.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/child.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -221,11 +222,9 @@ std::ptrdiff_t built_programs(const TemporaryFolder& cache) {
 
 TEST_F(Certify, ABuildThatIsInterruptedEndsWithItAndPrintsNothingElse) {
     using Clock = std::chrono::steady_clock;
-    const char* const before = getenv("POCL_CACHE_DIR");
-    const std::string kept = before != nullptr ? before : "";
     for (int i = 0; i < 6; ++i) {
         const TemporaryFolder cache;
-        setenv("POCL_CACHE_DIR", cache.path().c_str(), 1);
+        const EnvironmentVariable own("POCL_CACHE_DIR", cache.path().string());
         const ChildResult result =
             run_kilolux({i % 2 == 0 ? "certify" : "bench", "--quiet"}, [&](pid_t child) {
                 const auto limit = Clock::now() + std::chrono::seconds(10);
@@ -238,7 +237,6 @@ TEST_F(Certify, ABuildThatIsInterruptedEndsWithItAndPrintsNothingElse) {
         // The program under way, and at most the device's probe.
         EXPECT_LE(built_programs(cache), 2) << i;
     }
-    before != nullptr ? setenv("POCL_CACHE_DIR", kept.c_str(), 1) : unsetenv("POCL_CACHE_DIR");
 }
 
 HardCaseRow row_of(std::string_view label, const Worst& worst, double limit) {

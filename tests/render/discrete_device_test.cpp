@@ -6,19 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "tests/support/environment_variable.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {
-
-// Treats the CPU as a GPU while it lives.
-class AsGpu {
- public:
-    AsGpu() { setenv("KILOLUX_DEVICE_KIND", "gpu", 1); }
-    ~AsGpu() { unsetenv("KILOLUX_DEVICE_KIND"); }
-    AsGpu(const AsGpu&) = delete;
-    AsGpu& operator=(const AsGpu&) = delete;
-};
 
 RenderSettings settings_with(Geometry geometry) {
     RenderSettings settings = small_settings(67, 41, 100);
@@ -43,7 +35,7 @@ void expect_close(const std::vector<float>& found, const std::vector<float>& exp
 
 void expect_same_picture(const Scene& scene, const RenderSettings& settings) {
     const Frame host = render_once(scene, settings);
-    const AsGpu as_gpu;
+    const EnvironmentVariable as_gpu("KILOLUX_DEVICE_KIND", "gpu");
     const DeviceInfo device = describe(choose_device(settings.device));
     ASSERT_FALSE(device.is_cpu);
     ASSERT_EQ(device.lane_width, 2);
@@ -90,7 +82,7 @@ TEST(DiscreteDevice, CastsShadows) {
 TEST(DiscreteDevice, FollowsMovingLights) {
     const Scene scene = make_generated_scene("grid");
     const RenderSettings settings = settings_with(Geometry::ids);
-    const AsGpu as_gpu;
+    const EnvironmentVariable as_gpu("KILOLUX_DEVICE_KIND", "gpu");
     Renderer renderer(scene, settings);
     const Camera camera = first_camera(scene);
     const Frame still = renderer.render(camera, 0.0), moved = renderer.render(camera, 0.5);

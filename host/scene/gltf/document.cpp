@@ -226,9 +226,11 @@ FileBytes read_source(const GltfDocument& document, const std::string& uri, int 
 
 ByteSpan bytes_of_buffer(const GltfDocument& document, std::size_t buffer,
                          const std::string& reader) {
-    if (document.buffers[buffer]) return *document.buffers[buffer];
-    document.fail(element_name("buffers", buffer),
-                  "has neither a uri nor a GLB's BIN chunk, and {} reads it", reader);
+    if (!document.buffers[buffer]) {
+        document.fail(element_name("buffers", buffer),
+                      "has neither a uri nor a GLB's BIN chunk, and {} reads it", reader);
+    }
+    return *document.buffers[buffer];
 }
 
 const json* find_member(const json& object, std::string_view path) {

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/task_thread.h"
 
-#include <unistd.h>
-
 namespace kilolux {
 
 TaskThread::TaskThread(Call begin, Call end, Call wake)
     : begin_(std::move(begin)),
       end_(std::move(end)),
       wake_(std::move(wake)),
-      process_(::getpid()),
       thread_([this] { run(); }) {}
 
 TaskThread::~TaskThread() {
-    if (::getpid() != process_) {
-        thread_.detach();
-        return;
-    }
     stop({});
     thread_.join();
 }

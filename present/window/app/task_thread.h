@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -30,8 +28,7 @@ class TaskThread {
     /// `begin` runs first in the thread and `end` last; `wake` runs in it after every task. When
     /// `begin` throws, no task runs.
     TaskThread(Call begin, Call end, Call wake);
-    /// Stops, however long the running task takes. Does nothing in a forked child, which has no
-    /// such thread.
+    /// Stops, however long the running task takes.
     ~TaskThread();
     TaskThread(const TaskThread&) = delete;
     TaskThread& operator=(const TaskThread&) = delete;
@@ -90,7 +87,6 @@ class TaskThread {
     bool ended_ = false;
     std::exception_ptr failure_;  // of begin_
     std::atomic<bool> stopping_ = false;
-    pid_t process_;
     std::thread thread_;
 };
 
