@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// One surface, whoever makes it: OpenGL's ids and OpenCL's, resolved, OpenGL's planes, and OpenGL's
-// fragments lit where they are drawn. All are compiled from kernels/shared, and on most devices all
-// would have the same bits: but Mesa's software rasterizer makes fma() a product and a sum, rounded
-// each. The limits follow from that.
+// All ways make the same surfaces: OpenGL's ids and OpenCL's, resolved, OpenGL's planes, and
+// OpenGL's lit fragments. All are compiled from kernels/shared, and on most devices all would have
+// the same bits: but Mesa's software rasterizer makes fma() a product and a sum, rounded each. The
+// limits follow from that.
 #include <cmath>
 #include <filesystem>
 #include <random>
