@@ -10,13 +10,13 @@
 
 namespace kilolux {
 
-/// Draws a slow pass in short parts where its thread's work is watched: the work can be given up
-/// between them, and other contexts of a driver that draws on the CPU get their turn.
+/// Draws a slow pass in short parts where its thread's work is watched: between them the pass can
+/// be cancelled, and other contexts of a driver that draws on the CPU can work.
 class PartedDraw {
  public:
-    /// Calls `draw` for one part of the rows after the other, each by itself in the scissor
-    /// rectangle; once for all where nobody watches. Throws what check_interrupt() throws; then the
-    /// scissor test is still on.
+    /// Calls `draw` for one part of the rows after the other, each with its own scissor rectangle;
+    /// once for all rows where the work is not watched. Passes exceptions of check_interrupt() on;
+    /// the scissor test then is still on.
     template <typename Draw>
     void draw(int width, int height, Draw draw) {
         if (!WorkWatch::is_present()) return draw();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs, buffers and timers: what they say when the device refuses.
+// Programs, buffers and timers: their messages when the device refuses.
 #include "host/gpu/program.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
     expect_contains(message, "no_such_function");
 }
 
-// A text that an #if leaves out is there where it is included next.
+// A text that an #if leaves out is spliced where it is included next.
 TEST(Program, IncludesFollowConditions) {
     const auto folder = std::filesystem::temp_directory_path() / "kilolux_splice_test";
     std::filesystem::create_directories(folder);
@@ -97,7 +97,8 @@ TEST(Program, SameTextAndOptionsAreBuiltOnce) {
     EXPECT_NE(first(), build_program(test_gpu(2), "build_clusters")());
 }
 
-// A window opens a Gpu for every change of settings: neither context nor programs may stay behind.
+// A window opens a Gpu for every change of settings: contexts and programs must be released with
+// it.
 TEST(Program, ContextsAndProgramsGoWithTheLastGpu) {
     const cl::Device device = test_gpu().device;
     const cl::Context context(device);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Halves light, or squares it, for the eye.
+// Two views of the display: one halves light, one squares it.
 constexpr const char* kConfig = R"(ocio_profile_version: 1
 search_path: ""
 roles:
@@ -133,7 +133,7 @@ TEST(Render, SixteenBitsAreTheEightBitsMoreFinely) {
         ASSERT_EQ(sixteen.size(), eight.size());
         std::size_t between = 0;
         for (std::size_t i = 0; i < eight.size(); ++i) {
-            // Half a code of rounding, and a little where the device's arithmetic is not ours.
+            // Half a code of rounding, and a little for differences of the device's arithmetic.
             ASSERT_NEAR(sixteen[i], eight[i], 0.51f / 255.0f) << i;
             between += std::abs(sixteen[i] - eight[i]) > 0.1f / 255.0f;
         }

@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-// Side by side, as planes that coincide have no one picture, and less bright.
+// Side by side, since coinciding planes have no unique picture, and less bright.
 GltfBuilder side_by_side() {
     GltfBuilder file = every_feature_file();
     nlohmann::json& nodes = file.root["nodes"];

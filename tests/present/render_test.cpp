@@ -49,7 +49,7 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     EXPECT_GE(stats.at("lights").at("given"), 20);
     EXPECT_TRUE(stats.at("evaluations").at("useful_per_pixel").is_number());
     for (const Json& stage : stats.at("stages")) {
-        // What runs on the host or in OpenGL, and sums of a few numbers, have no model.
+        // Stages of the host or OpenGL, and sums of a few numbers, have no model.
         const std::set<std::string> unmodelled = {
             "light_input", "geometry", "count_pairs", "launch", "enqueue", "read_back", "other"};
         const bool modelled = !unmodelled.contains(stage.at("name"));

@@ -69,7 +69,7 @@ TEST(SceneFile, LoadsWithinTheBoundOfMemory) {
     const TemporaryFolder folder;
     const std::string file = (folder / "s.glb").string();
     ASSERT_EQ(run_kilolux({"export", "grid", "-q", "-o", file}).code, 0);
-    // Exporting renders nothing, so that only the loader has a bound.
+    // Exporting renders nothing, so the bound holds for the loader alone.
     const auto export_within = [&](const char* bytes) {
         return run_kilolux(
             {"export", file, "-q", "--max-memory", bytes, "-o", (folder / "t.glb").string()});

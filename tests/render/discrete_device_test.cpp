@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a device with memory of its own needs (staged uploads and read-backs, two lanes, a GPU's
-// kernels and groups), with the CPU's device treated as one.
+// Paths for a device with memory of its own (staged uploads and read-backs, two lanes, a GPU's
+// kernels and groups), tested by treating the CPU's device as one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,8 @@ RenderSettings settings_with(Geometry geometry) {
     return settings;
 }
 
-// Kernels differ in how they round a reciprocal root, in the last place: 1e-5 covers what a hundred
-// lights make of it.
+// Kernels differ by one unit in the last place in rounding a reciprocal root: 1e-5 covers the sum
+// over a hundred lights.
 void expect_close(const std::vector<float>& found, const std::vector<float>& expected) {
     ASSERT_EQ(found.size(), expected.size());
     ASSERT_FALSE(expected.empty());

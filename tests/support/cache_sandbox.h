@@ -11,7 +11,7 @@
 
 namespace kilolux {
 
-/// A test with a cache folder of its own, and the environment as it was afterwards.
+/// A test with a cache folder of its own; it restores the environment afterwards.
 class CacheSandbox : public testing::Test {
  protected:
     void SetUp() override { set("XDG_CACHE_HOME", folder_.path().c_str()); }

@@ -66,7 +66,7 @@ void TaskThread::run() {
 void TaskThread::work() {
     while (std::optional<Task> task = next()) {
         task->run();
-        task.reset();  // what it holds goes in this thread
+        task.reset();  // destroys its captures in this thread
         {
             const std::lock_guard lock(mutex_);
             must_finish_ = false;

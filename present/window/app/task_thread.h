@@ -16,7 +16,7 @@
 
 namespace kilolux {
 
-/// What becomes of a waiting task when its thread is stopped.
+/// What happens to a waiting task when its thread is stopped.
 enum class AtStop { drop, finish };
 
 /// Runs tasks one after the other in a thread of its own. The future of a task that was dropped
@@ -49,10 +49,10 @@ class TaskThread {
         return std::move(result);
     }
 
-    /// Throws what `begin` threw.
+    /// Throws the exception of `begin`.
     void check_begun() const;
 
-    /// For long tasks: whether to give up.
+    /// Whether a long task should give up.
     bool is_stopping() const { return stopping_; }
 
     /// Drops waiting tasks, waits for those that must finish, and at most `patience` for any other.
