@@ -21,7 +21,7 @@ std::string values_of(const CLI::Option& option) {
     std::vector<std::string> words;
     for (std::string_view part : split(form, '|')) {
         if (part.ends_with(",...")) part.remove_suffix(4);
-        // Capitals stand for a kind of value, not for a word.
+        // A word in capitals stands for a kind of value.
         const bool is_word = !part.empty() && (part[0] < 'A' || part[0] > 'Z');
         if (is_word) words.emplace_back(part);
     }

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -28,9 +27,10 @@ using Entries = std::vector<std::pair<std::string, std::string>>;  // option's n
 std::string read_text(const std::filesystem::path& file) {
     errno = 0;
     std::ifstream in(file);
-    std::string text(std::istreambuf_iterator<char>(in), {});
+    std::ostringstream text;
+    text << in.rdbuf();  // an empty file sets failbit of `text`, not of `in`
     if (!in || errno != 0) throw Error(file.string() + ": cannot read: " + std::strerror(errno));
-    return text;
+    return text.str();
 }
 
 std::string value_text(const std::filesystem::path& file, const std::string& name,

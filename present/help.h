@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// --help as a manual page has it: an option and its value, its meaning beside or below, the
+/// --help in the form of a manual page: an option and its value, its meaning beside or below, the
 /// default, and a row for each choice. The mode All adds the headings that end in kRestSuffix.
 class HelpFormat : public CLI::Formatter {
  public:

@@ -112,7 +112,7 @@ const Program::Command* Program::command_in(const Words& words) const {
     return nullptr;
 }
 
-// Help and version need no valid command line beside them.
+// --help and --version are answered even where the rest of the command line is invalid.
 bool Program::answer_question(const Words& words) const {
     const Command* command = command_in(words);
     const bool all = has_any(words, {"--help-all"});

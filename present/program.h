@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line as a whole: the subcommands, and which one is meant.
+// The command line as a whole: finds and runs the subcommand.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -15,7 +15,7 @@ namespace kilolux {
 /// The program `kilolux` with its subcommands.
 class Program {
  public:
-    /// With every subcommand there is.
+    /// Adds all subcommands.
     Program();
 
     /// A new subcommand with --help, --help-all and --config; `examples` end its help. `run` is
@@ -23,8 +23,8 @@ class Program {
     CLI::App& add_command(const std::string& name, const std::string& meaning,
                           const std::string& examples, std::function<void()> run);
 
-    /// A subcommand with options: `declare(command, options)` registers them, and
-    /// `obey(options, command)` or `obey(options)` obeys them.
+    /// A subcommand with options: `declare(command, options)` registers them, and `obey(options,
+    /// command)` or `obey(options)` runs it.
     template <typename Options, typename Run>
     void add_command(const std::string& name, const std::string& meaning,
                      const std::string& examples, void (*declare)(CLI::App&, Options&), Run obey) {
@@ -41,8 +41,8 @@ class Program {
         declare(command, *options);
     }
 
-    /// Parses and obeys `arguments` (without the program's name). Throws UsageError or
-    /// CLI::ParseError for what cannot be obeyed, and whatever the subcommand throws.
+    /// Parses and runs `arguments` (without the program's name). Throws UsageError or
+    /// CLI::ParseError for an invalid command line, and the subcommand's exceptions.
     void run(std::vector<std::string> arguments);
 
     const CLI::App& app() const { return app_; }

@@ -68,7 +68,7 @@ void BoxPass::draw(const Camera& camera, const BoxTarget& target) const {
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glUseProgram(program_.name());
-    // In double, as everything that meets a camera.
+    // In double, like all transforms that involve a camera.
     const glm::dmat4 view = glm::inverse(world_from_camera(camera)) * world_from_camera(from_);
     const glm::mat4 clip(clip_from_view(camera, target.width, target.height));
     const glm::mat4 view_from_box(view);

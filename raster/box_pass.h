@@ -9,14 +9,14 @@
 
 namespace kilolux {
 
-/// A box to draw: axes of some camera's view space.
+/// A box to draw, along the axes of a camera's view space.
 struct DrawnBox {
     glm::vec3 min{0.0f};  // [m]
     glm::vec3 max{0.0f};  // [m]
     glm::vec4 color{1.0f};
 };
 
-/// Where boxes appear: a picture within the framebuffer [pixel], from its lower left.
+/// The place of the picture with boxes in the framebuffer [pixel], from its lower left.
 struct BoxTarget {
     int x = 0, y = 0, width = 0, height = 0;
 };

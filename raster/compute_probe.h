@@ -9,8 +9,7 @@
 
 namespace kilolux {
 
-/// A compute program of shared headers, then `body`: for asking OpenGL what a shared function
-/// gives.
+/// A compute program of shared headers, then `body`: it computes a shared function in OpenGL.
 inline GlProgram compute_program(const std::vector<std::string>& headers, const std::string& body) {
     ShaderText text{GL_COMPUTE_SHADER, {}};
     text.source.files = {"probe"};

@@ -13,7 +13,7 @@
 namespace kilolux {
 namespace {
 
-// New contents; never empty, since an empty buffer cannot be bound.
+// Replaces the contents; never empty, since an empty buffer cannot be bound.
 void refill_buffer(const GlBuffer& buffer, std::span<const std::byte> bytes) {
     constexpr std::array<std::byte, 64> kNothing{};
     if (bytes.empty()) bytes = kNothing;

@@ -29,9 +29,9 @@ struct ForwardLights {
     std::span<const float> profile_tables;
 };
 
-/// How shaders read lights and lists, to the same bits. llvmpipe reads a storage buffer lane by
-/// lane, which took six times as long as a light's arithmetic, and a texel at once; an NVIDIA H200
-/// takes a quarter longer with textures.
+/// How shaders read lights and lists; the bits are the same. llvmpipe reads a storage buffer lane
+/// by lane, which took six times as long as a light's arithmetic, but a texel at once; an NVIDIA
+/// H200 takes a quarter longer with textures.
 enum class LightAccess { storage, texture };
 
 /// The faster one for the current context.
@@ -40,10 +40,10 @@ LightAccess faster_light_access();
 /// An array for shaders, as a storage block and as a texture.
 class LightArray {
  public:
-    /// Texels of `format`, each of `texel_bytes`; `name` stands in error messages.
+    /// Texels of `format`, each of `texel_bytes`; `name` appears in error messages.
     LightArray(GLenum format, std::size_t texel_bytes, const char* name);
 
-    /// New contents. Throws Error when textures shall be read and OpenGL's hold fewer texels.
+    /// Replaces the contents. Throws Error when textures are read and OpenGL's hold fewer texels.
     void refill(std::span<const std::byte> bytes, LightAccess access);
     void bind(GLuint storage_block, GLuint texture_unit) const;
 
@@ -55,7 +55,7 @@ class LightArray {
     const char* name_;
 };
 
-/// Lights in buffers that forward.frag reads.
+/// Buffers of lights that forward.frag reads.
 class ForwardLightBuffers {
  public:
     explicit ForwardLightBuffers(LightAccess access);

@@ -14,11 +14,12 @@
 
 namespace kilolux {
 
-/// What forward shading compiles in; the rest is not there.
+/// Features that forward shading compiles in; the others are left out.
 struct ForwardFeatures : SceneFeatures {
     int shading = 0;         // SHADING_*, kernels/shared/evaluate_modes.h
     bool clustered = false;  // forward-plus: lights of the coarse cluster; else all of them
-    bool opaque = true;      // false: only what blends, over a picture that another renderer made
+    bool opaque =
+        true;  // false: only materials that blend, over a picture that another renderer made
     std::optional<LightAccess> light_access;  // none: the faster one here
 };
 
@@ -34,9 +35,9 @@ class ForwardPass {
     void draw(const Camera& camera, int width, int height, const ForwardLights& lights,
               std::span<const float> background = {});
 
-    /// Draws what blends over `radiance` (float[3][height][stride], red, green, blue) with the
-    /// depth of a G-buffer of the same size. `camera` sees what the targets hold, a band of the
-    /// picture perhaps; `view` is the picture's, with the band's rows. Enqueues only.
+    /// Draws materials that blend over `radiance` (float[3][height][stride], red, green, blue) with
+    /// the depth of a G-buffer of the same size. `camera` sees the contents of the targets, which
+    /// may be a band of the picture; `view` is the picture's, with the band's rows. Enqueues only.
     void draw_blended(const Camera& camera, const View& view, const GBufferTargets& gbuffer,
                       std::span<const float> radiance, const ForwardLights& lights);
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostTargets = 8;  // that every OpenGL draws to at once
 
-// A plane's elements as OpenGL stores them: codes, whatever they mean.
+// OpenGL's formats for a plane's elements: codes of any meaning.
 struct ElementFormat {
     GLenum one, four;  // component formats of a target
     GLenum type;
@@ -129,7 +129,7 @@ void check_target_size(int width, int height) {
 
 namespace {
 
-// llvmpipe reads pixels fast, and converts what it reads from textures.
+// llvmpipe reads pixels fast, but converts texels that it reads from textures.
 void read_from_framebuffer(const GBufferTargets& targets, const PlaneRead& read, RowRange rows,
                            void* destination) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, targets.framebuffer());

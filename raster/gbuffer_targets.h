@@ -11,8 +11,8 @@
 
 namespace kilolux {
 
-/// How a plane leaves the framebuffer: glReadPixels of `source` as `format` and `type` yields the
-/// plane of kernels/shared/gbuffer.h.
+/// How a plane is read from the framebuffer: glReadPixels of `source` as `format` and `type` yields
+/// the plane of kernels/shared/gbuffer.h.
 struct PlaneRead {
     uint plane = 0;     // PLANE_*
     GLenum source = 0;  // GL_COLOR_ATTACHMENTi or GL_DEPTH_ATTACHMENT
@@ -27,7 +27,8 @@ struct TargetPlan {
     Defines defines{};  // for planes.frag
 };
 
-/// What the geometry pass draws into for these needs. Depth is always DEPTH_COMPONENT32F.
+/// The attachments that the geometry pass draws to for these needs. Depth is always
+/// DEPTH_COMPONENT32F.
 TargetPlan plan_targets(const GBufferNeeds& needs);
 
 /// The G-buffer's textures in one framebuffer.
@@ -43,7 +44,7 @@ class GBufferTargets {
     int width() const { return width_; }    // [pixel]
     int height() const { return height_; }  // [pixel]
 
-    /// All planes to 0: no surface anywhere.
+    /// Sets all planes to 0: no surface.
     void clear() const;
 
  private:
@@ -65,8 +66,7 @@ struct RowRange {
 };
 
 /// Reads one plane, rows `stride` elements apart, image rows from the top. `destination` is a host
-/// pointer, or an offset where a pixel pack buffer is bound. Elements past the width are left
-/// alone.
+/// pointer, or an offset where a pixel pack buffer is bound. Elements past the width do not change.
 void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride,
                 void* destination);
 void read_plane(const GBufferTargets& targets, const PlaneRead& read, uint stride, RowRange rows,

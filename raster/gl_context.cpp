@@ -95,7 +95,7 @@ std::vector<Candidate> candidates(std::string_view wanted) {
     return out;
 }
 
-// A config only where the display cannot do without.
+// Chooses a config only where the display needs one.
 EGLConfig choose_config(EGLDisplay display) {
     if (has_word(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context")) {
         return EGL_NO_CONFIG_KHR;
@@ -152,7 +152,7 @@ bool has_egl() {
     return is_there;
 }
 
-// The loader of OpenGL's functions ends the program where there is no EGL.
+// Throws where EGL is missing: the loader of OpenGL's functions would end the program.
 void require_egl() {
     if (has_egl()) return;
     throw Error(
@@ -164,7 +164,7 @@ void require_egl() {
 
 GlContext GlContext::headless(std::string_view platform) {
     require_egl();
-    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // what fails is in the Error
+    ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // the Error holds the messages
     const char* variable = std::getenv("KILOLUX_EGL");
     const std::string wanted(platform.empty() && variable != nullptr ? variable : platform);
     std::string tried;

@@ -28,7 +28,7 @@ class GlContext {
     const std::string& version() const { return version_; }
 
  private:
-    // Ends an EGLContext.
+    // Destroys an EGLContext.
     struct Deleter {
         void* display;  // EGLDisplay, shared by the process: never terminated
         void operator()(void* context) const;

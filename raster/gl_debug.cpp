@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// A shader's errors are its info log's business: link_program() throws them.
+// Shader compilers' messages are skipped: link_program() throws them with the info log.
 void record(GLenum source, GLenum type, GLuint, GLenum, GLsizei length, const GLchar* text,
             const void* messages) {
     if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
@@ -18,7 +18,7 @@ void record(GLenum source, GLenum type, GLuint, GLenum, GLsizei length, const GL
     recorded->errors.emplace_back(text, static_cast<std::size_t>(length));
 }
 
-// The messages of the current context, if it records.
+// The messages of the current context, or null if it records none.
 GlMessages* current_messages() {
     void* function = nullptr;
     void* messages = nullptr;

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// What the driver said through KHR_debug since the last check_gl_errors().
+/// The driver's messages through KHR_debug since the last check_gl_errors().
 struct GlMessages {
     std::vector<std::string> errors;
 };
@@ -17,8 +17,8 @@ struct GlMessages {
 /// driver holds a pointer to it.
 std::unique_ptr<GlMessages> record_gl_errors();
 
-/// Throws Error with `where` and what the driver said if a GL call failed in the current context
-/// since the last check. Works with any context; one that records gives the driver's own words.
+/// Throws Error with `where` and the driver's message if a GL call failed in the current context
+/// since the last check. Contexts that do not record give the error's code only.
 void check_gl_errors(std::string_view where);
 
 }  // namespace kilolux

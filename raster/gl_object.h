@@ -50,7 +50,7 @@ using GlQuery = GlObject<gl_delete::query>;
 using GlShader = GlObject<gl_delete::shader>;
 using GlProgram = GlObject<gl_delete::program>;
 
-/// Each makes one object in the current context.
+/// Makes one object in the current context.
 inline GlTexture make_texture(GLenum target) {
     GLuint name = 0;
     glCreateTextures(target, 1, &name);

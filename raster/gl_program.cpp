@@ -28,7 +28,7 @@ std::string with_file_names(const std::string& log, const std::vector<std::strin
     return out;
 }
 
-// Of a shader or a program, by OpenGL's two functions for either.
+// The log of a shader or a program, by OpenGL's two functions for either.
 template <typename GetInteger, typename GetLog>
 std::string info_log(GLuint name, GetInteger get_integer, GetLog get_log) {
     GLint length = 0;

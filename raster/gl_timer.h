@@ -8,12 +8,12 @@
 
 namespace kilolux {
 
-/// How long the GL takes for what is issued between begin() and end(). Where the CPU draws, the two
-/// wait for the GL and read the clock: llvmpipe's timer queries leave out the vertices, and give
-/// the time of day when a pass spans several of its internal scenes.
+/// Time that OpenGL takes for the commands between begin() and end(). With a driver that draws on
+/// the CPU both wait for OpenGL and read the clock: llvmpipe's timer queries leave out the
+/// vertices, and give the time of day when a pass spans several of its internal scenes.
 class GlTimer {
  public:
-    /// begin() and end() of a scope, also where an exception leaves it.
+    /// begin() and end() of a scope, also where an exception ends it.
     class Scope {
      public:
         explicit Scope(GlTimer& timer) : timer_(timer) { timer_.begin(); }
@@ -48,7 +48,7 @@ class GlTimer {
         }
     }
 
-    /// Of the latest begin/end [ms], 0 before the first. Waits for the GL to be done with it.
+    /// Time between the latest begin() and end() [ms], 0 before the first. Waits for OpenGL.
     double last_ms() const {
         if (!pending_) return elapsed_ms_;
         GLuint64 elapsed_ns = 0;

@@ -32,7 +32,7 @@ std::span<const std::byte> bytes_of(const std::vector<Row>& rows) {
     return std::as_bytes(std::span(rows));
 }
 
-// As encode_srgb() of planes.frag reads it: boundaries, then codes.
+// The table that encode_srgb() of planes.frag reads: boundaries, then codes.
 GlBuffer srgb_table() {
     const SrgbBuckets buckets = srgb_buckets();
     std::vector<uint> words;
@@ -121,8 +121,7 @@ void GpuScene::bind(std::span<const Draw> draws) const {
     std::vector<InstanceRow> instances;
     for (const Draw& draw : draws) instances.push_back(draw.row);
     instances.emplace_back();
-    // A buffer of their own: llvmpipe overwrites one of the same size while fragments still read
-    // it.
+    // A new buffer: llvmpipe overwrites one of the same size while fragments still read it.
     instances_ = filled_buffer(bytes_of(instances));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, INSTANCES_BLOCK, instances_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, MESHES_BLOCK, meshes_.name());

@@ -10,14 +10,15 @@
 
 namespace kilolux {
 
-/// What OpenGL draws of surfaces that do not blend.
+/// The attributes that OpenGL needs of surfaces that do not blend.
 enum class GpuSceneUse {
-    shaded,   // all that materials read: G-buffer planes, forward shading
-    covered,  // where they are: positions, and what alpha masks read
+    shaded,   // all attributes of materials: G-buffer planes, forward shading
+    covered,  // coverage only: positions, and the inputs of alpha masks
 };
 
 /// A scene's rows and mips in the current context, the same as kernels read: see
-/// kernels/shared/surface_scene.h. Only what the use reads is there; surfaces that blend have all.
+/// kernels/shared/surface_scene.h. Surfaces that blend have all attributes, the others those of the
+/// use.
 class GpuScene {
  public:
     /// The scene must outlive this; its materials and textures must stay as they are and its meshes
@@ -27,7 +28,7 @@ class GpuScene {
     explicit GpuScene(const Scene& scene, int anisotropy = 1,
                       GpuSceneUse use = GpuSceneUse::shaded);
 
-    /// Uploads vertices anew of meshes whose revision says that they changed.
+    /// Uploads the vertices of meshes whose revision changed.
     void refresh();
 
     const Scene& scene() const { return scene_; }

@@ -10,12 +10,12 @@
 
 namespace kilolux {
 
-/// Draws a slow pass in short parts where its thread's work is watched: the work can be given up
-/// between them, and other contexts of a driver that draws on the CPU get their turn.
-/// Calls `draw` for one part of the rows after the other, each by itself in the scissor rectangle;
-/// once for all where nobody watches. The first part is small, whatever earlier passes took: more
-/// lights can make this one a thousand times as slow. Throws what check_interrupt() throws; then
-/// the scissor test is still on.
+/// Draws a slow pass in short parts where its thread's work is watched: between them the pass can
+/// be cancelled, and other contexts of a driver that draws on the CPU can work. Calls `draw` for
+/// one part of the rows after the other, each with its own scissor rectangle; once for all rows
+/// where the work is not watched. The first part is small in every pass: with more lights a pass
+/// can take a thousand times as long as the one before. Passes exceptions of check_interrupt() on;
+/// the scissor test then is still on.
 template <typename Draw>
 void draw_in_parts(int width, int height, Draw draw) {
     constexpr double kPartSeconds = 0.1;

@@ -5,11 +5,11 @@
 
 namespace kilolux {
 
-/// The pipeline state of every pass of ours while it lives: image row 0 is row 0 of the
-/// framebuffer, depth runs from 1 (near) to 0 (far), the greater wins, back faces are culled,
-/// sRGB attachments encode. Afterwards that state is OpenGL's initial one. The viewport and the
-/// bindings of textures, uniform and storage blocks stay as the pass left them: whoever shares the
-/// context sets its own.
+/// Sets the pipeline state of all passes while it lives: image row 0 is row 0 of the framebuffer,
+/// depth runs from 1 (near) to 0 (far), the greater wins, back faces are culled, sRGB attachments
+/// encode. The destructor restores OpenGL's initial state. The viewport and the bindings of
+/// textures, uniform and storage blocks keep the pass's values: callers that share the context must
+/// set their own.
 class RasterState {
  public:
     RasterState(GLuint framebuffer, int width, int height) {

@@ -6,7 +6,7 @@ namespace {
 
 constexpr GLint kDrawnInstance = 0;  // uniform of scene.glsl
 
-// Of a surface that blends, the far side comes first.
+// Draws the far side of a surface that blends first.
 void draw_faces(const GpuScene& scene, std::size_t mesh) {
     const Material& material = scene.material_of_mesh(mesh);
     if (material.double_sided && material.alpha_mode != AlphaMode::blend) {

@@ -18,20 +18,19 @@ struct ScenePass {
     std::string fragment;   // file of the shader
     Defines defines{};      // of every variant, beside surface_macros()
     uint uses = ~0u;        // textures that it reads, bits 1 << USE_*
-    bool coverage = false;  // only where surfaces are
+    bool coverage = false;  // only coverage is drawn
     bool blended = false;   // the materials that blend, or those that do not
 };
 
-/// What a pass writes that only draws where surfaces are; depth in any case.
+/// The output of a pass that only draws coverage; depth in any case.
 enum class Coverage { depth, ids, count };
 ScenePass coverage_pass(Coverage writes);
 
-/// What a pass draws with: `view` is the picture's, perhaps with rows of a band, and `camera` sees
-/// what the target holds.
+/// The camera's row of a pass: `view` is the picture's, perhaps with rows of a band, and `camera`
+/// sees the contents of the target.
 CameraRow camera_row(const Camera& camera, const View& view, int width, int height);
 
-/// The variants of one fragment shader that a scene's meshes need; all are compiled when this is
-/// made.
+/// The variants of one fragment shader that a scene's meshes need; the constructor compiles them.
 class ScenePrograms {
  public:
     /// The GpuScene must outlive this.
@@ -39,7 +38,7 @@ class ScenePrograms {
 
     std::size_t size() const { return programs_.size(); }
 
-    /// Draws in the given order with the current framebuffer and state.
+    /// Draws the instances in the given order with the current framebuffer and state.
     void draw(std::span<const Draw> draws, const CameraRow& camera) const;
 
  private:

@@ -29,7 +29,7 @@ class SolidPass {
     void draw(const Camera& camera, int width, int height, const OpenTiles* open = nullptr,
               DrawOrder order = DrawOrder::front_to_back);
 
-    /// Where the latest draw() went. Another size makes new targets.
+    /// The targets of the latest draw(). Another size makes new targets.
     const GBufferTargets& targets() const { return *targets_; }
 
     /// The instances of the latest draw(), in its order.
@@ -63,7 +63,7 @@ class GeometryPass : public SolidPass {
 };
 
 /// Counts the fragments that the G-buffer pass shades and keeps at each pixel: those that were
-/// nearest when they came and passed the alpha mask.
+/// nearest when they were drawn and passed the alpha mask.
 class OverdrawPass : public SolidPass {
  public:
     explicit OverdrawPass(const GpuScene& scene);

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# Included by ctest: adds its entries for PROGRAM, a Google Test program, from LIST, a file made anew when PROGRAM is
-# newer. An entry is the cases whose full names begin alike: with what the regular expression ENTRY matches. What
-# follows the name's PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry. Entries that the regular
-# expression UNIT matches also have the label `unit`; one whose name matches SERIAL runs alone.
+# Included by ctest: adds its entries for PROGRAM, a Google Test program, from LIST, a file that is written again when PROGRAM is newer. An
+# entry holds the cases of which the regular expression ENTRY matches the same beginning of the full name. The part of an entry's name after
+# PREFIX is the program's --gtest_filter. PROPERTIES are those of each entry. Entries that the regular expression UNIT matches also have the
+# label `unit`; one whose name matches SERIAL runs alone.
 cmake_minimum_required(VERSION 3.22)
 
 if(NOT EXISTS ${PROGRAM})
@@ -13,7 +13,7 @@ endif()
 # The full names of the program's cases.
 function(kilolux_cases program out)
   execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX REPLACE " *#[^\n]*" "" lines "${lines}")  # what parameters print as
+  string(REGEX REPLACE " *#[^\n]*" "" lines "${lines}")  # the texts of parameters
   string(REGEX MATCHALL "[^\n]+" lines "${lines}")
   set(cases "")
   foreach(line IN LISTS lines)
@@ -26,7 +26,7 @@ function(kilolux_cases program out)
   set(${out} "${cases}" PARENT_SCOPE)
 endfunction()
 
-# The filters of the entries that hold them.
+# The filters of the entries.
 function(kilolux_filters cases entry out)
   set(filters "")
   foreach(case IN LISTS cases)
@@ -43,7 +43,7 @@ function(kilolux_filters cases entry out)
   set(${out} "${filters}" PARENT_SCOPE)
 endfunction()
 
-# An entry is skipped when all of its cases are. Google Test lists those that were skipped last, unless one failed.
+# An entry is skipped when all of its cases are. Google Test lists the skipped cases last, unless one failed.
 set(skipped "\\[  PASSED  \\] 0 tests\\.\n+(\\[  SKIPPED \\][^\n]*\n+)+$")
 
 if(NOT EXISTS ${LIST} OR ${PROGRAM} IS_NEWER_THAN ${LIST} OR ${CMAKE_CURRENT_LIST_FILE} IS_NEWER_THAN ${LIST}

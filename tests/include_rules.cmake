@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.22)
-# Who may include whom. Includes point down only: ROOT's files are checked against this table.
-# A room is a folder with what is below it, unless that is a room of its own.
+# Which rooms may include which. Includes point down only: ROOT's files are checked against this table. A room is a folder with the folders
+# below it, unless they are rooms of their own.
 #   cmake -DROOT=<source folder> -P tests/include_rules.cmake
 set(allowed_kernels/shared kernels/shared)
 set(allowed_kernels kernels)
@@ -45,7 +45,7 @@ function(complain file what)
   message(SEND_ERROR "${file}: ${what}")
 endfunction()
 
-# The room that a folder belongs to: the longest that it lies in.
+# The room that a folder belongs to: the longest that contains it.
 function(room_of folder out)
   set(found "")
   foreach(room IN LISTS rooms)

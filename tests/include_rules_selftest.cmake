@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.22)
-# The include rules must catch what they forbid: each line below breaks one, in a tree of its own.
+# The include rules must report each violation: each line below breaks one rule, in a tree of its own.
 #   cmake -DRULES=<include_rules.cmake> -DWORK=<empty folder> -P tests/include_rules_selftest.cmake
 function(expect_red name file line)
   file(REMOVE_RECURSE ${WORK})

@@ -20,7 +20,7 @@ fs::path folder_of(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-// A rename onto a link would replace the link: its target instead, also where that is not there.
+// Renaming onto a link would replace the link: returns the link's target, which need not exist.
 fs::path target_of(fs::path file) {
     constexpr int kMostLinks = 40;  // as Linux follows (path_resolution(7))
     std::error_code error;
@@ -71,7 +71,7 @@ void AtomicFile::open_beside(FileAccess access) {
         const fs::path name = folder_of(file_) / (".kilolux-" + std::to_string(::getpid()) + "-" +
                                                   std::to_string(attempt) + ".part");
         const int number = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (number < 0 && errno == EEXIST) continue;  // of another thread or machine
+        if (number < 0 && errno == EEXIST) continue;  // another thread or machine has this name
         out_.emplace(number, file_);
         temporary_ = name;
         set_unfinished_file(name);

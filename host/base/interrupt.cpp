@@ -62,9 +62,9 @@ void take_signals(const sigset_t& signals) {
 
 }  // namespace
 
-// The signals are blocked in every thread, and one thread waits for them. A handler would not do:
-// LLVM, in the OpenCL compiler, puts its own in the place of any other, which removes the files
-// that are being compiled, and the compiler then reports that they are missing.
+// Blocks the signals in every thread and lets one thread wait for them. A handler would not do:
+// LLVM, in the OpenCL compiler, replaces it by its own, which removes the files that are being
+// compiled, and the compiler then reports that they are missing.
 void catch_signals() {
     state().requested = false;
     for (const int number : {SIGXFSZ, SIGPIPE}) signal(number, SIG_IGN);

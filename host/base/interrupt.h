@@ -12,7 +12,7 @@ namespace kilolux {
 /// becomes an error of write() instead of a signal. Called before other threads are started.
 void catch_signals();
 
-/// Whether a signal has asked for the end. What fails from then on is taken to fail because of it.
+/// Whether a signal has asked for the end. Later failures are taken for its effect.
 bool interrupt_requested();
 
 /// Called between the parts of long work. Throws Interrupted once a signal has asked for the end,
@@ -41,8 +41,8 @@ class WorkWatch {
     WorkWatch* outer_;
 };
 
-/// Names the file that a killing signal must remove, which exists; an empty path: none. One at a
-/// time. The signal removes it only while that name still means the same file.
+/// Names the existing file that a killing signal must remove; an empty path names none. There is
+/// one such file at a time. The signal removes it only while the name still means the same file.
 void set_unfinished_file(const std::filesystem::path& file);
 
 }  // namespace kilolux

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// Rounding of matrices that were float32.
+// Allows for the rounding of matrices that were computed in float32.
 constexpr double kRounding = 1e-4;
 
 struct Reader {
@@ -21,7 +21,7 @@ struct Reader {
 
 [[noreturn]] void refuse(const std::string& why) { throw Error("make_view: " + why); }
 
-// One line for what no check of a sum would find: NaN in elements that are only copied.
+// Finds NaN in elements that are only copied, which no check of a sum would find.
 void check_numbers(const ViewMatrices& matrices) {
     const std::string size = std::to_string(matrices.width) + "x" + std::to_string(matrices.height);
     if (matrices.width == 0 || matrices.height == 0) refuse("a picture of " + size + " pixels");

@@ -11,7 +11,8 @@
 
 namespace kilolux {
 
-/// What a scene has that not every scene has. Kernels, shaders and G-buffer leave out the rest.
+/// Features that only some scenes have. Kernels, shaders and the G-buffer leave out those that a
+/// scene lacks.
 struct SceneFeatures {
     bool point_lights = false;
     bool spot_lights = false;
@@ -45,7 +46,8 @@ struct SceneFeature {
 
 std::span<const SceneFeature> scene_feature_table();
 
-/// The table's macros with their values, and what is not the usual number, for both languages.
+/// Macros and values for both languages: the table's rows, and numbers that differ from their
+/// default.
 std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatures& features);
 
 }  // namespace kilolux

@@ -20,8 +20,8 @@ std::vector<std::string> embedded_paths(std::string_view prefix);
 std::string kernel_path(std::string_view stem);
 
 /// A source with its #include "..." lines replaced by the files' texts, and #line so that a
-/// compiler's message names the file and line. A file is there once, or wherever it is included
-/// until an #include stands outside of any #if: its include guard does the rest.
+/// compiler's message names the file and line. Each file appears once. Only where an #if may leave
+/// a file out does it appear again at later #includes; its include guard then drops the repeats.
 struct SplicedSource {
     std::string text;
     std::vector<std::string> files;  // in order of appearance; GLSL's #line numbers index this

@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-/// What of surfaces is compiled into kernels and shaders that interpolate them.
+/// Surface features that are compiled into kernels and shaders that interpolate surfaces.
 struct SurfaceFeatures {
     uint texture_uses = 0;  // bits 1 << USE_*
     bool texcoord0 = false;
@@ -19,7 +19,7 @@ struct SurfaceFeatures {
     bool wraps = false;         // other than repeat
     bool uv_transform = false;  // KHR_texture_transform
     bool masks = false;         // cut by alpha
-    bool coverage = false;      // only where they are: no normals
+    bool coverage = false;      // only their coverage is needed: no normals
     int anisotropy = 1;         // samples along a footprint's longer side at most
     auto operator<=>(const SurfaceFeatures&) const = default;
 };

@@ -11,7 +11,7 @@
 
 namespace kilolux {
 
-/// A new folder with a name of its own, removed with all that is in it at the end.
+/// A new folder with a unique name; the destructor removes it with its contents.
 class TemporaryFolder {
  public:
     /// Throws Error with the system's reason.

@@ -35,7 +35,7 @@ std::optional<std::uint64_t> count_of(std::string_view text) {
     if (text.ends_with('M')) unit = 1e6;
     if (unit > 1.0) text.remove_suffix(1);
     const double value = unit * number_of<double>(text).value_or(-1.0);
-    // As far as a double holds every whole number.
+    // A double holds every whole number up to 2^53.
     const bool whole = value >= 0.0 && value <= 0x1p53 && value == std::floor(value);
     return whole ? std::optional(static_cast<std::uint64_t>(value)) : std::nullopt;
 }

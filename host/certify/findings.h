@@ -16,7 +16,7 @@ struct Worst {
     std::uint64_t checked = 0;  // values compared
     std::string where;
 
-    /// Takes an error into account. `place()` gives the text; called only for a new worst.
+    /// Adds an error. `place()` gives the text; it is called only for a new worst.
     template <typename Place>
     void add(double error, Place&& place) {
         ++checked;
@@ -26,7 +26,7 @@ struct Worst {
     }
 };
 
-/// One thing that a case measured: its worst value, and what that may be at most.
+/// One quantity that a case measured: its worst value and its limit.
 struct Finding : Worst {
     std::string what;    // "missed lights", "|d|/max(r,E)"
     double limit = 0.0;  // infinite: reported, not judged
@@ -38,12 +38,12 @@ class Findings {
  public:
     void at_most(std::string_view what, const Worst& worst, double limit);
     void at_most(std::string_view what, double value, double limit, std::string_view where = {});
-    /// `count` of `of` values are wrong; none may be.
+    /// Records that `count` of `of` values are wrong; none may be.
     void none(std::string_view what, std::uint64_t count, std::uint64_t of,
               std::string_view where = {});
-    /// A condition without a number.
+    /// Records a condition without a number.
     void require(std::string_view what, bool holds, std::string_view where = {});
-    /// Reported without a limit.
+    /// Records a value that has no limit.
     void report(std::string_view what, double value);
     /// Fails a case that tries too little: `count` must be at least `least`.
     void at_least(std::string_view what, std::uint64_t count, std::uint64_t least);

@@ -35,7 +35,7 @@ struct HardCaseRow {
 };
 
 /// Runs every case at every lane width, one after the other. A case that throws fails with the
-/// error's text. Calls `step` after each case at each width; what that throws comes out.
+/// error's text. Calls `step` after each case at each width; exceptions of `step` are passed on.
 std::vector<HardCaseRow> run_hard_cases(const Gpu& gpu, std::span<const HardCase> cases,
                                         std::span<const int> lanes,
                                         const std::function<void()>& step);

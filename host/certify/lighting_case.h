@@ -14,7 +14,7 @@ namespace kilolux {
 
 inline constexpr double kUlp = 0x1p-24;  // u: half a unit in the last place of 1
 
-/// What the lighting kernels are given: a G-buffer made in memory, a grid and lights.
+/// The input of the lighting kernels: a G-buffer made in memory, a grid and lights.
 struct LightingCase {
     KernelFeatures features;
     GridRequest request{6, 4, 4, 0.5f, 50.0f, 0.0f};
@@ -31,7 +31,7 @@ LightingCase noise_case(const ViewShape& shape, const DepthOf& depth,
 /// Every feature: any light, metals, emission and occlusion.
 KernelFeatures every_feature(int shading);
 
-/// Leaves only light from lights: no ambient, no emission. The case has a material plane.
+/// Leaves light from lights only: no ambient, no emission. The case has a material plane.
 void put_out_surfaces(LightingCase& input);
 
 /// A lit dielectric of albedo and roughness 0.5.
@@ -42,7 +42,7 @@ SurfaceSample grey_surface(const glm::dvec3& position, const glm::dvec3& normal 
 /// the distance. Layout `full` with material and occlusion planes; view space is world space.
 LightingCase surface_case(std::span<const SurfaceSample> surfaces, int shading, uint width = 16);
 
-/// What the device made of a case.
+/// The device's results for a case.
 struct DeviceResult {
     ClusterGrid grid{};
     Planes planes;                                     // decoded

@@ -10,8 +10,8 @@
 
 namespace kilolux {
 
-/// The OpenGL that a case compares the device with, current. Where there is none the findings say
-/// so, and the device alone is certified.
+/// Makes the OpenGL context current that a case compares the device with. Without OpenGL the
+/// findings say so, and the device alone is certified.
 inline std::optional<GlContext> opengl_beside(Findings& findings) {
     try {
         std::optional<GlContext> context(GlContext::headless());

@@ -159,7 +159,7 @@ ShadowScenario spheres_scenario() {
 ShadowScenario sheet_scenario() {
     Scene scene = shadow_stage();
     Mesh sheet;
-    // Of blunt triangles, whose planes float32 knows least.
+    // Made of blunt triangles, whose planes float32 knows least.
     constexpr std::uint32_t kStrips = 200;
     for (std::uint32_t i = 0; i <= kStrips; ++i) {
         const float z = -5.0f + 0.05f * static_cast<float>(i);

@@ -21,8 +21,8 @@ struct TriangleMesh {
 Scene scene_of_triangles(const TriangleMesh& mesh,
                          const glm::dmat4& world_from_object = glm::dmat4(1.0));
 
-/// How many of a scene_of_triangles()' triangles cover each pixel, whatever hides them. Draws them
-/// one by one.
+/// How many of a scene_of_triangles()' triangles cover each pixel, hidden or not. Draws them one by
+/// one.
 std::vector<int> triangle_coverage(const Gpu& gpu, const Scene& scene, const Camera& camera,
                                    int width, int height);
 

@@ -44,7 +44,7 @@ const cl::Buffer& GrowingBuffer::reserve(std::size_t bytes, std::size_t slack) {
         try {
             allocate(bytes + slack);
             return buffer_;
-        } catch (const Error&) {  // without slack, then
+        } catch (const Error&) {  // retry without slack
         }
     }
     if (const std::string why = refusal(bytes); !why.empty()) throw Error(why);

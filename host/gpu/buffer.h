@@ -43,7 +43,7 @@ class DeviceArray {
     DeviceArray(cl::Buffer buffer, std::size_t count,
                 std::shared_ptr<const BufferCharge> charge = {})
         : buffer_(std::move(buffer)), count_(count), charge_(std::move(charge)) {}
-    /// A caller's own buffer, as large as it is.
+    /// The whole of a caller's own buffer.
     DeviceArray(cl::Buffer buffer) : buffer_(std::move(buffer)) {
         if (buffer_()) count_ = buffer_.getInfo<CL_MEM_SIZE>() / sizeof(T);
     }
@@ -117,7 +117,7 @@ void upload(const Gpu& gpu, const cl::Buffer& buffer, std::span<const T> values)
         gpu.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size_bytes(), values.data());
 }
 
-/// The same without waiting: `values` must stay as they are until the event.
+/// The same without waiting: `values` must not change before the event.
 template <typename T>
 cl::Event start_upload(const Gpu& gpu, const cl::Buffer& buffer, const std::vector<T>& values) {
     cl::Event done;

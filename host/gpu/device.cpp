@@ -59,15 +59,15 @@ bool is_gpu(const cl::Device& device) {
     return (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
 }
 
-// The host's own processor, unless KILOLUX_DEVICE_KIND=gpu takes it for a device that has its own
-// memory: tests of what such devices need.
+// True for the host's own processor. Tests set KILOLUX_DEVICE_KIND=gpu to treat it as a device that
+// has its own memory.
 bool shares_host_memory(const cl::Device& device) {
     const char* kind = std::getenv("KILOLUX_DEVICE_KIND");
     if (kind != nullptr && std::string_view(kind) == "gpu") return false;
     return (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0;
 }
 
-// Drivers' threads are those of the process that started them.
+// A forked child has none of the driver's threads.
 void refuse_after_fork() {
     static const pid_t first = ::getpid();
     if (::getpid() == first) return;

@@ -12,14 +12,14 @@
 
 namespace kilolux {
 
-/// What an OpenCL device says of itself.
+/// Properties of an OpenCL device.
 struct DeviceInfo {
     std::string name;
     std::string version;  // CL_DEVICE_VERSION
     std::string driver;
     std::string platform;
     bool is_cpu = false;
-    int vector_width = 1;  // floats of a CPU's vector register; of a GPU's FV as it is built in
+    int vector_width = 1;  // floats of a CPU's vector register; on GPUs the built-in width of FV
     int lane_width = 1;    // floats that a kernel's FV holds: the built-in choice, or the caller's
     int compute_units = 1;
     int max_work_group = 1;         // work-items of a work-group
@@ -55,7 +55,7 @@ struct Gpu {
     cl::CommandQueue queue;
     DeviceInfo info;
     std::shared_ptr<ProgramCache> programs;
-    std::shared_ptr<MemoryBudget> budget;  // of GrowingBuffers; none: what the device has
+    std::shared_ptr<MemoryBudget> budget;  // bounds GrowingBuffers; null: only the device does
     bool checks_arguments = false;  // kernels compare their arguments by name and type: for tests
 };
 

@@ -143,7 +143,7 @@ fs::path cache_folder() {
 }
 
 std::string read_cache_file(const fs::path& file, std::size_t most_bytes) {
-    // Neither through a link nor waiting for a pipe's other end.
+    // Follows no link, and does not wait for the other end of a pipe.
     const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) return {};
     std::string text =

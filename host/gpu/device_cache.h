@@ -36,9 +36,9 @@ void write_cache_file(const std::filesystem::path& file, std::string_view bytes)
 /// folder.
 std::filesystem::path device_cache_file(const DeviceInfo& device, CacheKind kind);
 
-/// The device's entry; none when there is no whole, unharmed entry of this kind, version and
-/// device that belongs to this user and only this user may write. What cannot be used is said with
-/// --verbose, and made anew by the caller.
+/// The device's entry; none when there is no whole, unharmed entry of this kind, version and device
+/// that belongs to this user and only this user may write. --verbose reports an entry that cannot
+/// be used; the caller makes a new one.
 std::optional<CacheValues> read_device_cache(const DeviceInfo& device, CacheKind kind);
 
 /// Writes the device's entry beside its place and renames it, readable by its owner only. Numbers

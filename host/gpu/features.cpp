@@ -42,11 +42,11 @@ Tuning default_tuning(const DeviceInfo& device) {
     Tuning tuning;
     const int columns = std::max(FINE_TILE / device.lane_width, 1);
     if (device.is_cpu) {
-        // A tile's rows meet in the caches: a sixth less than row by row. With all 16 a thread's
-        // share is too large to be even on many cores.
+        // Eight rows of a tile share cache lines: shading takes a sixth less than row by row. With
+        // all 16 a thread's share is too coarse to balance on many cores.
         tuning.shade_rows = std::max(group_of(8 * columns, device) / columns, 1);
-        // With few lights pixels are waited for longer than they are shaded. Oclgrind and rusticl's
-        // SPIR-V translator know no such instruction; the latter ends the process.
+        // With few lights, loading pixels takes longer than shading them. Oclgrind and rusticl's
+        // SPIR-V translator do not know the prefetch instruction; the latter ends the process.
         tuning.shade_prefetch = device.platform == "Portable Computing Language" ? 1 : 0;
         tuning.cull_chunks = 16 * device.compute_units;
         tuning.light_group = group_of(16, device);

@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// What is compiled into the kernels: the scene plan's device half. What a scene lacks is not
-/// there.
+/// Features that are compiled into the kernels: the scene plan's device half. Those that the scene
+/// lacks are left out.
 struct KernelFeatures : SceneFeatures {
     int shading = 0;  // SHADING_*
     uint gbuffer = GBUFFER_PACKED;
@@ -18,7 +18,7 @@ struct KernelFeatures : SceneFeatures {
     bool native_math = false;        // native_sqrt, native_rsqrt, native_recip
     bool half_light_colors = false;
     bool sampled_shadows = false;  // with `shadows`: of drawn lights only
-    bool light_tree = false;       // Tails::tree, and lights that are for it
+    bool light_tree = false;       // Tails::tree, and the scene has lights for the tree
     float tree_share = 0.0f;       // with light_tree: error of a node, see tree_cut.h
     bool operator==(const KernelFeatures&) const = default;
 };
@@ -39,15 +39,15 @@ struct Tuning {
                                // resolve_surfaces for texels; 0: they do not
     int cull_group = 1;        // work-items that share a light's clusters
     int cull_chunks = 8;       // contiguous chunks of lights, a work-group each
-    int most_cull_chunks = 0;  // with many lights up to so many, where that is more
+    int most_cull_chunks = 0;  // the same with many lights, where that is more
     int refine_group = 1;      // work-items that share a tile's lists
     int prefix_group = 1;      // work-items of a block of the prefix sum
     int prefix_per_item = 16384;
     int tile_group = 1;    // work-items that share a tile's pixels
     int light_group = 1;   // work-items of prepare_lights, build_clusters and other maps
     int raster_group = 1;  // work-items that share a tile's triangles
-    // Of triangles' tiles, powers of two of at least 16 [pixel]. With raster_group the width is
-    // that of large pictures.
+    // Size of triangles' tiles: powers of two of at least 16 [pixel]. With raster_group the width
+    // is that of large pictures.
     int raster_tile_width = 64;
     int raster_tile_height = 64;
     int geometry = 0;      // what --geometry auto is: 0 OpenGL's ids, 1 OpenCL's

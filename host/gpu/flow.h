@@ -26,7 +26,7 @@ struct GBuffer {
     DeviceArray<std::byte> bytes;
     GBufferLayout layout{};
     View view{};
-    std::uint64_t version = 0;  // the same only where the planes and the view are; 0: not known
+    std::uint64_t version = 0;  // equal only for equal planes and view; 0: unknown
 
     void each(auto&& set) const {  // GBUFFER_ARGS
         set("gbuffer", bytes);
@@ -51,7 +51,7 @@ struct LightInput {
     uint directional_count = 0;
     ProfileInput profiles{};    // world axes
     uint seed = 0;              // of drawn ranges, see light_transform.h; 0: none is drawn
-    std::uint64_t version = 0;  // the same only where the lights are; 0: not known
+    std::uint64_t version = 0;  // equal only for equal lights; 0: unknown
     // With KernelFeatures::light_tree, lights that are in no coarse list: the nodes of a tree.
     uint node_count = 0;
     DeviceArray<TreeNode> nodes{};  // [node_count]
@@ -155,13 +155,13 @@ struct RefinedLists {
     }
 };
 
-/// Of two halves of the samples, those that a fine tile's mean ends with; 0 while it takes more. A
-/// tile where both have ended is done.
+/// The sample counts at which the two halves of a fine tile's samples stopped; 0: not yet. A tile
+/// is done when both have stopped.
 struct TileCounts {
     DeviceArray<uint> fixed;  // [2][tile_count]
 };
 
-/// What a frame's pixels are lit by.
+/// What shading a frame's pixels reads.
 struct LitPixels {
     GBuffer gbuffer;
     PreparedLights lights;
@@ -179,7 +179,7 @@ struct LitPixels {
 /// Linear HDR radiance as three planes.
 struct Radiance {
     static constexpr std::size_t kPixelBytes = 3 * sizeof(float);
-    DeviceArray<float> planes;  // [3][height][stride]; none where it was shaded to a DisplayTarget
+    DeviceArray<float> planes;  // [3][height][stride]; empty where shading wrote to a DisplayTarget
     View view{};
 };
 

@@ -11,15 +11,16 @@ struct CommandSpan {
     std::int64_t queued, start, end;
 };
 
-/// What the host did under a stage's name, on the same clock [ns].
+/// Host work under a stage's name, on the same clock [ns].
 struct HostSpan {
     std::int64_t start, end;
 };
 
 /// How long a device idled between its commands [ns].
 struct IdleTime {
-    std::int64_t launch = 0;   // the next command was enqueued
-    std::int64_t enqueue = 0;  // it was not yet; without what the host spans tell
+    std::int64_t launch = 0;  // although the next command was enqueued
+    std::int64_t enqueue =
+        0;  // before the next command was enqueued, without the time of host spans
 };
 
 /// Spans in any order; host spans do not overlap each other.

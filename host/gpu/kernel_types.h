@@ -21,7 +21,7 @@ constexpr std::string_view name_of_type() {
     return scope == std::string_view::npos ? text : text.substr(scope + 2);
 }
 
-/// What kernels call a T; empty: a buffer of it may hold anything.
+/// The type name in kernels that matches T; empty: a buffer of T matches any element type.
 template <typename T>
 inline constexpr std::string_view kKernelType = name_of_type<T>();
 template <>

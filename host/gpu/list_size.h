@@ -12,8 +12,8 @@ namespace kilolux {
 /// The most entries that 32-bit offsets address.
 inline constexpr uint kMostEntries = 0xfffffff0u;
 
-/// The number of a list's entries, which `entries` names, as 32 bits. Throws Error with the stage
-/// where offsets cannot address so many.
+/// `count` as 32 bits. Throws Error with the stage and `entries`, the name of the list's entries,
+/// where 32-bit offsets cannot address so many.
 inline uint checked_list_size(std::uint64_t count, std::string_view stage,
                               std::string_view entries) {
     if (count <= kMostEntries) return static_cast<uint>(count);

@@ -5,7 +5,7 @@
 
 namespace kilolux {
 
-/// What device buffers of one renderer may take together, and take [byte].
+/// The limit of the device buffers of one renderer together, and their present sum [byte].
 struct MemoryBudget {
     std::uint64_t limit = ~std::uint64_t{0};
     std::uint64_t used = 0;

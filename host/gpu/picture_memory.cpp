@@ -11,7 +11,7 @@ std::string size_text(std::size_t width, std::size_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// Empty: it has room.
+// Which room is missing; empty: none.
 std::string what_lacks(const cl::Memory& memory, const PictureMemory& need) {
     if (memory() == nullptr) return "there is none";
     const bool is_image = memory.getInfo<CL_MEM_TYPE>() == CL_MEM_OBJECT_IMAGE2D;

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// What a caller's own buffer or image of pixels must have room for.
+/// The room that a caller's own buffer or image of pixels must have.
 struct PictureMemory {
     uint width = 0, height = 0;  // [pixel]
     uint pitch = 0;              // of a buffer: pixels from a row to the next
@@ -16,7 +16,8 @@ struct PictureMemory {
     bool image = false;          // a 2D image
 };
 
-/// Throws Error, which begins with `name`, unless it has: kernels would go beyond it.
+/// Throws Error, which begins with `name`, where the memory is too small: kernels would write
+/// beyond it.
 void check_picture_memory(const std::string& name, const cl::Memory& memory,
                           const PictureMemory& need);
 

@@ -24,7 +24,7 @@ std::string environment(const char* name) {
     return value == nullptr ? "" : value;
 }
 
-// As pocl_cache.c chooses it.
+// PoCL's cache folder, by the rules of its pocl_cache.c.
 fs::path pocl_folder() {
     if (const std::string own = environment("POCL_CACHE_DIR"); !own.empty()) return own;
     if (const std::string cache = environment("XDG_CACHE_HOME"); !cache.empty()) {
@@ -57,7 +57,7 @@ void remove_private_folder() {
     fs::remove_all(private_folder, ignored);
 }
 
-// Returns why there is none.
+// Returns why there is none; empty: there is one.
 std::string use_private_folder() {
     std::error_code error;
     std::string name = (fs::temp_directory_path(error) / "kilolux-pocl-XXXXXX").string();
@@ -79,6 +79,8 @@ std::string prepared() {
         }
         ::setenv("PATH", (path.empty() ? "/usr/bin" : path + ":/usr/bin").c_str(), 1);
     }
+    // PoCL ends with an assertion where the variable is there but empty.
+    if (environment("POCL_CACHE_DIR").empty()) ::unsetenv("POCL_CACHE_DIR");
     const fs::path folder = pocl_folder();
     const std::string problem = cache_problem(folder);
     if (problem.empty()) return "";

@@ -28,7 +28,7 @@ KernelProgram build(const Gpu& gpu, const std::string& file, const std::string& 
     } catch (const cl::Error& error) {
         fail(error.err(), "the source was not taken");
     }
-    // Not program.build(): where there is no log, its error is that there is none.
+    // clBuildProgram() itself: where there is no log, program.build() reports only that.
     const int code =
         ::clBuildProgram(program(), 1, &gpu.device(), options.c_str(), nullptr, nullptr);
     if (code != CL_SUCCESS) fail(code, build_log(program, gpu.device));

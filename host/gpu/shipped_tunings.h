@@ -28,10 +28,10 @@ struct ShippedMatch {
 };
 
 /// The row of the device's platform, name and kind; else one of its class: of its platform, and on
-/// CPUs of its OpenCL version, which names the instructions that PoCL compiles for. Chunks of
-/// lights go with the number of compute units. None: no row matches. What it says of the geometry
-/// is not for others: OpenGL's triangles and OpenCL's differ at edges, so only a measurement here
-/// changes them.
+/// CPUs of its OpenCL version, which names the instructions that PoCL compiles for. The number of
+/// chunks of lights is scaled by compute units. None: no row matches. The geometry of another
+/// device's row is not taken: OpenGL's triangles and OpenCL's differ at edges, so only a
+/// measurement here changes them.
 std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
                                            std::span<const ShippedTuning> table);
 

@@ -7,10 +7,10 @@
 
 namespace kilolux {
 
-/// What a frame's stages had to work on.
+/// Quantities of work of a frame's stages.
 struct StageCounts {
     double pixels = 0.0;        // of the image
-    double drawn_pixels = 0.0;  // that are not background
+    double drawn_pixels = 0.0;  // that show a surface
     double lights = 0.0;        // point and spot
     double directional_lights = 0.0;
     double tiles = 0.0;          // fine tiles
@@ -50,8 +50,8 @@ inline constexpr double kWordBytes = sizeof(uint);      // a counter, an offset,
 inline constexpr double kRowBytes = 4 * sizeof(float);  // a light's bound, a shadow ray's origin
 
 /// Operations of one lane: fma counts as one; comparisons, selections, conversions and bit
-/// operations count one each; negations, loads, stores, loop counters and what does not change in
-/// the loop count nothing.
+/// operations count one each; negations, loads, stores, loop counters and loop invariants count
+/// nothing.
 struct InstructionCounts {
     double total = 0.0;  // special functions included, as one each
     double rsqrts = 0.0;
@@ -77,12 +77,12 @@ struct StageWork {
 /// The part of a frame that a stage belongs to: tables sum by it.
 enum class StageGroup { lights, surfaces, lists, shadows, shading, picture, host };
 
-/// A stage of a frame, declared beside what runs it. It stands for its name.
+/// A stage of a frame, declared beside what runs it. Converts to its name.
 struct StageInfo {
     std::string_view name;
     StageGroup group = StageGroup::picture;
     StageWork (*work)(const StageCounts& counts) = nullptr;  // null: it has no limit
-    bool opengl_copies = false;  // by ways that the measured limits do not bound
+    bool opengl_copies = false;  // OpenGL copies, on ways that the measured limits do not bound
 
     constexpr operator std::string_view() const { return name; }
 };

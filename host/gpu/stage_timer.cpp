@@ -47,7 +47,7 @@ std::vector<StageTimer::Time> StageTimer::take() {
     const Clock::time_point now = Clock::now();
     std::vector<Time> times;
     std::vector<CommandSpan> spans;
-    // From the device's clock to the host's: at least as much as the quickest record() tells.
+    // Offset from the device's clock to the host's: the least difference that a record() shows.
     std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
         Time time{entry.stage, 0.0};

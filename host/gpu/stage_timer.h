@@ -17,7 +17,7 @@ class StageTimer {
     /// Adds an event to a stage; a stage may have several. Call it when the command was enqueued.
     void record(std::string_view stage, const cl::Event& event);
 
-    /// The last `ms` of the host have a row of their own.
+    /// Records the last `ms` of the host as time of its own, not idle time.
     void record_host(double ms);
 
     struct Time {
@@ -32,7 +32,7 @@ class StageTimer {
     /// Between the last two take(), or from this object's beginning to the first: for how long the
     /// device idled although the next command was enqueued [ms].
     double launch_ms() const;
-    /// The same as long as none was, without the time that record_host() tells of [ms].
+    /// How long it idled because no command was enqueued, without the time of record_host() [ms].
     double enqueue_ms() const;
 
  private:
@@ -47,7 +47,7 @@ class StageTimer {
         std::vector<Recorded> events;
     };
     std::vector<Entry> entries_;
-    Clock::time_point since_ = Clock::now();  // idle time before it has been told
+    Clock::time_point since_ = Clock::now();  // start of the idle time that is not yet reported
     std::vector<HostSpan> host_;              // on Clock
     IdleTime idle_;
 };

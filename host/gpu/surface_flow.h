@@ -11,7 +11,7 @@
 /// What passes between the stages that make surfaces.
 namespace kilolux {
 
-/// What kernels that read surfaces are compiled with.
+/// Defines the macros of kernels that read surfaces.
 void define_surfaces(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning);
 
 /// A scene's surfaces on the device, as kernels/shared/surface_scene.h has them.
@@ -37,8 +37,8 @@ struct SurfaceBuffers {
     }
 };
 
-/// What casts shadows, in shadow space, as kernels/shared/shadow.h has it; and the materials and
-/// textures of what alpha cuts.
+/// Shadow casters in shadow space, laid out as in kernels/shared/shadow.h, and the materials and
+/// textures of those that alpha masks cut.
 struct ShadowCasters {
     DeviceArray<ShadowNode> nodes;  // 0: the root
     DeviceArray<float> triangles;   // [count][3][3]
@@ -57,13 +57,13 @@ struct ShadowCasters {
     }
 };
 
-/// What a frame's shadows are cast by, and where its pixels' rays end.
+/// The casters of a frame's shadows, and where its pixels' rays end.
 struct ShadowInput {
     ShadowCasters casters;
     ShadowView view{};
     DeviceArray<float> origins;  // [4][height][stride], see kernels/shadows/shadow_space.h
     // With KernelFeatures::sampled_shadows, see kernels/shadows/shadow_draw.h.
-    float rays = 0.0f;  // a pixel at most, on average
+    float rays = 0.0f;  // most rays a pixel, on average
     uint seed = 0;      // of the frame and sample
 
     void each(auto&& set) const {  // SHADOW_ARGS
@@ -73,7 +73,7 @@ struct ShadowInput {
     }
 };
 
-/// What sampled shadows are drawn by.
+/// The inputs of drawing sampled shadows.
 struct ShadowSamples {
     DeviceArray<float> whole;  // [3][height][stride]: radiance if all lights are seen
     float rays = 0.0f;         // see ShadowInput
@@ -86,10 +86,10 @@ struct ShadowSamples {
     }
 };
 
-/// What kernels that cast shadows are compiled with.
+/// Defines the macros of kernels that cast shadows.
 void define_casters(BuildOptions& options, const SurfaceFeatures& surfaces, const Tuning& tuning);
 
-/// Which pixels see which lights, as kernels/shadows/cast_shadows.h has it.
+/// Bits that say which pixels see which lights, laid out as in kernels/shadows/cast_shadows.h.
 struct ShadowWords {
     DeviceArray<uint> offsets;  // [tile_count + 1]
     DeviceArray<uint> words;
@@ -117,7 +117,7 @@ struct TriangleLists {
     }
 };
 
-/// What of the tiles is compiled into bin_triangles and raster_triangles.
+/// Defines the macros of bin_triangles and raster_triangles that describe the tiles.
 void define_tiles(BuildOptions& options, const Tuning& tuning);
 
 /// Tiles of a view.

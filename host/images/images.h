@@ -30,7 +30,7 @@ struct ImageChannel {
 
 using ImageAttribute = std::variant<int, std::string, glm::mat4, std::vector<float>>;
 
-/// What a file says beside its pixels.
+/// Size, channels and attributes of an image file.
 struct ImageLayout {
     int width = 0;                       // [pixel]
     int height = 0;                      // [pixel]

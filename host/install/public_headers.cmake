@@ -10,6 +10,13 @@ foreach(room IN LISTS ROOMS)
   list(APPEND headers ${found})
 endforeach()
 list(REMOVE_ITEM headers host/lighting/kilolux_c.h)
+# What kernels and shaders alone compile says so in its first lines.
+foreach(header IN LISTS headers)
+  file(STRINGS ${ROOT}/${header} first LIMIT_COUNT 3)
+  if(first MATCHES "for OpenCL C and GLSL")
+    list(REMOVE_ITEM headers ${header})
+  endif()
+endforeach()
 
 # Names that C++ has as types; OpenCL C and GLSL as macros.
 set(types FV IV UV VW MASK)

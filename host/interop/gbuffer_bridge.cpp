@@ -18,7 +18,7 @@ constexpr std::string_view kGbufferBridgeStage = "gbuffer_bridge";
 
 void wait_for(GLsync fence) {
     constexpr GLuint64 kSecond = 1'000'000'000;
-    constexpr int kMostSeconds = 600;  // no frame takes as long, a driver that hangs does
+    constexpr int kMostSeconds = 600;  // longer than any frame: the driver hangs
     GLenum status = GL_TIMEOUT_EXPIRED;
     for (int second = 0; status == GL_TIMEOUT_EXPIRED && second < kMostSeconds; ++second) {
         status = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond);
@@ -60,8 +60,8 @@ void GBufferBridge::make_staging(std::size_t bytes) {
     staging_ = std::move(staging);
 }
 
-// While OpenGL reads the next plane. OpenCL copies at the bus' rate only from memory that it pinned
-// itself; all cores bring the plane there.
+// Uploads a plane while OpenGL reads the next. OpenCL copies at the bus' rate only from memory that
+// it pinned itself; all cores copy the plane there.
 void GBufferBridge::upload(const PlaneCopy& copy) {
     constexpr std::size_t kPiece = std::size_t{1} << 20;  // [byte]
     const auto* from = static_cast<const std::byte*>(staging_->mapping) + copy.offset;
@@ -77,7 +77,7 @@ void GBufferBridge::upload(const PlaneCopy& copy) {
 void GBufferBridge::carry(const GBufferTargets& targets, std::vector<PlaneCopy> planes,
                           std::size_t bytes, const View& view, int first_row) {
     wait_for(Fence(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)).get());
-    const auto start = std::chrono::steady_clock::now();  // what came before was drawing
+    const auto start = std::chrono::steady_clock::now();  // time up to here was drawing
     if (!staging_ || staging_->bytes < bytes) make_staging(bytes);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, staging_->pixels.name());
     for (PlaneCopy& plane : planes) {

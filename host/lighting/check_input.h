@@ -5,8 +5,8 @@
 
 namespace kilolux {
 
-/// Throws Error where a buffer that is to be lit, or one of lights, is smaller than what is said to
-/// be in it: kernels would read beyond its end.
+/// Throws Error where a buffer of the G-buffer or of lights is smaller than its counts say: kernels
+/// would read beyond its end.
 void check_input(const GBuffer& gbuffer, const LightInput& lights);
 
 }  // namespace kilolux

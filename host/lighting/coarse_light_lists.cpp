@@ -16,7 +16,7 @@ CoarseLighting CoarseLightLists::run(const LightInput& input, const View& view,
     const StageTimer before = timer;
     CoarseLighting out = enqueue(input, view, grid, timer);
     while (!fits(pairs())) {
-        timer = before;  // without the lists that had no room
+        timer = before;  // drops the times of lists that had no room
         out = enqueue(input, view, grid, timer);
     }
     return out;

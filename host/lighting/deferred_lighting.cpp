@@ -30,7 +30,7 @@ Radiance DeferredLighting::light(const LightingInput& input, StageTimer& timer) 
     const StageTimer before = timer;
     Radiance radiance = enqueue(input, timer);
     while (!fits(timer)) {
-        timer = before;  // without lists that had no room
+        timer = before;  // drops the times of lists that had no room
         radiance = enqueue(input, timer);
     }
     return radiance;

@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// What a frame is lit from.
+/// The inputs of lighting a frame.
 struct LightingInput {
     GBuffer gbuffer;
     LightInput lights;
@@ -40,11 +40,11 @@ class DeferredLighting {
     /// until the next call. Throws Error as the stages do.
     Radiance enqueue(const LightingInput& input, StageTimer& timer);
 
-    /// False where the lists of the last enqueue() had no room: its results do not count, and the
+    /// False where the lists of the last enqueue() had no room: its results are invalid, and the
     /// next one makes room. Waits for the device.
     bool fits(StageTimer& timer);
 
-    /// Both until they fit; the timer gets the stages of the last time. Blocks.
+    /// Repeats both until the lists fit; the timer gets the stages of the last time. Blocks.
     Radiance light(const LightingInput& input, StageTimer& timer);
 
     /// Radiance that falls in from everywhere.
@@ -56,8 +56,8 @@ class DeferredLighting {
     /// Those of the last enqueue().
     const ListedLights& lists() const { return lists_; }
 
-    /// What it took to cast the last enqueue()'s shadows: see Visibility::count(). `input`: that of
-    /// the last enqueue(). Blocks.
+    /// Counts the work of casting the last enqueue()'s shadows: see Visibility::count(). `input`:
+    /// that of the last enqueue(). Blocks.
     ShadowCounts count_shadows(const LightingInput& input, CastShadows& counting);
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 thread_local std::string last_error;
 
-// Of what C hands over.
+// Checks an enumerator that C hands over.
 template <typename Enum>
 Enum checked(int value, int largest, const char* name) {
     if (value < 0 || value > largest) {
@@ -42,8 +42,8 @@ bool is_finite(std::span<const float> values) {
     return true;
 }
 
-// A direction of another program, whose length is 1 but for its rounding, perhaps to halves; none:
-// it has another length.
+// Normalises a caller's direction, whose length may differ from 1 by rounding, perhaps to halves;
+// empty for any other length.
 std::optional<float4> unit_of(const float (&v)[3], float w) {
     const float length = std::hypot(v[0], v[1], v[2]);
     if (!(std::abs(length - 1.0f) < 1e-2f)) return std::nullopt;  // NaN, too

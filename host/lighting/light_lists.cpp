@@ -21,7 +21,7 @@ ListedLights LightLists::run(const LightInput& input, const GBuffer& gbuffer,
                              const ClusterGrid& grid, StageTimer& timer) {
     const StageTimer before = timer;
     do {
-        timer = before;  // without lists that had no room
+        timer = before;  // drops the times of lists that had no room
         enqueue(input, gbuffer, grid, timer);
     } while (!fits(timer));
     return *made_;
@@ -83,7 +83,7 @@ void LightLists::grow() {
     }
 }
 
-// The last ones where pixels and grid are the same.
+// The last active clusters where pixels and grid are the same, else new ones.
 ActiveClusters LightLists::active_of(const GBuffer& gbuffer, const ClusterGrid& grid,
                                      StageTimer& timer) {
     const bool same_grid = std::memcmp(&grid, &binned_grid_, sizeof(grid)) == 0;

@@ -26,7 +26,7 @@ struct ListedLights {
     LitPixels at(const GBuffer& gbuffer) const { return {gbuffer, lights, clusters, refined}; }
 };
 
-/// What lists are of.
+/// The versions of the inputs that lists were made from.
 struct ListSource {
     std::uint64_t gbuffer = 0, lights = 0;  // versions; 0: not known
     uint seed = 0;                          // of drawn ranges
@@ -74,7 +74,8 @@ class LightLists {
     /// device: asked once a frame, when the caller has nothing more to enqueue.
     bool fits(StageTimer& timer);
 
-    /// Both until the lists are complete; the timer gets the stages of the last time. Blocks.
+    /// Repeats both until the lists are complete; the timer gets the stages of the last time.
+    /// Blocks.
     ListedLights run(const LightInput& input, const GBuffer& gbuffer, const ClusterGrid& grid,
                      StageTimer& timer);
 

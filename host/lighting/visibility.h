@@ -29,8 +29,8 @@ class Visibility {
     SeenLights enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                        const ShadowInput& shadows, StageTimer& timer);
 
-    /// What it took to cast `seen`, the last enqueue()'s, by `counting` kernels, which cast them
-    /// again. Blocks.
+    /// Counts the work of casting `seen`, the last enqueue()'s result, by casting it again with the
+    /// `counting` kernels. Blocks.
     ShadowCounts count(const ListedLights& lists, const GBuffer& gbuffer,
                        const ShadowInput& shadows, const SeenLights& seen, CastShadows& counting);
 
@@ -38,7 +38,7 @@ class Visibility {
     void set_ambient(float ambient);
 
  private:
-    // What the last enqueue() was of.
+    // The inputs of the last enqueue().
     struct Source {
         std::uint64_t lists = 0;
         float rays = 0.0f, ambient = 0.0f;  // of sampled shadows

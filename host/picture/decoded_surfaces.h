@@ -18,12 +18,12 @@ namespace kilolux {
 /// Mean of the counts that are not background's ~0; 0 if there are none.
 double mean_of_drawn(const std::vector<uint>& counts);
 
-/// What counts of lights say where nothing was drawn.
+/// The count of lights at background pixels.
 constexpr uint kBackground = ~0u;
 
 /// A decoded G-buffer on the host, with what is known of each pixel's lights.
 struct DecodedSurfaces {
-    /// Of a pixel at most, without the planes that only some AOVs have: surface and counts.
+    /// Bytes of a pixel at most, without planes that only some AOVs have: surface and counts.
     static constexpr std::size_t kPixelBytes =
         SURFACE_PLANES_WITH_SPECULAR * sizeof(float) + 2 * sizeof(uint);
 
@@ -44,7 +44,7 @@ struct DecodedSurfaces {
     bool specular = false;  // whether there are planes of the dielectrics' reflectance
     bool unlit = false;     // whether a roughness of 0 means an unlit surface
 
-    /// Of a plane, and of three from `plane` on, at an index within it.
+    /// A value of a plane, and of three planes from `plane` on, at an index within it.
     float at(std::size_t plane, std::size_t pixel) const {
         return planes[plane * view.stride * view.height + pixel];
     }
@@ -54,7 +54,7 @@ struct DecodedSurfaces {
     bool is_drawn(std::size_t pixel) const { return at(SURFACE_DEPTH, pixel) != 0.0f; }
 };
 
-/// What was shaded with what, on the host.
+/// The surfaces and lights of a picture that was shaded, on the host.
 struct LitSurfaces {
     DecodedSurfaces surfaces;
     std::vector<ShadeLight> lights;             // view space

@@ -60,13 +60,13 @@ struct FrameStats : PairCounts {
     std::uint64_t lights_rejected = 0;      // unusable: not finite, no range, no intensity
     std::uint64_t directional_lights = 0;   // of those used
     std::uint64_t lights_uploaded = 0;      // rows that the host sent to the device
-    std::uint64_t shadow_scenes_built = 0;  // hierarchies of what casts shadows
+    std::uint64_t shadow_scenes_built = 0;  // shadow hierarchies
     std::uint64_t zero_normals =
         0;  // vertices of the scene whose normal has no direction: drawn as +Z of the view
-    // That OpenCL draws; 0 where OpenGL does.
+    // Triangles that OpenCL draws; 0 where OpenGL does.
     std::uint64_t triangles = 0;       // of the instances in view
     std::uint64_t triangle_pairs = 0;  // of them and tiles of the picture
-    // What OpenCL makes surfaces of; 0: not counted.
+    // Work of making surfaces in OpenCL; 0: not counted.
     std::uint64_t seen_triangles = 0;   // that some pixel shows
     std::uint64_t texels = 0;           // read at least: four for a mip level of a texture
     std::uint32_t grid[3] = {0, 0, 0};  // tiles x, tiles y, slices
@@ -82,7 +82,7 @@ struct FrameStats : PairCounts {
     double frame_ms = 0.0;
 };
 
-/// Lights evaluated a drawn pixel; 0 without any.
+/// Lights evaluated at a pixel that shows a surface; 0 without any.
 inline double mean_list_length(const PairCounts& counts) {
     const auto pixels = static_cast<double>(counts.drawn_pixels);
     return pixels > 0.0 ? static_cast<double>(counts.evaluations) / pixels : 0.0;

@@ -22,7 +22,7 @@ void place_planes(std::vector<T>& whole, const std::vector<T>& band, const View&
     }
 }
 
-// Of the pixels drawn so far; below 0 is "not counted".
+// Mean over the pixels with a surface so far; below 0 is "not counted".
 double mean_of(double whole, double whole_pixels, double band, double band_pixels) {
     if (whole_pixels + band_pixels <= 0.0 || band < 0.0) return band;
     return (whole * whole_pixels + band * band_pixels) / (whole_pixels + band_pixels);

@@ -26,8 +26,8 @@ void append_layers(std::vector<Layer>& whole, std::vector<Layer>&& band, std::si
 /// Puts the rows of a band into the picture's surfaces, of `height` rows.
 void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height);
 
-/// Adds the counts of a band's lists to those of the bands above; what does not depend on the band
-/// is set, and means are weighted by the pixels drawn.
+/// Adds the counts of a band's lists to those of the bands above. Values that do not depend on the
+/// band are set; means are weighted by the pixels with a surface.
 void add_band(FrameStats& whole, const FrameStats& band);
 
 }  // namespace kilolux

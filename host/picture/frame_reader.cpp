@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-// Rows go to all cores: memory that is written for the first time is slow on one.
+// All cores copy rows: memory that is written for the first time is slow on one.
 
 void put_display(const std::byte* codes, const View& view, uint* pixels, std::size_t stride) {
     tbb::parallel_for(std::size_t{0}, std::size_t{view.height}, [&](std::size_t y) {
@@ -36,7 +36,7 @@ void put_light(const std::byte* light, const View& view, std::vector<float>& rgb
 
 }  // namespace
 
-// What is read into a place, which forgets what was read into it before.
+// The read into `place`; it replaces an earlier one into the same place.
 FrameReader::Staged& FrameReader::staged_for(const void* place) {
     auto found = std::ranges::find(staged_, place, &Staged::place);
     if (found == staged_.end())

@@ -15,7 +15,8 @@
 namespace kilolux {
 
 /// Brings bands of a frame from the device to the host, without waiting for the device: through
-/// pinned memory where the device has memory of its own. What is read twice is the later one.
+/// pinned memory where the device has memory of its own. A second read into the same place replaces
+/// the first.
 class FrameReader {
  public:
     explicit FrameReader(const Gpu& gpu) : gpu_(gpu) {}
@@ -29,15 +30,15 @@ class FrameReader {
     /// the whole frame.
     void read_light(const Radiance& radiance, std::vector<float>& rgb, StageTimer& timer);
 
-    /// Forgets what was read and not finished: that of a frame that failed.
+    /// Forgets reads that were not finished: those of a frame that failed.
     void reset();
 
-    /// Waits for the device; then all that was read is in its place, after so much of the host's
-    /// time [ms].
+    /// Waits for the device and puts everything that was read into its place. Returns the host's
+    /// share of the time [ms].
     double finish();
 
  private:
-    // A band's planes on their way, and what puts them into their place.
+    // A band's planes on their way, and the function that puts them into their place.
     struct Staged {
         explicit Staged(const Gpu& gpu) : pinned(gpu) {}
         PinnedMemory pinned;

@@ -33,16 +33,16 @@ const std::string& name_of(ViewKind view);
 /// Throws UsageError for an unknown name.
 ViewKind parse_view(std::string_view name);
 
-/// What a caller wants of a frame. Nothing else leaves the device.
+/// The results that a caller wants of a frame. Nothing else leaves the device.
 struct FrameRequest {
     bool display = true;            // Frame::display
     bool radiance = true;           // Frame::radiance
     bool bloomed = false;           // Frame::bloomed, where there is bloom
     bool counts = false;            // also k*, by one more pass
-    bool shadow_counts = false;     // also FrameStats::shadows, by casting them once more
+    bool shadow_counts = false;     // also FrameStats::shadows, by casting the shadows once more
     ViewKind view = ViewKind::lit;  // what Frame::display shows
     std::vector<std::string> aovs;  // Frame::aovs, see aov_names()
-    bool probes = false;            // pixels will be probed: surfaces with all they have
+    bool probes = false;            // pixels will be probed: surfaces keep all attributes
     bool operator==(const FrameRequest&) const = default;
 
     /// Whether surfaces or counts of single pixels are read.
@@ -51,7 +51,7 @@ struct FrameRequest {
     }
     bool pixels() const { return !aovs.empty() || view != ViewKind::lit; }
 
-    /// Whether what the lights do not need of a surface is wanted, too.
+    /// Whether attributes of surfaces are wanted that no light needs.
     bool whole_surfaces() const { return pixels() || probes; }
 };
 

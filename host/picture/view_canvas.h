@@ -33,7 +33,7 @@ DisplayColor heat_color(double t);
 /// A colour for a number, unlike those of the numbers beside it.
 DisplayColor id_color(std::uint32_t id);
 
-/// What a heat map's ends stand for.
+/// The values at the ends of a heat map.
 struct HeatScale {
     double low = 0.0;
     double high = 1.0;         // > low

@@ -28,7 +28,7 @@ DisplayColor color_of(const glm::dvec3& v) { return {code_of(v.x), code_of(v.y),
 using Paint = std::function<DisplayColor(const Pixel& pixel)>;
 using Magnitude = std::function<double(const Pixel& pixel)>;
 
-// Calls each(pixel) where something is drawn.
+// Calls each(pixel) for pixels that show a surface.
 template <typename Each>
 void for_each_drawn(const DecodedSurfaces& surfaces, const Each& each) {
     const View& view = surfaces.view;
@@ -40,7 +40,7 @@ void for_each_drawn(const DecodedSurfaces& surfaces, const Each& each) {
     }
 }
 
-// Paints what is drawn; the background stays black.
+// Paints the pixels that show a surface; the background stays black.
 Canvas painted(const ViewInput& input, const Paint& paint) {
     const View& view = input.pixels.view;
     Canvas canvas = make_canvas(static_cast<int>(view.width), static_cast<int>(view.height));
@@ -109,7 +109,7 @@ Canvas depth(const ViewInput& input) {
         return std::abs(double{input.pixels.at(SURFACE_DEPTH, p.index)});
     };
     const double farthest = std::max(largest(input, z), 1e-9);
-    // The least is farthest less the largest distance from it.
+    // The least value is the farthest depth less the largest distance from it.
     const double nearest =
         farthest - largest(input, [&](const Pixel& p) { return farthest - z(p); });
     const double low = std::max(nearest, farthest * 1e-6);
@@ -137,7 +137,7 @@ Canvas false_positives(const ViewInput& input) {
     });
 }
 
-// The share of the lights that a pixel faces within their range which something hides.
+// The hidden share of the lights that a pixel faces within their range.
 Canvas shadows(const ViewInput& input) {
     const DecodedSurfaces& pixels = input.pixels;
     if (pixels.seen.empty()) {

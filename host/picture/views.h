@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// What views are made of; each reads what it needs.
+/// The inputs of views; each view reads those that it needs.
 struct ViewInput {
     const DecodedSurfaces& pixels;
     const Camera& camera;

@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// A light's photometric web as the view has it, in double: what kernels' shares are checked by.
+/// A light's photometric web in view space, in double: the reference of the kernels' shares.
 struct WebInView {
     const PhotometricWeb* web = nullptr;  // of the scene, which outlives this; none: an even light
     glm::dvec3 down{0, 0, -1};            // unit, vertical angle 0
@@ -21,7 +21,7 @@ struct WebInView {
 /// The share of the web's peak that goes along a direction of any length.
 double share_towards(const WebInView& view, const glm::dvec3& direction);
 
-/// Of the rows that kernels shade with, whose tables follow each other as the scene's webs.
+/// The webs of the rows that kernels shade with. Their tables are in the order of the scene's webs.
 std::vector<WebInView> webs_in_view(std::span<const AimedProfile> rows, const Scene& scene);
 
 }  // namespace kilolux

@@ -102,7 +102,7 @@ std::vector<float> BandReader::overdraw(const Camera& camera, DrawOrder order) {
     return overdraw_->count(camera, context_.settings.width, context_.settings.height, order);
 }
 
-// For forward, lights times fragments shaded at a pixel.
+// For forward: lights times the fragments shaded at a pixel.
 std::vector<uint> BandReader::forward_evaluated(const LastSample& last,
                                                 const DecodedSurfaces& surfaces) {
     const View& view = surfaces.view;

@@ -22,8 +22,8 @@ struct LastSample {
     const Camera& camera;
 };
 
-/// Reads what is asked of a lit band: counts, AOVs, surfaces, single pixels. Kernels for it are
-/// built when first asked for. All functions block.
+/// Reads counts, AOVs, surfaces and single pixels of a lit band. Their kernels are built when first
+/// asked for. All functions block.
 class BandReader {
  public:
     explicit BandReader(RenderContext& context) : context_(context) {}
@@ -37,7 +37,7 @@ class BandReader {
     /// What was shaded, and with which lights. Throws Error for the forward renderers.
     LitSurfaces lit_surfaces(const LastSample& last);
 
-    /// What is known of a pixel; of its lights the indices, and whether they are seen.
+    /// What is known of a pixel; lights have only their index and whether they are seen.
     PixelProbe probe(const LastSample& last, int x, int y);
 
     /// Fragments that are shaded at each pixel.

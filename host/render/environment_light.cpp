@@ -38,7 +38,7 @@ void EnvironmentLight::set(const RenderContext& context) {
 }
 
 void EnvironmentLight::enqueue(const LitBand& band, StageTimer& timer) {
-    if (!band.surfaces.bytes.buffer()()) return;  // OpenGL drew over fill()
+    if (!band.surfaces.bytes.buffer()()) return;  // OpenGL drew over the picture of fill()
     if (reflections_) reflections_->enqueue(band.surfaces, band.light, timer);
     if (background_) background_->enqueue(band.surfaces, band.light, timer);
 }

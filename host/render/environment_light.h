@@ -11,11 +11,11 @@
 
 namespace kilolux {
 
-/// What an environment adds to lit surfaces: its reflections, and itself behind them.
+/// Adds an environment to lit surfaces: its reflections, and the environment behind them.
 class EnvironmentLight {
  public:
-    /// Takes up settings.background and settings.reflections where they changed. Throws Error; then
-    /// the one that failed stays as it was.
+    /// Takes over settings.background and settings.reflections where they changed. Throws Error;
+    /// the part that failed then keeps its former value.
     void set(const RenderContext& context);
 
     /// Adds both to a band of the deferred renderers. Enqueues only.

@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// What forward shading compiles in for a plan. `opaque`: see ForwardFeatures.
+/// The features that forward shading compiles in for a plan. `opaque`: see ForwardFeatures.
 ForwardFeatures forward_features(const ScenePlan& plan, bool clustered, bool opaque);
 
 /// The lights as forward passes take them; with `lists`, by coarse cluster. Neither is owned.
@@ -36,7 +36,7 @@ class ForwardShading {
 /// Surfaces that blend, drawn by OpenGL over a lit picture.
 class BlendedPass {
  public:
-    /// Of a pixel on the host: the light before and after, and OpenGL's copy of it.
+    /// Bytes of a pixel on the host: the light before and after, and OpenGL's copy of it.
     static constexpr std::size_t kPixelBytes = 3 * Radiance::kPixelBytes;
 
     /// `clustered`: draw() gets lists.

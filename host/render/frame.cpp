@@ -60,7 +60,7 @@ void develop(Pipeline& p, const Radiance& light, Frame& frame) {
     if (display) p.picture.read_display(*display, p.timer);
 }
 
-// Where bloom mixes the light of several bands, it waits for them all.
+// Tone maps a band, unless bloom mixes the light of several bands: it waits for all of them.
 void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const Radiance& light,
                   Frame& frame) {
     if (shaded) return p.picture.read_display(*shaded, p.timer);
@@ -81,7 +81,7 @@ void add_pixels(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Frame&
     if (want.view != ViewKind::lit) place_surfaces(surfaces, std::move(pixels), frame.height);
 }
 
-// The view in place of the lit picture.
+// Replaces the lit picture by the view.
 void show_view(Pipeline& p, const Shot& shot, const DecodedSurfaces& surfaces, Frame& frame) {
     const ViewKind view = p.context.settings.want.view;
     if (view == ViewKind::lit) return;
@@ -102,7 +102,7 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame) {
     context.scene->make_current();
     context.scene->take_up_changes();
     const Clock::time_point start = Clock::now();
-    p.timer = StageTimer();  // without what a frame that failed left
+    p.timer = StageTimer();  // drops times of a frame that failed
     p.last.band = {};
     p.last.camera = shot.camera;
     p.samples.begin({context.settings, shot.camera, shot.time, context.scene->scene().revisions},
@@ -115,7 +115,7 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame) {
 }
 
 // Lights -> surfaces -> lists -> visibility -> shading -> environment -> picture, sample by sample
-// of each band. What had no room is made again.
+// of each band. Stages whose results had no room are repeated.
 void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Frame& frame) {
     const LightInput lights = begin(p, shot, frame);
     FrameStages& stages = p.current_stages();
@@ -132,7 +132,7 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
             StageTimer before = p.timer;
             Room room;
             while (!room.enough()) {
-                p.timer = before;  // without the times of what had no room
+                p.timer = before;  // drops the times of stages that lacked room
                 lit.drop_lists();
                 if (!room.surfaces) stages.draw_surfaces(sample, lit, out);
                 const StageTimer drawn = p.timer;
@@ -141,7 +141,7 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
                 stages.shade(sample, lit, p.environment, out);
                 p.environment.enqueue(lit, p.timer);
                 if (is_one) develop_band(p, sample.display, lit.light, frame);
-                room = stages.room(lit, out);  // the frame's one wait
+                room = stages.room(lit, out);  // waits for the device
                 if (room.surfaces) before = drawn;
             }
             p.reader.count({lit, stages, sample.camera}, stats);

@@ -5,7 +5,7 @@
 
 namespace kilolux {
 
-/// What a frame shows, and how far it is made.
+/// What a frame shows, and how many of its samples are made.
 struct Shot {
     Camera camera;
     double time = 0.0;        // [s]

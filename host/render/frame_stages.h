@@ -11,13 +11,13 @@
 
 namespace kilolux {
 
-/// What of a sample had room.
+/// Which stages of a sample had room.
 struct Room {
     bool surfaces = false, lists = false;
     bool enough() const { return surfaces && lists; }
 };
 
-/// The stages from surfaces to radiance, of each renderer those that it has:
+/// The stages from surfaces to radiance. Each renderer has some of them:
 ///
 ///     deferred      surfaces, lists, visibility with shadows, shading by lists, blended surfaces
 ///     deferred-all  surfaces,                                 shading by all,   blended surfaces
@@ -27,7 +27,7 @@ struct Room {
 /// Each function fills its part of the band; without such a stage it does nothing.
 class FrameStages {
  public:
-    /// Of context.settings.renderer.
+    /// The stages of context.settings.renderer.
     explicit FrameStages(RenderContext& context);
 
     /// A new band: the G-buffer, what casts shadows onto it, and the coarse grid.
@@ -42,7 +42,7 @@ class FrameStages {
     /// Radiance, or with sample.display the display picture.
     void shade(const Sample& sample, LitBand& band, EnvironmentLight& environment, Measured out);
 
-    /// What of the last calls had room; the others must run again, and then have it. Waits for the
+    /// Which of the last calls had room; the others must run again, and then have it. Waits for the
     /// device where stages count what they need. Sets the counts of lists.
     Room room(const LitBand& band, Measured out);
 
@@ -50,7 +50,7 @@ class FrameStages {
     void blend(const Sample& sample, LitBand& band, Measured out);
     bool blends() const { return blended_.has_value(); }
 
-    /// Draws the G-buffer of the forward renderers, which only what asks afterwards needs.
+    /// Draws the G-buffer for the forward renderers, which only later requests need.
     void draw_missing_surfaces(const Camera& camera, LitBand& band);
 
     /// The lists of `deferred`; null for the others.

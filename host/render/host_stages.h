@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// What OpenGL drew goes to the device: by a copy, or, where the device has a memory of its own, by
-/// an upload.
+/// Brings what OpenGL drew to the device: by a copy, or, where the device has its own memory, by an
+/// upload.
 inline StageWork bridge_work(const StageCounts& c) {
     const double bytes = c.bridge_bytes_per_pixel * c.pixels;
     if (c.device_is_host) return {.bytes_read = bytes, .bytes_written = bytes};

@@ -27,13 +27,13 @@ struct Sample {
     Band band;
     bool redraw = true;  // else OpenGL's targets still hold this sample of the band's raster tile
     uint number = 0;     // of the pixel's samples
-    const NeededTiles* needed = nullptr;  // none: all of the band
-    // Where the picture goes in place of radiance, which is not made then.
+    const NeededTiles* needed = nullptr;  // null: all tiles of the band
+    // Where the display picture goes; then no radiance is stored.
     std::optional<DisplayTarget> display = {};
 };
 
-/// What the stages leave of a sample, on the device: what AOVs, views, counts and probes read.
-/// Valid until the next sample.
+/// The results of a sample on the device, which AOVs, views, counts and probes read. Valid until
+/// the next sample.
 struct LitBand {
     GBuffer surfaces;     // none of the forward renderers
     ShadowInput shadows;  // that are cast onto the surfaces
@@ -51,7 +51,7 @@ struct LitBand {
     }
 };
 
-/// What stages add to while they make a sample.
+/// The times and counts that stages add to.
 struct Measured {
     StageTimer& timer;  // the device's stages
     FrameStats& stats;  // counts, and the host's stages

@@ -22,33 +22,33 @@ class PictureOutput {
  public:
     explicit PictureOutput(const RenderContext& context);
 
-    /// Takes up other settings. Throws Error.
+    /// Takes over other settings. Throws Error.
     void set(const RenderSettings& settings);
 
-    /// Makes the frame's pictures as large as what is wanted of them.
+    /// Gives the frame's pictures the size that is wanted.
     void begin(DisplayMemory memory, Frame& frame);
 
     /// Where shading puts the band's display picture.
     DisplayTarget target(const View& view);
 
-    /// Keeps the light of a band for bloom, which mixes that of all bands, where there are several;
-    /// false else.
+    /// Keeps the light of a band for bloom where bloom mixes several bands; false where it does
+    /// not.
     bool gathers(const Radiance& light);
-    /// What gathers() kept; none where it kept nothing.
+    /// The light that gathers() kept; none where it kept nothing.
     std::optional<Radiance> gathered(const Camera& camera);
 
     /// The light with bloom.
     Radiance bloom(const Radiance& light, StageTimer& timer);
 
-    /// The display picture of the light; none where no one wants it.
+    /// The display picture of the light; none where it is not wanted.
     std::optional<DisplayTarget> tonemap(const Radiance& light, StageTimer& timer);
 
-    /// Enqueues the read of what the frame wants of the light, with bloom and without, and of the
+    /// Enqueues the reads that the frame wants of the light, with bloom and without, and of the
     /// display picture.
     void read_light(const Radiance& light, std::vector<float>& to, StageTimer& timer);
     void read_display(const DisplayTarget& display, StageTimer& timer);
 
-    /// Waits for what was read; then it is in the frame. Adds its time to the frame's stages.
+    /// Waits for the reads, which fill the frame. Adds their time to the frame's stages.
     void finish(StageTimer& timer, FrameStats& stats);
 
     /// See Renderer::display_memory().
@@ -59,7 +59,7 @@ class PictureOutput {
     bool blooms_at_end() const { return context_.settings.bloom > 0.0f && !context_.is_whole(); }
 
     const RenderContext& context_;
-    std::optional<Bloom> bloom_;  // none at a share of 0
+    std::optional<Bloom> bloom_;  // none where bloom is 0
     int tone_curve_;
     Tonemap tonemap_;
     GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// The same picture with every light at every pixel.
+// The settings of the same picture with every light at every pixel.
 RenderSettings reference_of(RenderSettings settings) {
     settings.renderer = RendererKind::deferred_all;
     settings.want = radiance_only();
@@ -31,7 +31,7 @@ Pipeline::Pipeline(std::shared_ptr<RenderScene> scene, const RenderSettings& set
 
 Pipeline::~Pipeline() { context.scene->make_current_or_lost(); }
 
-// Makes what the settings need and is not there.
+// Makes the parts that the settings need and that are missing.
 void Pipeline::take_up_settings() {
     const RenderSettings& settings = context.settings;
     const RendererKind kind = settings.renderer;
@@ -80,7 +80,7 @@ void Pipeline::change(std::unique_ptr<Pipeline>& pipeline,
     if (pipeline && pipeline->is_built_for(settings)) {
         return pipeline->take(settings);
     }
-    // The programs that both need are built; but a device that failed is opened anew.
+    // Programs that both need are built already; but a device that failed is opened anew.
     const bool same_device = pipeline && pipeline->last.is_sound &&
                              pipeline->context.settings.device == settings.device &&
                              pipeline->context.settings.opened == settings.opened;

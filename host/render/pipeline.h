@@ -22,19 +22,20 @@ struct Pipeline {
     Pipeline(const Pipeline&) = delete;
     Pipeline& operator=(const Pipeline&) = delete;
 
-    /// Makes `pipeline` one for `settings`: the same one where its kernels and device serve.
+    /// Makes `pipeline` serve `settings`: keeps it where its kernels and device do, else replaces
+    /// it.
     static void change(std::unique_ptr<Pipeline>& pipeline,
                        const std::shared_ptr<RenderScene>& scene, const RenderSettings& settings);
 
     RenderContext context;
-    // What makes the picture.
+    // Makes the picture.
     LightSource lights;
     std::map<RendererKind, FrameStages> stages;  // made when first asked for
     EnvironmentLight environment;
     Samples samples;
     PictureOutput picture;
     StageTimer timer;
-    // What the last frame left, and what reads it.
+    // The last frame's results, and their reader.
     struct Last {
         Camera camera;
         LightRows rows;  // where OpenGL's fragments are lit

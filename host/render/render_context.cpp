@@ -8,7 +8,7 @@
 namespace kilolux {
 namespace {
 
-// Texture samples along a footprint's longer side at most.
+// Most texture samples along a footprint's longer side.
 int chosen_anisotropy(const RenderSettings& settings, const DeviceInfo& device) {
     constexpr int kGpuAnisotropy = 8;
     if (settings.anisotropy > 0) return settings.anisotropy;

@@ -13,23 +13,24 @@
 
 namespace kilolux {
 
-/// What a renderer is made for: its parts refer to it, and it outlives them.
+/// The scene, settings and device that a renderer is made for: its parts refer to it, and it
+/// outlives them.
 struct RenderContext {
-    std::shared_ptr<RenderScene> scene;  // first: the last to go
+    std::shared_ptr<RenderScene> scene;  // first member: destroyed last
     RenderSettings settings;
     ScenePlan plan;
     Gpu gpu;
     Tuning tuning;
     MemoryPlan memory;
-    // Made when first asked for: the scene on the device, and what of it casts shadows.
+    // Made when first asked for: the scene on the device, and its shadow casters.
     std::shared_ptr<SurfaceScene> surfaces{};
     std::shared_ptr<ShadowScene> shadows{};
 
-    /// Whether shading makes the display picture itself: where nothing else reads or changes the
-    /// light after it, and its kernels' arithmetic is that of tone mapping.
+    /// Whether shading makes the display picture itself: where no later stage reads or changes the
+    /// light, and the kernels' arithmetic is that of tone mapping.
     bool shades_display() const;
 
-    /// Whether OpenCL makes the surfaces of OpenGL's ids: not for what OpenGL's fragments light.
+    /// Whether OpenCL resolves OpenGL's ids: not where OpenGL's fragments are lit.
     bool resolves() const {
         return resolves_ids(settings.geometry) && !is_forward(settings.renderer);
     }
@@ -45,21 +46,20 @@ struct RenderContext {
     /// Whether the picture is made in one band.
     bool is_whole() const;
 
-    /// The scene as this way's OpenGL passes need it.
+    /// The scene's meshes for the OpenGL passes of this renderer.
     const GpuScene& meshes() const;
 
     /// The coarse grid of a frame.
     ClusterGrid coarse_grid(const Camera& camera) const;
 
-    /// What resolve_surfaces, and what casts shadows, reads of the scene's materials.
+    /// The features that resolve_surfaces and shadow casters read of the scene's materials.
     SurfaceFeatures surface_features() const;
 };
 
 /// The plan for a scene with its own lights and the generated ones.
 ScenePlan plan_of(const Scene& scene, const RenderSettings& settings);
 
-/// Throws Error as Renderer does. Buffers of everything that is made with its Gpu are held within
-/// the memory plan.
+/// Throws Error as Renderer does. All buffers made with its Gpu are held within the memory plan.
 RenderContext make_context(std::shared_ptr<RenderScene> scene, const RenderSettings& settings,
                            const Gpu& opened);
 

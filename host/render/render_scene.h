@@ -12,7 +12,7 @@
 
 namespace kilolux {
 
-/// A scene on the OpenGL side: what stays while settings change.
+/// The OpenGL side of a scene, which stays while settings change.
 class RenderScene {
  public:
     /// `own_context`: in an OpenGL context of its own, made when something is drawn, else in the
@@ -22,14 +22,14 @@ class RenderScene {
     RenderScene(const RenderScene&) = delete;
     RenderScene& operator=(const RenderScene&) = delete;
 
-    /// OpenGL's names are a context's own: before they are used or deleted. Does nothing where the
-    /// context is the caller's.
+    /// Makes this context current: names of OpenGL's objects belong to a context, so this comes
+    /// before they are used or deleted. Does nothing where the context is the caller's.
     void make_current() const;
 
-    /// make_current() for destructors: a context that is lost took its names with it.
+    /// make_current() for destructors: a lost context took its names with it.
     void make_current_or_lost() const noexcept;
 
-    /// Takes up what moved since, in the current context; see AnimatedScene.
+    /// Uploads what moved since, in the current context; see AnimatedScene.
     void take_up_changes();
 
     const Scene& scene() const { return scene_; }
@@ -43,13 +43,13 @@ class RenderScene {
 
  private:
     const Scene& scene_;
-    SceneRevisions revisions_;  // of the scene that was taken up
+    SceneRevisions revisions_;  // of the scene as it was uploaded
     Box box_;
     std::size_t zero_normals_;
     bool own_context_;
     mutable bool lacks_opengl_ = false;
     mutable std::optional<GlContext> context_;
-    // Gone before the context is.
+    // Destroyed before the context.
     mutable std::map<std::pair<GpuSceneUse, int>, GpuScene> meshes_;
 };
 

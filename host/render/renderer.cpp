@@ -12,14 +12,14 @@
 namespace kilolux {
 namespace {
 
-// Throws when its pictures cannot fit, before anything large is uploaded.
+// Throws when the pictures cannot fit, before anything large is uploaded.
 void check_memory(const Scene& scene, const RenderSettings& settings) {
     const cl::Device device =
         settings.opened ? settings.opened->device : choose_device(settings.device);
     plan_memory(scene, settings, plan_of(scene, settings), describe(device));
 }
 
-// What is on the device is the last band's.
+// Throws for a picture in bands: the device has only the last one.
 void require_whole(const Pipeline& pipeline, const char* what) {
     if (pipeline.context.is_whole()) return;
     throw Error(fmt::format(
@@ -27,7 +27,7 @@ void require_whole(const Pipeline& pipeline, const char* what) {
         pipeline.context.memory.band_rows));
 }
 
-// What is known of the lights that a probe found.
+// Adds to a probe what is known of its lights.
 void add_lights(Pipeline& pipeline, PixelProbe& probe) {
     const RenderSettings& settings = pipeline.context.settings;
     const Camera& camera = pipeline.last.camera;

@@ -20,7 +20,7 @@ namespace kilolux {
 struct Pipeline;
 class RenderScene;
 
-/// What list_devices() says of every OpenCL device, in the order that `--device INDEX` counts.
+/// Properties of every OpenCL device, in the order in which `--device INDEX` counts.
 std::vector<DeviceInfo> list_devices();
 
 /// Where the renderer's OpenGL context comes from.
@@ -29,7 +29,7 @@ enum class GlSource {
     current,   // the caller's, current now and at every render()
 };
 
-/// What OpenGL has of a scene, for renderers that share it: a context, meshes and textures, made
+/// The OpenGL objects of a scene, for renderers that share it: a context, meshes and textures, made
 /// when first needed. The scene must outlive it.
 std::shared_ptr<RenderScene> shared_scene(const Scene& scene, GlSource gl = GlSource::headless);
 
@@ -37,26 +37,26 @@ std::shared_ptr<RenderScene> shared_scene(const Scene& scene, GlSource gl = GlSo
 std::size_t display_stride(int width);
 
 /// Renders one scene: the whole data flow, from meshes and lights to pixels. Between frames the
-/// scene may change as AnimatedScene changes it: what its revisions say is new is taken up.
+/// scene may change as AnimatedScene changes it: its revisions say what is taken over.
 class Renderer {
  public:
     /// Compiles for the scene and uploads it. The scene must outlive the renderer. Throws Error
     /// when a device, GL or a build fails.
     Renderer(const Scene& scene, const RenderSettings& settings, GlSource gl = GlSource::headless);
-    /// The same, of a scene that other renderers may use, too, one at a time.
+    /// The same for a scene that other renderers use, too, one at a time.
     Renderer(std::shared_ptr<RenderScene> scene, const RenderSettings& settings);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
 
-    /// Renders with other settings from now on. Meshes and textures stay; kernels and shaders are
-    /// built anew only where the device, the scene plan or the renderer changes, and kept for the
-    /// way back to an earlier renderer. Throws Error as the constructor does; then the former
+    /// Renders with other settings from now on. Meshes and textures stay. Kernels and shaders are
+    /// built anew only where the device, the scene plan or the renderer changes, and are kept for a
+    /// return to an earlier renderer. Throws Error as the constructor does; then the former
     /// settings hold.
     void change(const RenderSettings& settings);
 
-    /// After lights of the scene were added or replaced: builds anew where the scene plan needs it,
-    /// as for the first spot light.
+    /// Call after lights of the scene were added or replaced: builds anew where the scene plan
+    /// needs it, as for the first spot light.
     void refit();
 
     const RenderSettings& settings() const;
@@ -84,9 +84,9 @@ class Renderer {
     /// is asked for again or change().
     std::span<uint> display_memory();
 
-    /// What the last render() shaded, decoded, and the lights as its kernels saw them: what a
-    /// float64 reference of the kernels starts from. Throws Error for the forward renderers, which
-    /// keep no G-buffer, and for pictures made in bands.
+    /// The surfaces and lights of the last render(), decoded as its kernels saw them: the input of
+    /// a float64 reference of the kernels. Throws Error for the forward renderers, which keep no
+    /// G-buffer, and for pictures made in bands.
     LitSurfaces lit_surfaces();
 
     /// The surface at a pixel of the last render, and the lights in its list. Blocks. Throws Error
@@ -97,7 +97,7 @@ class Renderer {
     /// is `deferred`. Blocks.
     std::vector<ActiveCluster> active_clusters() const;
 
-    /// Lights that `settings` mean, the scene's own and the generated ones.
+    /// Number of lights with `settings`, the scene's own and the generated ones.
     std::uint64_t light_count(const RenderSettings& settings) const;
 
     const DeviceInfo& device() const;

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// Samples of a half after which tiles may be done: each time by half as many again.
+// The number of samples of a half after which tiles are judged: half as many again each time.
 int next_goal(int taken, int most) {
     if (taken == 0) return kLeastAutoSamples / 2;
     return std::min(taken + taken / 2, most);
@@ -101,7 +101,7 @@ void Samples::add(const Radiance& light, Measured out) {
 }
 
 void Samples::add_until_error(const Radiance& light, Measured out) {
-    if (is_enough_) return;  // sample 0 once more
+    if (is_enough_) return;  // sample 0 is made once more
     until_error_->add(half_, light, out.timer);
     add_times(out.timer, out.stats);  // lists of the next sample may be made twice
     if (!centre_) centre_ = out.stats;

@@ -37,7 +37,7 @@ enum class Shadows { off, exact, sampled };
 
 enum class Shading { automatic, lambert, blinn_phong, pbr };
 
-/// SHADING_* of what is not automatic, and back.
+/// The SHADING_* number of a setting that is not automatic, and back.
 constexpr int model_of(Shading shading) { return static_cast<int>(shading) - 1; }
 constexpr Shading shading_of_model(int model) { return static_cast<Shading>(model + 1); }
 static_assert(model_of(Shading::lambert) == SHADING_LAMBERT &&
@@ -74,7 +74,7 @@ struct KernelSettings {
     bool operator==(const KernelSettings&) const = default;
 };
 
-/// As many samples a pixel as each fine tile needs, in place of a fixed count.
+/// Each fine tile takes as many samples a pixel as it needs, in place of a fixed count.
 struct AutoSamples {
     bool on = false;
     /// Standard error of the mean's luminance where a tile takes no more: over
@@ -88,14 +88,13 @@ inline constexpr int kLeastAutoSamples = 8;
 
 struct Gpu;
 
-/// Everything that decides a picture, beside scene, camera and time: the command line's shared
-/// options.
+/// The command line's shared options: together with scene, camera and time they decide a picture.
 struct RenderSettings {
     RendererKind renderer = RendererKind::deferred;
     int width = 1920;   // [pixel]
     int height = 1080;  // [pixel]
     LightOptions lights;
-    Tails tails = Tails::automatic;             // of the scene's lights without a range
+    Tails tails = Tails::automatic;             // for the scene's lights without a range
     double range_budget = kDefaultRangeBudget;  // of bounded and stochastic ones: range_of_light()
     uint seed = 1;                              // of stochastic tails and sampled shadows
     float tree_share = kDefaultTreeShare;       // of a tree's nodes: error over light
@@ -103,15 +102,16 @@ struct RenderSettings {
     Geometry geometry = Geometry::automatic;
     int anisotropy = 0;  // texture samples along a footprint's longer side at most, 1..16; 0: 1 on
                          // CPUs, 8 on GPUs
-    bool no_reuse = false;  // also makes what did not change since the last frame; no other bits
+    bool no_reuse =
+        false;  // also makes what did not change since the last frame; the bits are the same
     Shading shading = Shading::automatic;
     Shadows shadows = Shadows::off;
-    int shadow_rays = 4;    // of sampled shadows: a pixel at most, on average
+    int shadow_rays = 4;    // of sampled shadows: most rays a pixel, on average
     float ambient = 0.02f;  // radiance that falls in from everywhere
-    // Seen where no surface covers a pixel; null: black. Changes no surface's light.
+    // Seen where no surface covers a pixel; null: black. It lights no surface.
     std::shared_ptr<const Environment> background;
-    // Lights surfaces by prefiltered maps, beside all other lights; null: nothing. Not for what
-    // blends, nor for the forward renderers.
+    // Lights surfaces by prefiltered maps, beside all other lights; null: nothing. Blended surfaces
+    // and the forward renderers ignore it.
     std::shared_ptr<const PrefilteredEnvironment> reflections;
     float bloom = 0.0f;     // share of the light that blooms, 0..1
     float exposure = 0.0f;  // [EV]

@@ -11,7 +11,8 @@
 namespace kilolux {
 namespace {
 
-// The tiles that a sample needs of what is drawn from row `first_row` of the picture on; none: all.
+// The tiles that a sample needs of the part drawn from row `first_row` of the picture on; none:
+// all.
 std::optional<OpenTiles> open_tiles(const Sample& sample, int first_row) {
     if (sample.needed == nullptr) return {};
     OpenTiles out = sample.needed->open;
@@ -36,7 +37,8 @@ Tuning raster_tuning(const RenderContext& context) {
     return out;
 }
 
-// Triangles that some pixel shows. What lies right of the picture in a row says nothing.
+// Number of triangles that some pixel shows. Columns of a row beyond the picture's width are
+// skipped.
 std::uint64_t count_seen_triangles(std::span<const uint> ids, const View& view) {
     std::vector<bool> seen(1);
     for (std::size_t y = 0; y < view.height; ++y) {
@@ -177,7 +179,7 @@ GBuffer SurfacePass::resolve(const DeviceArray<uint>& drawn, const SurfaceBuffer
     return gbuffer;
 }
 
-// What resolving has to do, see FrameStats. Blocks.
+// Counts the work of resolving, see FrameStats. Blocks.
 void SurfacePass::count(const DeviceArray<uint>& ids, const SurfaceBuffers& scene, const View& view,
                         FrameStats& stats) {
     if (!texels_) {

@@ -24,25 +24,25 @@ class SurfacePass {
     /// G-buffer on the device, valid until the next call; lights are not read. Waits for OpenGL.
     /// Adds the stages geometry and gbuffer_bridge; resolve_surfaces goes to the timer. Does
     /// nothing where the last call made the same, unless settings.no_reuse. Where OpenCL draws,
-    /// triangles may be lacking: fits() tells.
+    /// triangles may be missing: see fits().
     GBuffer enqueue(const Sample& sample, Measured out);
 
-    /// False where the last enqueue() lacks triangles, as there was no room to list them; the next
-    /// call has it. Waits for the device: asked when the caller has nothing more to enqueue.
+    /// False where the last enqueue() lacks triangles, since their lists had no room; the next call
+    /// has it. Waits for the device, so it is called when the caller has nothing more to enqueue.
     bool fits(FrameStats& stats);
 
-    /// Both until the surfaces are whole.
+    /// Repeats both until the surfaces are complete.
     GBuffer draw(const Sample& sample, Measured out);
 
-    /// What casts shadows onto the last enqueue()'s surfaces, and where their rays end; empty
-    /// without shadows.
+    /// The shadow casters of the last enqueue()'s surfaces, and where their rays end; empty without
+    /// shadows.
     ShadowInput shadows(const Sample& sample) const;
 
-    /// What OpenGL drew; not where OpenCL draws.
+    /// OpenGL's targets; not where OpenCL draws.
     const GBufferTargets& targets() const { return planes_ ? planes_->targets() : ids_->targets(); }
 
  private:
-    // What a G-buffer is made of, beside what the path is made for.
+    // The inputs of a G-buffer that may change between frames.
     struct Source {
         Camera camera;
         Band band;

@@ -12,14 +12,14 @@
 
 namespace kilolux {
 
-// What the scene is evaluated from at another time.
+// The file that the scene is evaluated from at other times.
 struct AnimatedScene::File {
     GltfDocument document;
     GltfMaterials materials;
     std::vector<PrimitiveJob> jobs;
     std::vector<int> mesh_of_job;   // index into Scene::meshes; -1: has no triangles
     std::vector<MeshShape> shapes;  // of the scene's time
-    // By job, of shapes that move: decoded and listed once.
+    // Arrays by job, of shapes that move: decoded and listed once.
     std::vector<std::optional<PrimitiveArrays>> arrays;
     double line_width_m = 0.0;  // of points and lines
     double time = 0.0;          // [s] of the scene
@@ -50,7 +50,7 @@ std::vector<Instance> place_instances(const GltfDocument& document, const ShapeP
     return instances;
 }
 
-// Whether `next` is another value.
+// Whether `next` differs from the present value.
 template <typename T>
 bool replace(std::vector<T>& values, std::vector<T>&& next) {
     const bool differs = values != next;
@@ -60,7 +60,7 @@ bool replace(std::vector<T>& values, std::vector<T>&& next) {
 
 }  // namespace
 
-// The meshes of jobs whose shape is another than before, the others empty.
+// Builds the meshes of jobs whose shape changed; the others are empty.
 std::vector<Mesh> AnimatedScene::build_moved(File& file, const ShapePlan& plan, bool first) {
     std::vector<Mesh> meshes(file.jobs.size());
     parallel_each(meshes.size(), [&](std::size_t j) {
@@ -75,7 +75,7 @@ std::vector<Mesh> AnimatedScene::build_moved(File& file, const ShapePlan& plan, 
     return meshes;
 }
 
-// Gives points and lines their width, which is that of the whole scene when it is made.
+// Gives points and lines their width, which is a share of the whole scene when it is made.
 void AnimatedScene::make_solids_of_lines(File& file, const ShapePlan& plan,
                                          std::vector<Mesh>& meshes, bool first) {
     std::vector<std::size_t> lines;  // jobs
@@ -129,7 +129,7 @@ AnimatedScene::AnimatedScene(const std::filesystem::path& path, const LoadOption
 
 AnimatedScene::~AnimatedScene() = default;
 
-// What lights and cameras that nobody placed go by.
+// Finds what generated lights and framing cameras depend on.
 void AnimatedScene::survey() {
     scene_.still_box = bounds(scene_);
     enclosure_ = enclosure_of(scene_, scene_.still_box);
@@ -163,8 +163,8 @@ void AnimatedScene::set_time(double time) {
     file_->time = time;
 }
 
-// Makes the scene of the document at its options' time: all of it, or what can have moved. Changes
-// the scene only once nothing can throw any more.
+// Builds the scene of the document at its options' time: all of it, or only what may have moved.
+// Changes the scene only after the last call that can throw.
 void AnimatedScene::place() {
     File& file = *file_;
     const bool first = file.mesh_of_job.empty();
@@ -196,7 +196,7 @@ void AnimatedScene::place() {
     file.shapes = std::move(plan.shapes);
 }
 
-// The file's lights, those with profiles, and the added ones.
+// Sets the file's lights, those with profiles, and the added ones.
 void AnimatedScene::set_lights(const PlacedNodes& nodes, std::vector<SceneLight> lights) {
     std::swap(scene_.lights, lights);
     const std::vector<SceneProfile> profiles = scene_.aimed_profiles;
@@ -205,7 +205,7 @@ void AnimatedScene::set_lights(const PlacedNodes& nodes, std::vector<SceneLight>
     if (scene_.lights != lights || scene_.aimed_profiles != profiles) ++scene_.revisions.lights;
 }
 
-// Those that are not empty, one a job.
+// Replaces the meshes that are not empty, one a job.
 void AnimatedScene::set_meshes(std::vector<Mesh> meshes) {
     bool has_changed = false;
     for (std::size_t j = 0; j < meshes.size(); ++j) {

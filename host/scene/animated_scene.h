@@ -33,10 +33,10 @@ class AnimatedScene {
 
     const Scene& scene() const { return scene_; }
 
-    /// What made scene().kind, unless see_from() did.
+    /// The measurement that decided scene().kind, unless see_from() did.
     const Enclosure& enclosure() const { return enclosure_; }
 
-    /// Takes the scene for an interior, or for an object; automatic changes nothing.
+    /// Treats the scene as an interior or as an object; automatic changes nothing.
     void see_from(SeenFrom from);
 
     /// Whether clips that move nodes play.
@@ -47,10 +47,10 @@ class AnimatedScene {
     /// scene then stays at the time it had.
     void set_time(double time);
 
-    /// Adds lights that stay as they are at any time.
+    /// Adds lights that are the same at any time.
     void add_lights(const std::vector<SceneLight>& lights);
 
-    /// The lights that were added, and others in their place.
+    /// The added lights; and their replacement.
     const std::vector<SceneLight>& added_lights() const { return added_lights_; }
     void replace_lights(const std::vector<SceneLight>& lights);
 

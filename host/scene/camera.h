@@ -28,14 +28,14 @@ Camera look_at(glm::dvec3 position, glm::dvec3 focal_point, glm::dvec3 up, doubl
 /// The camera of a scene file.
 Camera camera_of(const SceneCamera& camera);
 
-/// The same the other way round, for a scene file.
+/// A scene file's camera for `camera`: the inverse of camera_of().
 SceneCamera scene_camera_of(const Camera& camera, std::string name);
 
 /// A camera that sees the whole box from its front and a little above, in a picture of `aspect`,
 /// width / height, or wider.
 Camera frame_box(const Box& box, double aspect = 1.0);
 
-/// Its place in the world as one matrix.
+/// The camera's world transform as one matrix.
 glm::dmat4 world_from_camera(const Camera& camera);
 
 /// Clip space from view space for GL with upper-left origin and [0,1] reversed depth, in double.

@@ -8,7 +8,7 @@
 namespace kilolux {
 namespace {
 
-// From key to key, a second.
+// Change from key to key, a second.
 struct Secant {
     double seconds;
     glm::dvec3 position, focal_point;
@@ -21,13 +21,13 @@ Secant secant(const CameraKey& a, const CameraKey& b) {
             (b.angle - a.angle) / s};
 }
 
-// At a key between two secants: that of the parabola through the three; 0 beside a rest.
+// Slope at a key between two secants: that of the parabola through the three keys; 0 beside a rest.
 glm::dvec3 parabola_slope(const Secant& a, const Secant& b, glm::dvec3 Secant::*value) {
     if (a.*value == glm::dvec3(0.0) || b.*value == glm::dvec3(0.0)) return glm::dvec3(0.0);
     return (b.seconds * (a.*value) + a.seconds * (b.*value)) / (a.seconds + b.seconds);
 }
 
-// Weighted harmonic mean; 0 where the direction changes (Fritsch and Butland 1984).
+// Weighted harmonic mean of the slopes; 0 where the direction changes (Fritsch and Butland 1984).
 double monotone_slope(const Secant& a, const Secant& b) {
     if (a.angle * b.angle <= 0.0) return 0.0;
     const double wa = a.seconds + 2.0 * b.seconds, wb = 2.0 * a.seconds + b.seconds;

@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-constexpr double kUnit = 1e-6;  // of a length that counts as 1
+constexpr double kUnit = 1e-6;  // deviation from unit length that counts as rounding
 
 float4 to_row(const glm::dvec4& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
@@ -28,8 +28,9 @@ bool is_rotation(const glm::dmat3& m) {
     return true;
 }
 
-// The cofactor matrix is the inverse transpose times the determinant, and is there for singular
-// matrices too. Scaled so that a rotation stays one: a vertex normal's length says nothing.
+// The cofactor matrix is the inverse transpose times the determinant, and exists for singular
+// matrices, too. It is scaled so that a rotation stays one; the length of a transformed normal does
+// not matter.
 glm::dmat3 normal_matrix(const glm::dmat3& m, double determinant) {
     glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     double largest = 0.0;
@@ -38,7 +39,7 @@ glm::dmat3 normal_matrix(const glm::dmat3& m, double determinant) {
     return cofactor * ((determinant < 0.0 ? -1.0 : 1.0) / largest);
 }
 
-// The camera in object space; zero where the transform has no inverse that keeps its precision.
+// The camera in object space; zero where the inverse of the transform would lose its precision.
 glm::dvec3 eye_of(const glm::dmat4& view_from_object) {
     constexpr double kWorstCondition = 64.0;
     const glm::dmat3 linear(view_from_object);
@@ -111,7 +112,7 @@ bool outside(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clip) {
     return std::find(count.begin(), count.end(), 8) != count.end();
 }
 
-// Whether what lies between the corners may be seen in one of the tiles.
+// Whether the box of the corners may be seen in one of the tiles.
 bool may_touch(const OpenTiles& open, const std::array<glm::dvec4, 8>& corners,
                const glm::dmat4& clip, const glm::dvec2& size) {
     constexpr double kMargin = 2.0;  // [pixel] as in outside(), and more
@@ -119,7 +120,8 @@ bool may_touch(const OpenTiles& open, const std::array<glm::dvec4, 8>& corners,
     glm::dvec2 most(-std::numeric_limits<double>::infinity());
     for (const glm::dvec4& corner : corners) {
         const glm::dvec4 c = clip * corner;
-        if (!(c.w > kUnit * (std::abs(c.x) + std::abs(c.y)))) return true;  // beside or behind us
+        if (!(c.w > kUnit * (std::abs(c.x) + std::abs(c.y))))
+            return true;  // beside or behind the camera
         const glm::dvec2 pixel = (glm::dvec2(c.x, -c.y) / c.w * 0.5 + 0.5) * size;
         least = glm::min(least, pixel);
         most = glm::max(most, pixel);
@@ -175,7 +177,7 @@ std::vector<Draw> DrawList::visible(const Camera& camera, int width, int height,
                                     DrawOrder order, const OpenTiles* open) const {
     const glm::dmat4 clip = clip_from_view(camera, width, height);
     std::vector<Draw> draws;
-    std::size_t casters = 0;  // triangles of the instances before
+    std::size_t casters = 0;  // triangles of earlier instances
     for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
         const Instance& instance = scene_.instances[i];
         const MeshBox& mesh = box_of(instance.mesh);

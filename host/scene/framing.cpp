@@ -54,7 +54,7 @@ Camera camera_inside(const Scene& scene, const Box& box) {
     return camera;
 }
 
-// What half a height must be multiplied with.
+// Factor by which a half height is multiplied.
 double height_factor(double made_for, double aspect, Fit fit) {
     if (fit == Fit::height || !(made_for > 0.0)) return 1.0;
     const double factor = made_for / aspect;

@@ -6,7 +6,7 @@
 
 namespace kilolux {
 
-/// From where a scene is seen that nobody placed a camera in; automatic: by its SceneKind.
+/// From where a scene without a camera is seen; automatic: by its SceneKind.
 enum class SeenFrom { automatic, inside, outside };
 
 /// A camera for a scene that has none, and a picture of `aspect`, width / height.
@@ -24,7 +24,7 @@ enum class Fit { height, width, both };
 /// of `aspect`. A camera that was made for no aspect (0) keeps its height.
 double fitted_y_fov(double y_fov, double made_for, double aspect, Fit fit);
 
-/// The same of half the height of a parallel projection.
+/// The same for half the height of a parallel projection.
 double fitted_y_extent(double y_extent, double made_for, double aspect, Fit fit);
 
 }  // namespace kilolux

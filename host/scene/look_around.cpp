@@ -14,14 +14,14 @@
 namespace kilolux {
 namespace {
 
-constexpr double kEnclosedShare = 0.5;    // of the rays from within: meet fronts
-constexpr double kClosedShare = 0.5;      // of the rays from the middle: meet backs
-constexpr double kOpenShare = 1.0 / 3.0;  // of the surface's view: ends outside
+constexpr double kEnclosedShare = 0.5;    // of the rays from within: hit front faces
+constexpr double kClosedShare = 0.5;      // of the rays from the middle: hit back faces
+constexpr double kOpenShare = 1.0 / 3.0;  // of the surface's view: outside
 constexpr std::size_t kInnerRays = 1024;  // from a point
 constexpr std::size_t kLineWays = 64;     // directions of lines through the scene
 constexpr int kLines = 10;                // of each direction, along the edge of a square
 constexpr int kMostHits = 100;            // of a line
-constexpr float kLargest = 1e18f;         // number of a ray that Embree takes
+constexpr float kLargest = 1e18f;         // largest coordinate of a ray that Embree accepts
 constexpr float kApart = 1e-6f;           // of the box's diagonal: surfaces on a line
 constexpr int kCells = 16;                // of a cube's face, along an edge: see level()
 
@@ -90,7 +90,7 @@ SceneOwner mesh_scene(RTCDevice device, const Mesh& mesh) {
     return scene;
 }
 
-// The middle of a box, and points beside it: something may stand in the middle of a room.
+// The middle of a box, and points beside it, since an object may stand in the middle of a room.
 std::vector<glm::dvec3> inner_points(const Box& box) {
     const glm::dvec3 step = 0.25 * box.size();
     const glm::dvec3 c = box.center();
@@ -104,8 +104,8 @@ double share_of(const std::vector<glm::dvec3>& ways, const Test& test) {
     return static_cast<double>(count) / static_cast<double>(ways.size());
 }
 
-// Lines of a grid across a sphere meet each part of a surface as often as its area says, from all
-// sides alike. A front that is first on its line is seen from outside.
+// Lines of a grid across a sphere meet each part of a surface in proportion to its area, from all
+// sides alike. A front face that is first on its line is seen from outside.
 double open_share(const LookAround& around, const Box& box) {
     std::size_t fronts = 0, open = 0;
     const double radius = 0.5 * glm::length(box.size());
@@ -130,7 +130,7 @@ double open_share(const LookAround& around, const Box& box) {
 
 }  // namespace
 
-// Embree's scene of the instances, relative to the middle of their box: its numbers are floats.
+// Embree's scene of the instances, relative to the middle of their box, as its numbers are floats.
 struct LookAround::Rays {
     const Scene& scene;
     glm::dvec3 middle;

@@ -9,8 +9,8 @@
 
 namespace kilolux {
 
-/// Casts rays into a scene. Surfaces that blend are looked through. Which side of a triangle a ray
-/// meets follows from its winding, also where a material is double-sided.
+/// Casts rays into a scene. Rays pass through surfaces that blend. A triangle's winding decides
+/// which side a ray meets, also where a material is double-sided.
 class LookAround {
  public:
     /// `box` holds the scene, which outlives this.
@@ -21,7 +21,7 @@ class LookAround {
 
     enum class Side { none, front, back };
     struct Hit {
-        float distance = std::numeric_limits<float>::infinity();  // [m]; of no surface: infinite
+        float distance = std::numeric_limits<float>::infinity();  // [m]; infinite: no surface
         Side side = Side::none;
     };
     /// The first surface along a direction that is farther from the eye than `beyond`, in lengths
@@ -48,12 +48,13 @@ class LookAround {
 struct Enclosure {
     SceneKind kind = SceneKind::open;
     double within = 0.0;  // share of the rays from a point within that meet fronts
-    double open = 0.0;    // share of what the fronts of its surfaces see that is outside
+    double open = 0.0;    // share of the view of its front faces that is outside
 };
 
-/// `interior`: at least half of the rays from a point within meet fronts, and less than a third of
-/// what its fronts see is outside: seen from there it shows backs, nothing, or little of itself.
-/// `closed`: at least half of the rays from its middle meet backs. Else `open`.
+/// `interior`: at least half of the rays from a point within meet front faces, and less than a
+/// third of the view of its front faces is outside: from there it would show back faces, nothing,
+/// or little of itself. `closed`: at least half of the rays from its middle meet back faces. Else
+/// `open`.
 Enclosure enclosure_of(const Scene& scene, const Box& box);
 
 }  // namespace kilolux

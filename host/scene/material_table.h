@@ -43,10 +43,10 @@ static_assert([] {
     return true;
 }());
 
-/// What a file's factor is limited to.
+/// The range to which a file's factor is clamped.
 enum class FactorRange { unit, positive, finite, ior };
 
-/// A number or colour of a material that stands in glTF as it is kept here.
+/// A number or colour of a material that is stored here as in glTF.
 struct MaterialFactor {
     std::string_view path;  // in a glTF material
     std::variant<float Material::*, glm::vec3 Material::*, glm::vec4 Material::*> member;

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::size_t kVerticesOfTask = 4096;
 
-// Whether a scale of 0 leaves nothing of an instance but a point or a line.
+// Whether a scale of 0 flattens an instance to a point or a line.
 bool is_hidden(const Instance& instance) {
     const glm::dmat3 axes(instance.world_from_object);
     return glm::cross(axes[0], axes[1]) == glm::dvec3(0.0) &&
@@ -55,7 +55,7 @@ Box bounds(const Mesh& mesh, const glm::dmat4& world_from_object) {
 
 }  // namespace
 
-// Which vertex comes first changes no box: minima and maxima are exact.
+// The order of the vertices changes no box: minima and maxima are exact.
 Box bounds(const Scene& scene) {
     using Range = tbb::blocked_range<std::size_t>;
     const auto add = [&](const Range& range, Box box) {

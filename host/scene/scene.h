@@ -111,7 +111,7 @@ struct SceneLight {
     float range = 0.0f;                // [m]; 0: not given, see light_ranges.h
     float inner_cone = 0.0f;           // half angle [rad]
     float outer_cone = 0.7853981634f;  // half angle [rad]
-    bool has_own_range = true;         // false: it got one, see light_ranges.h
+    bool has_own_range = true;         // false: fill_missing_ranges() set it, see light_ranges.h
     bool follows_camera = false;       // position and direction are in the camera's space
     int profile = -1;                  // index into Scene::aimed_profiles; -1: none
     bool operator==(const SceneLight&) const = default;
@@ -167,11 +167,11 @@ struct Clip {
     std::string broken{};  // why it cannot play, if so: the error that it would end in
 };
 
-/// What the middle of a scene's box sees around itself: see look_around().
+/// The surroundings of the middle of a scene's box: see look_around.h.
 enum class SceneKind {
-    open,      // mostly neither: terrain, a tree, a crowd
+    open,      // neither of the others: terrain, a tree, a crowd
     closed,    // the inside of an object
-    interior,  // walls that face it
+    interior,  // walls that face the middle
 };
 
 /// The parts of a scene that may change while it is rendered. Each number grows with every change
@@ -183,7 +183,7 @@ struct SceneRevisions {
     std::uint32_t cameras = 0;
     bool operator==(const SceneRevisions&) const = default;
 
-    /// Those that decide where surfaces are.
+    /// The numbers that decide where surfaces are.
     std::array<std::uint32_t, 2> surfaces() const { return {geometry, placement}; }
 };
 
@@ -214,14 +214,14 @@ Box bounds(const Scene& scene);
 /// Vertex normals without a direction (zero, or not finite): they are drawn as +Z of the view.
 std::size_t zero_normal_count(const Scene& scene);
 
-/// The box that does not move with the scene's animation: where generated lights go and what a
-/// camera that nobody placed frames.
+/// The box that does not move with the scene's animation: it bounds generated lights, and a framing
+/// camera shows it.
 Box resting_bounds(const Scene& scene);
 
 /// Triangles that one frame draws: those of every instance.
 std::size_t triangle_count(const Scene& scene);
 
-/// Whether any instance's material blends: what OpenGL draws over the lit picture.
+/// Whether any instance's material blends: OpenGL draws those over the lit picture.
 bool has_blended_surfaces(const Scene& scene);
 
 }  // namespace kilolux

@@ -24,7 +24,7 @@ struct BvhDeleter {
 using DeviceOwner = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
 using BvhOwner = std::unique_ptr<std::remove_pointer_t<RTCBVH>, BvhDeleter>;
 
-// A node as Embree's builder makes it, in its memory.
+// A node as Embree's builder makes it, allocated by Embree.
 struct BuiltNode {
     uint count;  // of children; 0: a leaf
     uint box;    // of a leaf
@@ -79,7 +79,7 @@ void set_child(ShadowNode& node, std::size_t i, const float* low, const float* h
     node.child[i] = child;
 }
 
-// Appends `from` and what is below it.
+// Appends `from` and its descendants.
 uint flatten(const BuiltNode& from, std::span<const CasterBox> boxes, int level,
              std::vector<ShadowNode>& nodes) {
     if (level >= SHADOW_LEVELS) {

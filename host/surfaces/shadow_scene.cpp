@@ -47,7 +47,7 @@ MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t tri
     return out;
 }
 
-// Everything that casts, on its way to the device.
+// All casters on their way to the device.
 struct Casters {
     std::vector<float> triangles;
     std::vector<CasterBox> boxes;
@@ -110,7 +110,7 @@ void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3
     }
 }
 
-// The middle of what casts.
+// The middle of the casters' box.
 glm::dvec3 anchor_of(const Scene& scene) {
     const Box box = bounds(scene);
     return box.empty() ? glm::dvec3(0.0) : 0.5 * (box.min + box.max);

@@ -14,7 +14,7 @@ namespace kilolux {
 /// Bytes that a ShadowScene takes on the device, about.
 std::uint64_t shadow_scene_bytes(const Scene& scene);
 
-/// What of a scene casts shadows, on the OpenCL device: all triangles but those of materials that
+/// The shadow casters of a scene on the OpenCL device: all triangles but those of materials that
 /// blend, numbered along the scene's instances, and the hierarchy of their boxes.
 class ShadowScene {
  public:
@@ -22,8 +22,8 @@ class ShadowScene {
     /// its alpha.
     ShadowScene(const Gpu& gpu, const Scene& scene, bool masks);
 
-    /// The casters as the scene has them now; built anew where its revisions say that surfaces
-    /// moved. Materials and textures are not set. Valid until the next call.
+    /// The casters as the scene has them now; rebuilt where its revisions say that surfaces moved.
+    /// Materials and textures are not set. Valid until the next call.
     ShadowCasters casters();
 
     /// How often the hierarchy was built.

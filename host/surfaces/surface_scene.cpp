@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kOwner = "surfaces";
 
-// The surfaces that blend are not there.
+// Features of the surfaces that do not blend.
 MeshFeatures solid_features(const Scene& scene, const SurfaceFeatures& features) {
     return [&scene, features](const Mesh& mesh) -> std::optional<SurfaceFeatures> {
         if (material_of(scene, mesh).alpha_mode == AlphaMode::blend) return {};

@@ -15,11 +15,11 @@ namespace kilolux {
 /// Bytes that a SurfaceScene takes on the device.
 std::uint64_t surface_scene_bytes(const Scene& scene, const SurfaceFeatures& features);
 
-/// SurfaceBuffers::instance_blocks of drawn instances with so many triangles in all.
+/// SurfaceBuffers::instance_blocks of instances to draw with so many triangles in all.
 std::vector<uint> instance_blocks(std::span<const InstanceRow> rows, uint triangles);
 
 /// A scene's surfaces on the OpenCL device: vertices, triangles, materials, and textures with their
-/// mip levels. Only what the features read is there; surfaces that blend are not.
+/// mip levels. Only attributes that the features read are there; surfaces that blend are not.
 class SurfaceScene {
  public:
     /// The scene must outlive this; its materials and textures must stay as they are and its meshes
@@ -45,7 +45,7 @@ class SurfaceScene {
     SurfaceFeatures features_;
     MeshFeatures solid_;
     SurfaceRows rows_;  // on the device
-    // What the device reads without being waited for.
+    // Host memory that the device may still be reading.
     struct Drawn {
         std::vector<InstanceRow> rows;
         std::vector<uint> blocks;

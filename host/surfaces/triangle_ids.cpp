@@ -25,7 +25,7 @@ std::vector<Draw> TriangleIds::visible(const Camera& camera, int width, int heig
     return draw_list_.visible(camera, width, height, false, DrawOrder::front_to_back, open);
 }
 
-// 1 for the raster's tiles that hold none of the open ones.
+// 1 for the raster's tiles that contain no open tile.
 std::vector<std::uint8_t> TriangleIds::closed_tiles(const View& view, const OpenTiles* open) const {
     std::vector<std::uint8_t> out;
     if (open == nullptr) return out;

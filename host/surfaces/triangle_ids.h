@@ -11,7 +11,7 @@
 
 namespace kilolux {
 
-/// Draws which triangle each pixel shows in OpenCL: what IdsPass does in OpenGL. Opaque and masked
+/// Draws in OpenCL which triangle each pixel shows, as IdsPass does in OpenGL: opaque and masked
 /// surfaces; materials that blend are left out.
 class TriangleIds {
  public:
@@ -19,13 +19,13 @@ class TriangleIds {
     TriangleIds(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                 const SurfaceFeatures& features);
 
-    /// What the camera sees, sorted front to back and numbered. `open`: see DrawList.
+    /// The instances that the camera sees, sorted front to back and numbered. `open`: see DrawList.
     std::vector<Draw> visible(const Camera& camera, int width, int height,
                               const OpenTiles* open = nullptr) const;
 
     /// ids[view.height][view.stride], as ResolveSurfaces reads them. `scene`: of `draws`. Outside
     /// the tiles of `open` pixels may lack surfaces. Enqueues only, with the room of the last call:
-    /// fits() says whether that was enough. Valid until the next call.
+    /// see fits(). Valid until the next call.
     DeviceArray<uint> enqueue(const SurfaceBuffers& scene, std::span<const Draw> draws,
                               const View& view, StageTimer& timer, const OpenTiles* open = nullptr);
 
@@ -33,7 +33,7 @@ class TriangleIds {
     /// next call has it. Blocks. Throws Error as BinTriangles::fits().
     bool fits();
 
-    /// enqueue() until the lists have room. Blocks.
+    /// Repeats enqueue() until the lists have room. Blocks.
     DeviceArray<uint> draw(const SurfaceBuffers& scene, std::span<const Draw> draws,
                            const View& view, StageTimer& timer, const OpenTiles* open = nullptr);
 

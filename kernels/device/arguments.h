@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parameters that kernels take together. The host's bundles of the same names set them in this
-// order: host/gpu/flow.h and surface_flow.h. What a scene lacks is null. `access`: const, or
-// nothing where the kernel writes.
+// order: host/gpu/flow.h and surface_flow.h. Pointers to what a scene lacks are null. `access`:
+// const, or nothing where the kernel writes.
 #ifndef KILOLUX_DEVICE_ARGUMENTS_H
 #define KILOLUX_DEVICE_ARGUMENTS_H
 #include "kernels/device/light_index.h"
@@ -88,7 +88,7 @@
 #define DISPLAY_ARGS float gain, BUCKET_ARGS, global uint *restrict display
 
 // ShadingOutput of host/stages/shading/shade.cpp. radiance: out [3][height][stride]; variance: out
-// [height][stride], of the luminance, its estimate.
+// [height][stride], the estimated variance of the luminance.
 #define OUTPUT_ARGS \
     float ambient, global float *restrict radiance, global float *restrict variance, DISPLAY_ARGS
 

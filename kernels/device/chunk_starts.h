@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts by (chunk, bin) -> where each chunk's entries begin within each bin: a counting sort's
+// Counts by (chunk, bin) -> the start of each chunk's entries within each bin: a counting sort's
 // step between counting and the prefix sum over bins.
 #ifndef KILOLUX_DEVICE_CHUNK_STARTS_H
 #define KILOLUX_DEVICE_CHUNK_STARTS_H
@@ -11,8 +11,9 @@
 static inline uint cursor_stride(uint bin_count) { return (bin_count + VW - 1u) / VW * VW; }
 
 // Of the VW bins from `bin` on: cursors[chunk][bin] become starts, counts[bin] the bin's entries.
-// Chunks are loaded CHUNKS_AT_ONCE before any of them is stored: else each load waits for the store
-// before it, which could be to the same place, and memory's latency is paid for every chunk.
+// CHUNKS_AT_ONCE chunks are loaded before any of them is stored. Otherwise each load would wait for
+// the store before it, which might be to the same address, and every chunk would pay memory's
+// latency.
 static inline void chunk_starts(global uint* cursors, uint bin_count, uint chunk_count, uint bin,
                                 global uint* counts) {
     uint stride = cursor_stride(bin_count);

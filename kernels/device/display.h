@@ -16,8 +16,7 @@ typedef struct DisplayCurve {
     global const uint* bucket_code;       // [SRGB_BUCKETS]
 } DisplayCurve;
 
-// NaN and negative light are black, infinite light is white, not what a tone curve would make of
-// them.
+// NaN and negative light are black and infinite light is white: tone curves do not see them.
 static inline FV displayable(FV v) { return min(lane_select(v > fv(0.0f), v, fv(0.0f)), fv(1e9f)); }
 
 // R | G << 8 | B << 16 | 255 << 24.

@@ -20,7 +20,7 @@
 #define HAS_OCCLUSION 0
 #endif
 
-// What a kernel needs to read a G-buffer.
+// The arguments by which a kernel reads a G-buffer.
 typedef struct GBuffer {
     global const uchar* bytes;
     GBufferLayout layout;
@@ -42,8 +42,8 @@ static inline void prefetch_plane(GBuffer g, uint plane_index, uint place) {
     prefetch_to_read(g.bytes + g.layout.offset_bytes[plane_index] + place * sizeof(uint));
 }
 
-// Asks for pixels from `place` in their planes on: of the layouts of four-byte planes, all; of
-// those for comparison, the depth.
+// Prefetches pixels from `place` in their planes on: all planes of layouts with planes of four
+// bytes; the depth of those for comparison.
 static inline void prefetch_surface(GBuffer g, uint place) {
     prefetch_plane(g, PLANE_DEPTH, place);
 #if GBUFFER == GBUFFER_PACKED || GBUFFER == GBUFFER_NORMAL_XY

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What kernels of lit pixels begin with: which pixels a work-item has, which of them have surfaces,
-// and the active clusters that they lie in.
+// The beginning of kernels of lit pixels: the pixels of a work-item, those of them with surfaces,
+// and their active clusters.
 #ifndef KILOLUX_DEVICE_LIT_ITEM_H
 #define KILOLUX_DEVICE_LIT_ITEM_H
 #include "kernels/device/arguments.h"
@@ -18,7 +18,7 @@ typedef struct Clusters {
 } Clusters;
 #define CLUSTERS_OF_ARGS ((Clusters){grid, cluster_offsets, clusters, cluster_capacity, order})
 
-// A loop over the active clusters `i` of a tile; those that there is no room for are left out.
+// A loop over the active clusters `i` of a tile; clusters beyond the capacity are left out.
 #define FOR_EACH_CLUSTER(i, from, tile)                                   \
     for (uint i = (from).offsets[tile],                                   \
               i##_end = min((from).offsets[(tile) + 1], (from).capacity); \
@@ -36,7 +36,7 @@ typedef struct LitItem {
     UV slice;    // their fine slices; of clustered items
 } LitItem;
 
-// Of pixels that the planes have.
+// The item of pixels that lie within the planes.
 static inline LitItem lit_item(GBuffer g, Pixels pixels) {
     LitItem item;
     item.pixels = pixels;
@@ -63,7 +63,7 @@ static inline ItemPlace place_in_planes(View view) {
     return at;
 }
 
-// The same, of pixels that are asked for their clusters.
+// The same with the fine slices by which clusters are found.
 static inline LitItem clustered_item(GBuffer g, Clusters from, Pixels pixels) {
     LitItem item = lit_item(g, pixels);
     item.slice = fine_slice_of_depth(from.grid, item.z);
@@ -76,7 +76,7 @@ static inline MASK lanes_in_cluster(LitItem item, Clusters from, uint i) {
 }
 
 #if ORDERED_PIXELS
-// The item's pixels in the order of its tile's clusters; `any` is false, too, where there are none.
+// The item's pixels in the order of its tile's clusters; `any` is also false without clusters.
 static inline LitItem ordered_item(GBuffer g, Clusters from, ItemPlace at) {
     if (!at.inside || !has_clusters(from, at.tile)) {
         LitItem none;

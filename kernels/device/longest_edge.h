@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles in lanes, turned so that products of their edges lose least.
+// Triangles in lanes, with their vertices rotated so that products of edges lose least.
 #ifndef KILOLUX_DEVICE_LONGEST_EDGE_H
 #define KILOLUX_DEVICE_LONGEST_EDGE_H
 #include "kernels/device/lanes.h"
 
-// A length that takes no root: the sum of magnitudes.
+// A norm without a root: the sum of magnitudes.
 static inline FV size3(FV3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
 
-// The triangles' vertices turned so that the longest edge is opposite to the first: the shorter two
-// lose least in their product.
+// Rotates the triangles' vertices so that the longest edge is opposite to the first: the product of
+// the shorter two loses least.
 static inline void turn_from_longest(FV3* v) {
     FV opposite[3];
     for (uint i = 0; i < 3; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks the caches for lines that are used soon. A CPU's own prefetchers follow streams; the rows of
-// a tile are none, each a line of its own a picture's row apart. Past the end of a buffer a request
-// is without effect. OpenCL's prefetch() is empty in PoCL; clang's is not.
-// PREFETCH: 1 if it is wanted.
+// Prefetches cache lines that are used soon. A CPU's own prefetchers follow streams; the rows of a
+// tile are no stream, since each lies a picture's row apart. A request past the end of a buffer has
+// no effect. OpenCL's prefetch() is empty in PoCL; clang's builtin is not. PREFETCH: 1 if it is
+// wanted.
 #ifndef KILOLUX_DEVICE_PREFETCH_H
 #define KILOLUX_DEVICE_PREFETCH_H
 

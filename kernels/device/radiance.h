@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where shading stores its result: three planes.
+// Stores the result of shading: three planes.
 #ifndef KILOLUX_DEVICE_RADIANCE_H
 #define KILOLUX_DEVICE_RADIANCE_H
 #include "kernels/device/gbuffer.h"

@@ -3,8 +3,7 @@
 #ifndef KILOLUX_DEVICE_SCAN_GROUP_H
 #define KILOLUX_DEVICE_SCAN_GROUP_H
 
-// Exclusive scan of one value a work-item. `shared_sums`, [GROUP]: out, the sums up to each item,
-// its own value included.
+// Exclusive scan of one value a work-item. `shared_sums`, [GROUP]: out, the inclusive sums.
 static inline ulong scan_group(ulong value, local ulong* shared_sums) {
 #if GROUP == 1
     return 0ul;

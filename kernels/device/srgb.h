@@ -23,8 +23,8 @@ static inline UV srgb_code_by_table(global const float* bucket_boundary,
 }
 
 // The same by arithmetic in all lanes at once: 255 (1.055 c^(1/2.4) - 0.055) + 0.5 as a polynomial
-// in c^(1/4), minimax on [0.0031, 1], error 3.7e-4. Only where a value lies within 1/1024 of a
-// code's boundary, more than that and float's rounding (1e-4), do the lanes ask the table.
+// in c^(1/4), minimax on [0.0031, 1], error 3.7e-4. The lanes use the table only where a value lies
+// within 1/1024 of a code's boundary, which is more than that error and float's rounding (1e-4).
 static inline UV srgb_code(global const float* bucket_boundary, global const uint* bucket_code,
                            FV v) {
     FV c = min(max(v, fv(bits_float(SRGB_FIRST_BITS))), fv(1.0f));

@@ -38,7 +38,7 @@ static inline ShadeLight load_light(global const StoredLight* stored) {
 #define LIGHT_AT(lights, i) load_light((lights) + (i))
 #else
 #define StoredLight ShadeLight
-// No function: PoCL then copies the light lane by lane.
+// A macro: PoCL copies the light lane by lane if a function returns it.
 #define LIGHT_AT(lights, i) (lights)[i]
 #endif
 #endif

@@ -11,7 +11,7 @@ typedef struct TextureBuffers {
     global const ulong* texels;  // 16 bits a channel, linear, red lowest
 } TextureBuffers;
 
-// What a use of a material reads.
+// The texture that a use of a material reads.
 typedef struct Map {
     global const TextureRow* row;
     global const ulong* texels;
@@ -37,8 +37,8 @@ static inline UV level_offsets(Map map, UV level) {
 #endif
 }
 
-// Pairs of words are loaded one by one: compilers would make a gather of single elements, which
-// CPUs run slower (Zen 4: half as fast).
+// Loads pairs of words one by one: compilers would make a gather of single elements, which CPUs run
+// slower (Zen 4: half as fast).
 static inline Texels gather_texels(global const ulong* texels, UV place) {
     Texels out;
     global const uint2* pairs = (global const uint2*)texels;
@@ -74,7 +74,7 @@ static inline Texels fetch_texels(Map map, UV place) { return gather_texels(map.
 
 #include "kernels/shared/texture.h"
 
-// Asks the caches for the texels of a level.
+// Prefetches the texels of a level.
 static inline void prefetch_level(global const ulong* texels, const LevelLookup* at) {
 #if PREFETCH && VW > 1
     uint upper[VW];

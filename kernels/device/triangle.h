@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What triangle ids say is seen: the scene's buffers in OpenCL C, and triangles set up one by one
+// The surfaces of triangle ids: the scene's buffers in OpenCL C, and triangles set up one by one
 // (kernels/shared/triangle.h).
 #ifndef KILOLUX_DEVICE_TRIANGLE_H
 #define KILOLUX_DEVICE_TRIANGLE_H

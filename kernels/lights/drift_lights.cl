@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that move by themselves: where they are, and the order in which kernels go through them,
+// Generated lights that move: their places, and the order in which kernels go through them,
 // neighbours in space beside each other. Integers decide, so both are the same on every device.
 //
 //   drift_keys     a light's place in the order (light_order.h)
@@ -23,7 +23,7 @@ typedef struct Elapsed {
     ulong rest;    // [2^-64 s]
 } Elapsed;
 
-// The share of a box's extent [2^-63] that a light is at. Whole turns are dropped.
+// The place of a light as a share of a box's extent [2^-63]. Whole turns are dropped.
 static inline ulong reflected(ulong turns, ulong rate, Elapsed elapsed) {
     ulong speed = abs((long)rate);
     ulong moved = speed * elapsed.seconds + mul_hi(speed, elapsed.rest);
@@ -71,7 +71,7 @@ static inline uint cell_at(float2 place, float cells_per_metre) {
     return (uint)((int)whole + (int)floor(rest));
 }
 
-// Where a light is.
+// The place of a light.
 typedef struct DriftPlace {
     float2 x, y, z;  // pairs of floats [m]
 } DriftPlace;

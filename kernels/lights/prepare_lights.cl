@@ -102,9 +102,9 @@ kernel void prepare_lights(global const Light* restrict own,  // camera-relative
         x[i] = p.x;
         y[i] = p.y;
         z[i] = -p.z;
-        // More than the list test grants (CULL_LIMIT, 1e-6 of the range) and float32 loses on the
-        // way to tiles (16 u of the position); 1e-18 m where both are denormal, which a device may
-        // flush.
+        // More than CULL_LIMIT allows in the list test (1e-6 of the range) and than float32 loses
+        // on the way to tiles (16 u of the position); 1e-18 m where both are denormal, which a
+        // device may flush.
         r[i] = fma(range, 1.00001f,
                    1e-6f * (fabs(p.x) + fabs(p.y) + fabs(p.z)) + grid.position_pad + 1e-18f);
     }

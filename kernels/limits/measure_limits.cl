@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the device can do at best, for the limits that stages are held against. Arithmetic: every
-// work-item keeps enough independent chains of FV in registers to hide the units' latencies (two
-// FMA pipes of 4..5 cycles need 8..10), on numbers that neither grow nor become denormal. Memory:
-// every work-item walks `count` vectors, `step` apart from `item * item_step` on; neighbouring
-// work-items take neighbouring vectors on GPUs (item_step 1), a contiguous range each on CPUs (step
-// 1).
+// Measures the highest rates of the device, for the limits of stages. Arithmetic: every work-item
+// keeps enough independent chains of FV in registers to hide the units' latencies (two FMA pipes of
+// 4..5 cycles need 8..10), on numbers that neither grow nor become denormal. Memory: every
+// work-item walks `count` vectors, `step` apart from `item * item_step` on; neighbouring work-items
+// take neighbouring vectors on GPUs (item_step 1), a contiguous range each on CPUs (step 1).
 #include "kernels/device/lanes.h"
 
 #define EACH_10(op) op(0) op(1) op(2) op(3) op(4) op(5) op(6) op(7) op(8) op(9)
@@ -89,7 +88,7 @@ kernel void division_rate(uint iterations, float a, float b,
     lane_store(sum, out + get_global_id(0) * VW);
 }
 
-// Does nothing: what a launch costs.
+// Does nothing: measures the cost of a launch.
 kernel void launch_nothing(global float* restrict out) { (void)out; }
 
 kernel void write_memory(uint repeats, uint count, uint item_step, uint step,

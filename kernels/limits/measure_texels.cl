@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many texels a device reads at best: the limit of what samples textures.
+// Measures how many texels a device reads at best: the limit of stages that sample textures.
 // TEXELS: of the table, a power of two.
 #include "kernels/device/texture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both forms of bin_pixels share.
+// The common part of both forms of bin_pixels.
 //
 // Active clusters: for every fine tile, one for each depth slice that occurs among its pixels, with
 // the box of just those pixels (Olsson, Billeter, Assarsson 2012: explicit bounds). Background
@@ -18,7 +18,7 @@
 
 // A strip: VW pixels of a row of the tile.
 #define STRIPS (FINE_TILE / VW)
-// Of background and beyond the image.
+// The slice of background pixels and of pixels beyond the image.
 #define NO_SLICE 0xffffffffu
 
 // Slices of pixels, and their depths `z` [m], undefined where there is no slice.

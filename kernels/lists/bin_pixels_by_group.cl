@@ -28,7 +28,7 @@ static inline void load_slices(GBuffer g, ClusterGrid grid, uint tile_x, uint ti
     for (uint i = get_local_id(0); i < slice_words(grid); i += GROUP) seen[i] = 0;
     barrier(CLK_LOCAL_MEM_FENCE);  // cleared before any bit is set
     uint strips = rows_of_tile(g.view, tile_y) * STRIPS;
-    uint last = NO_SLICE;  // whose bit the work-item has set
+    uint last = NO_SLICE;  // the slice whose bit the work-item set last
     for (uint round = 0; round < ROUNDS; ++round) {
         uint strip = strip_of_round(round);
         slices[round] = (UV)(NO_SLICE);
@@ -61,11 +61,11 @@ static inline uint count_slices(local const uint* seen, ClusterGrid grid) {
     return count;
 }
 
-kernel void bin_pixels_count(
-    GBUFFER_ARGS, ClusterGrid grid,
-    global uint* restrict counts,  // out [tiles]: active clusters
-    // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
-    global uchar* restrict occupied) {  // [cluster_count]
+kernel void bin_pixels_count(GBUFFER_ARGS, ClusterGrid grid,
+                             global uint* restrict counts,  // out [tiles]: active clusters
+                             // Of coarse clusters: 1 where one has active ones. In: 0; concurrent
+                             // writers write the same value.
+                             global uchar* restrict occupied) {  // [cluster_count]
     local uint seen[SLICE_WORDS];
     uint tiles_x = fine_tiles_x(view);
     uint tile = get_group_id(0);
@@ -82,11 +82,11 @@ kernel void bin_pixels_count(
     }
 }
 
-// The clusters of a tile in the making.
+// The clusters of a tile while they are built.
 typedef struct TileClusters {
     int low[FINE_TILE_PIXELS][3];  // of the boxes, as ordered_bits
     int high[FINE_TILE_PIXELS][3];
-    // The pixels of each, a bit each; then those of none.
+    // Bits of each cluster's pixels; then those of background.
     uint pixels[FINE_TILE_PIXELS + 1][PIXEL_WORDS];
     uint first[FINE_TILE_PIXELS + 1];  // where their pixels begin in the tile's order
     uint slice[FINE_TILE_PIXELS];
@@ -135,7 +135,7 @@ static inline Run add_to_run(Run run, uint cluster, const float* position,
     return run;
 }
 
-// A strip's pixels join their clusters; those of none have number `count`.
+// A strip's pixels join their clusters; background pixels have number `count`.
 static inline Run add_strip(Run run, GBuffer g, Pixels at, UV slices, uint pixel,
                             local const uint* seen, uint count, local TileClusters* tile) {
     FV3 p = load_position(g, at, view_depth(g.view, at.x, at.y, load_depth01(g, at)));
@@ -194,7 +194,7 @@ static inline ActiveCluster finished_cluster(local const TileClusters* tile, uin
     return c;
 }
 
-// Puts a strip's pixels where the tile's order has them.
+// Puts a strip's pixels at their places in the tile's order.
 static inline void place_strip(UV slices, uint pixel, local const uint* seen, uint count,
                                local const TileClusters* tile, global uchar* order) {
     uint slice[VW];

@@ -38,11 +38,11 @@ static inline uint next_slice(const TileSlices* tile, uint slice) {
     return lane_min_uint(next);
 }
 
-kernel void bin_pixels_count(
-    GBUFFER_ARGS, ClusterGrid grid,
-    global uint* restrict counts,  // out [tiles]: active clusters
-    // Of coarse clusters: 1 where one has active ones. In: 0; all who write, write the same.
-    global uchar* restrict occupied) {  // [cluster_count]
+kernel void bin_pixels_count(GBUFFER_ARGS, ClusterGrid grid,
+                             global uint* restrict counts,  // out [tiles]: active clusters
+                             // Of coarse clusters: 1 where one has active ones. In: 0; concurrent
+                             // writers write the same value.
+                             global uchar* restrict occupied) {  // [cluster_count]
     uint tiles_x = fine_tiles_x(view);
     uint tile = get_global_id(0);
     GBuffer g = GBUFFER_OF_ARGS;
@@ -91,8 +91,8 @@ static inline ActiveCluster cluster_of_slice(GBuffer g, uint tile_x, uint tile_y
 }
 
 // Appends the pixels of one slice (row * FINE_TILE + column) to the tile's order, which has room
-// for one more than there are; returns how many there are then. Which pixels are the slice's cannot
-// be foreseen: each is written, and the next in its place if it is not.
+// for one more than there are; returns the new count. A branch could not be predicted, so each
+// pixel is written, and the next one overwrites it if it is of another slice.
 static inline uint append_pixels(const TileSlices* tile, uint slice, uint strips, uchar* order,
                                  uint count) {
     for (uint i = 0; i < strips; ++i) {

@@ -16,8 +16,8 @@ static inline float2 padded(float2 interval, float pad) {
 }
 
 // View-space interval [m] that pixel coordinates [p0, p1] span over the depths, along one axis with
-// x_view = (p * step + offset) * z (perspective). 4e-7: rounding of that formula for a pixel
-// inside.
+// x_view = (p * step + offset) * z (perspective). 4e-7 covers the rounding of that formula for a
+// pixel inside.
 static inline float2 view_interval(float p0, float p1, float step, float offset, float2 depths,
                                    bool orthographic) {
     float pad = 4e-7f * (fabs(offset) + fabs(p1 * step));

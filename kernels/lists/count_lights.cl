@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shading evaluates and what it needs: per pixel, the lights of its list (k), and those whose
-// range covers it (k*). For statistics and views; no part of a frame otherwise.
+// Counts per pixel the lights of its list (k), which shading evaluates, and those whose range
+// covers it (k*). For statistics and views; no part of a frame otherwise.
 // One work-item counts for VW neighbouring pixels of a row.
 #include "kernels/device/lit_item.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the lists of a frame hold, as one PairCounts that the host reads at once.
+// The totals of a frame's lists, as one PairCounts that the host reads at once.
 //   count_pairs_sum_shares  each work-item sums every get_global_size(0)-th active cluster
 //   count_pairs             one work-group of GROUP joins the shares and the lists' totals
 // All sums are of integers: the same in any order.

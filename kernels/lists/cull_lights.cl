@@ -21,7 +21,7 @@ typedef struct ClusterBoxes {
     global const uchar* occupied;
 } ClusterBoxes;
 
-// Where pairs go: counted, or filled in.
+// The target of pairs: counted, or filled in.
 typedef struct PairSink {
     global uint* cursors;        // [cursor_stride] of this chunk
     global const uint* offsets;  // [cluster_count + 1]; fill only
@@ -127,9 +127,9 @@ static inline bool touches_grid(LightExtent e) {
            !is_empty_interval(e.rows);
 }
 
-// This work-group's chunk. Not the next to its neighbours', since threads of a CPU take
-// neighbouring groups, and neighbouring lights cost alike: those near the camera are in many
-// clusters. Every chunk is one group's, as the factor is a prime above all their numbers.
+// This work-group's chunk. Neighbouring groups get chunks far apart, since threads of a CPU take
+// neighbouring groups and neighbouring lights cost alike: lights near the camera are in many
+// clusters. The factor is a prime above every number of chunks, so each chunk belongs to one group.
 static inline size_t chunk_of_group(void) {
     return (ulong)get_group_id(0) * 2654435761ul % get_num_groups(0);
 }
@@ -168,7 +168,7 @@ kernel void cull_lights_count(
     uint stride = cursor_stride(grid.cluster_count);
     PairSink sink = {cursors + chunk_of_group() * stride, 0, 0, 0u};
     for (uint i = get_local_id(0); i < stride; i += get_local_size(0)) sink.cursors[i] = 0u;
-    // Zeroed by all before any counts.
+    // All work-items zero the cursors before any counts.
     barrier(CLK_GLOBAL_MEM_FENCE);
     walk_chunk(lights, bounds, extents, light_count, grid, boxes, sink, false);
 }
@@ -197,7 +197,7 @@ static inline bool holds(uint interval, uint i) {
 }
 
 // The oracle: every light against every cluster. One work-item a cluster. With `lists` null it
-// counts, else it fills at `offsets`. Ships for tests and as the benchmark's baseline.
+// counts, else it fills at `offsets`. Tests use it, and benchmarks as a baseline.
 kernel void cull_lights_brute_force(LIGHT_ARGS(const), BOX_ARGS(const), uint fill,
                                     global uint* restrict counts,  // out [cluster_count]
                                     COARSE_LIST_ARGS()) {          // out: lists, if fill

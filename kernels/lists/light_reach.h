@@ -9,8 +9,8 @@
 #define HAS_SPOT_LIGHTS 0
 #endif
 
-// Distance from c to the interval [lo, hi]; 0 inside. Rounding is monotone: never more than that of
-// any point of the interval computed the same way.
+// Distance from c to the interval [lo, hi]; 0 inside. Rounding is monotone, so the result is at
+// most the distance to any point of the interval computed the same way.
 static inline float interval_distance(float c, float lo, float hi) {
     return max(max(lo - c, c - hi), 0.0f);
 }
@@ -23,21 +23,21 @@ static inline bool sphere_reaches(float dx, float dy, float dz, float inv_range2
 }
 
 // A spot's cone against the bounding sphere of a box: false only if no point of the sphere is
-// inside. Distance from the centre to the cone's surface, whose nearest point lies on it wherever
-// the centre is outside: of cones narrower than 90 degrees that holds in front of their apex, of
-// wider ones everywhere.
+// inside. Uses the distance from the centre to the cone's surface. The nearest point of that
+// surface lies on it wherever the centre is outside: of cones narrower than 90 degrees that holds
+// in front of their apex, of wider ones everywhere.
 static inline bool cone_reaches(ShadeLight light, float3 lo, float3 hi) {
     float3 q = 0.5f * (lo + hi) - light.position_inv_range2.xyz;
     float radius = 0.5f * length(hi - lo);
     float q2 = dot(q, q);
-    // The box test alone decides where squares lose their meaning, and for point lights.
+    // Point lights, and squares beyond float32's range, leave the decision to the box test.
     if (!(q2 + radius * radius < 1e30f) || light.axis_cos.w <= -1.0f) return true;
     float along = dot(q, light.axis_cos.xyz);
     float across = sqrt(max(q2 - along * along, 0.0f));
     float cos_out = light.axis_cos.w;
     float sin_out = sqrt(max(1.0f - cos_out * cos_out, 0.0f));
     float slack = 1e-3f * (radius + sqrt(q2));  // more than float32 loses here
-    // Chosen, not branched on: PoCL 3.1 loses values across cull_lights' barriers otherwise.
+    // A selection, not a branch: PoCL 3.1 loses values across cull_lights' barriers otherwise.
     float back = cos_out < 0.0f ? -1e30f : -(radius + slack);
     return cos_out * across - sin_out * along <= radius + slack && along >= back;
 }

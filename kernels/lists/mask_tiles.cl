@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Empties the fine tiles that need no more samples: background is neither listed nor shaded. One
-// work-item takes VW neighbouring pixels of a row.
+// Empties the fine tiles that need no more samples, since background is neither listed nor shaded.
+// One work-item takes VW neighbouring pixels of a row.
 #include "kernels/device/lanes.h"
 #include "kernels/shared/cluster_grid.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exclusive prefix sum of uint counts. A block is what a work-group sums: one block is done in one
-// launch (prefix_sum_one_block), more in three:
+// Exclusive prefix sum of uint counts. A work-group sums a block: one block takes one launch
+// (prefix_sum_one_block), more take three:
 //   prefix_sum_blocks   each work-item sums its PER_ITEM neighbours, each work-group its block
 //   prefix_sum_totals   one work-item scans the blocks' sums, in 64 bits
 //   prefix_sum_apply    each work-item writes its neighbours' offsets

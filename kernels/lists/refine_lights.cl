@@ -35,14 +35,13 @@ kernel void refine_lights_reserve(View view, CLUSTER_ARGS(const), uint tile_coun
     reserves[tile] = (uint)min(sum, (ulong)0xffffffffu);
 }
 
-// VW neighbours of a coarse list, or as many as are left of it; the lanes without one repeat the
-// last.
+// VW neighbours of a coarse list, or the rest of it; lanes beyond the end repeat the last entry.
 typedef struct Batch {
     uint count;
     uint light[VW];
 } Batch;
 
-// From entry `first` of the list that ends before `end` on.
+// Loads entries from `first` on of the list that ends before `end`.
 static inline void load_batch(global const LIGHT_INDEX* list, uint first, uint end, Batch* out) {
     out->count = first < end ? min(end - first, (uint)VW) : 0u;
     if (out->count == VW) {
@@ -59,8 +58,8 @@ static inline void load_batch(global const LIGHT_INDEX* list, uint first, uint e
 // Which of a batch's lights reach the cluster's box; 1 or 0.
 static inline UV reaching_lanes(ActiveCluster c, global const ShadeLight* lights,
                                 global const float4* bounds, const Batch* batch) {
-    // Taken apart in registers: a vector that is read where its lanes have just been written one by
-    // one waits until all of them have reached the cache.
+    // Copied in registers: a vector that is read where its lanes have just been written one by one
+    // waits until all of them have reached the cache.
     float4 bound[VW];
 #pragma unroll
     for (uint i = 0; i < VW; ++i) bound[i] = bounds[batch->light[i]];
@@ -94,8 +93,8 @@ static inline uint append(UV flags, const Batch* batch, global LIGHT_INDEX* out,
 #if GROUP == 1
     uint count = 0;
     if (batch->count == VW && VW <= room) {
-        // Which lights reach cannot be foreseen: each is written, and the next in its place if not.
-        // The reserve has room for all.
+        // A branch could not be predicted, so each light is written, and the next one overwrites it
+        // if it does not reach. The reserve has room for all.
 #pragma unroll
         for (uint i = 0; i < VW; ++i) {
             out[count] = (LIGHT_INDEX)batch->light[i];

@@ -4,18 +4,18 @@
 //
 // Stopping as soon as samples agree would miss rare light: such a mean is too dark where few
 // samples are bright (Kirk and Arvo 1991, "Unbiased Sampling Techniques for Image Synthesis"). So
-// there are two halves of the samples, and each one's spread decides where the other's mean ends:
-// a mean's count then does not depend on its own samples, and it is right on average. A tile takes
-// samples until both halves' means have ended.
+// there are two halves of the samples, and the spread of each decides where the other's mean stops.
+// The number of samples of a mean then does not depend on these samples, and the mean is unbiased.
+// A tile takes samples until both means have stopped.
 //
 // A half's state: planes of its mean (3), and of the running mean and the sum of squared deviations
-// of its luminance (Welford 1962), which go on after the mean has ended.
+// of its luminance (Welford 1962), which continue after the mean has stopped.
 #include "kernels/device/luminance.h"
 #include "kernels/shared/cluster_grid.h"
 
 #define STATE_PLANES 5
 
-// `mean` of n values after `value`, the n-th. What is infinite stays so.
+// `mean` of n values after `value`, the n-th. An infinite mean stays infinite.
 static inline FV mean_with(FV mean, FV value, float n) {
     FV change = value - mean;
     FV next = mean + change / n;
@@ -55,10 +55,10 @@ kernel void adaptive_samples_add(View view, uint h, uint n,
     lane_store(fma(change, seen - middle, squares), half_state + 4 * plane);
 }
 
-// After n samples of each half: where a half's samples say that the mean of both has a relative
-// standard error of at most the one asked for, the other's mean ends. A tile's squared error is the
-// mean over its pixels of variance / (luminance^2 + floor^2); what is not finite has none. One
-// work-item takes a tile: the sum's order is the same for every width of lanes.
+// After n samples of each half: where a half's samples show that the mean of both has a relative
+// standard error of at most the one asked for, the other half's mean stops. A tile's squared error
+// is the mean over its pixels of variance / (luminance^2 + floor^2); pixels that are not finite
+// count 0. One work-item takes a tile, so the order of the sum is the same for every lane width.
 kernel void adaptive_samples_decide(View view, uint n, float squared_error, float squared_floor,
                                     global const float* restrict state,
                                     global uint* restrict fixed) {  // in, out [2][tiles]: the
@@ -84,8 +84,9 @@ kernel void adaptive_samples_decide(View view, uint n, float squared_error, floa
             }
         }
         uint other = (1 - h) * tiles + tile;
-        // The variance of n values is off by sqrt(2 / (n - 1)) of it where a tile's pixels err
-        // alike: that much is granted. The mean of both halves has half the variance of one.
+        // The estimated variance of n values is off by sqrt(2 / (n - 1)) of it where a tile's
+        // pixels err alike: that much is added. The mean of both halves has half the variance of
+        // one.
         float degrees = (float)(n - 1);
         float bound = sum * (1.0f + sqrt(2.0f / degrees));
         bool is_enough = bound <= squared_error * pixels * 2.0f * (float)n * degrees;
@@ -94,7 +95,7 @@ kernel void adaptive_samples_decide(View view, uint n, float squared_error, floa
 }
 
 // The mean of both halves, and the variance of its luminance. `n`: samples taken of each half where
-// a mean has not ended. One work-item takes VW neighbouring pixels of a row.
+// a mean has not stopped. One work-item takes VW neighbouring pixels of a row.
 kernel void adaptive_samples_mean(View view, uint n, global const float* restrict state,
                                   global const uint* restrict fixed,
                                   global float* restrict mean,        // out [3][height][stride]

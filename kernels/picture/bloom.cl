@@ -8,8 +8,8 @@
 
 static inline uint clamped(int i, uint size) { return (uint)clamp(i, 0, (int)size - 1); }
 
-// Light that is no number or negative does not bloom, and infinite light only as much as float
-// holds after a sum of 16. fmax, since max leaves NaN open.
+// NaN and negative light do not bloom, and infinite light counts as the largest float that a sum of
+// 16 can hold. fmax(), since max() is undefined for NaN.
 static inline FV bloomable(FV v) { return fmin(fmax(v, fv(0.0f)), fv(1e36f)); }
 
 // p[0], p[2], p[4] ... Elements by name, since oclgrind 21.10 crashes on vectors joined of halves

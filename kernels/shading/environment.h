@@ -53,7 +53,8 @@ typedef struct MapTexels {
 static inline MapTexels texels_towards(FV3 d, uint4 size) {
     FV width = fv((float)size.x);
     FV last_row = fv((float)(size.y - 1u));
-    // As Environment::direction(): columns from behind over -X and ahead, rows from above.
+    // The inverse of Environment::direction(): columns from behind over -X and ahead, rows from
+    // above.
     FV turns = angle_of(d.x, -d.z) * (0.5f / PI) + 0.5f;
     FV from_top = angle_of(lane_sqrt(fma(d.x, d.x, d.z * d.z)), d.y) * (1.0f / PI);
     FV column = fma(turns, width, fv(-0.5f));

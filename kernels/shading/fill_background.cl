@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment's light where no surface covers a pixel. One work-item fills VW neighbouring
-// pixels of a row.
+// Fills the pixels without a surface with the environment's light. One work-item fills VW
+// neighbouring pixels of a row.
 #include "kernels/device/lit_item.h"
 #include "kernels/shading/environment.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where shading stores a pixel's light: as three planes of radiance or, with DISPLAYED, as codes of
-// a display.
+// Stores a pixel's light: as three planes of radiance or, with DISPLAYED, as codes of a display.
 #ifndef KILOLUX_DEVICE_LIGHT_TARGET_H
 #define KILOLUX_DEVICE_LIGHT_TARGET_H
 #include "kernels/device/display.h"
@@ -34,7 +33,7 @@ static inline void store_light(LightTarget to, View view, Pixels pixels, FV3 col
 #endif
 }
 
-// Asks for the row's pixels in the tile to the right, which a CPU's thread shades next.
+// Prefetches the row's pixels in the tile to the right, which a CPU's thread shades next.
 static inline void prefetch_next_tile(GBuffer g, LightTarget to, uint x, uint y) {
     uint place = y * g.view.stride + x + FINE_TILE;
     prefetch_surface(g, place);

@@ -62,9 +62,9 @@ static inline FV3 table_at(ReflectionMaps maps, FV n_dot_v, FV roughness) {
     return filtered_rgb(maps.table, t);
 }
 
-// Where most of a lobe's light comes from: the mirror's direction, for rough surfaces nearer to the
-// normal (Lagarde and de Rousiers 2014, "Moving Frostbite to PBR", 4.9.3). 1 - alpha^2 has half the
-// error of their weight at roughness 0.25, and like errors above. Of any length.
+// The direction that most of a lobe's light comes from: the mirror's, for rough surfaces nearer to
+// the normal (Lagarde and de Rousiers 2014, "Moving Frostbite to PBR", 4.9.3). 1 - alpha^2 has half
+// the error of their weight at roughness 0.25, and like errors above. Of any length.
 static inline FV3 lobe_direction(FV3 normal, FV3 to_eye, FV roughness) {
     FV alpha = clamped_alpha(roughness);
     FV share = fma(-alpha, alpha, fv(1.0f));

@@ -16,7 +16,7 @@ static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
 }
 #endif
 
-// What is lit by a tile's clusters, and their lists.
+// The inputs of lighting a tile by its clusters' lists.
 typedef struct ClusterLists {
     Clusters clusters;
     global const LIGHT_INDEX* lists;
@@ -28,8 +28,8 @@ typedef struct ClusterLists {
 #endif
 } ClusterLists;
 
-// What the lights of a tile's clusters add up to, each cluster's at the drawn pixels of its slice.
-// `any_drawn`: else the work-item only helps to stage.
+// The sum over the lights of a tile's clusters, each cluster's at the drawn pixels of its slice.
+// Without `any_drawn` the work-item only helps to stage.
 static inline LightSum sum_clusters(ClusterLists from, uint tile, LitItem item, bool any_drawn,
                                     ShadingPoint p, LightSet set) {
 #if !SHADOWS

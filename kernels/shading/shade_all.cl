@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiance of every pixel from every light: the reference that lists must not change by a bit.
-// One work-item shades VW neighbouring pixels of a row. A work-group lies within one fine tile;
+// Radiance of every pixel from every light: the reference that shading by lists must equal bit for
+// bit. One work-item shades VW neighbouring pixels of a row. A work-group lies within one fine
+// tile;
 // with STAGE > 0 it is a whole one.
 #define ALL_LIGHTS 1
 #include "kernels/device/lit_item.h"

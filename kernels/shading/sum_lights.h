@@ -10,7 +10,7 @@
 #include "kernels/shared/light_profile.h"
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
-// SHADOWS_RAYS: found out where it is asked. SAMPLED_SHADOWS: only of the lights that are drawn.
+// SHADOWS_RAYS: those whose rays, cast on demand, reach it. SAMPLED_SHADOWS: only for drawn lights.
 #define SHADOWS_NONE 0
 #define SHADOWS_BITS 1
 #define SHADOWS_RAYS 2
@@ -54,7 +54,7 @@ typedef struct LightSet {
 #endif
 #if SAMPLED_SHADOWS
     ShadowDraw draw;
-    FV* variance;  // of the luminance, its estimate
+    FV* variance;  // the estimated variance of the luminance
 #endif
 #if HAS_LIGHT_PROFILES
     LightProfiles profiles;
@@ -97,7 +97,7 @@ static inline MASK sees_directional(LightSet set, uint i) {
 
 #if SAMPLED_SHADOWS
 #if SHADOWS == SHADOWS_BITS
-// The lanes that draw the light and from which it is hidden: the bits are theirs.
+// The lanes that draw the light and from which it is hidden, as cast_shadows' bits say.
 static inline MASK hides_drawn(LightSet set, uint entry, uint light) {
     return sees_light(set.shadows,
                       (light & DRAWN_DIRECTIONAL) != 0u ? entry : set.directional_count + entry);
@@ -114,7 +114,7 @@ static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum on
 }
 #endif
 
-// `sum` of what the estimate takes away, with that of a light whose sum alone is `one`.
+// `sum`, the hidden light of the estimate, with a light whose sum alone is `one`.
 static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, LightSum sum) {
     FV alone = light_alone(set.draw, one);
     FV q = draw_probability(set.draw, alone);
@@ -122,8 +122,8 @@ static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, Ligh
     return add_hidden(sum, one, q, hidden);
 }
 
-// Adds what a light takes away from the radiance if all are seen. ONE: its sum alone, which bits
-// need only where one is set.
+// Adds a light that is hidden, which the estimate takes from the radiance if all are seen. ONE: its
+// sum alone, which bits need only where one is set.
 #if SHADOWS == SHADOWS_BITS
 #define ADD_SAMPLED(set, entry, light, sum, ONE)                            \
     {                                                                       \
@@ -140,8 +140,8 @@ static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, Ligh
 #endif
 #endif
 
-// ADD_SEEN(sum, seen, lit): `lit`, what `sum` becomes, in the lanes that see the light. It is made
-// only if any does.
+// ADD_SEEN(sum, seen, lit): `lit`, the new value of `sum`, in the lanes that see the light. It is
+// computed only if any lane does.
 #define ADD_SEEN(sum, seen, lit)                                    \
     {                                                               \
         MASK lanes = (seen);                                        \

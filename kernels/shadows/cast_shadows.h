@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both forms of cast_shadows share.
+// The common part of all forms of cast_shadows.
 //
 // Words of bits: tile after tile, cluster after cluster, for each directional light and each light
 // of the cluster's list as many words of 32 pixels as the cluster touches. Bit i of word w is place
 // 32 w + i in the tile's order, w counted from the cluster's first pixel's.
 #ifndef KILOLUX_DEVICE_CAST_SHADOWS_H
 #define KILOLUX_DEVICE_CAST_SHADOWS_H
-// With DRAWN_ONLY the words hold the pixels that draw a light (draw_shadows), and then those of
-// them from which it is hidden; else those that see it.
+// With DRAWN_ONLY the words hold the pixels that draw a light (draw_shadows), and afterwards those
+// of them from which it is hidden; else those that see it.
 #ifndef DRAWN_ONLY
 #define DRAWN_ONLY 0
 #endif

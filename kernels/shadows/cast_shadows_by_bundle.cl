@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// cast_shadows by a walk for each light and VW pixels, as shade_all finds out what they see: the
-// check of walks for whole clusters, and what those are measured against. One work-item takes VW
-// pixels, neighbours in the order of their tile. Bits of background are left as they are.
+// cast_shadows by a walk for each light and VW pixels, as shade_all does it: it checks walks for
+// whole clusters, and benchmarks compare them with it. One work-item takes VW pixels, neighbours in
+// the order of their tile. Bits of background do not change.
 #define ORDERED_PIXELS 1
 #include "kernels/shadows/cast_shadows.h"
 #include "kernels/shadows/shadow_rays.h"
 
-// Bits of the item's pixels that are the cluster's, from lane 0 on.
+// Writes the bits of the item's pixels that are the cluster's, from lane 0 on.
 static inline void put_seen(ShadowBits bits, uint j, MASK mine, MASK seen, global uint* words) {
     global uint* word = words + (bits.words - words) + j * bits.stride;
 #if DRAWN_ONLY

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// cast_shadows by a work-group for every SPLIT-th light of a tile: GROUP / SHADOW_WIDTH nodes at a
-// time, an item a child; then an item a triangle; then an item a few pixels. For GPUs; one pixel a
-// lane. In which order items find triangles decides nothing.
+// cast_shadows by a work-group for every SPLIT-th light of a tile: the items test the children of
+// GROUP / SHADOW_WIDTH nodes at a time, an item a child; then triangles, an item each; then points,
+// an item a few. For GPUs; one pixel a lane. The order in which items find triangles does not
+// change the result.
 #define ORDERED_PIXELS 1
 #define SHADOW_POINTS (FINE_TILE_PIXELS / GROUP)
 #include "kernels/shadows/cast_shadows.h"
@@ -11,12 +12,12 @@
 #define SPLIT 4
 #endif
 #define NODES_AT_ONCE (GROUP / SHADOW_WIDTH)
-// Triangles that wait for their test, at most.
+// Most triangles that wait for their test.
 #define GROUP_FOUND (2 * GROUP)
 // float4 of a triangle: its forms, the edges' units with its child's number, its box.
 #define FORM_FLOAT4S 5
 
-// What the items share.
+// The memory that the items share.
 typedef struct GroupWalk {
     uint stack[SHADOW_STACK];
     uint found[GROUP_FOUND];
@@ -172,8 +173,8 @@ static inline uint nodes_to_take(ShadowView view, uint top) {
     return top + take * (SHADOW_WIDTH - 1u) <= room ? take : 1u;
 }
 
-// Takes `take` of the nodes off the stack, and puts their children that the shaft meets where they
-// belong.
+// Takes `take` nodes off the stack, and puts those of their children that the shaft meets on the
+// stack or into the found triangles.
 static inline void walk_nodes(ShadowScene scene, Shaft shaft, uint top, uint take,
                               local GroupWalk* walk) {
     if (this_item() == 0u) walk->top = top - take;
@@ -210,7 +211,7 @@ static inline void store_counts(const ShadowPoints* points, local GroupWalk* wal
 #endif
 }
 
-// Puts out the item's lit flags where something stands between its points and the light.
+// Clears the lit flag of each of the item's points that a triangle hides from the light.
 static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, Shaft shaft,
                                          local GroupWalk* walk, ShadowPoints* points) {
     bool goes_on = true;
@@ -234,7 +235,7 @@ static inline void cast_shadows_of_group(ShadowScene scene, ShadowLight light, S
     }
 }
 
-// The words of the cluster's flags, each byte by an item.
+// Words of the cluster's flags: an item writes a byte at a time.
 static inline void store_words(uint first, uint end, local GroupWalk* walk, global uint* words) {
     uint count = shadow_words(first, end);
     uint from = first / 32u * 32u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Per pixel the lights, directional ones too, that it faces within their range, and those of them
-// that it sees past what casts shadows. For views; no part of a frame otherwise.
+// Counts per pixel the lights, directional ones too, that it faces within their range, and those of
+// them that no caster hides. For views; no part of a frame otherwise.
 // One work-item counts for VW pixels, neighbours in the order of their tile's clusters.
 #define ORDERED_PIXELS 1
 #include "kernels/device/lit_item.h"

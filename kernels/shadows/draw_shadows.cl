@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels draw a shadow ray to which light of their cluster's list, as bits in cast_shadows'
-// words: see kernels/shadows/shadow_draw.h.
+// Decides for each pixel to which lights of its cluster's list it draws a shadow ray, as bits in
+// cast_shadows' words: see kernels/shadows/shadow_draw.h.
 //   draw_shadows_clear  words to 0
 //   draw_shadows        one work-item draws for VW pixels, neighbours in the order of their tile's
 //                       clusters

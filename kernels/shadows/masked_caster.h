@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What alpha cuts out of a triangle that casts shadows. A ray has no footprint: the base colour's
-// alpha is read at its finest level.
+// Alpha masks of triangles that cast shadows. A ray has no footprint: the base colour's alpha is
+// read at its finest level.
 #ifndef KILOLUX_DEVICE_MASKED_CASTER_H
 #define KILOLUX_DEVICE_MASKED_CASTER_H
 #include "kernels/device/texture.h"
@@ -17,8 +17,8 @@ typedef struct MaskedScene {
 } MaskedScene;
 
 #if HAS_MASKED_CASTERS
-// Where alpha leaves caster `number`. u0..u2: in proportion to the weights of its corners, but for
-// rounding not negative.
+// Where alpha keeps caster `number`. u0..u2: in proportion to the weights of its corners; rounding
+// may make them slightly negative.
 static inline MASK is_opaque_at(MaskedScene scene, uint number, FV u0, FV u1, FV u2) {
     MaskedCaster caster = scene.casters[number];
     global const SurfaceMaterial* material = scene.materials + caster.material;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the bits of cast_shadows are.
+// The places of cast_shadows' bits.
 #ifndef KILOLUX_DEVICE_SHADOW_BITS_H
 #define KILOLUX_DEVICE_SHADOW_BITS_H
 #include "kernels/device/lanes.h"
@@ -15,8 +15,8 @@ typedef struct ShadowBits {
     uint shift;  // bit of lane 0
 } ShadowBits;
 
-// Those of a work-item whose first pixel has `place` in its tile's order, which has some of the
-// cluster's pixels. `tile_words`: of its tile.
+// The bits of a work-item whose first pixel has `place` in its tile's order, and which has some of
+// the cluster's pixels. `tile_words`: of its tile.
 static inline ShadowBits bits_of_cluster(global const uint* tile_words,
                                          global const ActiveCluster* c, uint place) {
     ShadowBits out;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visibility of one light at up to SHADOW_POINTS points: one walk through the hierarchy for all of
-// them; the triangles that their shaft meets are tested on VW points at a time. By one work-item.
+// Visibility of one light at up to SHADOW_POINTS points: one work-item walks through the hierarchy
+// once for all of them, and tests the triangles that their shaft meets on VW points at a time.
 #ifndef KILOLUX_DEVICE_SHADOW_CAST_H
 #define KILOLUX_DEVICE_SHADOW_CAST_H
 #include "kernels/device/prefetch.h"
 #include "kernels/shadows/masked_caster.h"
 #include "kernels/shadows/shadow_shaft.h"
 
-// Triangles that wait for their test: whole vectors, and room for a node's children.
+// Most triangles that wait for their test: whole vectors, and room for a node's children.
 #define SHADOW_BATCH 64
 
-// Whether walks count what they do, in ShadowPoints: for measurements.
+// Whether walks count nodes, triangles and rays in ShadowPoints: for measurements.
 #ifndef COUNT_SHADOWS
 #define COUNT_SHADOWS 0
 #endif
@@ -20,7 +20,7 @@
 #define ADD_COUNT(points, name, number)
 #endif
 
-// What casts shadows.
+// The shadow casters.
 typedef struct ShadowScene {
     global const ShadowNode* nodes;  // 0: the root
     global const float* casters;     // [][3][3]
@@ -34,7 +34,7 @@ typedef struct ShadowScene {
 typedef struct ShadowPoints {
     float x[SHADOW_POINTS], y[SHADOW_POINTS], z[SHADOW_POINTS];  // [m]
     float nx[SHADOW_POINTS], ny[SHADOW_POINTS], nz[SHADOW_POINTS];
-    // What edges' forms take, see ShadowForm.
+    // The points in the coordinates of edges' forms, see ShadowForm.
     float ex[SHADOW_POINTS], ey[SHADOW_POINTS], ez[SHADOW_POINTS];
     float lit[SHADOW_POINTS];        // masks in the bits of floats
     uchar rows[SHADOW_POINTS / VW];  // those with lit points
@@ -77,8 +77,9 @@ static inline LaneBox grown_box(LaneBox box, MASK mask, FV3 p) {
     return box;
 }
 
-// Begins a light: which points of row `row` it could reach. The eye must see the side of the
-// triangle that the light is on; beyond the range, and a little more, there is no light to block.
+// Begins a light: finds the points of row `row` that it could reach. The eye must see the side of
+// the triangle that the light is on; beyond the range, and a little more, there is no light to
+// hide.
 static inline MASK face_light(ShadowPoints* points, uint row, ShadowLight light, MASK wanted) {
     uint at = row * VW;
     FV3 p = fv3(lane_load(points->x + at), lane_load(points->y + at), lane_load(points->z + at));
@@ -163,7 +164,7 @@ typedef struct FoundTriangles {
     const uint* children;  // [VW]
 } FoundTriangles;
 
-// Of a row's points, `lit` is left where none of the triangles stands between them and the light.
+// The part of `lit`, of a row's points, that none of the triangles hides from the light.
 static inline MASK lit_by_row(const FoundTriangles* found, ShadowScene scene, ShadowLight light,
                               FV3 edge_point, FV3 point, MASK lit) {
     for (uint bits = found->wanted; bits != 0u; bits &= bits - 1u) {
@@ -257,7 +258,7 @@ static inline void shade_found(ShadowScene scene, ShadowLight light, Shaft shaft
     }
 }
 
-// Asks for a node that will be read soon.
+// Prefetches a node.
 static inline void prefetch_node(global const ShadowNode* node) {
     for (uint i = 0; i < sizeof(ShadowNode) / 64; ++i) {
         prefetch_to_read((global const uchar*)node + i * 64);
@@ -281,8 +282,8 @@ static inline ulong counted_tests(const ShadowPoints* points) {
 #endif
 }
 
-// Puts out the points' lit flags where something stands between them and the light, of the rows
-// first .. end - 1, which face_light() began. low, high: box of the lit points.
+// Clears the lit flag of each point that a triangle hides from the light, in the rows first .. end
+// - 1, which face_light() began. low, high: box of the lit points.
 static inline void cast_shadows_of(ShadowScene scene, ShadowLight light, float3 low, float3 high,
                                    uint first, uint end, ShadowPoints* points) {
     ADD_COUNT(points, shafts, 1);

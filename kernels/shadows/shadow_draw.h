@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampled shadows: which lights' rays a pixel draws, and what their sum then is.
+// Sampled shadows: which lights a pixel draws rays to, and the estimate of its radiance from them.
 //
 // Let f be what a light adds to a pixel if it is seen, U the pixel's radiance if all are. A light
 // is drawn with probability q = min(1, n |f| / |U|), |.| the luminance, so that n rays are drawn at
@@ -20,7 +20,7 @@
 // Number of a directional light among all that are drawn.
 #define DRAWN_DIRECTIONAL 0x80000000u
 
-// What a work-item's pixels draw by.
+// The inputs by which a work-item's pixels draw lights.
 typedef struct ShadowDraw {
     Surface surface;  // without its own light
     FV whole;         // luminance of the radiance if all lights are seen
@@ -28,7 +28,8 @@ typedef struct ShadowDraw {
     uint tile;        // a hash of the fine tile of the picture, and the seed
 } ShadowDraw;
 
-// Of the pixels of the work-item at (x, y) of the planes. `radiance`: if all lights are seen.
+// The inputs of the pixels of the work-item at (x, y) of the planes. `radiance`: if all lights are
+// seen.
 static inline ShadowDraw make_draw(Surface s, global const float* radiance, View view,
                                    Pixels pixels, uint x, uint y, float rays, uint seed) {
     ShadowDraw out;
@@ -50,15 +51,15 @@ static inline FV draw_probability(ShadowDraw draw, FV light) {
     return min(light * draw.rays / max(draw.whole, fv(1e-30f)), fv(1.0f));
 }
 
-// The lanes whose probability, of a light that alone is `alone`, is above the light's random number
-// in the tile, which is in [0, 1).
+// The lanes whose probability of drawing a light, which alone adds `alone`, is above the light's
+// random number in the tile, which is in [0, 1).
 static inline MASK draws_light(ShadowDraw draw, FV alone, uint light) {
     float random = random_of(hash_of(light ^ draw.tile));
     return lane_mask(max(draw.whole, fv(1e-30f)) * random < alone * draw.rays);
 }
 
-// What the estimate takes away: `sum` with a light of which `one` is the sum alone, where it was
-// drawn and is hidden.
+// Adds a drawn, hidden light to the light that the estimate takes away. `one`: the light's sum
+// alone.
 static inline LightSum add_hidden(LightSum sum, LightSum one, FV probability, MASK hidden) {
     FV weight = lane_select(hidden, fv(1.0f) / probability, fv(0.0f));
     sum.diffuse = add3(sum.diffuse, scale3(one.diffuse, weight));
@@ -73,7 +74,7 @@ static inline FV3 without_hidden(ShadowDraw draw, FV3 whole, LightSum hidden) {
     return sub3(whole, finish_shading(draw.surface, hidden, 0.0f));
 }
 
-// What a hidden light that was drawn adds to the estimate of the variance of the luminance.
+// The term of a drawn, hidden light in the estimated variance of the luminance.
 static inline FV variance_of(FV light, FV probability) {
     FV over = light / probability;
     return over * over * (fv(1.0f) - probability);

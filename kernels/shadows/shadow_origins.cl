@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where every pixel's shadow rays end: its point in shadow space, put on its triangle's plane and
-// then off it towards the eye by more than rounding can move it. So no triangle of a flat surface
-// lies between it and a light, and no bias needs a choice.
+// Finds where every pixel's shadow rays end: its point in shadow space, moved onto its triangle's
+// plane and then off it towards the eye by more than rounding can move it. So no triangle of a flat
+// surface lies between it and a light, and no bias must be chosen.
 //
-// A point that is put on the plane is off it by no more than the rounding of its triangle's
-// coordinates, wherever the G-buffer's depth has it along the ray. The offset is
-// ORIGIN_OFFSET times their size: twice what shadow_triangle.h grants in front of a plane.
+// A point on the plane is off it by no more than the rounding of its triangle's coordinates,
+// whatever error the G-buffer's depth has along the ray. The offset is ORIGIN_OFFSET times the size
+// of the coordinates: twice the tolerance of shadow_triangle.h in front of a plane.
 // One work-item takes VW neighbouring pixels of a row, and their triangles one by one.
 #include "kernels/device/lit_item.h"
 #include "kernels/device/triangle.h"
@@ -13,7 +13,7 @@
 
 #define ORIGIN_OFFSET (1.0f / (1 << 18))
 
-// A triangle of the casters and what puts points on it.
+// The plane of a caster's triangle, onto which points are moved.
 typedef struct OriginPlane {
     float3 corner;  // [m]
     float3 normal;  // unit; 0 where the triangle has no size
@@ -37,7 +37,7 @@ static inline FV lane_shadow_row(float4 row, FV3 p) {
     return fma(fv(row.z), p.z, fma(fv(row.y), p.y, fma(fv(row.x), p.x, fv(row.w))));
 }
 
-// Towards the eye: of pixels, or the same for all where rays come parallel.
+// The direction to the eye: of each pixel, or the same for all in a parallel view.
 static inline FV3 towards_eye(View view, ShadowView shadow, FV3 p) {
     if (view.orthographic != 0u) {
         float3 back = shadow_direction(shadow, (float3)(0.0f, 0.0f, 1.0f));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visibility of lights at the VW pixels of one work-item, found out by a walk for each light: the
-// check of cast_shadows, which walks once for all pixels of a cluster.
+// Visibility of lights at the VW pixels of one work-item, by a walk for each light: the check of
+// cast_shadows, which walks once for all pixels of a cluster.
 #ifndef KILOLUX_DEVICE_SHADOW_RAYS_H
 #define KILOLUX_DEVICE_SHADOW_RAYS_H
 #define SHADOW_POINTS VW

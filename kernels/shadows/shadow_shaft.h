@@ -11,13 +11,13 @@
 #include "kernels/shadows/shadow_triangle.h"
 
 typedef struct Shaft {
-    float3 at_low, at_high;          // what H and L are seen from
+    float3 at_low, at_high;          // the origin of H and L
     float3 low, high;                // l and h, none of them 0
     float3 per_low, per_high;        // their reciprocals
     float most;                      // of t
     float3 points_low, points_high;  // box of the points [m]
-    float3 x_low, x_high;            // box of what edges' forms take, before it is normalised
-    float longest;                   // largest |x| + |y| + |z| of it; 1 where nothing is normalised
+    float3 x_low, x_high;            // box of the coordinates of edges' forms, before normalising
+    float longest;                   // largest |x| + |y| + |z| of that box; 1 without normalising
 } Shaft;
 
 static inline float largest3(float3 v) { return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z))); }

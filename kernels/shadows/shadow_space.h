@@ -7,8 +7,8 @@
 #include "kernels/shared/light.h"
 #include "kernels/shared/shadow.h"
 
-// Planes of every pixel's end of its rays: position [m], and the normal of its triangle on the side
-// that the eye sees, as packed_normal().
+// Planes of the ends of every pixel's rays: position [m], and the normal of its triangle on the
+// side that the eye sees, as packed_normal().
 #define ORIGIN_X 0
 #define ORIGIN_Y 1
 #define ORIGIN_Z 2
@@ -33,7 +33,7 @@ static inline float3 shadow_point(ShadowView view, float3 p) {
                                                 view.shadow_from_view[2].w);
 }
 
-// A light as rays see it: points have an end, directions do not.
+// A light as the target of rays: points have a position, directional ones a direction.
 typedef struct ShadowLight {
     float3 at;  // position [m]; or the unit direction towards the light
     float inv_range2;

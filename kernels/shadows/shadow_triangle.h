@@ -3,12 +3,13 @@
 // which then any number of points evaluates.
 //
 // Seen from the light a point lies within a triangle's edges where u_i >= 0 for all i; u_i is the
-// product of an edge's plane through the light, v_j x v_k, with the direction to the point. It
-// shades the point where, too, the triangle's plane has the light on one side and the point on the
-// other. Rays of one light have their origin in common, so all four are affine in the point.
+// Seen from the light a point lies within a triangle's edges where u_i >= 0 for all i; u_i is the
+// product of an edge's plane through the light, v_j x v_k, with the direction to the point. The
+// triangle hides the point if, in addition, its plane has the light on one side and the point on
+// the other. Rays of one light have their origin in common, so all four are affine in the point.
 //
-// Each form is divided by a bound of what rounding does to it (16 * 2^-24 of the products that it
-// sums, of which fewer than 10 round), so its sign is sure beyond +-1:
+// Each form is divided by a bound of its rounding error (16 * 2^-24 of the products that it sums,
+// of which fewer than 10 round), so its sign is certain beyond +-1:
 // * edges grant 1 unit: a ray along the common edge or vertex of triangles never slips between
 //   them. That widens an edge by 2^-20 of the distance from the light, since its plane is known to
 //   twice a float's digits (twofold.h), and by 2^-42 over the sine of its angle with the light:
@@ -16,8 +17,8 @@
 //   triangle's box, too, which is less than what walks grant.
 // * the plane asks for 1 unit: a triangle never shades its own points, nor those of its neighbours
 //   in the plane. Points that lie less than the unit behind it, 2^-17 of the coordinates, are lit.
-// A light so near to a triangle's plane that its side is unsure is not shaded by it. So whether a
-// triangle shades a point depends on the light, the triangle and the point alone, and not on which
+// A light so near to a triangle's plane that its side is uncertain is not hidden by it. So whether
+// a triangle hides a point depends on the light, the triangle and the point alone, and not on which
 // walk found it.
 #ifndef KILOLUX_DEVICE_SHADOW_TRIANGLE_H
 #define KILOLUX_DEVICE_SHADOW_TRIANGLE_H
@@ -26,24 +27,24 @@
 #include "kernels/shadows/twofold.h"
 
 #define SHADOW_UNIT (1.0f / (1 << 20))
-// Of the products that twofold_cross sums, relative to what it is.
+// Error of the products that twofold_cross sums, relative to them.
 #define SHADOW_CUT (1.0f / (1 << 22))
-// Of the largest coordinate of a ray's ends; or, of a directional light, of the scene.
+// A share of the largest coordinate of a ray's ends; or, for a directional light, of the scene.
 #define SHADOW_NEAR (0.5f * SHADOW_PAD)
 
-// u = g . x + c: of an edge x is the direction to the point, |x| + |y| + |z| = 1, or, of a
-// directional light, the point; of the plane it is the point.
+// u = g . x + c. For an edge, x is the direction to the point, |x| + |y| + |z| = 1, or, for a
+// directional light, the point; for the plane it is the point.
 typedef struct ShadowForm {
     FV3 g;
     FV c;
 } ShadowForm;
 
-// Of VW triangles [m].
+// Boxes of VW triangles [m].
 typedef struct LaneBoxes {
     FV3 middle, half_edge;
 } LaneBoxes;
 
-// Shades where edge[0..2] and plane are all at least -1.
+// A triangle hides a point where edge[0..2] and plane are all at least -1.
 typedef struct ShadowTriangles {
     ShadowForm edge[3];
     ShadowForm plane;
@@ -93,7 +94,7 @@ static inline ShadowForm scale_form(ShadowForm f, FV by) {
     return f;
 }
 
-// The triangles' planes and how high the light is above them.
+// The triangles' planes and the light's height above them.
 typedef struct ShadowPlanes {
     FV3 normal;    // (v1 - v0) x (v2 - v0), v turned
     FV offset;     // normal . v0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors as sums of two floats: differences without rounding, cross products whose small results
-// are as good as large ones.
+// Vectors as sums of two floats: exact differences, and cross products whose small results are as
+// accurate as large ones.
 #ifndef KILOLUX_DEVICE_TWOFOLD_H
 #define KILOLUX_DEVICE_TWOFOLD_H
 #include "kernels/device/lanes.h"
@@ -9,7 +9,7 @@ typedef struct TwofoldVec3 {
     FV3 high, low;  // |low| <= 2^-24 |high|
 } TwofoldVec3;
 
-// What rounding leaves out of `difference` = a - b (two_sum: Knuth, TAOCP vol. 2, 4.2.2).
+// The rounding error of `difference` = a - b (two_sum: Knuth, TAOCP vol. 2, 4.2.2).
 static inline FV difference_error(FV a, FV b, FV difference) {
     FV b_part = difference - a;
     return (a - (difference - b_part)) - (b + b_part);

@@ -8,7 +8,7 @@
 namespace kilolux {
 #endif
 
-// A fine tile: what one active cluster covers on the screen, and one work-group shades [pixel].
+// A fine tile: an active cluster covers one on the screen, and a work-group shades one [pixel].
 #define FINE_TILE 16
 #define FINE_TILE_PIXELS (FINE_TILE * FINE_TILE)
 
@@ -45,9 +45,9 @@ SHARED_ASSERT(cluster_grid_size, sizeof(ClusterGrid) == 48);
 
 // Slice of a depth z [m]. The bits of a positive float are a piecewise linear log2 of it, exactly
 // monotone and the same on every device: slice = steps from z_first * slices_per_octave / 2^23,
-// rounded down, the octave and what is within it apart, so that 32 bits hold the product. Nearer
-// than z_first (or negative) falls into slice 0, farther than the last slice into the last: no
-// pixel is lost. NaN, which max() leaves open, falls into either.
+// rounded down. The octave and the rest are multiplied apart, so that 32 bits hold the product.
+// Depths nearer than z_first (or negative) fall into slice 0, those beyond the last slice into the
+// last: no pixel is lost. NaN, for which max() is undefined, falls into either.
 SHARED_FN UV slice_of_depth(ClusterGrid grid, FV z) {
     FV clamped = max(z, fv(bits_float(grid.z_first_bits)));
     UV steps = lane_bits(clamped) - grid.z_first_bits;
@@ -63,7 +63,7 @@ SHARED_FN UV fine_slice_of_depth(ClusterGrid grid, FV z) {
     return slice_of_depth(grid, z);
 }
 
-// The nearest depth [m] of a slice. Slice 0 also takes what is nearer.
+// The nearest depth [m] of a slice. Slice 0 also holds nearer depths.
 SHARED_FN float depth_of_slice(ClusterGrid grid, uint slice) {
     uint octave = slice / grid.slices_per_octave;
     uint part = (slice - octave * grid.slices_per_octave) << OCTAVE_BITS;
@@ -75,8 +75,8 @@ SHARED_FN uint cluster_index(ClusterGrid grid, uint tile_x, uint tile_y, uint sl
     return (slice * grid.tiles_y + tile_y) * grid.tiles_x + tile_x;
 }
 
-// What a list test grants beyond the range, relative to range^2: more than float32's rounding of
-// distance^2 / range^2 (8 u = 5e-7), so that no light within its range by exact arithmetic is
+// The tolerance of a list test beyond the range, relative to range^2: more than float32's rounding
+// of distance^2 / range^2 (8 u = 5e-7), so that no light within its range by exact arithmetic is
 // missing.
 #define CULL_LIMIT 1.000002f
 

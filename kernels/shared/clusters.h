@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What culling passes on: extents of lights on the coarse grid, active clusters and their lists.
+// Results of culling: extents of lights on the coarse grid, active clusters and their lists.
 #ifndef KILOLUX_SHARED_CLUSTERS_H
 #define KILOLUX_SHARED_CLUSTERS_H
 #include "kernels/shared/types.h"
@@ -30,13 +30,13 @@ SHARED_STRUCT(ActiveCluster) {
 SHARED_ASSERT(active_cluster_size, sizeof(ActiveCluster) == 48);
 
 #if !defined(GL_core_profile)  // GLSL has no 64-bit integers
-// What a frame's lists hold. The first three decide whether they are complete.
+// The counts of a frame's lists. The first three decide whether the lists are complete.
 SHARED_STRUCT(PairCounts) {
     ulong coarse_pairs;     // entries of the coarse lists
     ulong active_clusters;  // of all fine tiles
     ulong refine_tests;     // lights tested, once for each active cluster
     ulong refined_pairs;    // entries of the refined lists
-    ulong drawn_pixels;     // pixels of the active clusters
+    ulong drawn_pixels;     // pixels of the active clusters, those with a surface
     ulong evaluations;      // sum over active clusters of list_count * pixel_count
 };
 SHARED_ASSERT(pair_counts_size, sizeof(PairCounts) == 48);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one light adds to one shading point: the only place where light meets surface, for the
-// OpenCL kernels (VW pixels at once) and for GLSL (one fragment).
+// The light that one light adds to one shading point, for the OpenCL kernels (VW pixels at once)
+// and for GLSL (one fragment). No other code evaluates a light on a surface.
 //
 //   pixel = emissive + ambient * occlusion * albedo + sum over lights of
 //           brdf * intensity * falloff * n.l
 //   falloff(d) = window(d / range) / max(d, LIGHT_D_MIN)^2,  window(x) = clamp(1 - x^4, 0, 1)
 //   (KHR_lights_punctual, "Range Property")
 //
-// The window is exactly 0 where d >= range, so a light that is listed in vain adds exactly nothing.
-// Switches: those of surface.h, FAST_RSQRT and NATIVE_MATH of types.h, EARLY_OUT,
-// and HAS_DRAWN_RANGES, where lights may have drawn ranges (light_transform.h): then DRAWN_RANGES
-// is pi times the radiance that such a light causes on a white surface at the least of them;
+// The window is exactly 0 where d >= range, so a light that is listed but out of range adds exactly
+// nothing. Switches: those of surface.h, FAST_RSQRT and NATIVE_MATH of types.h, EARLY_OUT, and
+// HAS_DRAWN_RANGES, where lights may have drawn ranges (light_transform.h): then DRAWN_RANGES is pi
+// times the radiance that such a light causes on a white surface at the least of them;
 // HAS_LIGHT_PROFILES, where lights may have photometric webs: then evaluate() takes them and the
-// light's index. EVALUATE names them always, and leaves them out where there are none.
+// light's index. The macro EVALUATE takes them in any case, and drops them where there are none.
 #ifndef KILOLUX_SHARED_EVALUATE_H
 #define KILOLUX_SHARED_EVALUATE_H
 #include "kernels/shared/light.h"
@@ -34,8 +34,8 @@
 #define EVALUATE(sum, p, light, profiles, index) evaluate(sum, p, light)
 #endif
 
-// Leave a light whose window is 0 in all lanes before its costly part: pays for all but lambert,
-// where the branch costs more than it saves, unless lights have profiles.
+// Returns early for a light whose window is 0 in all lanes, before its costly part. It pays for all
+// models but lambert, where the branch costs more than it saves, unless lights have profiles.
 #ifndef EARLY_OUT
 #define EARLY_OUT (SHADING != SHADING_LAMBERT || HAS_LIGHT_PROFILES)
 #endif
@@ -50,12 +50,12 @@ namespace kilolux {
 // Light of `lit` = intensity's weight * falloff * n.l from the direction `v`, `distance` long.
 SHARED_FN LightSum add_blinn_phong(LightSum sum, ShadingPoint p, FV3 v, FV distance, FV lit,
                                    float4 color) {
-    // The half vector, `distance` times as long: that saves normalising v before it is needed.
+    // The half vector, `distance` times as long, so that v need not be normalised yet.
     FV3 h = fv3(fma(p.to_eye.x, distance, v.x), fma(p.to_eye.y, distance, v.y),
                 fma(p.to_eye.z, distance, v.z));
     FV hh = max(dot3(h, h), fv(1e-30f));  // light from straight behind the view has none
     FV n_dot_h = dot3(p.normal, h);
-    // |n x h|^2 keeps the lobe that n.h rounds away at large exponents.
+    // |n x h|^2 keeps the shape of narrow lobes, which n.h rounds away at large exponents.
     FV3 nxh = cross3(p.normal, h);
     FV lobe = pow_of_cos2(n_dot_h * n_dot_h, dot3(nxh, nxh), hh, p.exponent);
     lobe = lane_select(n_dot_h > fv(0.0f), lobe, fv(0.0f));
@@ -70,7 +70,7 @@ SHARED_FN LightSum add_pbr(LightSum sum, ShadingPoint p, FV3 v, FV inv_length, F
                            float4 color) {
     FV3 h = fv3(fma(v.x, inv_length, p.to_eye.x), fma(v.y, inv_length, p.to_eye.y),
                 fma(v.z, inv_length, p.to_eye.z));
-    // 1e-12: light from straight behind the view has no half vector, only rounding of one (1e-7
+    // 1e-12: light from straight behind the view has no half vector; the sum is only rounding (1e-7
     // long).
     FV hh = max(dot3(h, h), fv(1e-12f));
     // Lagrange's identity |n x h|^2 = h^2 - (n.h)^2 keeps narrow lobes (Filament, 4.4.1). Both
@@ -121,7 +121,7 @@ SHARED_FN FV drawn_weight(ShadeLight light, FV d2) {
 }
 #endif
 
-// What the falloff takes of a light's inverse square.
+// The factor of the window on a light's inverse square.
 SHARED_FN FV window_of(ShadeLight light, FV d2) {
     FV x = d2 * fv(light.position_inv_range2.w);
 #if HAS_DRAWN_RANGES
@@ -160,7 +160,7 @@ SHARED_FN LightSum evaluate(LightSum sum, ShadingPoint p, ShadeLight light) {
     FV n_dot_l = n_dot_v * inv_d;
     FV lit = window * (inv_d * inv_d) * n_dot_l;
 #else
-    // One root and one division, and no product more than they need.
+    // One root and one division, and as few products as possible.
     FV distance = lane_sqrt(e2);
 #if HAS_SPOT_LIGHTS
     window = window * cone_of(v, fv(1.0f) / distance, light);

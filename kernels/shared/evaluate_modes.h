@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of SHADING: how a surface answers light.
+// Values of SHADING: the reflection model of surfaces.
 #ifndef KILOLUX_SHARED_EVALUATE_MODES_H
 #define KILOLUX_SHARED_EVALUATE_MODES_H
 #define SHADING_LAMBERT 0      // albedo / pi

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G-buffer layouts: which planes there are, what they hold, and how normals are packed.
+// G-buffer layouts: their planes, the content of planes, and the packing of normals.
 #ifndef KILOLUX_SHARED_GBUFFER_H
 #define KILOLUX_SHARED_GBUFFER_H
 #include "kernels/shared/types.h"

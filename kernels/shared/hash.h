@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers as hashes of what they are for: the same on every run, grid and device.
+// Random numbers as hashes of their use: the same on every run, grid and device.
 #ifndef KILOLUX_SHARED_HASH_H
 #define KILOLUX_SHARED_HASH_H
 #include "kernels/shared/types.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light as the host hands it over, and as the kernels shade with it.
+// A light as the host uploads it, and as the kernels shade with it.
 #ifndef KILOLUX_SHARED_LIGHT_H
 #define KILOLUX_SHARED_LIGHT_H
 #include "kernels/shared/types.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights that move by themselves.
+// Generated lights that move.
 #ifndef KILOLUX_SHARED_LIGHT_DRIFT_H
 #define KILOLUX_SHARED_LIGHT_DRIFT_H
 #include "kernels/shared/types.h"

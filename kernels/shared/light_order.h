@@ -9,8 +9,8 @@
 namespace kilolux {
 #endif
 
-// Cells have numbers of either sign, of which a key keeps 11 bits: cubes 64 apart share keys.
-// What lies further than this from the origin, or nowhere, is in LIGHT_CELL_FAR along that axis.
+// Cell numbers have either sign, and a key keeps 11 bits of them: cubes 64 apart share keys. Lights
+// farther than this from the origin, or with a NaN, are in cell LIGHT_CELL_FAR along that axis.
 #define LIGHT_CELLS 16777216.0f
 #define LIGHT_CELL_FAR 0xffffffffu
 

@@ -12,7 +12,7 @@
 #include "kernels/shared/types.h"
 
 #define PROFILE_HEAD 4u
-// A web that ends at a vertical angle counts so far beyond it [rad]: five roundings of the angle.
+// A web that ends at a vertical angle extends so far beyond it [rad]: five roundings of the angle.
 #define PROFILE_EDGE 1e-6f
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
@@ -29,7 +29,7 @@
 namespace kilolux {
 #endif
 
-// Which web a light has, and how it is turned. In the axes of the light's position.
+// The web of a light and its orientation, in the axes of the light's position.
 SHARED_STRUCT(AimedProfile) {
     // xyz: unit direction of vertical angle 0; w: first float of the table, exact below 2^24;
     // < 0: the light has none

@@ -42,7 +42,8 @@ SHARED_FN uint mean_channel(ulong a, ulong b, ulong c, ulong d, uint shift, floa
     return uint_of(fma(t, lower - upper, upper) + 0.5f);
 }
 
-// Of the upper and lower pairs of neighbours; s, t: the shares of the right and lower ones.
+// The mean of the upper and lower pairs of neighbours; s, t: the shares of the right and lower
+// ones.
 SHARED_FN ulong mean_texel(ulong a, ulong b, ulong c, ulong d, float s, float t) {
     return make_texel(mean_channel(a, b, c, d, 0u, s, t), mean_channel(a, b, c, d, 16u, s, t),
                       mean_channel(a, b, c, d, 32u, s, t), mean_channel(a, b, c, d, 48u, s, t));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Powers on lanes. Written out rather than pow(): that is 10 times slower in vectors, and devices
-// differ in it. Polynomials are minimax fits (Remez), evaluated in pairs (Estrin), since what is
-// waited for costs more here than what is computed.
+// Powers on lanes. Written out instead of pow(), which is 10 times slower in vectors and differs
+// between devices. Polynomials are minimax fits (Remez), evaluated in pairs (Estrin), since latency
+// costs more here than arithmetic.
 #ifndef KILOLUX_SHARED_POWER_H
 #define KILOLUX_SHARED_POWER_H
 #include "kernels/shared/types.h"
@@ -23,8 +23,8 @@ SHARED_FN FV log2_slope(FV f) {
     return fma(high, f2 * f2, low);
 }
 
-// 2^x for x <= 0, relative error 9.2e-8 and exactly 1 at 0. Below 2^-60 it is that: nothing beside
-// a lobe's peak, and denormals, which are slow, stay out of what follows.
+// 2^x for x <= 0, relative error 9.2e-8 and exactly 1 at 0. Below -60 it is 2^-60: negligible
+// beside a lobe's peak, and without denormals, which are slow.
 SHARED_FN FV exp2_of_negative(FV x) {
     x = max(x, fv(-60.0f));
     UV i = lane_truncate(x - fv(0.5f));  // to nearest, as conversion truncates
@@ -36,9 +36,9 @@ SHARED_FN FV exp2_of_negative(FV x) {
     return lane_from_bits(lane_bits(q) + (i << 23u));
 }
 
-// cos^(2n) for an angle in [0, pi/2], of which cos2 / scale is cos^2 and sin2 / scale is sin^2, and
-// n >= 0. Near the peak, where a large n magnifies what cos^2 rounds away, sin^2 counts, else
-// cos^2. Absolute error below 3e-7 at any n.
+// cos^(2n) for an angle in [0, pi/2], with cos^2 = cos2 / scale, sin^2 = sin2 / scale and n >= 0.
+// Near the peak, where a large n magnifies the rounding of cos^2, it uses sin^2, else cos^2.
+// Absolute error below 3e-7 at any n.
 SHARED_FN FV pow_of_cos2(FV cos2, FV sin2, FV scale, FV n) {
     MASK near = sin2 * fv(3.41421356f) < scale;  // cos^2 > sqrt(1/2)
     FV q = lane_select(near, sin2, cos2) / scale;

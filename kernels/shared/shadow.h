@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What casts shadows: triangles and the hierarchy of their boxes, in shadow space.
+// Shadow casters: triangles and the hierarchy of their boxes, in shadow space.
 //
-// Shadow space has the world's axes and its origin at an anchor near the scene's middle, so that it
-// moves with neither camera nor lights and floats lose nothing that the scene's size does not ask
-// for.
+// Shadow space has the world's axes and its origin at an anchor near the scene's middle. So camera
+// and lights do not move it, and the scene's size alone sets the rounding of its floats.
 #ifndef KILOLUX_SHARED_SHADOW_H
 #define KILOLUX_SHARED_SHADOW_H
 #include "kernels/shared/types.h"
@@ -14,24 +13,24 @@
 #define SHADOW_LEVELS 32
 #define SHADOW_STACK (SHADOW_LEVELS * (SHADOW_WIDTH - 1) + 1)
 
-// Bits of a child's number: it is a triangle, or else a node; and alpha cuts it: the number is that
-// of a MaskedCaster.
+// Bits of a child's number. SHADOW_LEAF: it is a triangle, else a node. The other one: alpha cuts
+// it, and the number is that of a MaskedCaster.
 #define SHADOW_LEAF (1u << 31)
 #define SHADOW_MASKED (1u << 30)
 #define SHADOW_NUMBER (SHADOW_MASKED - 1u)
 
-// By how much boxes are wider than their triangles, relative to the largest coordinate [m/m]: more
-// than what the tests of kernels/shadows/shadow_triangle.h grant beyond a triangle's edges.
+// Boxes are wider than their triangles by this share of the largest coordinate [m/m]: more than the
+// tolerance of kernels/shadows/shadow_triangle.h beyond a triangle's edges.
 #define SHADOW_PAD (1.0f / (1 << 17))
 
-// Ends of the box of a child that is not there: no shaft meets it.
+// Ends of the box of a missing child, which no shaft meets.
 #define SHADOW_NOWHERE 1e30f
 
 #if defined(__cplusplus)
 namespace kilolux {
 #endif
 
-// 16 boxes [m] by their ends, and what is in them.
+// 16 boxes [m] by their ends, and their contents.
 SHARED_STRUCT(ShadowNode) {
     float low_x[SHADOW_WIDTH];
     float low_y[SHADOW_WIDTH];
@@ -43,7 +42,7 @@ SHARED_STRUCT(ShadowNode) {
 };
 SHARED_ASSERT(shadow_node_size, sizeof(ShadowNode) == 448);
 
-// A triangle of a material that alpha cuts (glTF's MASK).
+// A triangle with an alpha mask (glTF's MASK).
 SHARED_STRUCT(MaskedCaster) {
     float u[3], v[3];  // texture coordinates of the vertices, in the set that the base colour reads
     float alpha[3];    // of the vertices' colours
@@ -63,16 +62,16 @@ SHARED_STRUCT(ShadowView) {
 SHARED_ASSERT(shadow_view_size, sizeof(ShadowView) == 64);
 
 #if !defined(GL_core_profile)  // GLSL has no 64-bit integers
-// What it takes to cast shadows, counted by kernels with COUNT_SHADOWS.
+// The work of casting shadows, counted by kernels with COUNT_SHADOWS.
 SHARED_STRUCT(ShadowCounts) {
     ulong shafts;     // walks
-    ulong rays;       // points that they are for: they face the light within its range
-    ulong met_rays;   // of these, those that a triangle may hide, after tests of the whole shaft
-    ulong seen;       // of these, which nothing hides
+    ulong rays;       // points of the walks: they face the light within its range
+    ulong met_rays;   // those of them that a triangle may hide, after tests of the whole shaft
+    ulong seen;       // those rays that nothing hides
     ulong nodes;      // visited
     ulong triangles;  // set up
     ulong points;     // lit ones, once for each triangle that they are tested against
-    ulong words;      // of 32 bits that hold what is found; set by the host
+    ulong words;      // of 32 bits that hold the results; set by the host
 };
 SHARED_ASSERT(shadow_counts_size, sizeof(ShadowCounts) == 64);
 #endif

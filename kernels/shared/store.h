@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces to the planes of a G-buffer, for OpenCL C and GLSL; device/gbuffer.h reads them back.
+// Stores surfaces in the planes of a G-buffer, for OpenCL C and GLSL; device/gbuffer.h loads them.
 //
 // Each language defines before (kernels/surfaces/store_gbuffer.h, raster/shaders/planes.frag):
 //   GBufferTarget                               where pixels go; its view and pixels
@@ -75,7 +75,7 @@ SHARED_FN void store_layout(GBufferTarget to, Surface s) {
 #endif
 }
 #elif GBUFFER == GBUFFER_HALF
-// In world axes, about the world's origin: as half floats, finite.
+// Stores a vector in world axes, from the world's origin on, as half floats, finite.
 SHARED_FN void store_plane_half3(GBufferTarget to, uint first_plane, FV3 v, float4 offset) {
     float4 x = to.view.view_from_world_x;
     float4 y = to.view.view_from_world_y;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A point on a surface, and what of it is the same for all lights.
+// A point on a surface, and the values that shading with any light needs of it.
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
-// KHR_materials_specular), HAS_UNLIT, HAS_SPOT_LIGHTS. What the scene does not need is not compiled
-// in; compiling it in changes no bit.
+// KHR_materials_specular), HAS_UNLIT, HAS_SPOT_LIGHTS. Features that the scene lacks are not
+// compiled in; compiling them in changes no bit.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
@@ -21,7 +21,8 @@
 #ifndef HAS_SPECULAR
 #define HAS_SPECULAR 0
 #endif
-// Surfaces of roughness 0 are unlit; lit ones have at least 1/255, which is as narrow a lobe.
+// A roughness of 0 marks unlit surfaces; lit ones have at least 1/255, whose lobe has the same
+// width.
 #ifndef HAS_UNLIT
 #define HAS_UNLIT 0
 #endif
@@ -32,7 +33,7 @@
 #define ROUGHNESS_MIN 0.045f
 // Reflectance of dielectrics at normal incidence (glTF 2.0, appendix B).
 #define DIELECTRIC_F0 0.04f
-// Cosine to the eye below which the surface is seen edge on (Filament, MIN_N_DOT_V).
+// Smallest cosine of the angle between normal and eye (Filament, MIN_N_DOT_V).
 #define N_DOT_V_MIN 1e-4f
 
 #if defined(__cplusplus)
@@ -56,7 +57,7 @@ SHARED_PLAIN_STRUCT(Surface) {
 #endif
 };
 
-// What of a surface is the same for all lights.
+// The values of a surface that are the same for all lights.
 SHARED_PLAIN_STRUCT(ShadingPoint) {
     FV3 position;
     FV3 normal;
@@ -72,7 +73,7 @@ SHARED_PLAIN_STRUCT(ShadingPoint) {
 #endif
 #if HAS_SPECULAR
     FV f90;            // pbr: reflectance at grazing angles
-    FV diffuse_rises;  // pbr: what diffuse light keeps at grazing angles, relative to head on
+    FV diffuse_rises;  // pbr: share of diffuse light kept at grazing angles, relative to head on
 #endif
 };
 
@@ -101,8 +102,8 @@ SHARED_FN FV3 dielectric_f0(Surface s) {
 #endif
 }
 
-// What diffuse light loses head on: the strongest channel's reflectance, so that a tinted one does
-// not colour the rest (KHR_materials_specular, implementation).
+// Head-on loss of diffuse light: the reflectance of the strongest channel, so that a tinted one
+// does not colour the rest (KHR_materials_specular, implementation).
 SHARED_FN FV3 diffuse_f0(Surface s) {
     FV3 f0 = dielectric_f0(s);
     FV most = max(max(f0.x, f0.y), f0.z);

@@ -19,7 +19,7 @@
 #define HAS_TEXCOORDS (HAS_TEXCOORD0 || HAS_TEXCOORD1)
 
 #if HAS_TEXCOORDS
-// Where a use's texture is read: texture coordinates, transformed.
+// The place where a use's texture is read: texture coordinates, transformed.
 SHARED_FN Footprint footprint_of(MaterialRef material, IN(Fragment) f, uint use) {
 #if HAS_TEXCOORD0 && HAS_TEXCOORD1
     Footprint t = AT(f).texcoord0;
@@ -76,7 +76,7 @@ SHARED_FN Textures textures_of(SurfaceScene scene, MaterialRef material, IN(Frag
     return textures;
 }
 
-// What the texture use `use` reads at the fragments; 1 where it reads none.
+// The texel of the texture use `use` at the fragments; 1 without a texture.
 SHARED_FN FV4 sample_use(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f, uint use) {
     FV4 texel;
     texel.x = texel.y = texel.z = texel.w = fv(1.0f);
@@ -116,12 +116,12 @@ SHARED_FN FV alpha_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) 
     return alpha;
 }
 
-// Where alphaMode MASK leaves the fragments.
+// Whether alphaMode MASK keeps the fragments.
 SHARED_FN MASK passes_cutoff(MaterialRef material, FV alpha) {
     return lane_mask(!(alpha < fv(MATERIAL(material).row.emissive_cutoff.w)));
 }
 
-// The unit vector along v; +z, towards the viewer, where v has none.
+// The unit vector along v; +z, towards the viewer, where v has no direction.
 SHARED_FN FV3 unit_or_z(FV3 v) {
     FV square = dot3(v, v);
     MASK has_length = lane_and(lane_mask(square > fv(1e-30f)), lane_mask(square < fv(1e30f)));
@@ -179,10 +179,10 @@ SHARED_FN Surface with_specular(SurfaceScene scene, IN(Textures) textures, IN(Fr
 }
 #endif
 
-// KHR_materials_unlit: the base colour is what leaves the surface, whatever the lights.
+// KHR_materials_unlit: the base colour leaves the surface, whatever the lights.
 SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 #if HAS_UNLIT
-    s.roughness = max(s.roughness, fv(1.0f / 255.0f));  // 0 says unlit
+    s.roughness = max(s.roughness, fv(1.0f / 255.0f));  // 0 marks unlit surfaces
 #endif
     if ((MATERIAL(material).flags & MATERIAL_UNLIT) == 0u) return s;
     s.emissive = s.albedo;

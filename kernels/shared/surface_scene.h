@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene as resolve_surfaces reads it: meshes, instances, materials and textures in plain
+// The scene's surfaces for kernels and shaders: meshes, instances, materials and textures in plain
 // buffers.
 #ifndef KILOLUX_SHARED_SURFACE_SCENE_H
 #define KILOLUX_SHARED_SURFACE_SCENE_H
@@ -9,7 +9,7 @@
 namespace kilolux {
 #endif
 
-// An attribute or a texture that is not there.
+// Marks a missing attribute or texture.
 #define SURFACE_ABSENT 0xffffffffu
 
 // A mesh: vertices as rows of floats in one buffer, triangles as vertex numbers in another. Normals
@@ -29,8 +29,8 @@ SHARED_STRUCT(MeshRow) {
 SHARED_ASSERT(mesh_row_size, sizeof(MeshRow) == 48);
 
 // A drawn instance. p_view = linear * ((p - eye_high) - eye_low) + offset: the camera is subtracted
-// in object space, where that loses nothing near the camera. Where the transform has no inverse the
-// eye is 0 and the offset the whole translation.
+// in object space, where that loses no digits near the camera. Where the transform has no inverse
+// the eye is 0 and the offset the whole translation.
 SHARED_STRUCT(InstanceRow) {
     float4 view_from_object[3];    // xyz: a row of the linear part; w: of the offset [m]
     float4 normal_from_object[3];  // xyz: a row, up to a positive scale; [0].w: -1 if mirrored
@@ -43,8 +43,8 @@ SHARED_STRUCT(InstanceRow) {
 };
 SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 
-// A table says which instance every INSTANCE_BLOCK-th triangle is of, and the last one, so that a
-// triangle's is searched among few.
+// A table holds the instance of every INSTANCE_BLOCK-th triangle, and of the last one, so that the
+// search for a triangle's instance covers few.
 #define INSTANCE_BLOCK 64
 
 // Bits of SurfaceMaterial::flags, beside those of uses.

@@ -2,7 +2,7 @@
 // Textures at VW pixels, for OpenCL C and GLSL: mip-mapped linear filtering as OpenGL 4.5 (8.14)
 // states it, without its freedoms; host/measure/reference/texture_sampler.h is the same in double.
 //
-// Where a pixel reads, a Lookup, is kept apart from what it reads: a material's textures of one
+// A Lookup, the places where a pixel reads, is apart from the texels: a material's textures of one
 // size and wrapping share it. Places are relative to a texture's first texel.
 //
 // Each language defines before (kernels/device/texture.h, raster/shaders/scene.glsl):
@@ -35,7 +35,7 @@ SHARED_PLAIN_STRUCT(LevelLookup) {
     FV s, t;
 };
 
-// Which texels a point reads.
+// The texels that a point reads.
 SHARED_PLAIN_STRUCT(Lookup) {
     LevelLookup level;
     LevelLookup coarser;
@@ -64,7 +64,7 @@ SHARED_PLAIN_STRUCT(Taps) {
 };
 
 #if HAS_WRAPS
-// A coordinate in [0, 1], where `wrap` is not to repeat: its neighbours end at the edges.
+// A coordinate in [0, 1], where `wrap` is not to repeat: texels beyond the edges are not read.
 SHARED_FN FV within_edges(FV coordinate, uint wrap) {
     if (wrap == WRAP_CLAMP) return min(max(coordinate, fv(0.0f)), fv(1.0f));
     FV twice = coordinate - 2.0f * floor(0.5f * coordinate);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Display: tone curves and the sRGB transfer function. Display only; files of linear light never
-// see it.
+// Tone curves and the sRGB transfer function, for display only: files of linear light do not use
+// them.
 #ifndef KILOLUX_SHARED_TONE_CURVE_H
 #define KILOLUX_SHARED_TONE_CURVE_H
 #include "kernels/shared/power.h"
@@ -70,7 +70,7 @@ SHARED_FN FV agx_contrast(FV x) {
     return high + fma(fma(fma(fv(-6.868f), x, fv(0.4298f)), x, fv(0.1191f)), x, fv(-0.00232f));
 }
 
-// The curve's values are for a display of exponent 2.2.
+// The curve's values are for a display of gamma 2.2.
 SHARED_FN FV agx_linear(FV v) {
     v = min(max(v, fv(0.0f)), fv(1.0f));
     return pow_of_cos2(v, fv(1.0f) - v, fv(1.0f), fv(2.2f));

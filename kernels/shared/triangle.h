@@ -2,12 +2,12 @@
 // A triangle's attributes at VW pixels, for OpenCL C and GLSL: the triangle is set up in scalars
 // and interpolated in lanes.
 //
-// Homogeneous edges in view space (Olano and Greer 1997): with the ray d of a pixel and
-// e_i = v_j x v_k, u_i = e_i . d is affine in the pixel, the barycentric weights are u_i / sum(u),
-// and their derivatives are exact. Nothing is clipped and nothing divided by a vertex's depth, so a
-// triangle that crosses the camera's plane needs no care. e_i is made of sum and difference of its
-// vertices: so it is small where the triangle is, and exactly minus that of the neighbour.
-// Parallel rays: the same with every vertex moved to depth 1, and depths interpolated.
+// Homogeneous edges in view space (Olano and Greer 1997): with the ray d of a pixel and e_i = v_j x
+// v_k, u_i = e_i . d is affine in the pixel, the barycentric weights are u_i / sum(u), and their
+// derivatives are exact. Nothing is clipped and nothing divided by a vertex's depth, so a triangle
+// that crosses the camera's plane is no special case. e_i is computed from sum and difference of
+// its vertices: so it is small where the triangle is, and exactly minus that of the neighbour. For
+// parallel rays every vertex is moved to depth 1, and depths are interpolated.
 //
 // With vertices rounded at 2^-24 of their distance r, weights err as a shift of the triangle by a
 // few 2^-24 r does: less than 1e-3 of a pixel up to 8192 pixels a side.
@@ -54,7 +54,7 @@ SHARED_PLAIN_STRUCT(Weights) {
     FV b1_dx, b2_dx, b1_dy, b2_dy;
 };
 
-// A triangle's vertices on their way through.
+// The vertices of a triangle while it is set up.
 SHARED_PLAIN_STRUCT(Triangle) {
     InstanceRef instance;
     MeshRow mesh;
@@ -81,7 +81,7 @@ SHARED_FN float3 rows_times(float4 x, float4 y, float4 z, float3 v) {
     return make_float3(row_times(x, v), row_times(y, v), row_times(z, v));
 }
 
-// As the instance turns normals, and other directions.
+// Turns a normal or another direction as the instance does.
 SHARED_FN float3 turned_normal(InstanceRef instance, float3 v) {
     return rows_times(INSTANCE(instance).normal_from_object[0],
                       INSTANCE(instance).normal_from_object[1],
@@ -152,7 +152,8 @@ SHARED_FN Weights weights_of(View view, Pixels pixels, TriangleEdges t) {
     FV rx = fma(pixels.x, fv(view.ray.x), fv(view.ray.y));
     FV ry = fma(pixels.y, fv(view.ray.z), fv(view.ray.w));
     FV sign_of_sum = lane_select(winds_forward(view, pixels, t), fv(-1.0f), fv(1.0f));
-    // A pixel's centre may lie outside by what OpenGL snaps: the nearest point counts.
+    // A pixel's centre may lie outside by as much as OpenGL snaps vertices: the nearest point
+    // counts.
     FV u0 = max(along_ray(t.e0, rx, ry) * sign_of_sum, fv(0.0f));
     FV u1 = max(along_ray(t.e1, rx, ry) * sign_of_sum, fv(0.0f));
     FV u2 = max(along_ray(t.e2, rx, ry) * sign_of_sum, fv(0.0f));
@@ -232,7 +233,7 @@ SHARED_FN FV3 interpolate_normal(Weights w, Triangle t) {
 }
 
 #if HAS_TANGENT
-// Of mesh.tangent, which is there.
+// Requires mesh.tangent.
 SHARED_FN FV3 interpolate_tangent(Weights w, Triangle t) {
     bool similar = INSTANCE(t.instance).is_similarity != 0u;
     float3 tangent[3];
@@ -316,7 +317,7 @@ SHARED_FN void interpolate_triangle(View view, Pixels pixels, Triangle t, MASK m
 #endif
 }
 
-// No triangle's.
+// The attributes of a pixel without a triangle.
 SHARED_FN Fragment no_fragment() {
     Fragment f;
     f.front = lane_mask(fv(0.0f) < fv(1.0f));

@@ -2,15 +2,17 @@
 // The dialect in which C++, OpenCL C and GLSL 4.50 share declarations and formulas.
 //
 // A shared struct is a sequence of 16-byte rows: one float4 or uint4, or four 32-bit scalars. Then
-// C++ alignment, OpenCL C and std430 agree by construction; tests/layout_test.cpp asks the devices.
+// C++ alignment, OpenCL C and std430 agree by construction; tests/opencl/layout_test.cpp and
+// tests/raster/shared_test.cpp ask the devices.
 //
 // A shared function is written on the lane type FV: one float in C++ and GLSL, VW floats in OpenCL
-// C (VW is the device's lane width, set at build time). MASK is what comparing two FV gives. Such a
-// function uses only + - * /, fma, min, max and the functions of this file, so that its text means
-// the same in the three languages. Operations on lanes are called lane_*; UV is a uint for each.
+// C (VW is the device's lane width, set at build time). MASK is the result of comparing two FV.
+// Such a function uses only + - * /, fma, min, max and the functions of this file, so that its text
+// means the same in the three languages. Operations on lanes are called lane_*; UV is a uint for
+// each.
 //
-// A large struct is a parameter IN(T) p, read as AT(p).member and given as REF(x): a pointer in
-// OpenCL C, whose compilers copy what is passed by value.
+// A large struct is a parameter IN(T) p, read as AT(p).member and passed as REF(x): a pointer in
+// OpenCL C, whose compilers copy structs that are passed by value.
 //
 // Two switches choose other instructions where a device has faster ones:
 // FAST_RSQRT   lane_rsqrt is one instruction (GPUs) rather than a root and a division (CPUs)
@@ -84,7 +86,7 @@
 #define lane_truncate(x) KX_CONCAT(as_, UV)(KX_CONCAT(convert_, IV)(x))
 #define lane_from_int(x) KX_CONCAT(convert_, FV)(KX_CONCAT(as_, IV)(x))
 
-// Is the mask set in any lane? By halves: PoCL's any() asks lane by lane.
+// Whether the mask is set in any lane. By halves: PoCL's any() asks lane by lane.
 static inline bool lane_any(MASK m) {
 #if VW == 16
     int8 a = m.lo | m.hi;

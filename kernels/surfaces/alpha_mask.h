@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What alpha cuts out of a triangle, at its pixels: glTF's alphaMode MASK. Sampled as
-// resolve_surfaces does with one sample a pixel, whatever the anisotropy, and with the same bits on
-// every device.
+// Alpha masks at a triangle's pixels: glTF's alphaMode MASK. Sampled as resolve_surfaces does with
+// one sample a pixel, whatever the anisotropy, and with the same bits on every device.
 #ifndef KILOLUX_DEVICE_ALPHA_MASK_H
 #define KILOLUX_DEVICE_ALPHA_MASK_H
 #include "kernels/device/triangle.h"
@@ -46,7 +45,7 @@ static inline MaskedTriangle fetch_masked_triangle(SurfaceScene scene, View view
     return masked;
 }
 
-// The pixels that alpha leaves; said of all, covered or not.
+// The pixels that alpha keeps, whether the triangle covers them or not.
 static inline MASK passes_mask(SurfaceScene scene, View view, const MaskedTriangle* t,
                                Pixels pixels) {
     Weights w = weights_of(view, pixels, t->edges);

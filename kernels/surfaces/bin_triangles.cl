@@ -10,9 +10,9 @@
 //   (prefix_sum over tiles)
 //   bin_triangles_fill    writes the triangles' numbers
 //
-// GROUP == 1: a work-item walks a chunk, VW triangles at once, lists ascend. Else a work-group
-// takes GROUP triangles, all cursors are one chunk's and are moved by atomics: lists have any
-// order, which the raster does not see, since of equally near triangles the first by number shows.
+// GROUP == 1: a work-item walks a chunk, VW triangles at once, and lists ascend. Else a work-group
+// takes GROUP triangles, and atomics move the cursors of a single chunk: lists have any order. The
+// raster's result does not depend on it, since the first by number of equally near triangles wins.
 #ifndef GROUP
 #define GROUP 1
 #endif
@@ -23,9 +23,9 @@
 #include "kernels/surfaces/raster_span.h"
 #include "kernels/surfaces/raster_tile.h"
 
-// Tiles of a box from which on its edges say which of them a triangle touches.
+// For boxes of at least so many tiles, the edges decide which of them a triangle touches.
 #define FEW_TILES 4u
-// Slots are taken of so many tiles before any is filled: each waits for memory.
+// Takes slots in so many tiles before it fills any, since each waits for memory.
 #if GROUP == 1
 #define TILES_AT_ONCE 1u
 #else
@@ -55,7 +55,7 @@ static inline TileBox load_box(global const uint* boxes) {
     return out;
 }
 
-// Where pairs go: counted, or filled in.
+// The target of pairs: counted, or filled in.
 typedef struct TileWalk {
     View view;
     global const RasterRow* triangles;
@@ -137,7 +137,7 @@ static inline uint chunk_begin(uint triangle_count, uint chunk) {
     return (uint)(vectors * chunk / get_num_groups(0)) * VW;
 }
 
-// The kept ones of VW triangles. Returns where the next box goes.
+// Keeps the visible ones of VW triangles. Returns the place of the next box.
 static inline uint keep_triangles(const SetUp* s, uint first, TileWalk walk,
                                   global RasterRow* triangles, global uint* boxes, uint next) {
     SetUpLanes lanes;
@@ -152,7 +152,7 @@ static inline uint keep_triangles(const SetUp* s, uint first, TileWalk walk,
     return next;
 }
 #else
-// The boxes of all items, row by row, so that large ones keep no item longer than small ones.
+// Walks the boxes of all items, row by row, so that large ones keep no item longer than small ones.
 // `ends`, `boxes`: [GROUP].
 static inline void walk_group(TileWalk walk, TileBox mine, local ulong* ends,
                               local TileBox* boxes) {
@@ -263,7 +263,7 @@ kernel void bin_triangles_fill(View view, BINNING_ARGS(const),  // as bin_triang
     local TileBox shared_boxes[GROUP];
     TileWalk walk = {view,     triangles, cursors, offsets,          lists,
                      capacity, true,      closed,  some_closed != 0u};
-    // Neighbours are alike: a group takes triangles far apart, so that none has all large ones.
+    // Neighbours are alike: a group takes triangles far apart, so that no group has all large ones.
     uint number = (uint)(get_local_id(0) * get_num_groups(0) + get_group_id(0));
     TileBox box = {number, EMPTY_INTERVAL, EMPTY_INTERVAL};
     if (number < triangle_count) box = load_box(boxes + 4 * (size_t)number);

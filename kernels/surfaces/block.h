@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks of VW pixels, as square as can be: they show fewer triangles than a row of as many, and
+// Blocks of VW pixels, as square as possible: they show fewer triangles than a row of as many, and
 // their texels lie closer together. With one lane a block is a pixel.
 #ifndef KILOLUX_DEVICE_BLOCK_H
 #define KILOLUX_DEVICE_BLOCK_H
@@ -35,7 +35,7 @@ static inline MASK within_picture(View view, Pixels pixels) {
     return within_width(view, pixels) & above;
 }
 
-// The elements at p and below; of rows that the plane does not have, those of the first.
+// Loads the elements at p and below; rows beyond the plane repeat the first.
 static inline UV load_block(global const uint* p, Pixels pixels, uint stride) {
     uint to_1 = pixels.rows > 1u ? stride : 0u;
 #if BLOCK_ROWS == 4

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many texels the surfaces of a G-buffer are made of: what resolve_surfaces reads at least.
-// Four for each mip level and each sample along a footprint; a texture that several uses read
-// counts once. For limits; no part of a frame otherwise.
+// Counts the texels that the surfaces of a G-buffer read at least: four for each mip level and each
+// sample along a footprint; a texture that several uses read counts once. For limits; no part of a
+// frame otherwise.
 // One work-item counts for VW neighbouring pixels of a row.
 #include "kernels/device/triangle.h"
 #include "kernels/shared/surface_of.h"

@@ -3,14 +3,14 @@
 //
 // An edge a -> b of a triangle, both vertices as seen from the eye, and the ray d of a pixel: the
 // side is the sign of det(a, b, d). A vector's length does not matter, so each is written in units
-// of 2^-40 of the power of two below its largest coordinate; smaller parts are cut off. That is a
-// function of the vector alone: neighbours that share a vertex share what is left of it, and all
-// that follows is exact. The determinant's products need 42 + 42 + 42 bits.
+// of 2^-40 of the power of two below its largest coordinate; smaller parts are cut off. The result
+// is a function of the vector alone, so triangles that share a vertex have the same integers, and
+// all later steps are exact. The determinant's products need 42 + 42 + 42 bits.
 //
 // Where the determinant is 0 the pixel lies on the edge. Then its ray counts as moved by an
-// infinitesimal step along x, and by a far smaller one along y: the sign of the first of the
-// derivatives that is not 0. It is the opposite for b -> a. So rays are in general position, and of
-// a closed mesh's triangles about a vertex or along an edge exactly one has the ray inside.
+// infinitesimal step along x, and by a far smaller one along y: the sign is that of the first
+// derivative that is not 0, and the opposite for b -> a. So rays are in general position, and of a
+// closed mesh's triangles about a vertex or along an edge exactly one contains the ray.
 #ifndef KILOLUX_DEVICE_EXACT_SIGN_H
 #define KILOLUX_DEVICE_EXACT_SIGN_H
 

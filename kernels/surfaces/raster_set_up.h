@@ -8,7 +8,7 @@
 // Triangles as the eye sees them.
 typedef struct ViewTriangles {
     FV3 v[3];  // [m]
-    // Winding that shows: -1 or 1; 0: both do.
+    // The visible winding: -1 or 1; 0: both are.
     IV winding;
     MASK masked;  // by their material's alpha
 } ViewTriangles;
@@ -42,7 +42,7 @@ static inline FV3 object_vertices(SurfaceScene scene, MeshRow mesh, UV triangles
     return fv3(lane_load(x), lane_load(y), lane_load(z));
 }
 
-// Triangles by their numbers along the instances, where `wanted`; the rest has no size.
+// Triangles by their numbers along the instances, where `wanted`; the others have no size.
 static inline ViewTriangles view_triangles(SurfaceScene scene, UV numbers, MASK wanted) {
     ViewTriangles out;
     out.v[0] = out.v[1] = out.v[2] = fv3(fv(0.0f), fv(0.0f), fv(0.0f));
@@ -79,8 +79,8 @@ static inline float2 ray_span(View view) {
     return fmax(fabs(left_top), fabs(right_bottom));
 }
 
-// a x b, scaled so that its product with a ray has a sure sign beyond +-1. `size`: the product of
-// both vectors' sums of magnitudes.
+// a x b, scaled so that the sign of its product with a ray is certain beyond +-1. `size`: the
+// product of both vectors' sums of magnitudes.
 static inline FV3 sure_edge(FV3 a, FV3 b, FV size, float2 span) {
     FV3 s = add3(a, b);
     FV3 d = sub3(b, a);
@@ -108,7 +108,7 @@ static inline float3 lane_vertex(const FV3* v, uint lane) {
     return (float3)(x[lane], y[lane], z[lane]);
 }
 
-// Signs of the determinants where floats cannot tell; 0 where the eye lies in the plane.
+// Signs of the determinants where floats are uncertain; 0 where the eye lies in the plane.
 static inline FV exact_determinants(const FV3* seen, MASK unsure, FV sign) {
     float out[VW];
     int ask[VW];
@@ -123,7 +123,7 @@ static inline FV exact_determinants(const FV3* seen, MASK unsure, FV sign) {
     return lane_load(out);
 }
 
-// The determinant's sign, and whether its float is good for more.
+// The determinant's sign, and whether its float is accurate enough for more.
 typedef struct Facing {
     FV3 normal;  // (v1 - v0) x (v2 - v0)
     FV determinant;
@@ -148,7 +148,7 @@ static inline Facing facing_of(const FV3* seen) {
     return out;
 }
 
-// Whether the triangles show that side, and have one.
+// Whether the triangles are visible from that side, and have an area.
 static inline MASK shows_side(FV sign, IV winding) {
     MASK any_side = lane_mask(winding == (IV)(0)) & lane_mask(sign != fv(0.0f));
     return any_side | (lane_mask(winding < 0) & lane_mask(sign < fv(0.0f))) |
@@ -190,7 +190,7 @@ static inline FV3 key_plane(View view, const FV3* v, Facing facing) {
     return plane;
 }
 
-// `v`: turned; `seen`: the same as the eye sees them.
+// `v`: rotated by turn_from_longest(); `seen`: the same as the eye sees them.
 static inline RasterTriangles affine_functions(View view, const FV3* v, const FV3* seen,
                                                Facing facing) {
     RasterTriangles out;
@@ -203,7 +203,8 @@ static inline RasterTriangles affine_functions(View view, const FV3* v, const FV
     out.edge[2] = scale3(sure_edge(seen[0], seen[1], size[0] * size[1], span), facing.sign);
     out.nearest = max(max(keys.k[0], keys.k[1]), keys.k[2]);
     out.farthest = min(min(keys.k[0], keys.k[1]), keys.k[2]);
-    // Seen edge on the plane says nothing: the whole triangle is as near as a vertex of it is.
+    // A plane seen edge-on has no depth: the whole triangle counts as near as its nearest or
+    // farthest vertex.
     FV3 flat = fv3(fv(0.0f), fv(0.0f), -lane_select(keys.crosses, out.farthest, out.nearest));
     out.plane = select3(facing.unsure, flat, key_plane(view, v, facing));
     return out;
@@ -278,9 +279,9 @@ static inline MASK is_empty_bounds(PixelBounds b) {
     return lane_mask(b.x0 > b.x1) | lane_mask(b.y0 > b.y1);
 }
 
-// Triangles on their way to rows.
+// Triangles while they are set up.
 typedef struct SetUp {
-    MASK kept;    // some pixel may show them; else the rest says nothing
+    MASK kept;    // some pixel may show them; the rest is undefined otherwise
     MASK masked;  // by alpha
     PixelBounds bounds;
     RasterTriangles triangles;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which columns a triangle touches in rows of pixels, by the zeros of its edges: rows in lanes.
+// Finds the columns that a triangle touches in rows of pixels, by the zeros of its edges: rows in
+// lanes.
 #ifndef KILOLUX_DEVICE_RASTER_SPAN_H
 #define KILOLUX_DEVICE_RASTER_SPAN_H
 #include "kernels/surfaces/raster_triangle.h"

@@ -4,8 +4,8 @@
 // Coverage. With the vertices v_i as the eye sees them and the ray d of a pixel, u_i = (v_j x v_k)
 // . d, cyclic, have one sign where the line along d meets the triangle, and that sign is that of
 // det(v_0, v_1, v_2) where it does so in front of the eye. Nothing is clipped and nothing divided.
-// u_i as a float errs by less than 10 * 2^-24 of the products that it sums; a scaled edge has
-// 16 * 2^-24 of them as its unit, so beyond +-1 its sign is sure. Within, exact_sign.h decides. So
+// u_i as a float errs by less than 10 * 2^-24 of the products that it sums; a scaled edge has 16 *
+// 2^-24 of them as its unit, so its sign is certain beyond +-1. Within, exact_sign.h decides. So
 // every pixel's answer is exact: each pixel that a closed surface covers belongs to one triangle of
 // each of its layers, and all devices, lane widths and tiles agree.
 //
@@ -18,11 +18,11 @@
 #include "kernels/shared/raster_row.h"
 #include "kernels/surfaces/exact_sign.h"
 
-// 2^-20 is 16 * 2^-24; 2^-36 bounds what exact_sign.h cuts off.
+// 2^-20 is 16 * 2^-24; 2^-36 bounds the parts that exact_sign.h cuts off.
 #define SURE_SHARE (1.0f / (1 << 20))
 #define CUT_SHARE (1.0f / (1 << 18) / (1 << 18))
 
-// Where rays come from parallel, the eye sees every vertex at depth 1.
+// In parallel views the eye sees every vertex at depth 1.
 static inline FV3 seen_vertex(View view, FV3 v) {
     if (view.orthographic != 0u) v.z = fv(-1.0f);
     return v;

@@ -2,10 +2,10 @@
 // Tiles' triangles -> the triangle that each pixel shows, by a work-group a tile: each item fetches
 // a triangle, then all items test their pixels against all of them. For GPUs, with one lane.
 //
-// A batch is drawn in two passes. The first draws what floats are sure of; it calls nothing, so it
-// needs few registers. The second takes the triangles that alpha cuts, or whose edge passes a pixel
-// too closely. The order decides nothing: the nearest fragment wins, of equally near ones the first
-// triangle's.
+// A batch is drawn in two passes. The first draws where floats are certain; it calls no functions,
+// so it needs few registers. The second takes the triangles that alpha cuts, or whose edge passes a
+// pixel too closely. The order does not matter: the nearest fragment wins, and of equally near ones
+// the first triangle's.
 #ifndef GROUP
 #define GROUP 256
 #endif
@@ -16,9 +16,8 @@
 #include "kernels/surfaces/alpha_mask.h"
 #endif
 
-// 32 neighbouring items draw a region of the tile together: pixels of theirs that are next to each
-// other, round after round. Each region has its own list of the batch's triangles, since most touch
-// few of them.
+// 32 neighbouring items draw a region of the tile together, in rounds of neighbouring pixels. Each
+// region has its own list of the batch's triangles, since most touch few regions.
 #define REGION_ITEMS 32
 #define REGIONS (GROUP / REGION_ITEMS)
 #define REGION_PIXELS (TILE_WIDTH * TILE_HEIGHT / REGIONS)
@@ -35,7 +34,7 @@
 #define BLOCK_WIDTH 8
 #define BLOCK_HEIGHT (REGION_ITEMS / BLOCK_WIDTH)
 
-// A triangle as the items share it.
+// A triangle in the items' shared memory.
 typedef struct SharedTriangle {
     float3 edge[3];
     float3 plane;
@@ -44,7 +43,7 @@ typedef struct SharedTriangle {
     uint number;         // with MASKED_TRIANGLE
 } SharedTriangle;
 
-// A pixel so far.
+// The present state of a pixel.
 typedef struct RasterPixel {
     uint x, y;            // in the planes
     uint tile_x, tile_y;  // in the tile
@@ -135,7 +134,8 @@ static inline bool within(uint interval, uint i) {
     return i >= interval_first(interval) && i <= interval_last(interval);
 }
 
-// Where floats cannot tell, integers do. Rare: inlined, it would cost the others registers.
+// Integers decide where floats are uncertain. It is rare: inlined, it would cost the rest
+// registers.
 __attribute__((noinline)) static bool decide_exactly(SurfaceScene scene, View view, uint number,
                                                      float2 ray) {
     ExactTriangle t = exact_triangle(scene, view, number);
@@ -152,7 +152,7 @@ __attribute__((noinline)) static bool shows_texel(SurfaceScene scene, View view,
 
 static inline float along(float3 e, float x, float y) { return fma(e.x, x, fma(e.y, y, -e.z)); }
 
-// What a triangle is at a pixel.
+// A triangle at a pixel.
 typedef struct RasterFragment {
     float key;
     bool wins;  // if it is covered
@@ -174,7 +174,7 @@ static inline RasterFragment fragment_at(local const SharedTriangle* t, uint num
     return out;
 }
 
-// The first pass. True where it cannot tell.
+// The first pass. True where floats are uncertain.
 static inline bool draw_sure(local const SharedTriangle* t, RasterPixel* p) {
     RasterFragment f = fragment_at(t, t->number, p);
     if (f.wins && f.sure) {

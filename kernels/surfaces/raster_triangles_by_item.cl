@@ -8,10 +8,10 @@
 #include "kernels/surfaces/tile_fragments.h"
 #endif
 
-// Triangles' rows are asked for so many triangles ahead.
+// Prefetches triangles' rows so many triangles ahead.
 #define ROWS_AHEAD 8
 
-// Triangles that alpha does not cut. `is_cut`, by the near plane, is a constant of each call: it
+// Draws triangles without alpha mask. `is_cut`, by the near plane, is a constant of each call: it
 // chooses a loop.
 static inline void draw_opaque(Canvas c, global const RasterRow* t, uint number, bool is_cut) {
     StripEdges edges = edges_of(t);

@@ -17,7 +17,7 @@ constant sampler_t kTexel =
 #define SOURCE(element) global const element* restrict
 #endif
 
-// Larger is nearer, 0 is background; so is NaN.
+// Larger is nearer, 0 is background; NaN becomes background.
 static inline float stored_depth(float d, uint invert) {
     float stored = invert != 0u ? 1.0f - d : d;
     return stored > 0.0f ? stored : 0.0f;

@@ -2,10 +2,10 @@
 // Triangle ids -> G-buffer: each pixel's triangle is interpolated, its textures are sampled, and
 // the planes of the layout are written. One work-item resolves a block of VW pixels.
 //
-// Triangles are set up one by one, in scalars, and evaluated in all lanes: a block holds few of
-// them. Texels are fetched lane by lane and filtered in lanes. A CPU would wait for most of them: a
-// material's are asked for, of all its textures, before the first is read.
-// With one lane there are no blocks: their code costs an H200 a fifth of the time of this kernel.
+// Triangles are set up one by one, in scalars, and evaluated in all lanes: a block shows few of
+// them. Texels are fetched lane by lane and filtered in lanes. A CPU would wait for most of them,
+// so the texels of all textures of a material are prefetched before the first is read. With one
+// lane there are no blocks: their code costs an H200 a fifth of the time of this kernel.
 #define BLOCK_PIXELS (VW > 1)
 #include "kernels/device/arguments.h"
 #include "kernels/surfaces/resolved_surface.h"

@@ -9,7 +9,7 @@
 #include "kernels/shared/view.h"
 #include "kernels/surfaces/block.h"
 
-// Where pixels go.
+// The target of pixels.
 typedef struct GBufferTarget {
     global uchar* bytes;
     GBufferLayout layout;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles that alpha cuts, drawn into a tile's strips: the pixels that each would win are
-// gathered, so that their textures are sampled in full vectors.
+// Draws triangles with alpha masks into a tile's strips: gathers the pixels that each would win, so
+// that textures are sampled in full vectors.
 #ifndef KILOLUX_DEVICE_TILE_FRAGMENTS_H
 #define KILOLUX_DEVICE_TILE_FRAGMENTS_H
 #include "kernels/surfaces/alpha_mask.h"
 #include "kernels/surfaces/tile_strips.h"
 
-// Pixels that a triangle wins if alpha leaves them: strips have few of them, samples are taken in
-// full vectors.
+// Most pixels that a triangle would win: strips have few of them, so samples are taken in full
+// vectors.
 #define MOST_FRAGMENTS (8 * VW)
 
 typedef struct Fragments {
@@ -17,7 +17,8 @@ typedef struct Fragments {
     uint count;
 } Fragments;
 
-// Which lanes are set cannot be foreseen: each is written, and the next in its place if it is not.
+// A branch could not be predicted, so each lane is written, and the next one overwrites it if it is
+// not set.
 static inline void add_fragments(Canvas c, Strip s, MASK wins, FV key, Fragments* f) {
     uint flag[VW];
     float keys[VW], x[VW], y[VW];
@@ -83,7 +84,7 @@ static inline void draw_masked(Canvas c, global const RasterRow* t, uint number)
     draw_fragments(c, &masked, number, &fragments);
 }
 
-// Triangles that alpha cuts come after the others, which may hide them: samples cost most.
+// Triangles with alpha masks come after the others, which may hide them: samples cost most.
 #define MOST_PUT_OFF (64 * VW)
 
 static inline void draw_put_off(Canvas c, global const RasterRow* triangles, const uint* put_off,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tile's pixels as one work-item keeps them: which triangle each shows so far, in strips of VW.
+// A tile's pixels in a work-item's memory: the triangle of each so far, in strips of VW.
 //
 // A strip is STRIP_ROWS rows of neighbouring columns, since most triangles are few pixels wide. The
 // tile keeps its pixels column by column within the rows of a strip, so a strip that begins at any
@@ -21,12 +21,12 @@
 #endif
 #define TILE_STRIPS (TILE_HEIGHT / STRIP_ROWS)
 #define STRIP_ROW_LANES ((TILE_STRIPS + VW - 1) / VW * VW)
-// Strips begin where a triangle does: the last may end past the tile.
+// Strips begin at a triangle's first column: the last may end past the tile.
 #define STRIP_STRIDE ((TILE_WIDTH + STRIP_COLUMNS) * STRIP_ROWS)
 #define strip_lanes_x (lane_numbers / STRIP_ROWS)
 #define strip_lanes_y (lane_numbers % STRIP_ROWS)
 
-// Strips of a box from which on its edges say which of them a triangle touches.
+// For boxes of at least so many strips, the edges decide which of them a triangle touches.
 #define FEW_STRIPS 4
 
 // Keys and ids so far, of the tile's pixels; and their rays.
@@ -137,14 +137,15 @@ static inline void begin_strips(const Tile* tile, uint y, global const RasterRow
     edges->plane_rest = fma(fv(t->plane[1]), ry, fv(-t->plane[2]));
 }
 
-// What all triangles of a tile are drawn with.
+// The arguments of drawing all triangles of a tile.
 typedef struct Canvas {
     const SurfaceScene* scene;
     const View* view;
     Tile* tile;
 } Canvas;
 
-// Where floats cannot tell, integers do. Rare: inlined, it would keep its caller from that.
+// Integers decide where floats are uncertain. It is rare: inlined, it would keep its caller from
+// being inlined.
 __attribute__((noinline)) static MASK decide_exactly(const SurfaceScene* scene, const View* view,
                                                      uint number, FV rx, FV ry, MASK unsure) {
     ExactTriangle t = exact_triangle(*scene, *view, number);
@@ -191,8 +192,8 @@ static inline void store_strip(Tile* tile, Strip s, MASK wins, FV key, uint numb
     *ids = select(*ids, (UV)(number + 1u), wins);
 }
 
-// The pixels of a strip that a triangle wins whose turn comes in any order, and which the near
-// plane may cut.
+// The pixels of a strip that a triangle wins which comes in any order and may be cut by the near
+// plane.
 static inline MASK wins_cut(Canvas c, uint number, const StripEdges* edges, Strip s, FV key) {
     FV old = lane_load(c.tile->key + place_of(s));
     // Background has the number 0 - 1, which is not smaller.
@@ -203,13 +204,14 @@ static inline MASK wins_cut(Canvas c, uint number, const StripEdges* edges, Stri
     return covered(c, number, edges, s) & (lane_mask(key > old) | first) & behind_near;
 }
 
-// The pixels of a strip that a triangle wins that the near plane does not cut, in its turn.
+// The pixels of a strip that a triangle wins which comes in its order and is not cut by the near
+// plane.
 static inline MASK wins_whole(Canvas c, uint number, const StripEdges* edges, Strip s, FV key) {
     MASK nearer = lane_mask(key > lane_load(c.tile->key + place_of(s)));
     return covered(c, number, edges, s) & nearer;
 }
 
-// Of a strip's row: every STRIP_ROWS-th lane.
+// The lanes of a strip's row: every STRIP_ROWS-th.
 #if STRIP_ROWS == 1
 #define ROW_OF_STRIP(v, i) (v)
 #elif STRIP_ROWS == 2

@@ -3,7 +3,7 @@
 //   cut_light_tree_count  entries of each list with its cut
 //   (prefix_sum over clusters)
 //   cut_light_tree_fill   the lists, and where they are
-// One work-item takes VW clusters. They walk the tree together: a lane waits where it is ahead.
+// One work-item takes VW clusters. They walk the tree together: a lane that is ahead waits.
 #include "kernels/device/arguments.h"
 #include "kernels/tails/tree_cut.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bound of the radiance that each pixel lacks as lights without a range of their own got one,
-// from the moments of its coarse cluster (tail_moments). One work-item bounds one pixel: VW is 1.
+// Bounds the radiance that each pixel lacks since lights without a range got one, from the moments
+// of its coarse cluster (tail_moments). One work-item bounds one pixel: VW is 1.
 //
 // Of the light from directions l with weights w, the surface takes sum w max(n.l, 0) = sum w (|n.l|
 // + n.l) / 2, and sum w |n.l| <= sqrt(sum w * sum w (n.l)^2) by Cauchy and Schwarz. Directions
@@ -11,7 +11,7 @@
 #include "kernels/shared/evaluate.h"
 #include "kernels/tails/tail_moments.h"
 
-// More than float32 loses in the sums of moments.
+// More than the rounding of the sums of moments.
 #define ROUNDING 1.0001f
 
 // sum of w max(n.l, 0) of one colour, at most.
@@ -22,12 +22,12 @@ static inline float irradiance_bound(global const float* m, FV3 n) {
     float square = n.x * n.x * outer[0] + n.y * n.y * outer[1] + n.z * n.z * outer[2] +
                    2.0f * (n.x * n.y * outer[3] + n.x * n.z * outer[4] + n.y * n.z * outer[5]);
     float both = sqrt(m[TAIL_AIMED] * max(square, 0.0f));
-    // Rounding may have taken as much from the difference as from its terms.
+    // Rounding may have changed the difference by as much as its terms.
     return 0.5f * (both + along) + (ROUNDING - 1.0f) * m[TAIL_AIMED] + m[TAIL_STRAY];
 }
 
-// Radiance of one colour from light of which `all` is the sum of weights and `irradiance` what the
-// surface takes, at most; `f0` head on: of dielectrics, or mixed.
+// An upper bound of the radiance of one colour from light of which `all` is the sum of weights and
+// `irradiance` the part that the surface receives; `f0` head on: of dielectrics, or mixed.
 static inline float radiance_bound(Surface s, ShadingPoint p, float albedo, float f0, float all,
                                    float irradiance) {
 #if SHADING == SHADING_LAMBERT

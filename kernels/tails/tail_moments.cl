@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the ranges of lights without one of their own take from each coarse cluster, as moments of
-// the lost light: see kernels/tails/tail_moments.h. For the bound of a picture's error; no part of
-// a frame otherwise. One work-item sums for VW clusters, over all lights in their order.
+// Sums the light that the ranges of lights without one of their own take from each coarse cluster,
+// as moments: see kernels/tails/tail_moments.h. For the bound of a picture's error; no part of a
+// frame otherwise. One work-item sums for VW clusters, over all lights in their order.
 #include "kernels/device/arguments.h"
 #include "kernels/device/lanes.h"
 #include "kernels/shared/surface.h"
@@ -55,7 +55,7 @@ typedef struct LostLight {
 
 static inline FV square_of(FV v) { return v * v; }
 
-// Within the range the window takes d^2 / range^4, beyond it all of 1 / d^2; it takes most at it.
+// Within the range the window takes d^2 / range^4, beyond it all of 1 / d^2: the most at the range.
 static inline LostLight lost_light(Boxes boxes, ShadeLight light) {
     float4 at = light.position_inv_range2;
     FV3 v = fv3(fv(at.x) - boxes.middle.x, fv(at.y) - boxes.middle.y, fv(at.z) - boxes.middle.z);

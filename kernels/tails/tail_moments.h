@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where tail_moments keeps what it sums for a coarse cluster: rows of floats, one for each cluster.
+// Layout of the sums of tail_moments for a coarse cluster: rows of floats, one for each cluster.
 //
 // Of each light without a range of its own, w bounds what its range takes of intensity times
 // falloff anywhere in the cluster's box; l is the direction to it from the box's middle, and s how

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The variance that drawn ranges (Tails::stochastic) cause in each pixel's luminance, estimated
+// Estimates the variance that drawn ranges (Tails::stochastic) cause in each pixel's luminance,
 // from the lights that were drawn: X = f / p with probability p, else 0, has E[X^2 (1 - p)]. Adds
-// to what sampled shadows have estimated. One work-item does VW pixels, neighbours in the order of
+// it to the estimate of sampled shadows. One work-item does VW pixels, neighbours in the order of
 // their tile's clusters.
 #define ORDERED_PIXELS 1
 #include "kernels/device/lit_item.h"
@@ -18,8 +18,7 @@
 #define SAMPLED_SHADOWS 0
 #endif
 
-// The seen share of a light that adds `alone`: what it is, or the estimate that is right in the
-// mean.
+// The seen share of a light that adds `alone`: exact, or an unbiased estimate.
 static inline FV seen_share(ShadowDraw draw, ShadowBits bits, uint i, FV alone) {
 #if SAMPLED_SHADOWS
     FV q = draw_probability(draw, alone);

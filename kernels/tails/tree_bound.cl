@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bound of what each pixel gains or lacks as nodes of the light tree stand for their lights:
-// kernels/tails/tree_cut.h for diffuse light; of a lobe, what it has at most in any direction to
-// the node's lights. One work-item bounds one pixel: VW is 1.
+// Bounds the error of each pixel by nodes of the light tree that replace their lights:
+// kernels/tails/tree_cut.h for diffuse light; for a lobe, its maximum over all directions to the
+// node's lights. One work-item bounds one pixel: VW is 1.
 //
 // A direction to a node's light is within `stray` of that to its centre, and the half vector within
 // stray / (|h| - stray / 2), h = l + v: |a/|a| - b/|b|| <= 2 |a - b| / (|a| + |b|). The cosine
@@ -11,17 +11,17 @@
 #include "kernels/shared/evaluate.h"
 #include "kernels/tails/tree_cut.h"
 
-// More than float32 loses in the sums.
+// More than the rounding of the sums.
 #define ROUNDING 1.0001f
 
 // Errors of light of intensity 1 from a node.
 typedef struct NodeError {
     float diffuse;   // of the irradiance
-    float specular;  // most that a lobe has of it, by kernels' constants left out as in LightSum
+    float specular;  // bound of its part in a lobe, without constants that LightSum leaves out, too
     float fresnel;   // f of Schlick's f0 + (1 - f0) f, at most
 } NodeError;
 
-// The lobe's most within `stray` of the direction l.
+// The maximum of a lobe within `stray` of the direction l.
 static inline float lobe_bound(Surface s, ShadingPoint p, float3 l, float stray, float* fresnel) {
     float3 v = (float3)(p.to_eye.x, p.to_eye.y, p.to_eye.z);
     float3 n = (float3)(p.normal.x, p.normal.y, p.normal.z);
@@ -54,7 +54,7 @@ static inline NodeError node_error(Surface s, ShadingPoint p, TreeNode node, flo
     float near = distance * (2.0f - TREE_ROUNDING) - node.radius * TREE_ROUNDING;
     float along = p.normal.x * w.x + p.normal.y * w.y + p.normal.z * w.z;
     float slack = node.radius * TREE_ROUNDING + 1e-5f * distance;
-    if (along < -slack) return out;  // behind the surface: nothing of it is seen
+    if (along < -slack) return out;  // behind the surface: no part of it is seen
     float inv = 1.0f / near;
     float share = inv * inv;  // of the intensity, at most
     float spread = node.spread * inv;
@@ -65,7 +65,7 @@ static inline NodeError node_error(Surface s, ShadingPoint p, TreeNode node, flo
     float stray = node.radius / (distance - 0.5f * node.radius);
     out.specular = share * lobe_bound(s, p, w / distance, stray, &out.fresnel);
 #if SHADING == SHADING_PBR
-    // Diffuse light is what Fresnel leaves: its slope is at most 5 (1 - v.h)^4 / 2.
+    // Fresnel's complement is diffuse: its slope is at most 5 (1 - v.h)^4 / 2.
     float slope = 2.5f * pow(out.fresnel, 0.8f) * TREE_ROUNDING;
     out.diffuse += share * min(slope * spread, 1.0f);
 #endif
@@ -73,7 +73,7 @@ static inline NodeError node_error(Surface s, ShadingPoint p, TreeNode node, flo
     return out;
 }
 
-// Radiance of one colour that errs by `e` for intensity 1.
+// Error of one colour's radiance for an error `e` at intensity 1.
 static inline float radiance_error(Surface s, ShadingPoint p, float albedo, float f0, NodeError e) {
     float base = albedo;
 #if HAS_METALLIC

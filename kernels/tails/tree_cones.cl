@@ -42,7 +42,7 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
         cosine = min(cosine, dot(axis, normal_at(g, pixels_of_tile(g.view, tile, i, order))));
     }
     ClusterCone out;
-    cosine = max(cosine - 1e-5f, 0.0f);  // more than float32 and normals' lengths lose
+    cosine = max(cosine - 1e-5f, 0.0f);  // more than the rounding of normals and their lengths
     out.axis_cosine = (float4)(axis, cosine);
     out.sine = sqrt(max(1.0f - cosine * cosine, 0.0f));
     out.sharpness = sharpness;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a node of the light tree is from the sum of its lights, and which nodes a cluster takes.
+// The error of a node of the light tree against its lights, and the nodes that a cluster takes.
 //
 // A light at x of intensity 1 gives a surface at p the irradiance E(x) = max(n.r, 0) / |r|^3 with
 // r = x - p. Where n.r > 0 that is the field of a dipole: its gradient is at most 2 / |r|^3, its
@@ -33,13 +33,13 @@ typedef struct Receivers {
     FV cosine, sine, sharpness;
 } Receivers;
 
-// What a walk does with a node, for each lane.
+// The choice of a walk at a node, for each lane.
 typedef struct NodeChoice {
     MASK take;  // its light is evaluated
-    MASK pass;  // taken, or behind all surfaces: no node below it is asked
+    MASK pass;  // taken, or behind all surfaces: the walk skips the nodes below it
 } NodeChoice;
 
-// More than float32 loses of distances here.
+// More than the rounding of distances here.
 #define TREE_ROUNDING 1.00001f
 
 // `at`: the node's centre, view space. A node is taken where its error is at most `share` of the

@@ -10,10 +10,10 @@
 
 namespace kilolux {
 
-/// The camera options of the command line; what they leave open comes from the scene.
+/// The camera options of the command line; the scene decides those that are not given.
 struct CameraChoice {
     std::optional<int> index{};
-    bool framed = false;                  // one that frames the scene, whatever cameras it has
+    bool framed = false;                  // a camera that frames the scene, whatever cameras it has
     SeenFrom view = SeenFrom::automatic;  // other than automatic: framed, unless an index is given
     Fit fit = Fit::both;
     std::optional<glm::dvec3> position{};     // [m]
@@ -24,7 +24,7 @@ struct CameraChoice {
     bool operator==(const CameraChoice&) const = default;
 };
 
-/// Where a camera stands, what it looks at, and what is up.
+/// A camera's position, its target, and its up direction.
 struct CameraPlace {
     glm::dvec3 position{0.0};     // [m]
     glm::dvec3 focal_point{0.0};  // [m]
@@ -35,10 +35,10 @@ struct CameraPlace {
 /// Error when the directions are degenerate.
 Camera place_camera(const CameraPlace& place, double y_fov, double radius);
 
-/// Whether `choice` means the camera that frames the scene.
+/// Whether `choice` asks for the camera that frames the scene.
 bool is_framed(const CameraChoice& choice, const Scene& scene);
 
-/// The camera that `choice` means in `scene`.
+/// The camera that `choice` asks for in `scene`.
 ///
 /// It starts from the camera of the index, else the scene's first, else one that frames the scene
 /// (framing_camera()). `aspect` is the picture's, width / height.

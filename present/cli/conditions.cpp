@@ -43,7 +43,7 @@ nlohmann::json document_of(const fs::path& file) {
     }
 }
 
-// Lines of the files that a glTF document names, wherever it does.
+// Lines of all files that a glTF document names.
 std::string named_files(const nlohmann::json& document, const fs::path& folder) {
     if (!document.is_structured()) return "";
     std::string out;
@@ -99,7 +99,7 @@ Json settings_json(SharedOptions shared) {
     Json out;
     for (const Setting& setting : settings_of(shared)) {
         if (setting.text.effect.changes != Changes::neither) {
-            // Files go by their contents: see scene_content().
+            // A file counts by its content: see scene_content().
             const bool names_file = setting.kind == SettingKind::text && is_file(setting.show());
             out[setting.word()] = names_file ? Json(fs::path(setting.show()).filename().string())
                                              : value_json(setting);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What results depend on, for whatever keeps them: the tables of bench and report, the choices of
-// --max-error.
+// The conditions that results depend on, kept with the tables of bench and report and with the
+// choices of --max-error.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,9 +10,9 @@
 
 namespace kilolux {
 
-/// A text that changes with what the files of the options hold: the scene's file, every file that
-/// it names (buffers, images, IES profiles), and the environment. A generated scene is its name.
-/// The folder does not matter.
+/// A text that changes with the content of the options' files: the scene's file, every file that it
+/// names (buffers, images, IES profiles), and the environment. For a generated scene it is the
+/// name. The folder does not matter.
 std::string scene_content(const SharedOptions& shared);
 
 /// A value as a JSON number, true or false where it is one, else as its text.
@@ -27,8 +27,7 @@ nlohmann::ordered_json conditions_json(const SharedOptions& shared, const Scene&
 
 nlohmann::ordered_json program_json();
 
-/// The first entry that two documents do not share or whose values differ, with both values;
-/// empty: none.
+/// The first entry in which two documents differ, with both values; empty: none.
 std::string first_difference(const nlohmann::ordered_json& was, const nlohmann::ordered_json& is);
 
 }  // namespace kilolux

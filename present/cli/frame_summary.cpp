@@ -66,7 +66,9 @@ std::string sample_line(const SampleCounts& s) {
 std::string comparison_text(const Comparison& comparison) {
     std::string value = fmt::format("{:.6g}", comparison.value);
     const std::string threshold = fmt::format("{:.6g}", comparison.threshold);
-    if (value == threshold) value = text_of(comparison.value);  // just above shows as above
+    if (value == threshold)
+        value = text_of(
+            comparison.value);  // a value just above the threshold must not look equal to it
     return fmt::format("{} {} (threshold {})", comparison.metric, value, threshold);
 }
 

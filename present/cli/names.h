@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of the command line for what settings.h enumerates, each list in the enumeration's
-// order, and what --help says of each.
+// The command line's words for the enumerations of settings.h, in the enumerations' order, and
+// their lines in --help.
 #pragma once
 
 #include <string>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/cli/option_builder.h"
 
+#include <stdexcept>
+
 #include "host/base/text.h"
 
 namespace kilolux {
@@ -13,6 +15,16 @@ OptionText described(OptionText text, const Choices& choices) {
         text.meaning += "\n" + choices.names[i] + " - " + choices.meanings[i];
     }
     return text;
+}
+
+// What is wrong with a flag's value as in --quiet=VALUE, or nothing.
+std::string flag_problem(const std::string& value) {
+    try {
+        CLI::detail::to_flag_value(value);
+        return "";
+    } catch (const std::logic_error&) {  // no number, or one out of range
+        return "'" + value + "' is not true or false";
+    }
 }
 
 }  // namespace
@@ -29,10 +41,14 @@ void add_option(CLI::App& command, const Setting& setting) {
     const OptionText& text = setting.text;
     CLI::Option* option =
         setting.kind == SettingKind::flag
-            ? command.add_flag_function(
-                  text.name,
-                  [take = setting.take](std::int64_t count) { take(count > 0 ? "true" : "false"); },
-                  text.meaning)
+            ? command
+                  .add_flag_function(
+                      text.name,
+                      [take = setting.take](std::int64_t count) {
+                          take(count > 0 ? "true" : "false");
+                      },
+                      text.meaning)
+                  ->check(flag_problem)
             : command.add_option_function<std::string>(text.name, setting.take, text.meaning)
                   ->type_name(text.form)
                   ->default_str(text.standard);

@@ -18,8 +18,8 @@ namespace kilolux {
 /// The end of a heading whose options --help leaves to --help-all.
 inline constexpr std::string_view kRestSuffix = " (more)";
 
-/// Leaves options of `command` to --help-all: those it takes so that every command takes the same
-/// options, but has little use for.
+/// Leaves options of `command` to --help-all: those that it has only because every command takes
+/// the same options.
 void leave_to_help_all(CLI::App& command, const std::vector<std::string>& names);
 
 /// How a value of a type is written.
@@ -56,7 +56,7 @@ class OptionBuilder {
     using Show = std::function<std::string()>;
     OptionBuilder& value(SettingKind kind, const OptionText& text, const Take& take, Show show);
 
-    /// What `parse` makes of the long name and the text.
+    /// The value that `parse` makes of the long name and the text.
     template <typename T, typename Parse>
     requires std::invocable<Parse, const std::string&, const std::string&> OptionBuilder& value(
         const OptionText& text, T& out, Parse parse) {
@@ -94,11 +94,11 @@ class OptionBuilder {
     /// 0 is "auto".
     OptionBuilder& number_or_auto(const OptionText& text, double& out, const NumberRange& range);
 
-    /// One of `choices`, whose place `take` gets; `text.form` is made of them.
+    /// One of `choices`, whose index `take` gets; `text.form` is made from them.
     OptionBuilder& choice(const OptionText& text, const Choices& choices,
                           std::function<void(std::size_t)> take, Show show);
 
-    /// The place of one of `choices` as a number or enumeration.
+    /// The index of one of `choices` as a number or enumeration.
     template <typename T>
     OptionBuilder& choice(const OptionText& text, T& out, const Choices& choices) {
         return choice(
@@ -125,7 +125,7 @@ class OptionBuilder {
 /// Registers a setting as an option; of several values given the last one counts.
 void add_option(CLI::App& command, const Setting& setting);
 
-/// A flag that Program itself obeys.
+/// A flag that Program itself handles.
 void add_question(CLI::App& command, const std::string& heading, const std::string& name,
                   const std::string& meaning);
 

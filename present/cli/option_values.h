@@ -18,14 +18,14 @@
 
 namespace kilolux {
 
-/// What is behind the scene.
+/// What a picture shows behind the scene.
 struct BackgroundChoice {
     enum class Kind { environment, none, color } kind = Kind::environment;
     glm::vec3 color{0.0f};  // linear Rec. 709 radiance
     bool operator==(const BackgroundChoice&) const = default;
 };
 
-/// Numbers an option takes; the ends belong to the range unless `open`.
+/// Numbers that an option takes; the ends belong to the range unless `open`.
 struct NumberRange {
     double min = -std::numeric_limits<double>::max();
     double max = std::numeric_limits<double>::max();
@@ -115,7 +115,7 @@ FrameRange parse_frames(const std::string& option, std::string_view text);
 /// Shard "I/N", 0 <= I < N.
 Shard parse_shard(const std::string& option, std::string_view text);
 
-/// The place of a name in `names`; the message lists them and the nearest.
+/// The index of a name in `names`; the message lists them and the nearest.
 std::size_t parse_name(const std::string& option, std::string_view text,
                        const std::vector<std::string>& names);
 
@@ -123,7 +123,7 @@ std::size_t parse_name(const std::string& option, std::string_view text,
 std::vector<std::string> parse_name_list(const std::string& option, std::string_view text,
                                          const std::vector<std::string>& names);
 
-/// The text that an option reads back as the same value; empty for what was not given.
+/// The text that an option reads back as the same value; empty for a value that was not given.
 std::string text_of(const LineWidth& width);
 std::string text_of(const std::vector<std::string>& words);
 std::string text_of(double value);

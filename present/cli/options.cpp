@@ -50,7 +50,7 @@ std::vector<Setting> settings_of(SharedOptions& options) {
 
 std::string option_words(SharedOptions options) {
     SharedOptions defaults;
-    // The standards of lights and ambient are not those of every rig.
+    // The default number of lights and the default ambient light hold for some rigs only.
     const bool has_own_rig = options.rig != Rig::automatic;
     const std::vector<Setting> standard = settings_of(defaults), settings = settings_of(options);
     std::string out;

@@ -28,15 +28,15 @@ struct SharedOptions {
     Rig rig = Rig::automatic;
     std::string environment;                              // file or built-in name; empty: none
     BackgroundChoice background;                          // behind the scene
-    std::shared_ptr<const Environment> shown_background;  // as light_scene() settles it
+    std::shared_ptr<const Environment> shown_background;  // set by light_scene()
     bool reflections = false;  // the environment lights by prefiltered maps, not by lights
-    std::shared_ptr<const PrefilteredEnvironment> maps;  // as light_scene() settles it
+    std::shared_ptr<const PrefilteredEnvironment> maps;  // set by light_scene()
     bool shows_environment = false;          // the command can show background and reflections
-    std::uint64_t environment_lights = 128;  // that stand for it
+    std::uint64_t environment_lights = 128;  // directional lights that replace it
     bool lights_given = false;               // settings.lights.count was asked for
-    bool ambient_given = false;              // settings.ambient was
-    bool shadow_rays_given = false;          // settings.shadow_rays was
-    bool takes_automatic_exposure = false;   // the command can make it
+    bool ambient_given = false;              // settings.ambient was asked for
+    bool shadow_rays_given = false;          // settings.shadow_rays was asked for
+    bool takes_automatic_exposure = false;   // the command can choose the exposure
     bool automatic_exposure = false;
     bool takes_automatic_samples = false;  // the command can choose them
     CameraChoice camera;
@@ -74,14 +74,14 @@ void visit_picture_settings(SharedOptions& options, const SettingVisitor& visit)
 /// The same as a list, which refers to `options`.
 std::vector<Setting> settings_of(SharedOptions& options);
 
-/// What a shell has to say for the options that are not the defaults: " --lights 77 --rig none",
-/// without the scene, and what is printed.
+/// The options that differ from the defaults, as words for a shell: " --lights 77 --rig none".
+/// Leaves out the scene and the options of printing.
 std::string option_words(SharedOptions options);
 
 /// Registers the shared options.
 void add_shared_options(CLI::App& command, SharedOptions& options);
 
-/// Sets what is printed. Throws UsageError for shared options that exclude or need each other;
+/// Sets the verbosity. Throws UsageError for shared options that exclude or need each other;
 /// `compares`: the command line has --reference.
 void begin_command(const SharedOptions& options, bool compares = false);
 

@@ -117,7 +117,7 @@ void check_motion(const CameraChoice& camera, const OutputOptions& options) {
     }
 }
 
-// A video is one file for the eye, of all frames.
+// A video is one file of display pictures, of all frames.
 void check_video(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
     const auto refuse = [&file](bool asked, const char* what) {

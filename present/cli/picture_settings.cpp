@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of visit_settings() that say what a picture shows, and how.
+// The rows of visit_settings() about the picture's content and look.
 #include <fmt/format.h>
 
 #include <tuple>

@@ -23,7 +23,7 @@ std::string_view bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-// What it is made of, and by which program.
+// Identifies the environment and the program.
 std::string head_of(const Environment& environment) {
     return std::string(kFormat) + version() + " " + hash_text(bytes_of(environment.rows)) + "\n";
 }

@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// prefiltered(environment). Those of the built-in environments (`name`), which take seconds to
-/// make, are kept in cache_folder(), and used only where they are whole and of the same light.
+/// Returns prefiltered(environment). The results for built-in environments (`name`), which take
+/// seconds, are kept in cache_folder(), and used only where they are whole and of the same light.
 PrefilteredEnvironment kept_prefiltered(const std::string& name, const Environment& environment);
 
 }  // namespace kilolux

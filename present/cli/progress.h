@@ -25,7 +25,7 @@ class Progress {
     /// One more of `total` is done.
     void advance();
 
-    /// Takes the bar off the screen, for a message; the next advance() draws it again.
+    /// Erases the bar for a message; the next advance() draws it again.
     void erase();
 
  private:

@@ -38,7 +38,7 @@ bool is_other_scene(const std::filesystem::path& file) {
     return extensions.contains(lower(file.extension().string()));
 }
 
-// The file that a name stands for which is not a generated scene's.
+// The file that a name stands for, if it is not a generated scene's.
 std::filesystem::path scene_file(const std::string& name_or_file) {
     std::filesystem::path file(name_or_file);
     if (std::filesystem::is_directory(file)) {
@@ -65,14 +65,14 @@ std::filesystem::path scene_file(const std::string& name_or_file) {
     return file;
 }
 
-// Throws for options that choose among what only files have.
+// Throws for options that only scene files have a use for.
 void check_generated(const SharedOptions& options) {
     const std::string is_generated = ": " + options.scene + " is a generated scene, without ";
     if (!options.load.clips.empty()) throw UsageError("--clip" + is_generated + "animations");
     if (!options.load.variant.empty()) throw UsageError("--variant" + is_generated + "variants");
 }
 
-// A bar for the images of a file.
+// A progress bar for the images of a file.
 class LoadBar {
  public:
     explicit LoadBar(bool shown) : shown_(shown) {}
@@ -86,7 +86,7 @@ class LoadBar {
     std::optional<Progress> bar_;
 };
 
-// Whether the command line says something of generated lights.
+// Whether the command line has options of generated lights.
 bool asks_for_swarm(const SharedOptions& options) {
     LightOptions standard;
     standard.count = options.settings.lights.count;
@@ -102,7 +102,7 @@ Rig rig_of(const SharedOptions& options, const Scene& scene) {
                                 : automatic_rig(scene, is_generated_scene(options.scene));
 }
 
-// From where the scene is seen and why, where its cameras leave that open.
+// How the scene is seen and why, where its own cameras do not decide that.
 std::string view_line(const SharedOptions& options, const AnimatedScene& scene) {
     const SeenFrom asked = options.camera.view;
     const bool open =
@@ -130,7 +130,7 @@ std::string rig_line(Rig rig, bool automatic, const RenderSettings& settings, st
     return line + fmt::format("{} of the scene's own lights, ambient {}", own, settings.ambient);
 }
 
-// What becomes of lights without a range; nothing where there are none.
+// How lights without a range are treated; empty where there are none.
 std::string tails_line(const Scene& scene, const RenderSettings& settings, bool automatic) {
     const auto unranged = std::ranges::count_if(scene.lights, lacks_range);
     if (unranged == 0) return "";
@@ -156,7 +156,8 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
                       settings.range_budget);
 }
 
-// Many lights without a range: bounded ones lose what many far ones add together.
+// Chooses a tree for many lights without a range where bounded ranges would lose much of their
+// light.
 void choose_tails(SharedOptions& options, const Scene& scene) {
     constexpr double kMostLost = 0.1;
     RenderSettings& s = options.settings;
@@ -187,7 +188,7 @@ Environment opened_environment(const std::string& name) {
                                  joined(built_in), did_you_mean(name, built_in)));
 }
 
-// Settles what is behind the scene, too.
+// Sets options.shown_background, too.
 std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     using Kind = BackgroundChoice::Kind;
     const BackgroundChoice& background = options.background;
@@ -215,14 +216,14 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     return line;
 }
 
-// Metal shows what is around it: a studio of few lights leaves it dark.
+// Metal reflects its surroundings: a studio of few lights leaves it dark.
 bool wants_reflections(const SharedOptions& options, const Scene& scene) {
     constexpr double kMostly = 0.5;
     return options.shows_environment && !options.ambient_given &&
            !is_forward(options.settings.renderer) && metallic_share(scene) > kMostly;
 }
 
-// The studio's room in place of its lights.
+// Replaces the studio's lights by the studio's room.
 void reflect_studio(SharedOptions& options) {
     options.environment = "studio";
     options.reflections = true;
@@ -269,7 +270,8 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     }
     const bool finds_tails = options.settings.tails == Tails::automatic;
     choose_tails(options, scene.scene());
-    // A swarm stays automatic where another command line has to say nothing for it.
+    // The rig option stays automatic if the automatic rig has the swarm: a copied command then
+    // needs no --rig.
     options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
     return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) +
            from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +

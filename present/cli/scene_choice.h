@@ -6,17 +6,17 @@
 
 namespace kilolux {
 
-/// The scene of the options at their time, to be put to other times: a generated one by name, else
-/// the file of that path. light_scene() comes next. Throws UsageError for what is neither a name
+/// The scene of the options at their time, for other times, too: a generated one by name, else the
+/// file of that path. Call light_scene() next. Throws UsageError for a text that is neither a name
 /// nor looks like a file, Error if the file fails.
 AnimatedScene open_animated_scene(const SharedOptions& options);
 
-/// Takes the scene as --view says and adds the lights of the options' rig and environment. Which
-/// rig that is, how many lights are generated and what is behind the scene is then settled in the
-/// options; returns the lines that say it.
+/// Treats the scene as --view says and adds the lights of the options' rig and environment. Writes
+/// the chosen rig, the number of generated lights and the background to the options; returns lines
+/// that describe the lights.
 std::string light_scene(SharedOptions& options, AnimatedScene& scene);
 
-/// Has a command that measures many lights do so where no rig was asked for.
+/// Makes a command that measures many lights use the swarm where no rig was asked for.
 void measure_swarm(SharedOptions& options);
 
 /// The lit scene of the options, at their time.

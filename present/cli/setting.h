@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An option with its value and what is known of it. Whatever walks over options reads this: the
-// command line, config files, Python's keywords, the window's file, copied commands, the conditions
-// of measurements, and the notes of pictures.
+// An option with its value, its text and its effects. All code that loops over options reads this:
+// the command line, config files, Python's keywords, the window's file, copied commands, the
+// conditions of measurements, and the notes of pictures.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,8 @@
 
 namespace kilolux {
 
-/// What a value decides. Measurements with another value of what is not `neither` do not compare.
+/// What a value changes. Measurements are comparable only if all values that change time or picture
+/// are equal.
 enum class Changes { neither, time, picture };
 
 struct Effect {
@@ -26,7 +27,7 @@ inline constexpr Effect kPicture{Changes::picture};
 inline constexpr Effect kPanelTime{Changes::time, true};
 inline constexpr Effect kPanelPicture{Changes::picture, true};
 
-/// How an option presents itself in --help.
+/// The text of an option in --help.
 struct OptionText {
     std::string name;        // "--lights", or "--output,-o"
     std::string form{};      // of the value: "N"; words in small letters between '|' are names
@@ -47,8 +48,8 @@ struct Setting {
     /// Throws UsageError for a text that is no value.
     std::function<void(const std::string& text)> take{};
 
-    /// The text that `take` makes the present value of; empty: nothing was given. A flag's is
-    /// "true" or empty.
+    /// The text from which `take` sets the present value; empty: the option was not given. For a
+    /// flag it is "true" or empty.
     std::function<std::string()> show{};
 
     /// "--light-seed", or "SCENE".

@@ -12,10 +12,10 @@
 namespace kilolux {
 namespace {
 
-// A new member does not compile here: give it a row below, then its name. Without a row are those
-// of other places: the renderer's own (opened, background, reflections), those of tests
-// (force_features, band_rows, kernels.chunks, kernels.group_height), and grid.fine_per_octave and
-// want's others, which the window and the commands set.
+// A new member does not compile here: add a row below, then its name. Members without a row are set
+// elsewhere: by the renderer (opened, background, reflections), by tests (force_features,
+// band_rows, kernels.chunks, kernels.group_height), and by the window and the commands
+// (grid.fine_per_octave and the rest of want).
 void count_members(SharedOptions& options) {
     [[maybe_unused]] auto& [scene, load, settings, rig, environment, background, shown_background,
                             reflections, maps, shows_environment, environment_lights, lights_given,

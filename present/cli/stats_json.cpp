@@ -27,7 +27,7 @@ void add_frame(Json& out, const FrameRecord& record) {
     out["lights"] = {{"given", s.lights_given},
                      {"used", s.lights_used},
                      {"rejected", s.lights_rejected},
-                     {"dropped", 0}};  // not measured: lists have no capacity limit
+                     {"dropped", 0}};  // lists have no capacity limit
     out["normals"] = {{"zero", s.zero_normals}};
     out["clusters"] = {{"grid", {s.grid[0], s.grid[1], s.grid[2]}},
                        {"coarse_pairs", s.coarse_pairs},

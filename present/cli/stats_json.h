@@ -25,9 +25,10 @@ struct FrameRecord {
 };
 
 /// The document of --stats, with the keys that tools may rely on: device, plan, lights, clusters,
-/// evaluations, stages, frame_ms, and error when a reference was given; of the last frame. What was
-/// not counted is null. lights.dropped is not measured: it is 0 because lists have no capacity
-/// limit. `left_out`: features that the plan leaves out, and what each would add to a pixel.
+/// evaluations, stages, frame_ms, and error when a reference was given; of the last frame. Values
+/// that were not counted are null. lights.dropped is always 0, because lists have no capacity
+/// limit. `left_out`: features that the plan leaves out, and the bytes that each would add to a
+/// pixel.
 nlohmann::ordered_json stats_json(const DeviceInfo& device, const ScenePlan& plan,
                                   const FrameRecord& last);
 
@@ -48,7 +49,7 @@ class FrameLog {
 
 nlohmann::ordered_json device_json(const DeviceInfo& device);
 
-/// Name, bytes a pixel, and either times or why there are none.
+/// Name, bytes a pixel, and either times or the reason why there are none.
 nlohmann::ordered_json cost_json(const FeatureCost& cost);
 
 /// Writes a document, whole or not at all; "-" is standard output. With `frames`, they become its

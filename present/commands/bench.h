@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of `kilolux bench` share.
+// The common part of the files of `kilolux bench`.
 #pragma once
 
 #include <filesystem>
@@ -55,15 +55,15 @@ std::vector<std::array<int, 3>> parse_grids(const std::string& option, const std
 std::vector<SweepPoint> bench_points(const BenchOptions& options);
 BenchFrames bench_frames(const BenchOptions& options);
 
-/// The command line of this process as a shell would take it.
+/// The command line of this process, as words for a shell.
 std::string command_line();
 
 nlohmann::ordered_json tuning_json(const StoredTuning& tuning);
 /// Of tuning_json(): "lanes 8, group_height 4".
 std::string tuning_text(const nlohmann::ordered_json& tuning);
 
-/// What results were measured with: program, device, tuning in force, scene, camera and everything
-/// else that stays the same over a run.
+/// The conditions of results: program, device, tuning in force, scene, camera and everything else
+/// that is constant over a run.
 nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFrames& frames,
                                      const Scene& scene, const Camera& camera,
                                      const DeviceInfo& device);
@@ -71,12 +71,12 @@ nlohmann::ordered_json bench_context(const SharedOptions& shared, const BenchFra
 /// Throws Error unless the context file was written with the same context.
 void require_same_context(const std::filesystem::path& file, const nlohmann::ordered_json& context);
 
-/// Where the context of a CSV's measurements lies: X.context.json beside X.csv.
+/// The context of a CSV's measurements: X.context.json beside X.csv.
 std::filesystem::path context_file(std::filesystem::path csv);
 
 nlohmann::ordered_json limits_json(const DeviceLimits& limits);
 
-/// A table as a list of objects; what was not measured is null.
+/// A table as a list of objects; values that were not measured are null.
 nlohmann::ordered_json table_json(const Table& table);
 
 /// Creates the folder of -o, unless it is empty; throws Error.
@@ -95,7 +95,8 @@ void write_table(const std::filesystem::path& csv, const Table& table,
 /// that it was measured with. Throws Error for a file that is none or that lacks its context.
 std::string results_text(const std::vector<std::string>& csv_files);
 
-/// What a bench of one point needs: the first value of each axis. `usual_runs`: without --frames.
+/// A scene and its settings for one point: the first value of each axis. `usual_runs`: without
+/// --frames.
 struct BenchScene {
     BenchScene(BenchOptions& options, int usual_runs);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What the rows of a sweep hold themselves.
+// Erases the settings that the rows of a sweep hold themselves.
 void erase_swept(Json& settings) {
     for (const auto& [field, text] : fields_of(SweepPoint{})) settings.erase(field);
 }

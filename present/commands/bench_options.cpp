@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-// What `parse` makes of the option's name and each part of `text`, each once.
+// The values that `parse` makes of the option's name and each part of `text`, each once.
 template <typename Parse>
 auto parse_list(const std::string& option, std::string_view text, char separator, Parse parse) {
     std::vector<std::invoke_result_t<Parse, const std::string&, std::string_view>> out;
@@ -34,7 +34,7 @@ std::vector<int> parse_lane_list(const std::string& option, const std::string& t
     return parse_list(option, text, ',', parse_lanes);
 }
 
-// "1920x1080" is as good as "1920,1080".
+// "1920x1080" means "1920,1080".
 std::string with_commas(std::string_view text) {
     std::string out(text);
     std::ranges::replace(out, 'x', ',');

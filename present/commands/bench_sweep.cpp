@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The mode's values, where the command line gave none.
+// The mode's values where the command line gives none.
 SweepAxes with_given(SweepAxes axes, const BenchAxes& given) {
     if (given.renderers) axes.renderers = *given.renderers;
     if (given.resolutions) axes.resolutions = *given.resolutions;
@@ -70,7 +70,7 @@ std::vector<SweepPoint> take_found(Sweep& sweep, const std::optional<BenchLog>& 
     return left;
 }
 
-// How long the timed frames of the points will take.
+// The estimated time of the points' timed frames.
 std::string estimate_of(const BenchRun& run, std::span<const SweepPoint> left,
                         const BenchFrames& frames) {
     double ms = 0.0;
@@ -83,7 +83,7 @@ std::string estimate_of(const BenchRun& run, std::span<const SweepPoint> left,
                        left.size());
 }
 
-// `begin` is called once old rows are gone and before there are new ones.
+// Calls `begin` after old rows are erased and before there are new ones.
 void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
                     std::optional<BenchLog>& log, const std::function<void()>& begin) {
     const BenchFrames frames = bench_frames(options);
@@ -106,7 +106,7 @@ void measure_points(const BenchOptions& options, BenchRun& run, Sweep& sweep,
     run.on_frame([] {});
 }
 
-// In the order of the points, whichever run measured them.
+// Sorts rows by the points, whichever run measured them.
 void sort_rows(Sweep& sweep) {
     const auto place = [&sweep](const BenchRow& row) {
         return std::find(sweep.points.begin(), sweep.points.end(), row.point);
@@ -189,7 +189,7 @@ BenchOptions with_budget(BenchOptions options, const Scene& scene, const Camera&
     return options;
 }
 
-// Says what lights there are: of a sweep the first number, and then all.
+// Describes the lights: for a sweep the first number, and that others follow.
 Scene open_swept_scene(BenchOptions& options) {
     std::vector<std::string> counts;
     for (const SweepPoint& point : bench_points(options)) {

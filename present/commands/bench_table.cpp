@@ -20,7 +20,7 @@ std::string contents_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What the points of a table share, beside the context: "1920x1080, packed".
+// The fields that the points of a table share, beside the context: "1920x1080, packed".
 std::string shared_fields(const std::vector<BenchRow>& rows) {
     std::vector<SweepPoint> points;
     for (const BenchRow& row : rows) points.push_back(row.point);
@@ -33,7 +33,7 @@ std::string shared_fields(const std::vector<BenchRow>& rows) {
     return out;
 }
 
-// The command in a line of its own, then what was measured with what.
+// The command in a line of its own, then the conditions.
 std::string context_text(const Json& document, const std::string& fields) {
     const auto word = [&](const char* path) {
         const Json& value = document.at(Json::json_pointer(path));

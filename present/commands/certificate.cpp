@@ -174,7 +174,7 @@ std::string processor_name() {
     return "unknown";
 }
 
-// Of the host's processor, widest last.
+// The vector instructions of the host's processor, widest last.
 Json vector_instructions() {
     Json out = Json::array();
     for (const std::string& line : lines_of("/proc/cpuinfo")) {
@@ -239,7 +239,7 @@ Json made_part(const CertificatePart& part, const cl::Device& device, const Step
     } catch (const Interrupted&) {
         throw;
     } catch (const std::exception& error) {
-        // The OpenCL compiler fails after a signal, too.
+        // The OpenCL compiler also fails after a signal.
         check_interrupt();
         return {{"passed", false}, {"error", error.what()}};
     }

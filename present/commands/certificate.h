@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a certificate holds beside the hard cases: host/certify/README.md lists its keys.
+// The parts of a certificate beside the hard cases: host/certify/README.md lists its keys.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace kilolux {
 
-/// The device with what of it decides code and bits, its host's processor, and the environment
-/// variables that change what its driver makes.
+/// The device's properties that decide code and bits, the host's processor, and the environment
+/// variables that change the driver's code.
 nlohmann::ordered_json capabilities_json(const cl::Device& device);
 
 /// One part of a certificate; `step` is called between its pictures and may throw to stop.
@@ -27,12 +27,12 @@ struct CertificatePart {
 /// "error".
 const std::vector<CertificatePart>& certificate_parts();
 
-/// The part, or what it threw; Interrupted comes out.
+/// The part, or the error that it threw; Interrupted is passed on.
 nlohmann::ordered_json made_part(const CertificatePart& part, const cl::Device& device,
                                  const std::function<void()>& step);
 
-/// A row for each certificate: what runs, by which driver, what failed, what a frame takes.
-/// Then the failures, each with its worst value. Throws Error for a file that is no certificate.
+/// A row for each certificate: code, driver, failures, time of a frame. Then the failures, each
+/// with its worst value. Throws Error for a file that is no certificate.
 std::string certificates_text(const std::vector<std::string>& files);
 
 }  // namespace kilolux

@@ -38,7 +38,7 @@ std::string word(const Certified& c, const char* path) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-// A part that was not made is an empty field.
+// An empty field for a part that was not made.
 Cell part_cell(const Certified& c, const char* name) {
     if (!c.json.contains(name)) return {};
     const Json& part = c.json[name];
@@ -71,7 +71,7 @@ std::string lane_widths(const Certified& c) {
     return out;
 }
 
-// What runs the code: the environment tells an instruction set that was asked for.
+// The instruction set of the code: the environment may ask for another than the processor's widest.
 std::string code(const Certified& c) {
     std::string out = word(c, "/device/version");
     for (const Json& variable : c.json.at("device").at("environment"))

@@ -51,7 +51,7 @@ std::vector<HardCase> chosen_cases(const CertifyOptions& options) {
     return cases;
 }
 
-// Everything that the command line asks for, in this process or in others.
+// Makes all that the command line asks for, in this process or in others.
 Certificate make_certificate(const CertifyOptions& options, const cl::Device& device) {
     const std::vector<HardCase> cases = chosen_cases(options);
     std::vector<CertificatePart> parts;
@@ -90,7 +90,7 @@ void run_certify(const CertifyOptions& options) {
         std::fputs(certificates_text(options.tables).c_str(), stdout);
         return;
     }
-    set_verbosity(Verbosity::quiet);  // of the parts' scenes
+    set_verbosity(Verbosity::quiet);  // for the scenes of the parts
     if (!options.output.empty() && options.output != "-") check_can_write(options.output);
     const cl::Device device = choose_device(options.device);
     const Certificate made = make_certificate(options, device);
@@ -104,7 +104,7 @@ void run_certify(const CertifyOptions& options) {
     require_all_passed(made);
 }
 
-// Labels, then names; the place of either modulo the number of cases is that of the case.
+// Labels, then names; an index modulo the number of cases is that of the case.
 std::vector<std::string> labels_and_names() {
     std::vector<std::string> words;
     for (const HardCase& c : hard_cases()) words.emplace_back(c.label);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the parts of `kilolux certify` share.
+// The common part of the files of `kilolux certify`.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-/// What was found on a device.
+/// The results for a device.
 struct Certificate {
     std::vector<HardCaseRow> rows;
     nlohmann::ordered_json parts = nlohmann::ordered_json::object();  // see certificate_parts()
@@ -27,7 +27,7 @@ nlohmann::ordered_json certificate_json(const nlohmann::ordered_json& device,
 /// that this program does not know.
 std::vector<HardCaseRow> rows_of_json(const nlohmann::ordered_json& certificate);
 
-/// Throws ComparisonFailed with the names of what failed.
+/// Throws ComparisonFailed with the names of the failures.
 void require_all_passed(const Certificate& made);
 
 }  // namespace kilolux

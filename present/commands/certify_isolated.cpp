@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// What `kilolux certify` writes with these words; or how it ended, if it wrote nothing.
+// The output of `kilolux certify` with these words; or how it ended, if it wrote nothing.
 struct Outcome {
     Json certificate;
     std::string error;

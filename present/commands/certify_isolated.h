@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// What processes of their own are to find out.
+/// The cases and parts that separate processes run.
 struct IsolatedRequest {
     std::string device;  // as --device has it
     std::vector<HardCase> cases;
@@ -20,7 +20,7 @@ struct IsolatedRequest {
 
 /// Runs this program for every case at every lane width, and for every part. A process that a
 /// signal ends, or that takes longer than kIsolatedSeconds, fails its case with that as the error.
-/// Calls `step` after each; what that throws comes out.
+/// Calls `step` after each and passes its exceptions on.
 Certificate certify_isolated(const IsolatedRequest& request, const std::function<void()>& step);
 
 inline constexpr int kIsolatedSeconds = 120;

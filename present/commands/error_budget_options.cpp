@@ -42,7 +42,7 @@ void say(const BudgetChoice& choice, const ErrorBudget& budget, const char* when
 std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const ReportView& view,
                                          const ErrorBudget& budget, const DeviceInfo& device) {
     RenderSettings asked = shared.settings;
-    asked.want = {};  // what is shown has no error
+    asked.want = {};  // views and AOVs have no error
     auto settings = report_settings(view.scene, asked, device, budget_candidates(budget));
     const std::vector<std::string>& aovs = shared.settings.want.aovs;
     const bool tells = std::ranges::find(aovs, "error-standard") != aovs.end();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// --max-error: the fastest setting that is right enough, for the commands that render.
+// --max-error: the fastest setting within an error budget, for the commands that render.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -24,19 +24,19 @@ void visit_budget_settings(BudgetOptions& options, const SettingVisitor& visit);
 ErrorSizeLimits error_limits(const BudgetOptions& options);
 
 /// The settings to render with: those asked for, or, with --max-error, the fastest whose measured
-/// error on this scene and device is within it; says which and why. A choice is kept beside the
-/// device's tuning and found again by the same scene, view, settings, metric and budget. Throws
+/// error on this scene and device is within it; prints which and why. A choice is stored beside the
+/// device's tuning and found again for the same scene, view, settings, metric and budget. Throws
 /// Error when no setting is within the budget.
 RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetOptions& options,
                                       const ReportView& view);
 
-/// The budget asked for: with sampled shadows whose rays were not, it chooses those, too.
+/// The budget asked for: it chooses sampled shadows' rays, too, where the command line does not.
 ErrorBudget budget_of(const SharedOptions& shared, const BudgetOptions& options);
 
-/// What report_settings() goes through for a budget.
+/// The settings among which a budget chooses.
 SettingChoice budget_candidates(const ErrorBudget& budget);
 
-/// Chooses among rows that were measured anyway, keeps the choice and says it.
+/// Chooses among rows that were measured anyway, stores the choice and prints it.
 void choose_from_rows(const SharedOptions& shared, const BudgetOptions& options,
                       const ReportView& view, std::span<const ReportRow> rows);
 

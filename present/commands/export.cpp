@@ -32,14 +32,14 @@ std::string scene_file(const std::string&, const std::string& text) {
         fmt::format("--output: '{}': scene type '{}' is none of .glb, .gltf", text, extension));
 }
 
-// The camera of the picture, to become the scene's first: readers show that one.
+// The picture's camera as the scene's first one, which readers show.
 SceneCamera scene_camera(const Camera& camera, const RenderSettings& settings) {
     SceneCamera out = scene_camera_of(camera, "kilolux");
     out.aspect = static_cast<double>(settings.width) / settings.height;
     return out;
 }
 
-// The scene with what the command line adds to it, at its time.
+// The scene at its time, with the lights that the command line adds.
 Scene scene_to_export(ExportOptions& options) {
     SharedOptions& shared = options.shared;
     Scene scene = open_scene(shared);
@@ -53,7 +53,7 @@ Scene scene_to_export(ExportOptions& options) {
     return scene;
 }
 
-// glTF has no light from everywhere.
+// glTF has no ambient light.
 void warn_of_ambient(const SharedOptions& shared) {
     const bool of_rig = rig_ambient(shared.rig, 0.0f) > 0.0f;
     if (!shared.ambient_given && !of_rig) return;

@@ -102,7 +102,7 @@ Json scene_json(const Scene& scene, const LightOptions& generated) {
             {"light_hole", box_json(region.hole)}};
 }
 
-// The features that the scene does without, and with --costs what they would cost on this picture.
+// The features that the scene lacks, and with --costs their cost on this picture.
 Json left_out_json(const InfoOptions& options, const Scene& scene, const ScenePlan& plan) {
     Json out = Json::array();
     std::vector<FeatureCost> costs = left_out_features(plan);
@@ -134,7 +134,7 @@ Json info_json(InfoOptions& options) {
     return out;
 }
 
-// Short for people; --json has all digits.
+// A short form for reading; --json has all digits.
 std::string text_of(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_array()) {
@@ -198,7 +198,7 @@ void add_lines(std::string& out, const Json& value, const std::string& indent) {
     }
 }
 
-// Measures the limits again and compares them with independent ones; keeps those that agree.
+// Measures the limits again and compares them with independent ones; stores those that agree.
 void run_check(const InfoOptions& options) {
     const Gpu gpu(choose_device(options.shared.settings.device));
     const DeviceLimits limits = measure_device_limits(gpu);

@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-// Empty where it was not noted.
+// Empty where the file lacks the note.
 std::string note_of(const ImageLayout& layout, const std::string& name) {
     for (const auto& [attribute, value] : layout.attributes) {
         if (attribute == "kilolux:" + name) return std::get<std::string>(value);

@@ -8,17 +8,17 @@
 
 namespace kilolux {
 
-/// The command that makes the pictures of these options, without names of files: a picture notes
+/// The command that makes the pictures of these options, without names of files; a picture notes
 /// it.
 std::string picture_command(const SharedOptions& shared, const OutputOptions& output);
 
-/// A picture that a file may hold already.
+/// A picture that may be in a file already.
 struct WantedPicture {
     std::filesystem::path file;
     int width = 0;        // [pixel]
     int height = 0;       // [pixel]
     std::string command;  // picture_command()
-    std::string time;     // as it is noted
+    std::string time;     // as a note of the file
 };
 
 /// Whether the file holds this picture, by its size and, where its format keeps them, its notes. A

@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-// Where the scene's box lies in the view: beside the planes that all its corners are beyond.
+// Where the scene's box lies in the view: beyond which planes all its corners are.
 std::string place_in_view(const Box& box, const Camera& camera, double aspect) {
     const double half = camera.orthographic ? camera.y_extent : std::tan(0.5 * camera.y_fov);
     std::array<bool, 4> beyond;
@@ -36,7 +36,7 @@ std::string place_in_view(const Box& box, const Camera& camera, double aspect) {
     return "";
 }
 
-// Whether a triangle shows the camera its front, or both its sides.
+// Whether any triangle faces the camera or is double-sided.
 bool any_face_shows(const Scene& scene, const Camera& camera) {
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];

@@ -10,9 +10,9 @@
 
 namespace kilolux {
 
-/// Why a lit picture shows nothing, nothing but ambient light or no shadows, in one line for
-/// people; empty where none is known. Counts of `stats` that only `deferred` has are used where it
-/// made them. `framed`: the camera is the automatic one.
+/// Why a lit picture is black, has ambient light only or lacks shadows, in one line for the user;
+/// empty where no reason is known. Counts that only `deferred` has are used where it made them.
+/// `framed`: the camera is the automatic one.
 std::string picture_advice(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                            const FrameStats& stats, bool framed = false);
 

@@ -112,7 +112,7 @@ ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
     return notes;
 }
 
-// The renderer's display picture has 8 bits and our tone curves; others are made here.
+// The renderer's display picture has 8 bits and our tone curves; other pictures are made here.
 ImageOptions image_options(const RenderOptions& options, const Frame& frame, const Task& task) {
     const OutputOptions& out = options.output;
     ImageOptions image;
@@ -126,7 +126,7 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     return image;
 }
 
-// A task's frame into its file, or the next one of the video.
+// Writes a task's frame to its file, or appends it to the video.
 void write_picture(Frame& frame, const fs::path& file, const ImageNotes& notes,
                    const ImageOptions& image, VideoFile* video) {
     if (video == nullptr) return write_image(file, frame, notes, image);
@@ -134,8 +134,8 @@ void write_picture(Frame& frame, const fs::path& file, const ImageNotes& notes,
     video->write(frame);
 }
 
-// The display's colours of what covers each pixel, in place of their mixture with black. Pixels
-// that are covered whole keep their codes.
+// The display colours of the covering surfaces alone, without the black background. Pixels that are
+// covered whole keep their codes.
 std::vector<float> covered_colours(const RenderOptions& options, const Frame& frame,
                                    const std::vector<float>& alpha, std::vector<float> whole) {
     Frame covered;
@@ -199,7 +199,7 @@ void add(Made& made, FrameRecord record) {
     made.last = std::move(record);
 }
 
-// None for pictures.
+// Null for pictures.
 std::unique_ptr<VideoFile> open_video(const OutputOptions& out, const RenderSettings& settings) {
     if (!is_video(out.output)) return nullptr;
     return std::make_unique<VideoFile>(
@@ -229,7 +229,7 @@ Made render_tasks(const RenderOptions& options, const Tasks& tasks, SceneRendere
     return made;
 }
 
-// By the sequence's first frame, also in a shard that does not have it.
+// Exposes by the sequence's first frame, also in a shard that does not contain it.
 void expose_automatically(const RenderOptions& options, SceneRenderer& pictures) {
     const OutputOptions& out = options.output;
     const double time = options.shared.time;
@@ -239,7 +239,7 @@ void expose_automatically(const RenderOptions& options, SceneRenderer& pictures)
                                   ", of the sequence's first frame");
 }
 
-// Checks before rendering what would fail after it.
+// Checks before rendering what would otherwise fail after it.
 void check_files(const RenderOptions& options, const Tasks& tasks, const Task& first) {
     const OutputOptions& out = options.output;
     if (is_video(out.output)) {
@@ -258,7 +258,8 @@ void check_files(const RenderOptions& options, const Tasks& tasks, const Task& f
     require_reference_size(first.reference, settings.width, settings.height);
 }
 
-// What the files and the comparison read. Counting useful evaluations costs a pass of its own.
+// The results that files and the comparison need. Counting useful evaluations takes a pass of its
+// own.
 FrameRequest request_of(const RenderOptions& options, const FrameRequest& asked) {
     const OutputOptions& out = options.output;
     const bool own_display = wants_own_display(options) || options.has_alpha;
@@ -279,8 +280,8 @@ void warn_of_exposure(const RenderOptions& options) {
     note(options.output.output.string() + ": holds linear light, which --exposure does not change");
 }
 
-// Whether the picture is cut out of its background: --background none, where the format has alpha.
-// Bloom glows where nothing is, and debug views are of no light.
+// Whether the picture has transparent background: --background none, where the format has alpha.
+// Bloom reaches beyond surfaces, and debug views show no light, so neither has.
 bool wants_alpha(const RenderOptions& options) {
     const SharedOptions& shared = options.shared;
     return shared.background.kind == BackgroundChoice::Kind::none &&

@@ -117,7 +117,7 @@ Json report_json(const Report& report) {
     return {{"context", report.context}, {"rows", table_json(report_table(report.rows))}};
 }
 
-// cut_offs.csv, and cut_offs.png: the ways with lights that lack a range, side by side.
+// Writes cut_offs.csv, and cut_offs.png: the treatments of lights that lack a range, side by side.
 void write_cut_offs(const fs::path& folder, const Report& report, ReportRun& run) {
     const Table table = cut_off_table(report.rows);
     if (table.rows.empty()) return;
@@ -153,10 +153,10 @@ void apply_quick(const CLI::App& command, ReportOptions& options) {
     if (!is_given(command, "--lights")) s.lights.count = 1000;
 }
 
-// The axis of shadows needs some: exact ones, unless the command line says which.
+// The axis of shadows needs shadows: exact ones, unless the command line asks for others.
 void apply_axes(const CLI::App& command, ReportOptions& options) {
     RenderSettings& s = options.shared.settings;
-    s.want = {};  // what is shown has no error
+    s.want = {};  // views and AOVs have no error
     const bool shadows = std::ranges::count(options.axes, axis_name(SettingAxis::shadows)) > 0;
     if (!shadows || s.shadows != Shadows::off) return;
     if (is_given(command, "--shadows")) {

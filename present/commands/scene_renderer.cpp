@@ -43,7 +43,7 @@ SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget
     check_interrupt();
 }
 
-// For the camera as it is.
+// Chooses for the present camera.
 RenderSettings SceneRenderer::settings_of(const BudgetOptions& budget, const FrameRequest& want,
                                           double time) {
     RenderSettings settings =

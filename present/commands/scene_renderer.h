@@ -15,47 +15,48 @@
 
 namespace kilolux {
 
-/// Throws UsageError for an error budget with what is not in its measurements, and leaves those
-/// out.
+/// Throws UsageError where an error budget meets options that its measurements do not cover; leaves
+/// out those that can be.
 void check_budget(SharedOptions& options, const BudgetOptions& budget);
 
-/// What a SceneRenderer begins with.
+/// The start of a SceneRenderer.
 struct FirstPicture {
     FrameRequest want;  // of every frame
     double time = 0.0;  // [s]
     int frame = 0;      // of the sequence
     /// The camera of a frame at a time [s]; none: that of the options.
     std::function<Camera(const Scene& scene, int frame, double time)> camera{};
-    std::optional<Scene> made{};  // in place of the scene that the options name
+    std::optional<Scene> made{};  // replaces the scene that the options name
 };
 
-/// A scene and the renderer of its pictures, as the options of a command line mean them.
+/// A scene and the renderer of its pictures, by the options of a command line.
 class SceneRenderer {
  public:
-    /// Opens the scene, lights it and compiles for it. What the options leave open, such as the
-    /// rig, is settled in them; they must outlive this. Throws as what it calls.
+    /// Opens the scene, lights it and compiles for it. Options that are automatic, such as the rig,
+    /// get their chosen values; they must outlive this. Throws the exceptions of the functions that
+    /// it calls.
     SceneRenderer(SharedOptions& options, const BudgetOptions& budget, FirstPicture first);
 
-    /// Sets the exposure of --exposure auto by the picture at `time`; says it, with `of_what`.
+    /// Sets the exposure of --exposure auto by the picture at `time`; prints it, with `of_what`.
     void expose_automatically(double time, int frame = 0, const std::string& of_what = "");
 
     /// The picture at `time` [s].
     Frame render(double time, int frame = 0);
 
-    /// How much of each pixel surfaces cover and let nothing through, 0 to 1: from the same picture
-    /// before a white background. `frame` is the picture before none.
+    /// The share of each pixel that opaque surfaces cover, 0 to 1, from the same picture before a
+    /// white background. `frame` is the picture before a black one.
     std::vector<float> coverage(const Frame& picture, double time, int frame);
 
-    /// Obeys `next` in place of the options so far; the scene that they name stays. `relights`: its
-    /// lights are those of `next`, too. When it throws, everything is as before.
+    /// Takes `next` in place of the present options, but for the scene. `relights`: takes its
+    /// lights, too. When it throws, nothing changes.
     void change(const SharedOptions& next, const BudgetOptions& budget, const FrameRequest& want,
                 bool relights);
 
-    /// Lights in the world beside all others; none replaces the former ones.
+    /// Lights in the world beside all others; an empty list removes the former ones.
     void set_lights(std::vector<SceneLight> lights);
 
-    /// The document of --stats. `limits`: what each stage would take at the device's limits, which
-    /// are measured once a device.
+    /// The document of --stats. `limits`: with the least time of each stage by the device's limits,
+    /// which are measured once a device.
     nlohmann::ordered_json stats(FrameRecord record, bool limits);
     void fill_limits(FrameRecord& record);
 
@@ -63,7 +64,7 @@ class SceneRenderer {
     Renderer& renderer() { return *renderer_; }
     const Camera& camera() const { return camera_; }  // of the last render()
     bool is_framed() const { return kilolux::is_framed(options_.camera, scene_.scene()); }
-    const std::string& rig_lines() const { return rig_; }  // what lights the scene
+    const std::string& rig_lines() const { return rig_; }  // describe the lights of the scene
 
  private:
     void relight(SharedOptions& options);

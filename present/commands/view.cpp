@@ -28,7 +28,7 @@ ViewState kept_state(StateFile& file) {
     return file.load({}, [](const std::string&) { return false; });
 }
 
-// The kept rig, unless the command line says something of lights. Returns whether there is one.
+// Takes the kept rig, unless the command line has options of lights. Returns whether it did.
 bool take_kept_rig(SharedOptions& shared, const CLI::App& command, StateFile& file) {
     for (const char* name : {"--rig", "--lights", "--light-seed", "--light-radius",
                              "--light-intensity", "--light-box", "--environment"}) {
@@ -43,7 +43,7 @@ struct StartRig {
     bool is_kept = false;
 };
 
-// The kept state, with the values of the command line in place of the kept ones.
+// The kept state; values of the command line replace the kept ones.
 ViewState start_state(const ViewOptions& options, const CLI::App& command, StateFile& file,
                       const StartRig& rig) {
     ViewState state;
@@ -54,13 +54,14 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     state.settings.want.aovs.clear();
     state.settings.want.probes = true;
     state.settings.want.radiance = false;
-    // Pictures that are counted are made one by one, each whole.
+    // Pictures that are counted are made one by one, each complete.
     const bool counts = options.exit_after > 0;
     if (!is_given(command, "--samples") && !counts) state.settings.samples = kRestSamples;
     if (is_given(command, "--resolution")) {
         state.window_size = {options.shared.settings.width, options.shared.settings.height};
     }
-    // Lights and surround are kept with their rig; another one without a swarm decides of them.
+    // Lights and ambient light are kept with their rig; the command line's rig, if not a swarm, has
+    // its own.
     const Rig kept = kept_state(file).rig;
     const bool is_swarm = options.shared.rig == Rig::automatic || options.shared.rig == Rig::swarm;
     const bool of_other_rig = kept != Rig::automatic && kept != Rig::swarm;
@@ -72,7 +73,7 @@ ViewState start_state(const ViewOptions& options, const CLI::App& command, State
     });
 }
 
-// Checks before the window opens what would fail when it closes.
+// Checks before the window opens what would otherwise fail when it closes.
 void check_files(const ViewOptions& options) {
     if (options.screenshot.empty()) return;
     if (image_meaning(options.screenshot) == ImageMeaning::linear) {
@@ -89,7 +90,7 @@ void run_view(ViewOptions& options, const CLI::App& command) {
     session.exit_after = options.exit_after;
     session.screenshot = options.screenshot;
     if (!options.script.empty()) session.script = read_script(options.script);
-    choose_device(options.shared.settings.device);  // throws before anything is on the screen
+    choose_device(options.shared.settings.device);  // throws before a window opens
     const WindowSystem system;
     StateFile file(options.fresh ? std::filesystem::path() : view_state_file());
     const bool keeps_rig = take_kept_rig(options.shared, command, file);

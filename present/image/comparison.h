@@ -13,7 +13,7 @@
 
 namespace kilolux {
 
-/// How far a picture is from its reference.
+/// The difference of a picture from its reference.
 struct Comparison {
     std::string metric;
     double value = 0.0;      // of `metric`

@@ -22,8 +22,8 @@ std::vector<float> display_codes(const Frame& frame);
 void set_display(Frame& frame, const std::vector<float>& rgb);
 
 /// The picture as RGB from 0 to 1, encoded for the display: exposure, then OpenColorIO's view or
-/// the tone curve and sRGB. A debug view (settings.want.view) is Frame::display as it is. Throws
-/// Error with OpenColorIO's reason, UsageError for displays, views and spaces that the
+/// the tone curve and sRGB. A debug view (settings.want.view) is an unchanged Frame::display.
+/// Throws Error with OpenColorIO's reason, UsageError for displays, views and spaces that the
 /// configuration lacks.
 std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
                                    const OcioOptions& ocio);

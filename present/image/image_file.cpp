@@ -57,9 +57,9 @@ ImageLayout display_layout(const std::filesystem::path& file, const Frame& frame
     ImageLayout layout{frame.width, frame.height, {}};
     add_channels(layout, {"R", "G", "B"}, type);
     if (std::string_view(format_of(file).plugin) == "tiff") {
-        // Exif's form of an unknown date; without one OpenImageIO writes the present time. The
-        // colour space stays unsaid: readers take a TIFF without a profile for sRGB, and with
-        // "sRGB" OpenImageIO 2.4 writes an Exif directory that breaks the file.
+        // Exif's form of an unknown date; without one OpenImageIO writes the present time. No
+        // colour space is written: readers take a TIFF without a profile for sRGB, and with "sRGB"
+        // OpenImageIO 2.4 writes an Exif directory that breaks the file.
         layout.attributes = {{"Compression", "zip"}, {"DateTime", "    :  :     :  :  "}};
         return layout;
     }
@@ -139,7 +139,7 @@ std::vector<std::uint16_t> half_of(const std::vector<float>& values) {
     return out;
 }
 
-// How an EXR file describes itself and its channels: colour, then every layer's, in order.
+// The metadata and the channels of an EXR file: colour, then every layer's, in order.
 ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageOptions& options) {
     ImageLayout layout{frame.width, frame.height, {}};
     const SampleType colour = options.half_colour ? SampleType::half : SampleType::float32;
@@ -160,7 +160,7 @@ ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageO
     return layout;
 }
 
-// Pixels as that layout has them: interleaved, each channel in its own format.
+// Pixels in that layout: interleaved, each channel in its own format.
 std::vector<unsigned char> exr_pixels(const Frame& frame, const ImageLayout& layout,
                                       const std::vector<float>& alpha) {
     const std::size_t pixel_bytes = layout.pixel_bytes();

@@ -13,7 +13,8 @@
 
 namespace kilolux {
 
-/// What a file's pixels mean: sRGB for the eye (PNG, JPEG, TIFF) or linear scene light (EXR, HDR).
+/// The meaning of a file's pixels: sRGB for display (PNG, JPEG, TIFF) or linear scene light (EXR,
+/// HDR).
 enum class ImageMeaning { display, linear };
 
 /// The extensions of images.
@@ -22,19 +23,19 @@ std::vector<std::string> image_extensions();
 /// By the extension; throws UsageError that lists the known ones.
 ImageMeaning image_meaning(const std::filesystem::path& file);
 
-/// Whether the format can hold 16 bits a channel for the eye: PNG and TIFF.
+/// Whether the format can hold display pictures of 16 bits a channel: PNG and TIFF.
 bool holds_16_bits(const std::filesystem::path& file);
 
-/// Whether the format can say how much of a pixel is covered: PNG and EXR.
+/// Whether the format can hold the covered share of pixels: PNG and EXR.
 bool holds_alpha(const std::filesystem::path& file);
 
-/// Whether a file of the format tells what ImageNotes said: PNG and EXR.
+/// Whether files of the format can be read for ImageNotes: PNG and EXR.
 bool holds_notes(const std::filesystem::path& file);
 
 /// Whether the format keeps named channels beside the colour: EXR.
 bool holds_layers(const std::filesystem::path& file);
 
-/// What a file says about its picture, beside the pixels.
+/// A file's notes about its picture.
 struct ImageNotes {
     /// Written as "kilolux:<name>": scene, lights, renderer, ... in this order.
     std::vector<std::pair<std::string, std::string>> strings;
@@ -45,8 +46,8 @@ struct ImageOptions {
     bool half_colour = false;  // EXR: R, G, B in half
     int jpeg_quality = 95;     // 1..100
     int bits = 8;              // PNG, TIFF: a channel, 8 or 16
-    // PNG, EXR: how much of each pixel is covered, 0 to 1; empty: all of each, without a channel.
-    // The display's colours are those of what covers, EXR's are multiplied by it.
+    // PNG, EXR: the covered share of each pixel, 0 to 1; empty: all are covered, and there is no
+    // channel. Display colours are those of the covering surfaces, EXR's are multiplied by alpha.
     std::vector<float> alpha{};
     std::vector<float> display;  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
 };
@@ -64,7 +65,7 @@ void check_can_write_image(const std::filesystem::path& file);
 void write_image(const std::filesystem::path& file, const Frame& frame,
                  const ImageNotes& notes = {}, const ImageOptions& options = {});
 
-/// An image of any kind as floats: linear files as they are, the others' codes as 0..1.
+/// An image of any kind as floats: values of linear files, codes of others as 0..1.
 struct FloatImage {
     int width = 0;
     int height = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Between numpy's arrays and what the renderer takes. The Python layer has checked types; values
-// and sizes are checked here.
+// Conversions between numpy's arrays and the renderer's types. The Python layer has checked types;
+// values and sizes are checked here.
 #pragma once
 
 #include <pybind11/numpy.h>

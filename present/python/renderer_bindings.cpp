@@ -73,7 +73,7 @@ py::dict reference_dict(ReferencePicture picture) {
     return out;
 }
 
-// What the options are, and their values after `words`.
+// The options, and their values after `words`.
 py::list settings(const Words& words) {
     constexpr const char* kKinds[] = {"text",    "flag",   "number", "count",
                                       "numbers", "choice", "list"};

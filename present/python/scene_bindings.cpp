@@ -15,7 +15,7 @@ namespace {
 
 using Lights = std::vector<SceneLight>;
 
-// Of 16 values, row by row as numpy has them.
+// The matrix of 16 values, row by row as numpy has them.
 glm::dmat4 matrix_of(const Array<double>& values) {
     if (values.size() != 16) throw Error("mesh: world_from_object must have the shape (4, 4)");
     glm::dmat4 out;
@@ -31,7 +31,7 @@ glm::vec3 colour_of(const py::tuple& rgb) {
     return {rgb[0].cast<float>(), rgb[1].cast<float>(), rgb[2].cast<float>()};
 }
 
-// A texture of its own for every image.
+// Adds a texture for the image.
 TextureUse add_texture(Scene& scene, Image image) {
     scene.images.push_back(std::move(image));
     scene.textures.push_back({static_cast<int>(scene.images.size()) - 1, {}});

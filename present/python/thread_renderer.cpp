@@ -18,7 +18,7 @@ namespace py = pybind11;
 namespace kilolux {
 namespace {
 
-// What was said of the options under headings that begin so.
+// The options given under headings that begin so.
 std::string said_under(const CLI::App& app, std::string_view heading) {
     std::string out;
     for (const CLI::Option* option : app.get_options()) {
@@ -28,14 +28,14 @@ std::string said_under(const CLI::App& app, std::string_view heading) {
     return out;
 }
 
-// Signals are Python's, in its main thread.
+// Python's main thread handles signals.
 void block_signals() {
     sigset_t signals;
     sigfillset(&signals);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-// What Python's arrays hold, and what probes read.
+// The contents of Python's arrays, and the inputs of probes.
 FrameRequest request_of(const SharedOptions& shared, bool counts, bool probes) {
     FrameRequest want = shared.settings.want;
     want.counts = counts;
@@ -73,7 +73,7 @@ RendererOptions parse_renderer_options(const std::string& scene,
     options.shared.scene = scene;
     options.scene_words = scene + "\n" + said_under(app, "Scene");
     options.light_words = said_under(app, "Lights");
-    // What light_scene() asks, too.
+    // light_scene() depends on these, too.
     for (const char* name : {"--ambient", "--background", "--renderer", "--max-error"}) {
         options.light_words += joined(app.get_option(name)->results(), ",") + "\n";
     }
@@ -81,7 +81,7 @@ RendererOptions parse_renderer_options(const std::string& scene,
 }
 
 void ThreadRenderer::check(const Call& call) const {
-    if (call.cancelled || thread_.is_stopping()) throw Interrupted();
+    if (call.cancelled || thread_->is_stopping()) throw Interrupted();
 }
 
 template <typename Work>
@@ -91,7 +91,7 @@ auto ThreadRenderer::begin(Work work, const std::shared_ptr<Call>& call) {
             "a renderer is of no use in a process that was forked after it was made: take "
             "multiprocessing's start method 'spawn'");
     }
-    return thread_.ask([this, call, work = std::move(work)]() mutable {
+    return thread_->ask([this, call, work = std::move(work)]() mutable {
         Call::State waiting = Call::waiting;
         if (!call->state.compare_exchange_strong(waiting, Call::running)) throw Interrupted();
         const WorkWatch watch([this, &call](double) { check(*call); });
@@ -133,8 +133,8 @@ auto ThreadRenderer::run_to_end(Work work) {
 
 ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> made, Lights lights)
     : options_(std::move(options)),
-      thread_(
-          block_signals, [this] { pictures_.reset(); }, [] {}) {
+      thread_(std::make_unique<TaskThread>(
+          block_signals, [this] { pictures_.reset(); }, [] {})) {
     run_to_end([&] {
         const SharedOptions& shared = options_.shared;
         pictures_ = std::make_unique<SceneRenderer>(
@@ -146,12 +146,13 @@ ThreadRenderer::ThreadRenderer(RendererOptions options, std::optional<Scene> mad
 }
 
 ThreadRenderer::~ThreadRenderer() {
-    if (::getpid() != process_) {  // neither the thread nor the drivers' ones are here
+    if (::getpid() != process_) {  // a forked child has neither this thread nor the driver's
         (void)pictures_.release();
+        (void)thread_.release();
         return;
     }
     const py::gil_scoped_release other_threads_run;
-    thread_.stop(std::chrono::hours(1));
+    thread_->stop(std::chrono::hours(1));
 }
 
 void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) {
@@ -162,7 +163,7 @@ void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) 
     run_to_end([&] {
         rendered_ = false;
         const bool relights = next.light_words != options_.light_words;
-        if (!relights) {  // what was settled for the lights stays
+        if (!relights) {  // keep the values that light_scene() chose for the lights
             const SharedOptions& settled = options_.shared;
             next.shared.rig = settled.rig;
             next.shared.settings.ambient = settled.settings.ambient;

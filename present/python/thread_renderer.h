@@ -18,20 +18,20 @@ namespace kilolux {
 struct RendererOptions {
     SharedOptions shared;
     BudgetOptions budget;
-    std::string scene_words, light_words;  // what was said of the scene, of the lights
+    std::string scene_words, light_words;  // the given options of the scene, and of lights
 };
 
 /// The options of a renderer with their values in `options`.
 std::vector<Setting> settings_of(RendererOptions& options);
 
 /// Throws UsageError or CLI::ParseError as the command line would. `scene`: a generated scene, a
-/// file, or the name of a scene that was made.
+/// file, or the name of a scene made from arrays.
 RendererOptions parse_renderer_options(const std::string& scene,
                                        const std::vector<std::string>& words);
 
-/// A SceneRenderer in a thread of its own, which its OpenGL context belongs to: any thread of
-/// Python may use it, and other threads of Python run while one waits for it. An interruption from
-/// the keyboard ends the call of the thread that gets it, and no other's.
+/// A SceneRenderer in its own thread, to which its OpenGL context belongs. Any thread of Python may
+/// call it; a call releases the GIL while it waits. An interruption from the keyboard ends the call
+/// of the thread that receives it, and no other's.
 class ThreadRenderer {
  public:
     using Lights = std::vector<SceneLight>;
@@ -41,35 +41,36 @@ class ThreadRenderer {
     ThreadRenderer(const ThreadRenderer&) = delete;
     ThreadRenderer& operator=(const ThreadRenderer&) = delete;
 
-    /// `lights`: in place of the former; none: those stay.
+    /// `lights`: replace the former ones; none: those stay.
     void change(RendererOptions next, std::optional<Lights> lights);
 
-    /// `time` [s]; none: that of the options. `counts`: also what --stats counts with passes and
-    /// measurements of its own.
+    /// `time` [s]; none: that of the options. `counts`: also the counts of --stats that take passes
+    /// and measurements of their own.
     struct Rendered {
         std::shared_ptr<Frame> frame;
         std::string stats;  // JSON
     };
     Rendered render(std::optional<double> time, bool counts);
 
-    /// A pixel of the last picture; without one since the last change, of one that is made.
+    /// A pixel of the last picture; without one since the last change, a picture is made first.
     struct Probed {
         PixelProbe probe;
         Camera camera;
     };
     Probed probe(int x, int y);
 
-    /// The float64 reference of what that picture shaded, and how many lights reach a pixel.
+    /// The float64 reference of that picture's surfaces and lights, and how many lights reach a
+    /// pixel.
     ReferencePicture reference();
 
  private:
-    // A call of Python's on its way through the thread.
+    // A call of Python on its way through the thread.
     struct Call {
         enum State { waiting, running, dropped };
         std::atomic<State> state = waiting;
         std::atomic<bool> cancelled = false;
     };
-    // `work` holds what it needs itself: after an interruption it ends on its own.
+    // `work` owns its data: after an interruption it ends on its own.
     template <typename Work>
     auto run(Work work);
     // The same, but `work` may refer to the caller's variables: a call that has begun is waited
@@ -89,7 +90,7 @@ class ThreadRenderer {
     bool rendered_ = false;                    // whether there is one
     pid_t process_ = ::getpid();               // that the thread and OpenCL belong to
     std::unique_ptr<SceneRenderer> pictures_;  // used in the thread only
-    TaskThread thread_;                        // last: it ends first
+    std::unique_ptr<TaskThread> thread_;       // last: it ends first
 };
 
 }  // namespace kilolux

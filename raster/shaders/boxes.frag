@@ -6,7 +6,7 @@ in vec4 color;
 in float depth;
 layout(location = 0) out vec4 out_color;
 
-// Boxes of surfaces touch them: so much deeper than a surface still counts as seen.
+// Boxes touch their surfaces: edges up to this factor deeper than a surface still count as seen.
 const float kMargin = 1.005;
 const float kHidden = 0.12;
 

@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// Where surfaces are, less what the alpha mask cuts away: the triangle that a pixel shows
-// (WRITES_IDS), or one for every fragment that is kept (WRITES_COUNT), or depth alone.
+// Coverage of surfaces, without the parts that the alpha mask cuts: the triangle of each pixel
+// (WRITES_IDS), or 1 for every fragment that is kept (WRITES_COUNT), or depth alone.
 #include "raster/shaders/surface.glsl"
 
 #if WRITES_IDS

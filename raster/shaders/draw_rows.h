@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the raster shaders read of a frame, and where they find it, declared once for C++ and GLSL.
+// A frame's data for the raster shaders and its binding points, declared once for C++ and GLSL.
 #ifndef KILOLUX_RASTER_DRAW_ROWS_H
 #define KILOLUX_RASTER_DRAW_ROWS_H
 #include "kernels/shared/cluster_grid.h"
@@ -10,8 +10,8 @@
 namespace kilolux {
 #endif
 
-// Texture units: a material's maps come first, by USE_*; then what forward shading reads of lights,
-// where it does so from textures.
+// Texture units: a material's maps come first, by USE_*; then the lights of forward shading, where
+// it reads them from textures.
 #define LIGHTS_UNIT 8
 #define CLUSTER_OFFSETS_UNIT 9
 #define LIGHT_LISTS_UNIT 10
@@ -38,7 +38,7 @@ SHARED_STRUCT(CameraRow) {
 };
 SHARED_ASSERT(camera_row_size, sizeof(CameraRow) == 192);
 
-// What forward shading needs beside surfaces and lights.
+// The data of forward shading beside surfaces and lights.
 SHARED_STRUCT(ForwardRow) {
     ClusterGrid grid;  // forward-plus only
     uint light_count;

@@ -1,8 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A fragment lit where it is drawn: by every light, or with CLUSTERED by the lights of its coarse
-// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_UNLIT, HAS_LIGHT_PROFILES as in evaluate.h;
-// HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
+// cluster. SHADING, HAS_SPOT_LIGHTS, HAS_METALLIC, HAS_SPECULAR, HAS_UNLIT, HAS_LIGHT_PROFILES as
+// in evaluate.h; HAS_DIRECTIONAL_LIGHTS. BLENDED: the material lets light through.
 #include "raster/shaders/surface.glsl"
 #include "kernels/shared/evaluate.h"
 
@@ -74,7 +74,7 @@ uvec2 light_range(float z) {
 #endif
 }
 
-// As kernels/shading/shade.cl: in blocks by light index.
+// Sums as kernels/shading/shade.cl does: in blocks by light index.
 LightSum sum_lights(LightSum total, ShadingPoint p, uvec2 range) {
     RunningSum sum = start_sum(total);
 #if HAS_LIGHT_PROFILES

@@ -1,8 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // A fragment's surface to the G-buffer. GBUFFER names the layout; ATTACHMENTS are the targets of
-// its planes, and PLANE_SLOTS says where each plane goes: 4 * target + component. EMISSIVE_SCALE: see
-// GBufferLayout.
+// its planes, and PLANE_SLOTS says where each plane goes: 4 * target + component. EMISSIVE_SCALE:
+// see GBufferLayout.
 #include "kernels/shared/gbuffer.h"
 #include "kernels/shared/tone_curve.h"
 #include "raster/shaders/surface.glsl"
@@ -23,7 +23,7 @@ uvec4 stored[ATTACHMENTS];
 
 #define emissive_scale_of(to) EMISSIVE_SCALE
 
-// As srgb_code_by_table() of kernels/device/srgb.h.
+// Repeats srgb_code_by_table() of kernels/device/srgb.h.
 uint encode_srgb(GBufferTarget to, float v) {
     float c = min(max(v, uintBitsToFloat(SRGB_FIRST_BITS)), 1.0);
     uint bucket = (floatBitsToUint(c) - SRGB_FIRST_BITS) >> SRGB_BUCKET_SHIFT;

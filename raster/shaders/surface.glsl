@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fragment shows, by the text that the kernels are compiled from. Switches: those of
+// A fragment's surface, by the text that the kernels are compiled from. Switches: those of
 // kernels/shared/surface_of.h; HAS_MASKS: alpha cuts the material.
 #include "raster/shaders/scene.glsl"
 
-// Everything is in buffers of its own: references are numbers.
+// All buffers have global names: references are numbers.
 struct SurfaceScene {
     uint unused0;
 };
@@ -55,7 +55,7 @@ Texels fetch_texels(Map map, uint place) {
 
 #include "kernels/shared/surface_of.h"
 
-// In the picture, of which the target may hold a band.
+// The fragment's pixel in the picture; the target may hold a band of it.
 Pixels fragment_pixels() {
     return Pixels(gl_FragCoord.x, gl_FragCoord.y + float(camera.view.first_row));
 }
@@ -74,7 +74,7 @@ Surface drawn_surface(SurfaceScene scene, Fragment f) {
     return s;
 }
 
-// Whether the material's alpha mask leaves the fragment.
+// Whether the material's alpha mask keeps the fragment.
 bool is_covered(SurfaceScene scene, Fragment f) {
 #if HAS_MASKS
     return passes_cutoff(f.material, alpha_of(scene, f.material, f));

@@ -89,7 +89,7 @@ TEST(AtomicWrite, NoFolderOrAFolderOfThatName) {
 
 TEST(AtomicWrite, FolderWithoutPermission) {
     if (geteuid() == 0) {
-        // The superuser may write anywhere: become somebody else in a child.
+        // The superuser may write anywhere, so a child takes another user's identity.
         const TemporaryFolder folder;
         fs::permissions(folder.path(), fs::perms(0755));
         const int status = status_in_child([&] {
@@ -128,13 +128,13 @@ TEST(AtomicWrite, ADiskThatFillsUpLeavesTheOldFileAndNothingElse) {
     EXPECT_EQ(names_in(folder), (std::set<std::string>{"a"}));
 }
 
-// The first signal; returns when it has been noted.
+// Sends the first signal; returns when it has been noted.
 void ask_to_end() {
     kill(getpid(), SIGTERM);
     while (!interrupt_requested()) usleep(1000);
 }
 
-// The second signal, which kills.
+// Sends the second signal, which kills.
 [[noreturn]] void end_by(int number) {
     kill(getpid(), number);
     for (;;) pause();
@@ -199,7 +199,7 @@ TEST(AtomicWrite, LeavesFilesOfOthersAlone) {
     EXPECT_EQ(text_of_file(folder / *names_in(folder).begin()), "theirs");
 }
 
-// The name may mean another file by the time of the signal.
+// At the signal the name may mean another file.
 TEST(Interrupt, TheSecondSignalRemovesOnlyTheFileThatWasNamed) {
     const TemporaryFolder folder;
     write_text(folder / "part", "half");

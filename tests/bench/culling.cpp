@@ -37,7 +37,7 @@ double sum_of(const std::vector<StageTimer::Time>& times, std::string_view stage
     return ms;
 }
 
-// What the lists are made for.
+// The inputs of the lists.
 struct CullingCase {
     Gpu gpu;
     Tuning tuning;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times single kernels beside the device's limits and other ways to do the same, and fails where
-// both do not make the same:
+// Times single kernels beside the device's limits and other implementations, and fails where the
+// results differ:
 //   kernel_bench culling     light lists for 1000 to a million lights, against brute force
 //   kernel_bench shading     the shading kernel alone, by model and lanes
 //   kernel_bench visibility  shadow rays: a walk for all pixels of a cluster, and one for each

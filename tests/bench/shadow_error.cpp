@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNormalQuantile = 1.959964;  // of the normal distribution: 95 % within
 
-// Whether a picture differs from the exact one by more than what rounds in taking hidden lights
+// Whether a picture differs from the exact one by more than the rounding of taking hidden lights
 // away from `whole`, the pixel without shadows: 16 units in its last place.
 bool differs_from(const float* exact, const float* picture, const float* whole) {
     for (int c = 0; c < 3; ++c) {
@@ -23,18 +23,19 @@ bool differs_from(const float* exact, const float* picture, const float* whole) 
     return false;
 }
 
-// Without shadows and with exact ones.
+// The pictures without shadows and with exact ones.
 struct TruePictures {
     Frame whole, exact;
 };
 
-// Every other picture of one number of rays, by pixel: sums of luminances and of told variances.
+// Every other picture of one number of rays, by pixel: sums of luminances and of estimated
+// variances.
 struct HalfOfPictures {
     std::vector<double> sum, told;
     int seeds = 0;
 };
 
-// What the pictures of one number of rays add up to.
+// Sums over the pictures of one number of rays.
 class SampledSums {
  public:
     SampledSums(const TruePictures& of, int rays)
@@ -46,7 +47,7 @@ class SampledSums {
         }
     }
 
-    // Of a picture with the layers error-standard and depth.
+    // Adds a picture with the layers error-standard and depth.
     void add(const Frame& picture) {
         HalfOfPictures& half = halves_[static_cast<std::size_t>(result_.seeds++ % 2)];
         ++half.seeds;
@@ -101,8 +102,9 @@ class SampledSums {
         noisy_[i].within += is_within(luminance(x), told, luminance(r)) ? 1 : 0;
     }
 
-    // Each takes the luminance without shadows over the rays away and adds its square, times what
-    // its probability lacks of 1, to the variance: kernels/shadows/shadow_draw.h.
+    // A hidden light that was drawn takes the luminance without shadows over the rays away, and
+    // adds its square, times one minus its probability, to the variance:
+    // kernels/shadows/shadow_draw.h.
     double hidden_draws(const HalfOfPictures& half, std::size_t i) const {
         const double each = luminance(&of_.whole.radiance[3 * i]) / result_.rays;
         return each > 0.0 ? half.told[i] / (each * each) : 0.0;
@@ -117,7 +119,7 @@ class SampledSums {
     const TruePictures& of_;
     std::size_t pixels_;
     std::vector<Noise> noisy_;
-    std::array<HalfOfPictures, 2> halves_;  // one tells which pixels the other is tested on
+    std::array<HalfOfPictures, 2> halves_;  // one decides on which pixels the other is tested
     SampledShadowError result_;
     double squares_ = 0.0, added_ = 0.0;
 };

@@ -18,7 +18,7 @@ double stage_ms(const FrameStats& stats) {
     return found == stats.stages.end() ? 0.0 : found->ms;
 }
 
-// By a walk for each vector of pixels.
+// The request with a walk for each vector of pixels.
 LightingRequest bundled(LightingRequest request) {
     request.tuning.tuning.shadow_group = 0;
     return request;

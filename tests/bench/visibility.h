@@ -11,7 +11,7 @@
 
 namespace kilolux {
 
-/// One way to find out which pixels see which lights of their lists: cast_shadows alone.
+/// A way to find which pixels see which lights of their lists: cast_shadows alone.
 struct VisibilityMeasurement : StageEffort {
     std::string walks;   // "shafts", or "bundles of 16 rays"
     double ms = 0.0;     // least
@@ -21,8 +21,8 @@ struct VisibilityMeasurement : StageEffort {
 
 /// Times a walk for each (active cluster, light) pair, and a walk for each vector of pixels and
 /// light, as `deferred-all` does it: on one G-buffer with the same lists, in turns. Throws Error
-/// where they do not see the same. `on_run` is called after each of visibility_runs() and may throw
-/// to stop.
+/// where the results differ. `on_run` is called after each of visibility_runs() and may throw to
+/// stop.
 std::vector<VisibilityMeasurement> measure_visibility(LightingBench& bench,
                                                       const DeviceLimits& limits, int runs,
                                                       const std::function<void()>& on_run);

@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(All, HardCases,
 
 }  // namespace
 
-// What gtest prints of a parameter.
+// The text of a parameter in gtest's messages.
 void PrintTo(const HardCase& hard_case, std::ostream* out) {
     *out << "case " << hard_case.label << ", " << hard_case.name;
 }

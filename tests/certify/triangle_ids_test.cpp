@@ -24,7 +24,7 @@ namespace {
 
 constexpr uint kNone = ~0u;
 
-// What a pixel shows: kNone, or which triangle of which instance.
+// The triangle of a pixel: kNone, or a triangle of an instance.
 struct Shown {
     uint instance = kNone, triangle = kNone;
     bool operator==(const Shown&) const = default;
@@ -168,7 +168,7 @@ TriangleMesh slivers_and_quad(int cells, float depth) {
     return mesh;
 }
 
-// Depths of slivers are good to 0.5 %.
+// Depths of slivers are accurate to 0.5 %.
 TEST(TriangleIds, SliversAreAsNearAsTheyAre) {
     constexpr int kSize = 32, kCells = 12;
     Camera camera = look_at({0, 0, 0}, {0.001, 0.002, -1}, {0.1, 1, 0}, 1.2);
@@ -207,7 +207,7 @@ TEST(TriangleIds, AreTheSameOnEveryWay) {
     }
 }
 
-// Tiles that are needed show what they always do, others as little as can be.
+// Pixels of needed tiles are the same as without restriction; others may lack surfaces.
 TEST(TriangleIds, OfSomeTilesAreThoseOfAll) {
     const Scene scene = make_generated_scene("atrium");
     constexpr int kWidth = 149, kHeight = 90, kColumns = 10, kRows = 6;

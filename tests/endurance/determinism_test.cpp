@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same command gives the same bytes, however the work is cut up.
+// The same command gives the same bytes, for any division of the work.
 #include <gtest/gtest.h>
 
 #include "host/base/hash.h"
@@ -52,7 +52,8 @@ TEST(Determinism, LanesGroupsChunksAndGridsChangeNoBit) {
     }
 }
 
-// A renderer that made other frames before, larger and with more lights in sight, makes the same.
+// A renderer that made other frames before, larger and with more lights in view, makes the same
+// picture.
 TEST(Determinism, FramesBeforeChangeNoBit) {
     const Scene scene = make_generated_scene("grid");
     Renderer renderer(scene, usual());

@@ -31,7 +31,7 @@ std::string mib(std::uint64_t bytes) {
     return std::to_string(static_cast<double>(bytes) / (1 << 20)) + " MiB";
 }
 
-// Ten thousand frames of a walk, with lights that move. What is left after each thousand is
+// Ten thousand frames of a walk, with moving lights. Resident memory after each thousand is
 // compared from the third on: lists and drivers have their room by then. A leak of 100 bytes a
 // frame would be 0.7 MiB.
 TEST(MemoryGrowth, TenThousandFramesTakeNoMoreThanThree) {

@@ -94,7 +94,7 @@ TEST(OpenClFaults, EveryCallOfAFrameMayFail) {
     }
 }
 
-// A context may be dead once a call has failed.
+// A context may be unusable once a call has failed.
 TEST(OpenClFaults, OtherSettingsOpenADeviceThatFailedAnew) {
     start_opencl();
     const FaultLayer layer;
@@ -130,7 +130,8 @@ TEST(OpenClFaults, EveryCallOfTheStartMayFail) {
     {
         Renderer renderer(scene, faulty_settings());
         renderer.render(first_camera(scene), 0.0);
-        calls = layer.calls();  // of the picture: what fails at the end is told nobody
+        calls = layer.calls();  // of the picture: errors of later calls, at destruction, are not
+                                // reported
     }
     std::mt19937 random(7);
     // The first ones make context and queue; the others are a sample.
@@ -144,7 +145,7 @@ TEST(OpenClFaults, EveryCallOfTheStartMayFail) {
             Renderer(scene, faulty_settings()).render(first_camera(scene), 0.0);
             FAIL() << "no error";
         } catch (const Error& error) {
-            // A code without a name of ours stands as a number.
+            // A code without a name of ours appears as a number.
             const std::string message = error.what();
             EXPECT_TRUE(message.find("CL_OUT_OF_RESOURCES") != std::string::npos) << message;
         }

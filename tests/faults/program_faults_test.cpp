@@ -79,8 +79,8 @@ TEST_F(Faults, NoPlatformNoDeviceNoOpenGl) {
     expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
 }
 
-// PoCL's folder of kernels that cannot be made, and no linker on PATH: a private folder serves, and
-// nothing is left behind.
+// PoCL's folder of kernels cannot be made, and no linker is on PATH: a private folder is used, and
+// removed at the end.
 TEST_F(Faults, AFolderOfKernelsThatCannotBeUsed) {
     const std::string temporary = "TMPDIR=" + elsewhere_.path().string();
     const Words homeless = {"POCL_CACHE_DIR=", "XDG_CACHE_HOME=", "HOME=/dev/null/x"};
@@ -120,7 +120,7 @@ TEST_F(Faults, AFolderOfKernelsWithoutSpaceOrExecution) {
     EXPECT_EQ(listed(0, "size=64m"), "");
 }
 
-// Where nobody asked for OpenGL, OpenCL draws; what libEGL says of itself is not printed.
+// Where OpenGL was not asked for, OpenCL draws; libEGL's own messages are not printed.
 TEST_F(Faults, OpenGlThatCannotBeUsedIsNotNeeded) {
     // A device for which OpenGL was not measured to be slower.
     const std::string device = "KILOLUX_DEVICE_KIND=gpu", nothing_kept = "XDG_CACHE_HOME=/dev/null";
@@ -206,7 +206,7 @@ TEST_F(Faults, MemoryThatIsShort) {
                    {"--resolution", "65536,16384", "--max-memory", "2G"});
     expect_refused({}, "memory: 2147483648 lights", {"--lights", "2147483648"});
 #if !defined(__SANITIZE_ADDRESS__)
-    // Limits that the drivers can start with, and pictures that then do not fit.
+    // Limits with which drivers can start, and pictures that then do not fit.
     for (const char* limit : {"--as=700000000", "--as=900000000"}) {
         const ChildResult result = run_child(render_words({"/usr/bin/prlimit", limit}, picture_));
         expect_failure(result, "memory: ");
@@ -251,7 +251,7 @@ TEST_F(Faults, SignalsAtRandomMoments) {
                      result.err);
         EXPECT_EQ(names_in(folder_), std::set<std::string>{"a.png"});
         if (result.signal != 0) {
-            // Before main() has asked for signals: libraries are being loaded.
+            // Before main() handles signals: libraries are being loaded.
             EXPECT_EQ(result.signal, number);
             EXPECT_EQ(text_of_file(picture_), kOld);
             ++early;

@@ -57,7 +57,7 @@ std::vector<std::string> load_scene_corpus() {
         }
     }
     for (const GltfBuilder& seed : gltf_seeds()) {
-        // Meshopt's views need a GLB's chunk.
+        // A view compressed by meshopt needs a GLB's chunk.
         if (!seed.root.contains("buffers")) corpus.push_back(seed.gltf());
     }
     return corpus;

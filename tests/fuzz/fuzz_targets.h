@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is fuzzed: by libFuzzer, with feedback (libfuzzer/), and by fuzz_test.cpp for a fixed count.
+// The fuzz targets: libFuzzer runs them with feedback (libfuzzer/), fuzz_test.cpp a fixed number of
+// times.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ using FuzzInput = std::span<const std::uint8_t>;
 bool fuzz_load_scene(FuzzInput input);
 
 /// Parses the bytes: lines are words of a command line of `kilolux render`; after a line "%", the
-/// rest is a configuration file. True if they can be obeyed.
+/// rest is a configuration file. True if they are valid.
 bool fuzz_options(FuzzInput input);
 
 /// Reads the bytes as an IES file; an Error must be one line that names the file. True if it is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fixed count of mutated inputs for each fuzz target, without feedback; libFuzzer goes on from
+// A fixed count of mutated inputs for each fuzz target, without feedback; libFuzzer continues from
 // the same inputs in tests/run --full, and by hand (tests/fuzz/README.md).
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ const std::vector<std::string>& tokens() {
     return words;
 }
 
-// One small change: a byte, a part gone or twice, a token, or the rest of another input.
+// One small change: a byte, a part removed or doubled, a token, or the rest of another input.
 std::string mutated(Random& random, const std::vector<std::string>& corpus) {
     std::string text = corpus[pick(random, corpus.size())];
     for (std::size_t changes = 1 + pick(random, 6); changes > 0; --changes) {

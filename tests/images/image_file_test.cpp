@@ -52,7 +52,7 @@ Frame make_frame() {
         }
         frame.display.push_back(255);
     }
-    // What a renderer must be able to tell: unclamped, negative, infinite, smallest.
+    // Values that a file of light must keep: unclamped, negative, infinite, smallest.
     frame.radiance[0] = 1e30f;
     frame.radiance[1] = -2.5f;
     frame.radiance[2] = std::numeric_limits<float>::infinity();
@@ -112,7 +112,7 @@ TEST(ImageFile, ExrKeepsEveryBitOfColourAndLayers) {
         }
     }
     EXPECT_EQ(image.channels.size(), channels);
-    // Ids that no float holds come back, too.
+    // Ids that no float holds are read back, too.
     ASSERT_EQ(image.ids.size(), 2u);
     for (const Layer& layer : image.ids) {
         EXPECT_EQ(layer.channels, std::vector{layer.name});
@@ -173,7 +173,7 @@ TEST(ImageFile, ExrSaysWhatItShows) {
     EXPECT_FLOAT_EQ(primaries[7], 0.3290f);
 }
 
-// A row vector times the matrix, as OpenEXR means its matrices.
+// A row vector times the matrix, which is OpenEXR's convention.
 glm::dvec4 row_times(const glm::dvec4& p, const float* m) {
     glm::dvec4 out(0.0);
     for (int row = 0; row < 4; ++row) {
@@ -216,7 +216,7 @@ TEST(ImageFile, TheSameFrameGivesTheSameBytes) {
         EXPECT_GT(first.size(), 100u) << name;
         firsts.push_back(first);
     }
-    // Whoever writes the hour into a file writes another one now.
+    // A file that held the time of writing would differ after this pause.
     const timespec pause{1, 100'000'000};
     nanosleep(&pause, nullptr);
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -291,7 +291,7 @@ TEST(ImageFile, ATruncatedExrIsAnErrorAndNotAPicture) {
     EXPECT_THROW(read_image(folder / "a.exr"), Error);
 }
 
-// An environment's light is what its file's sRGB codes say, whatever its alpha.
+// An environment's light is that of its file's sRGB codes, whatever its alpha.
 TEST(ImageFile, AlphaDarkensNoEnvironment) {
     const TemporaryFolder folder;
     const std::vector<unsigned char> half(std::size_t{4} * 4 * 2, 128);

@@ -7,7 +7,7 @@
 
 #include "tests/support/gltf_builder.h"
 
-// All rows of an image arrive, whatever way its file keeps them.
+// All rows of an image are read, for any layout of its file.
 
 namespace kilolux {
 namespace {

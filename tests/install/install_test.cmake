@@ -11,7 +11,7 @@ function(run)
   set(out "${out}" PARENT_SCOPE)
 endfunction()
 
-# An installed prefix knows nothing of the build that made it: it is moved before it is used.
+# The installed prefix is moved before use: it must not depend on the build folder.
 file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/moved ${WORK}/example ${WORK}/c)
 set(configure ${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX})
 # The packages of the other half: asking for one of them fails.
@@ -74,7 +74,7 @@ run(${CXX} -fsyntax-only ${WORK}/all_headers.cpp ${flags})
 run(${CXX} -O2 ${WORK}/example/light_gbuffer.cpp ${flags} -o ${WORK}/by_pkg_config)
 run(${WORK}/by_pkg_config ${WORK}/by_pkg_config.ppm)
 
-# In C, by a project that knows no C++, and by pkg-config.
+# A C project without C++, and pkg-config.
 file(WRITE ${WORK}/c/CMakeLists.txt "cmake_minimum_required(VERSION 3.22)
 project(LightPlane LANGUAGES C)
 find_package(Kilolux 0.1 REQUIRED)
@@ -94,7 +94,7 @@ separate_arguments(flags UNIX_COMMAND "${out}")
 run(${CC} ${c_flags} ${WORK}/c/light_plane.c ${flags} -o ${WORK}/c/by_pkg_config)
 run(${WORK}/c/by_pkg_config)
 
-# The same picture both ways, and one that is neither black nor white.
+# Both pictures are equal, and neither black nor white.
 foreach(way by_cmake by_pkg_config)
   file(SHA256 ${WORK}/${way}.ppm hash_${way})
 endforeach()

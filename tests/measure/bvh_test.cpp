@@ -105,8 +105,8 @@ struct HeightField {
     }
 };
 
-// Rays exactly through corners, and through edges as exactly as they can be: on the field without
-// jitter straight down, where the edge functions are 0.
+// Rays through corners and, as exactly as floats allow, through edges: on the field without jitter
+// straight down, where the edge functions are 0.
 TEST(Bvh, NothingSlipsThroughSharedEdgesAndCorners) {
     for (const double jitter : {0.0, 0.3}) {
         const HeightField field(jitter, 4);

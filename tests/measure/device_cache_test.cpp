@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cache entries that somebody else could have written are left alone, and made anew.
+// Cache entries that somebody else could have written are ignored and replaced.
 #include "host/gpu/device_cache.h"
 
 #include <sys/stat.h>

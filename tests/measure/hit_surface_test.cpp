@@ -141,7 +141,7 @@ TEST(HitSurface, AlphaMaskCutsHoles) {
     EXPECT_EQ(depths().y, 0.0) << "not in a G-buffer";
 }
 
-// Unit at the corners, then interpolated: long normals weigh no more than short ones.
+// Corners' normals are normalised before interpolation: long ones weigh no more than short ones.
 TEST(HitSurface, CornersNormalsCountAlike) {
     Scene scene = quad_scene(1.0f);
     scene.meshes[0].normals = {{0, 0, 9}, {3, 0, 0}, {3, 0, 0}, {0, 0, 9}};

@@ -69,7 +69,7 @@ std::vector<PhotometricWeb> test_webs() {
     return {web_of(uneven_ies()), web_of(downward), web_of(upward), web_of(axial)};
 }
 
-// Where a web that ends at 90 degrees does.
+// Whether the direction is at 90 degrees, where a web may end.
 bool is_at_edge(const WebInView& view, const glm::dvec3& d) {
     const double vertical = glm::degrees(std::acos(glm::dot(glm::normalize(d), view.down)));
     const std::vector<double>& angles = view.web->vertical;

@@ -30,7 +30,7 @@ TEST(RayCast, FlatUntexturedSurfaceIsExact) {
     }
 }
 
-// Positions, put through the camera's own projection, fall on the pixel's sample point.
+// Positions, projected by the camera, fall on the pixel's sample point.
 TEST(RayCast, ProjectsBackToThePixelForEveryCamera) {
     const Scene scene = quad_scene(100.0f);
     for (const bool orthographic : {false, true}) {

@@ -114,8 +114,7 @@ TEST(ReferenceBrdf, SpecularModelsAreReciprocal) {
     }
 }
 
-// The diffuse part is left out: glTF's mix of it gains energy at grazing angles, as its authors
-// say.
+// Without the diffuse part: glTF's mix of it gains energy at grazing angles, as its authors state.
 TEST(ReferenceBrdf, PbrLobeReflectsNoMoreThanArrives) {
     for (const double roughness : {0.2, 0.5, 1.0}) {
         for (const double theta : {0.0, 0.8, 1.3}) {
@@ -149,7 +148,7 @@ TEST(ReferenceBrdf, IsFiniteWhereAnglesDegenerate) {
             for (const glm::dvec3& v : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0),
                                         glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1)}) {
                 const glm::dvec3 f = reference_brdf(surface(0.0, 0.5), v, l, model);
-                if (glm::dot(kUp, l) <= 0.0) continue;  // such light is not asked for
+                if (glm::dot(kUp, l) <= 0.0) continue;  // evaluate() never gets such light
                 EXPECT_TRUE(std::isfinite(f.x) && f.x >= 0.0) << f.x;
             }
         }

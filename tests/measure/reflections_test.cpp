@@ -123,7 +123,7 @@ Pictures pictures(const Environment& map, const Material& material, bool with_in
             EXPECT_EQ(seen, glm::dvec3(0.0));
             continue;
         }
-        // Edge on, reflectance rises within a step of the table.
+        // Seen edge-on, reflectance rises within a step of the table.
         if (glm::dot(s.normal, -glm::normalize(s.position)) < 0.1) continue;
         out.seen.push_back(seen);
         out.surfaces.push_back(s);
@@ -146,7 +146,7 @@ TEST(Reflections, ErrorsAreThoseOfTheSplitSum) {
     }
 }
 
-// Nothing to filter: only the table counts.
+// A constant environment needs no filter: only the table's error remains.
 TEST(Reflections, AWhiteRoomIsReflectedExactly) {
     const Environment map = map_of([](const glm::dvec3&) { return glm::dvec3(1.0); });
     for (const double roughness : {0.25, 1.0}) {

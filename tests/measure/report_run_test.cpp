@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small report: what each reference isolates, and that the default is in the Pareto set. Errors
-// are measured; times, which depend on the machine's load, are replaced by the bytes moved.
+// A small report: the error that each reference isolates, and that the default is in the Pareto
+// set. Errors are measured; times, which depend on the machine's load, are replaced by the bytes
+// moved.
 #include "host/measure/report/run.h"
 
 #include <gtest/gtest.h>
@@ -92,11 +93,11 @@ void expect_isolated_causes() {
     EXPECT_GT(standard.drawn.rmse, 100.0 * standard.kernels.hdr.rmse);
     EXPECT_GT(r.row("gbuffer half").drawn.rmse, standard.drawn.rmse);
     EXPECT_GT(r.row("gbuffer normal-xy").drawn.rmse, standard.drawn.rmse);
-    // A simpler shading model is right by its own standard and wrong by the scene's.
+    // A simpler shading model has no error by R1, but one by the scene's model.
     const ReportRow& lambert = r.row("shading lambert");
     EXPECT_LT(lambert.kernels.hdr.rmse, 1e-4 * lambert.surfaces.hdr.rmse);
     EXPECT_GT(lambert.surfaces.hdr.rmse, standard.surfaces.hdr.rmse);
-    // Ranges cost against R3 only, less for a finer cut-off.
+    // Ranges cause an error against R3 only, a smaller one for a finer cut-off.
     const ReportRow &coarse = r.row("cut-off 1/16"), &fine = r.row("cut-off 1/256");
     EXPECT_LT(fine.unbounded.hdr.rmse, coarse.unbounded.hdr.rmse);
     EXPECT_GT(coarse.unbounded.hdr.rmse, coarse.surfaces.hdr.rmse);
@@ -165,7 +166,7 @@ void expect_error_maps() {
     }
 }
 
-// One test, as each test is a process of its own and would measure again.
+// One test, since each test is its own process and would measure again.
 TEST(ReportRun, MeasuresWhatEachSettingCostsAndErrs) {
     expect_right_kernels();
     expect_equal_pictures();

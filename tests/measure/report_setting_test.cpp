@@ -86,7 +86,7 @@ TEST(ReportSettings, FilesLightsFollowTheBudgetWhereTheyHaveNoRange) {
     EXPECT_EQ(cut_offs, 5) << "all bounded: the default is exact";
 }
 
-// Many lights without a range: what else there is than a cut-off, and where.
+// Many lights without a range: the report tries all treatments beside cut-offs.
 TEST(ReportSettings, ManyLightsWithoutARangeAreTriedInEveryWay) {
     Scene scene = make_generated_scene("plain");
     scene.lights.resize(200);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of measurements: through CSV and back, in logs that go on, and as plots.
+// Rows of measurements: through CSV and back, in logs that are continued, and as plots.
 #include "host/measure/bench/row.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ void expect_same(const BenchRow& a, const BenchRow& b) {
     EXPECT_EQ(a.point, b.point);
     EXPECT_EQ(a.stage, b.stage);
     EXPECT_EQ(a.ms.count, b.ms.count);
-    // Numbers are written so that the same double comes back.
+    // Numbers are written so that they are read back as the same double.
     EXPECT_EQ(a.ms.median, b.ms.median);
     EXPECT_EQ(a.ms.p5, b.ms.p5);
     EXPECT_EQ(a.ms.p95, b.ms.p95);
@@ -58,7 +58,7 @@ void expect_same(const BenchRow& a, const BenchRow& b) {
     EXPECT_EQ(a.saved_rays, b.saved_rays);
 }
 
-// A CSV of its own in a folder that goes away.
+// A CSV in a temporary folder.
 class BenchLogFile : public testing::Test {
  protected:
     std::string text() const {
@@ -139,7 +139,7 @@ TEST_F(BenchLogFile, GoesOnAfterTheLastWholePoint) {
     }
     const std::string whole = text();
     EXPECT_EQ(whole, to_csv(bench_table({first[0], first[1], second[0], second[1]})));
-    // Cut anywhere: a point is there as a whole or not at all, and the file ends up the same.
+    // Cut at any byte: a point is read whole or not at all, and the continued file is the same.
     const std::size_t header = whole.find('\n') + 1;
     const std::size_t after_first = to_csv(bench_table(first)).size();
     for (std::size_t length = 0; length <= whole.size();
@@ -166,7 +166,7 @@ TEST_F(BenchLogFile, ReplacesWithoutResumeAndRefusesForeignFiles) {
                  Error);
 }
 
-// Tables that were published before shadows were counted stay readable.
+// Tables published before shadows were counted stay readable.
 TEST(BenchRow, ReadsTablesWithoutTheColumnsOfShadows) {
     BenchRow row = row_of(1, "frame", 1.0);
     Table table = bench_table({row});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same object at any size is as bright, and what its lights' least distance is in the kernels
-// it is in OpenGL's shaders and in the float64 reference.
+// The same object is equally bright at any size, and kernels, OpenGL's shaders and the float64
+// reference use the same least distance of lights.
 #include <gtest/gtest.h>
 
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps as they are written on the command line, and the points that they stand for.
+// Texts of sweeps on the command line, and the points that they mean.
 #include "host/measure/bench/sweep.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pictures tell of their errors, in the rows of a report.
+// Estimated errors of pictures in the rows of a report.
 #include "host/measure/report/told_error.h"
 
 #include <gtest/gtest.h>

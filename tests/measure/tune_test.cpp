@@ -183,7 +183,7 @@ TEST(FeatureCosts, AreMeasurableAboveTheirNoiseOnly) {
     EXPECT_DOUBLE_EQ(cost.noise_ms(), 0.25);
 }
 
-// Differences of equal times: about 2 % of the estimates may take a cost for measurable.
+// Differences of equal times: about 2 % of the estimates may find a measurable cost.
 TEST(FeatureCosts, OfNoiseAreSeldomMeasurable) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise;

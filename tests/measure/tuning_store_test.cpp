@@ -300,7 +300,7 @@ TEST_F(ShippedTunings, MeasuringHereCountsMore) {
     EXPECT_EQ(unknown.tuning, built_in_tuning(device_named("a")).tuning);
 }
 
-// The same rows, read in another way.
+// The same rows, read by another parser.
 TEST_F(ShippedTunings, AreThoseOfTheCertificates) {
     const auto shipping = {TuningSource::measured, TuningSource::shipped_for_device};
     std::size_t shipped = 0;

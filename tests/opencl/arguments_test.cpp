@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles of arguments against the parameters that kernels declare. That all stages pass what their
-// kernels declare is found by every test with test_gpu(), whose kernels compare each argument.
+// Bundles of arguments against the parameters that kernels declare. Every test with test_gpu()
+// checks all stages, since its kernels compare each argument with their declaration.
 #include <gtest/gtest.h>
 
 #include "host/gpu/flow.h"
@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-// What a launch of `text`'s kernel "probe" with the words of shadows says.
+// The error of a launch of `text`'s kernel "probe" with the words of shadows.
 std::string error_of_launch(const Gpu& gpu, std::string_view text) {
     StageTimer timer;
     try {

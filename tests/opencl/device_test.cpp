@@ -85,7 +85,7 @@ TEST(Device, LaneWidthIsTheDevicesOwnUnlessGiven) {
     EXPECT_EQ(Gpu(gpu.device).info.name, gpu.info.name);
 }
 
-// What a library's user gets is what the program takes without a tuning.
+// A user of the library gets the lane width that the program uses without a tuning.
 TEST(Device, OnePlaceSaysTheLaneWidth) {
     const Gpu gpu(test_gpu().device);
     EXPECT_EQ(gpu.info.lane_width, built_in_tuning(describe(gpu.device)).lanes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kernel once on a small odd image: what runs under oclgrind, and the least that any device
-// must do.
+// Every kernel once on a small odd image: these tests run under oclgrind, and are the least that
+// any device must pass.
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/host_lists.h"
@@ -33,7 +33,7 @@ Tuning tuning_of(const Gpu& gpu, const Variant& v) {
     tuning.refine_group = tuning.prefix_group = tuning.tile_group = v.group;
     tuning.prefix_per_item = v.group == 1 ? 3 : 1;  // several blocks, and one
     tuning.cull_group = v.cull_group;
-    tuning.cull_chunks = 18;  // those that are loaded at a time, and two more
+    tuning.cull_chunks = 18;  // chunks loaded at a time, and two more
     tuning.shade_stage = v.shade_stage;
     tuning.shade_rows = 2;
     tuning.light_group = 4;
@@ -51,7 +51,7 @@ KernelFeatures features_of(const Variant& v) {
     return features;
 }
 
-// Radiance by lists, after it was found to have the bits of that by all lights.
+// Radiance by lists, after a check that it has the bits of radiance by all lights.
 Radiance shade_both_ways(const Gpu& gpu, Shade& shade, ShadeAll& shade_all, const GBuffer& gbuffer,
                          const ListedLights& lists) {
     StageTimer timer;
@@ -99,7 +99,7 @@ void run_every_kernel(const Variant& v) {
         upload_gbuffer(gpu, make_synthetic(view, features, noise_depth(2.0, 50.0, 0.6, 8)));
     const LightInput lights =
         upload_lights(gpu, random_lights(view, mix), {{{0, 0, 1, 0}, {1, 1, 1, 0}}});
-    // Lives as long as the test: oclgrind takes buffers that are reused for uninitialised.
+    // Lives as long as the test: oclgrind considers reused buffers uninitialised.
     LightLists stages(gpu, tuning, features);
     stages.list_everywhere();
     StageTimer timer;
@@ -141,7 +141,7 @@ TEST(EveryKernel, LanesAndLargeGroups) {
     run_every_kernel({8, 64, 1, 0, 16, GBUFFER_HALF, SHADING_BLINN_PHONG});
 }
 
-// Two halvings, both of odd sizes; what is past the width is not read.
+// Two halvings, both of odd sizes; pixels past the width are not read.
 void run_bloom(int lanes) {
     const Gpu gpu = test_gpu(lanes);
     View view{};

@@ -153,7 +153,7 @@ TEST(MakeView, RefusesWhatIsNoCamera) {
     Matrix4 flipped = lens;
     flipped[5] = -1.5;
     EXPECT_TRUE(contains(refusal(view, flipped), "element (1, 1) is -1.500000, must be > 0"));
-    for (std::size_t i = 0; i < 16; ++i) {  // also those that no check adds up
+    for (std::size_t i = 0; i < 16; ++i) {  // also elements that no check adds up
         Matrix4 bad_view = view, bad_lens = lens;
         bad_view[i] = bad_lens[i] = std::nan("");
         const std::string where =

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# Runs the one test FILTER of TESTS (a Google Test program) under OCLGRIND; fails on any report and if
-# the test fails. What oclgrind 21.10 needs to be right:
-# - no optimisation: it lacks intrinsics that its compiler then makes, and takes for uninitialised what
-#   the optimiser left undefined on purpose;
-# - one test a process: it takes reused buffers for uninitialised;
-# - at most 8 lanes: it takes vectors of 16 for uninitialised in the arguments of functions;
-# - no check for uninitialised values (UNINITIALIZED empty) where kernels use float3: the check crashes on
-#   shuffles that widen vectors, which its compiler makes of them;
-# - the tests' own verdict: it crashes at exit when programs live as long as the process.
+# Runs the one test FILTER of TESTS (a Google Test program) under OCLGRIND; fails on any report and if the test fails. For correct reports
+# oclgrind 21.10 needs:
+# - no optimisation: it lacks intrinsics that its compiler then makes, and considers values uninitialised that the
+#   optimiser left undefined on purpose;
+# - one test a process: it considers reused buffers uninitialised;
+# - at most 8 lanes: it considers vectors of 16 uninitialised in the arguments of functions;
+# - no check for uninitialised values (UNINITIALIZED empty) where kernels use float3: the check crashes on shuffles
+#   that widen vectors, which its compiler makes of them;
+# - the result of the tests, not of the process: it crashes at exit when programs live as long as the process.
 set(log ${CMAKE_CURRENT_BINARY_DIR}/oclgrind_${FILTER}.log)
 file(REMOVE ${log})
 execute_process(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs, buffers and timers: what they say when the device refuses.
+// Programs, buffers and timers: their messages when the device refuses.
 #include "host/gpu/program.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +14,7 @@
 #include "host/base/text.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/stage_timer.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -44,7 +45,7 @@ TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
     expect_contains(message, "no_such_function");
 }
 
-// A text that an #if leaves out is there where it is included next.
+// A text that an #if leaves out is spliced where it is included next.
 TEST(Program, IncludesFollowConditions) {
     const auto folder = std::filesystem::temp_directory_path() / "kilolux_splice_test";
     std::filesystem::create_directories(folder);
@@ -52,9 +53,8 @@ TEST(Program, IncludesFollowConditions) {
     std::ofstream(folder / "b.h") << "#ifndef B_H\n#define B_H\nint b;\n#endif\n";
     std::ofstream(folder / "c.cl") << "#if 0\n#include \"a.h\"\n#endif\n#include \"b.h\"\n#include "
                                       "\"a.h\"\n#include \"b.h\"\n";
-    setenv("KILOLUX_SOURCE_DIR", folder.c_str(), 1);
+    const EnvironmentVariable root("KILOLUX_SOURCE_DIR", folder.string());
     const SplicedSource source = splice_source("c.cl", false);
-    unsetenv("KILOLUX_SOURCE_DIR");
     std::filesystem::remove_all(folder);
     const std::string rest = source.text.substr(source.text.find("#line 3 \"c.cl\""));
     const auto count = [&](const std::string& line) {
@@ -97,7 +97,8 @@ TEST(Program, SameTextAndOptionsAreBuiltOnce) {
     EXPECT_NE(first(), build_program(test_gpu(2), "build_clusters")());
 }
 
-// A window opens a Gpu for every change of settings: neither context nor programs may stay behind.
+// A window opens a Gpu for every change of settings: contexts and programs must be released with
+// it.
 TEST(Program, ContextsAndProgramsGoWithTheLastGpu) {
     const cl::Device device = test_gpu().device;
     const cl::Context context(device);

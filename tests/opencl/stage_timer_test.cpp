@@ -31,7 +31,7 @@ TEST(IdleTime, BeginsWhereTheLastOfOverlappingCommandsEnds) {
     EXPECT_EQ(found.launch, 5);
 }
 
-// Host spans have rows of their own: within a gap, across its ends, beside it, after the enqueue.
+// Host spans are not idle time: within a gap, across its ends, beside it, after the enqueue.
 TEST(IdleTime, LeavesOutWhatTheHostTellsOf) {
     const std::vector<CommandSpan> commands = {{0, 0, 100}, {200, 250, 300}};
     const auto enqueue = [&](std::vector<HostSpan> host) {

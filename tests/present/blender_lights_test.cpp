@@ -28,10 +28,10 @@ FloatImage picture_of(const std::string& scene, const std::vector<std::string>& 
     return read_image(file);
 }
 
-// The picture in each shading against float64 lights that end nowhere.
+// The picture in each shading against float64 lights without a range.
 void expect_unlimited_lights(const std::string& file) {
     const Scene scene = load_scene(file);
-    Scene endless = scene;  // the reference has its ranges from where the picture has them
+    Scene endless = scene;  // its lights lose their ranges
     for (SceneLight& light : endless.lights) light.range = 1e18f;
     for (const Shading shading : {Shading::lambert, Shading::blinn_phong, Shading::pbr}) {
         RenderSettings settings = small_settings(96, 54, 0);

@@ -12,6 +12,7 @@
 #include "host/base/error.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/child.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -113,8 +114,8 @@ TEST_F(Certify, ProcessesOfTheirOwnFindTheSame) {
     EXPECT_EQ(several.out, one.out);
 }
 
-// A limit of the processor's time stands for a driver that ends the process: the case takes several
-// times as long, the program itself less.
+// A limit of the processor's time imitates a driver that ends the process: the case takes several
+// times as long as it allows, the program itself less.
 TEST_F(Certify, ACrashFailsItsCaseAndTheRestGoesOn) {
     const TemporaryFolder folder;
     const std::string file = (folder / "result.json").string();
@@ -129,7 +130,7 @@ TEST_F(Certify, ACrashFailsItsCaseAndTheRestGoesOn) {
         << cases.at(0);
 }
 
-// The committed table is what the program prints of the committed certificates.
+// The committed table equals the program's table of the committed certificates.
 TEST_F(Certify, TheTableIsThatOfTheCertificates) {
     const TemporaryFolder folder;
     const fs::path devices = fs::path(source_root()) / "host/certify/devices";
@@ -207,7 +208,7 @@ TEST_F(Certify, AnInterruptedRunWritesNothing) {
     EXPECT_EQ(names_in(folder), std::set<std::string>{});
 }
 
-// Whether PoCL is writing a file of a build; LLVM names it so and removes it at a signal.
+// Whether PoCL is writing a file of a build; LLVM gives it this name and removes it at a signal.
 bool is_compiling(const TemporaryFolder& cache) {
     const auto names = names_in(cache);
     return std::ranges::any_of(names, [](const auto& n) { return n.ends_with(".cl.tmp"); });
@@ -221,11 +222,9 @@ std::ptrdiff_t built_programs(const TemporaryFolder& cache) {
 
 TEST_F(Certify, ABuildThatIsInterruptedEndsWithItAndPrintsNothingElse) {
     using Clock = std::chrono::steady_clock;
-    const char* const before = getenv("POCL_CACHE_DIR");
-    const std::string kept = before != nullptr ? before : "";
     for (int i = 0; i < 6; ++i) {
         const TemporaryFolder cache;
-        setenv("POCL_CACHE_DIR", cache.path().c_str(), 1);
+        const EnvironmentVariable own("POCL_CACHE_DIR", cache.path().string());
         const ChildResult result =
             run_kilolux({i % 2 == 0 ? "certify" : "bench", "--quiet"}, [&](pid_t child) {
                 const auto limit = Clock::now() + std::chrono::seconds(10);
@@ -235,10 +234,9 @@ TEST_F(Certify, ABuildThatIsInterruptedEndsWithItAndPrintsNothingElse) {
             });
         EXPECT_EQ(result.code, 130) << result.err;
         EXPECT_EQ(result.err, "kilolux: interrupted\n");
-        // The one under way, and the device's probe at most.
+        // The program under way, and at most the device's probe.
         EXPECT_LE(built_programs(cache), 2) << i;
     }
-    before != nullptr ? setenv("POCL_CACHE_DIR", kept.c_str(), 1) : unsetenv("POCL_CACHE_DIR");
 }
 
 HardCaseRow row_of(std::string_view label, const Worst& worst, double limit) {

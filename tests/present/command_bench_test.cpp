@@ -183,7 +183,7 @@ TEST(Bench, PrintsTheTableOfItsCsv) {
     EXPECT_EQ(run_kilolux({"bench", "--table", csv, "--quick"}).code, 2);
 }
 
-// The committed tables are what the program prints of the committed measurements.
+// The committed tables equal the program's tables of the committed measurements.
 TEST(BenchResults, TablesAreThoseOfTheirCsv) {
     const TemporaryFolder folder;
     const fs::path results = fs::path(source_root()) / "host/measure/results";
@@ -266,7 +266,7 @@ TEST(BenchContext, NamesTheFirstDifference) {
     EXPECT_EQ(first_difference(was, is), "d was missing, is 2");
 }
 
-// Runs the script that the build runs every time.
+// Runs the script that every build runs.
 std::string commit_cpp(const fs::path& root, const fs::path& output) {
     const ChildResult result = run_child({"/usr/bin/env", "cmake", "-DROOT=" + root.string(),
                                           "-DOUTPUT=" + output.string(), "-P",

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/child.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -39,9 +40,8 @@ TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
 
 TEST(Info, SaysWhereTheTuningComesFrom) {
     const TemporaryFolder folder;
-    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
     const ChildResult result = run_kilolux({"info", "plain", "--lights", "1"});
-    unsetenv("XDG_CACHE_HOME");
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_TRUE(contains(result.out, "tuning_source: shipped for ") ||
                 contains(result.out, "tuning_source: built in"))
@@ -65,7 +65,7 @@ TEST(Info, ComparesLimitsWithIndependentOnes) {
 
 TEST(Info, MeasuresLimitsAgainWhenAsked) {
     const TemporaryFolder folder;
-    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
     const std::vector<std::string> words = {"info", "plain",        "--json", "--lights",
                                             "1",    "--resolution", "64,36"};
     std::vector<std::string> again = words;
@@ -80,7 +80,6 @@ TEST(Info, MeasuresLimitsAgainWhenAsked) {
     const Json second = limits(again);
     EXPECT_NE(second, first);
     EXPECT_EQ(limits(words), second);
-    unsetenv("XDG_CACHE_HOME");
 }
 
 }  // namespace

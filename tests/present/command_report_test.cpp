@@ -106,7 +106,7 @@ TEST_F(Report, ABudgetOfSampledShadowsKeepsTheLayerOfTheirError) {
     EXPECT_FALSE(contains(result.err, "chose   shadows exact")) << "it tells no error";
 }
 
-// What a command line of sampled shadows lets a budget choose.
+// The budget for a command line of sampled shadows.
 ErrorBudget budget_with(const std::vector<std::string>& words) {
     SharedOptions shared;
     BudgetOptions options;
@@ -179,7 +179,7 @@ TEST_F(Report, AnImpossibleBudgetNamesTheBest) {
     EXPECT_FALSE(fs::exists(picture));
 }
 
-// What the table says for the command line leads to the setting that was measured.
+// The options in the table lead to the setting that was measured.
 TEST(ReportOptionsText, LeadsToTheSetting) {
     const Scene scene = make_generated_scene("grid");
     DeviceInfo device;

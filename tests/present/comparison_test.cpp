@@ -91,7 +91,7 @@ TEST(Comparison, DisplayReferencesCompareCodes) {
     const TemporaryFolder folder;
     Frame frame = make_frame(4, 3, 1.0f);
     write_image(folder / "r.png", frame);
-    frame.radiance.assign(frame.radiance.size(), 9.0f);  // not what a PNG is compared with
+    frame.radiance.assign(frame.radiance.size(), 9.0f);  // a PNG is compared with `display`
     frame.display[0] += 2;
     frame.display[3] = 0;  // alpha
     const Comparison c = Reference(folder / "r.png").compare(frame, "max", 0.0);

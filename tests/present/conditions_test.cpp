@@ -30,14 +30,13 @@ TEST(SceneContent, ChangesWithEveryFileOfTheScene) {
     write_text(folder / "s.gltf", json);
     write_text(folder / "s.glb",
                "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json);
-    for (const char* name : {"a b.bin", "t.png", "lamp.ies", "sky.hdr"}) {
-        write_text(folder / name, "1");
-    }
+    constexpr const char* kFiles[] = {"a b.bin", "t.png", "lamp.ies", "sky.hdr"};
     const std::string sky = (folder / "sky.hdr").string();
     for (const char* scene : {"s.gltf", "s.glb"}) {
+        for (const char* name : kFiles) write_text(folder / name, "1");
         std::set<std::string> seen = {content_of(folder / scene, sky)};
         EXPECT_EQ(content_of(folder / scene, sky), *seen.begin());
-        for (const char* name : {"a b.bin", "t.png", "lamp.ies", "sky.hdr"}) {
+        for (const char* name : kFiles) {
             // Another byte, then another size.
             for (const char* text : {"2", "22"}) {
                 write_text(folder / name, text);

@@ -10,6 +10,7 @@
 #include "host/base/error.h"
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -17,14 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// $OCIO for as long as this lives.
-class OcioConfig {
- public:
-    explicit OcioConfig(const std::string& value) { setenv("OCIO", value.c_str(), 1); }
-    ~OcioConfig() { unsetenv("OCIO"); }
-};
-
-// Halves light, or squares it, for the eye.
+// Two views of the display: one halves light, one squares it.
 constexpr const char* kConfig = R"(ocio_profile_version: 1
 search_path: ""
 roles:
@@ -78,7 +72,7 @@ TEST(DisplayPicture, IsSrgbOfTheToneCurve) {
 TEST(DisplayPicture, GoesThroughTheViewThatOcioNames) {
     const TemporaryFolder folder;
     write_text(folder / "config.ocio", kConfig);
-    const OcioConfig set((folder / "config.ocio").string());
+    const EnvironmentVariable set("OCIO", (folder / "config.ocio").string());
     RenderSettings settings;
     const Frame frame = ramp();
     const auto at = [&](const OcioOptions& ocio) {
@@ -108,14 +102,14 @@ TEST(DisplayPicture, NamesWhatTheConfigurationLacks) {
     const TemporaryFolder folder;
     write_text(folder / "config.ocio", kConfig);
     {
-        const OcioConfig set((folder / "config.ocio").string());
+        const EnvironmentVariable set("OCIO", (folder / "config.ocio").string());
         EXPECT_TRUE(
             contains(message_of({"scren", "", ""}), "has no 'scren'; it has screen, paper"));
         EXPECT_TRUE(contains(message_of({"", "plain", ""}), "--ocio-view"));
         EXPECT_TRUE(contains(message_of({"", "", "nowhere"}), "--ocio-input"));
     }
     {
-        const OcioConfig set((folder / "missing.ocio").string());
+        const EnvironmentVariable set("OCIO", (folder / "missing.ocio").string());
         EXPECT_TRUE(contains(message_of({}), "missing.ocio")) << message_of({});
     }
     EXPECT_THROW(uses_ocio({"screen", "", ""}), UsageError) << "OCIO is not set";
@@ -139,7 +133,7 @@ TEST(Render, SixteenBitsAreTheEightBitsMoreFinely) {
         ASSERT_EQ(sixteen.size(), eight.size());
         std::size_t between = 0;
         for (std::size_t i = 0; i < eight.size(); ++i) {
-            // Half a code of rounding, and a little where the device's arithmetic is not ours.
+            // Half a code of rounding, and a little for differences of the device's arithmetic.
             ASSERT_NEAR(sixteen[i], eight[i], 0.51f / 255.0f) << i;
             between += std::abs(sixteen[i] - eight[i]) > 0.1f / 255.0f;
         }

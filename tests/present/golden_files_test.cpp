@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-// Side by side, as planes that coincide have no one picture, and less bright.
+// Side by side, since coinciding planes have no unique picture, and less bright.
 GltfBuilder side_by_side() {
     GltfBuilder file = every_feature_file();
     nlohmann::json& nodes = file.root["nodes"];
@@ -82,9 +82,9 @@ TEST(GoldenFiles, ExportedTexturesLookLikeTheirScene) {
     ASSERT_EQ(exported.code, 0) << exported.err;
     const std::string golden = source_root() + "/tests/golden/atrium.exr";
     const ChildResult result =
-        run_kilolux({"render", scene, "--lights", "0", "--resolution", "96,64", "--quiet", "-o",
-                     (folder.path() / "a.exr").string(), "--reference", golden, "--metric", "rmse",
-                     "--threshold", "2e-3"});
+        run_kilolux({"render", scene, "--lights", "0", "--fit", "height", "--resolution", "96,64",
+                     "--quiet", "-o", (folder.path() / "a.exr").string(), "--reference", golden,
+                     "--metric", "rmse", "--threshold", "2e-3"});
     EXPECT_EQ(result.code, 0) << result.out << result.err;
 }
 

@@ -81,7 +81,7 @@ TEST(Options, DefaultsAreThoseOfTheSettings) {
     EXPECT_FALSE(p.output.frames.has_value());
 }
 
-// --help must not promise what the program does not do: giving every default changes nothing.
+// --help must state the real defaults: giving every one of them changes nothing.
 TEST(Options, DefaultsInHelpAreTheRealOnes) {
     CLI::App app;
     SharedOptions shared;
@@ -218,7 +218,7 @@ TEST(Options, PeoplesWaysToWriteNumbers) {
     EXPECT_EQ(std::tie(settings.width, settings.height), std::make_tuple(1280, 720));
 }
 
-// --help says of every word what it means; scenes' views come with the renderer.
+// --help has a meaning for every word; scenes' views come with the renderer.
 TEST(Options, EveryChoiceHasAMeaning) {
     for (const Choices& choices :
          {choices_of(RendererKind{}), choices_of(Shading{}), choices_of(ToneCurve{}),

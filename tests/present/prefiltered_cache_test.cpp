@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "host/scene/lights/built_in_environments.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/temporary_folder.h"
 
 namespace kilolux {
@@ -23,8 +24,7 @@ bool same(const PrefilteredEnvironment& a, const PrefilteredEnvironment& b) {
 
 TEST(PrefilteredCache, IsWhatWasMadeOrIsMadeAnew) {
     const TemporaryFolder folder;
-    const std::string former = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
-    ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
     const Environment small = painted_environment(
         16, [](const glm::dvec3& d) { return glm::dvec3(1.0 + d.x, 1.0 + d.y, 1.0); });
     const Environment other =
@@ -46,7 +46,6 @@ TEST(PrefilteredCache, IsWhatWasMadeOrIsMadeAnew) {
     write_text(file, text.substr(0, text.size() / 2));
     EXPECT_TRUE(same(kept_prefiltered("studio", small), made));
     EXPECT_FALSE(same(kept_prefiltered("studio", other), made)) << "of other light";
-    former.empty() ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", former.c_str(), 1);
 }
 
 }  // namespace

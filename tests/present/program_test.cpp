@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line as its users meet it: exit codes, messages, help, completion.
+// The command line: exit codes, messages, help, completion.
 #include "present/program.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 namespace kilolux {
 namespace {
 
-// One line, from us.
+// One line of the program's own.
 void expect_one_line(const std::string& err) {
     EXPECT_TRUE(err.starts_with("kilolux: ")) << err;
     EXPECT_EQ(err.find('\n'), err.size() - 1) << err;
@@ -125,7 +125,7 @@ TEST(Program, PeoplesWaysToAskForHelpAndVersion) {
     const std::string said = "kilolux " + version() + "\n";
     EXPECT_EQ(run_kilolux({"version"}).out, said);
     EXPECT_EQ(run_kilolux({"-V"}).out, said);
-    // Whatever else is wrong with the line.
+    // These are answered whatever else is wrong with the line.
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"render", "--lights", "x", "--help"},
           {"render", "--lights", "--help"},
@@ -238,7 +238,7 @@ TEST(Completion, KnowsEveryOption) {
               0);
 }
 
-// What exit_code_of() prints and returns, in a process of its own.
+// The output and the return value of exit_code_of(), in a process of its own.
 template <typename Act>
 ChildResult end_of(Act act) {
     const TemporaryFolder folder;

@@ -14,7 +14,7 @@
 namespace kilolux {
 namespace {
 
-// Puts another descriptor in stderr's place for a while.
+// Redirects stderr to another descriptor while it lives.
 class StderrTo {
  public:
     explicit StderrTo(int descriptor) : saved_(dup(STDERR_FILENO)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `kilolux render --background none`: PNG and EXR say how much of a pixel is covered.
+// `kilolux render --background none`: PNG and EXR hold the covered share of pixels.
 #include <gtest/gtest.h>
 
 #include "host/scene/export/export_scene.h"
@@ -72,8 +72,8 @@ TEST(RenderAlpha, CoveredPixelsKeepTheirCodes) {
     }
 }
 
-// A box that only glows, evenly: whoever lays the PNG over something multiplies by alpha, while
-// the EXR is multiplied already.
+// A box that only glows, evenly. Compositing the PNG multiplies by alpha, while the EXR is
+// multiplied already.
 class GlowingBox : public testing::Test {
  protected:
     void write(float opacity) {
@@ -143,7 +143,7 @@ TEST_F(GlowingBox, WhatBlendsLetsTheRestThrough) {
     EXPECT_GT(blended, 100);
 }
 
-// What has no alpha, or glows beyond the surfaces, stays before black.
+// Pictures without alpha, or with light beyond the surfaces, keep a black background.
 TEST(RenderAlpha, OtherPicturesStayOpaque) {
     const TemporaryFolder folder;
     const std::vector<std::string> none = {"--background", "none"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lights a command line means, and how it says so.
+// The lights of a command line, and the lines that describe them.
 #include <gtest/gtest.h>
 
 #include "host/render/renderer.h"
@@ -32,7 +32,7 @@ class RigTest : public testing::Test {
         }
     }
 
-    // "generated+own", and the ambient light where it is not the usual one.
+    // "generated+own", and the ambient light where it is not the default.
     std::string lights(const std::string& scene, const std::string& more = "") {
         CLI::App app;
         SharedOptions options;
@@ -74,7 +74,7 @@ TEST_F(RigTest, ARigAskedForIsTheRigAndTheFilesLightsCount) {
               "--rig swarm: needs lights, and --lights is 0");
 }
 
-// What the window's "copy the command" says must give the same lights again.
+// The command that the window copies must give the same lights.
 TEST_F(RigTest, ASwarmIsNamedWhereTheSceneWouldNotChooseIt) {
     const auto settled = [&](const std::string& scene, const std::string& more) {
         CLI::App app;
@@ -236,7 +236,7 @@ TEST_F(RigTest, TheProgramSaysItOnceAndNotQuietly) {
     EXPECT_EQ(run_kilolux(dark).err, "");
 }
 
-// A headlight is the camera's in every renderer and wherever the camera stands.
+// A headlight follows the camera in every renderer and at every position.
 TEST_F(RigTest, AHeadlightFollowsTheCamera) {
     Scene scene = box_scene(glm::dvec3(2.0));
     scene.lights = rig_lights(Rig::headlight);

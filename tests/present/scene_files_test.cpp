@@ -6,6 +6,7 @@
 
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -68,7 +69,7 @@ TEST(SceneFile, LoadsWithinTheBoundOfMemory) {
     const TemporaryFolder folder;
     const std::string file = (folder / "s.glb").string();
     ASSERT_EQ(run_kilolux({"export", "grid", "-q", "-o", file}).code, 0);
-    // Exporting renders nothing, so that only the loader has a bound.
+    // Exporting renders nothing, so the bound holds for the loader alone.
     const auto export_within = [&](const char* bytes) {
         return run_kilolux(
             {"export", file, "-q", "--max-memory", bytes, "-o", (folder / "t.glb").string()});
@@ -142,7 +143,7 @@ TEST(SceneFile, ChoicesThatItDoesNotHaveAreOneLine) {
 
 TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
     const TemporaryFolder folder;
-    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
     const std::vector<std::string> words = {"info",  "plain",    "--json", "--resolution",
                                             "64,36", "--lights", "20"};
     const auto left_out = [](const ChildResult& result) {
@@ -156,7 +157,6 @@ TEST(Info, TellsWhatLeftOutFeaturesWouldCost) {
     ASSERT_EQ(measured.code, 0) << measured.err;
     const ChildResult stats = render("plain", folder / "a.png",
                                      {"--resolution", "64,36", "--lights", "20", "--stats", "-"});
-    unsetenv("XDG_CACHE_HOME");
     bool saw = false;
     for (const Json& entry : left_out(before)) {
         EXPECT_TRUE(entry.at("bytes_per_pixel").is_number()) << entry;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks over every shared option: whatever reads the table of settings reads all of it.
+// Tests every shared option: all code that reads the table of settings reads all of it.
 #include <gtest/gtest.h>
 
 #include <wordexp.h>
@@ -28,7 +28,7 @@ SharedOptions render_options() {
     return options;
 }
 
-// What the command line makes of words.
+// The options that the command line makes of words.
 SharedOptions parsed(std::vector<std::string> words) {
     SharedOptions options = render_options();
     CLI::App app;
@@ -102,7 +102,7 @@ std::map<std::string, std::string> texts_of(SharedOptions options) {
     return out;
 }
 
-// Results do not depend on them, or on the device only, which is named on its own.
+// No result depends on these, but for the device, which conditions name on its own.
 const Names kOfNoResult = {"--strict", "--allow-outside-paths", "--quiet", "--verbose", "--device"};
 
 TEST(Settings, EachChangesItselfAlone) {
@@ -184,7 +184,7 @@ TEST(Settings, AreInTheKeyOfAChoice) {
     }
 }
 
-// What the panel sets survives the end of the window.
+// Values set in the panel are kept after the window's end.
 TEST(Settings, OfThePanelComeBack) {
     const Names panel = {
         "--renderer",   "--shading",         "--shadows",      "--gbuffer",    "--show",
@@ -228,7 +228,7 @@ TEST(Settings, ComeFromConfigFiles) {
     }
 }
 
-// As a shell splits them.
+// The words of a shell.
 std::vector<std::string> shell_words(const std::string& line) {
     wordexp_t words{};
     if (wordexp(line.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) != 0) throw Error(line);

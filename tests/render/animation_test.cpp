@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer takes up what moved in its scene: the picture is that of a renderer made for it.
+// A renderer shows what moved in its scene: the picture is that of a renderer made for it.
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {

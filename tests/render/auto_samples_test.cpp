@@ -59,7 +59,8 @@ TEST(AutoSamples, TheLeastIsTheMeanOfEightSamples) {
     EXPECT_EQ(frame.stats.refined_pairs, eight.stats.refined_pairs) << "counts are the centre's";
 }
 
-// Edges, shadows and ranges all at once: the picture is as near as asked to one of many samples.
+// With edges, shadows and ranges at once, the picture is as near to one of many samples as asked
+// for.
 TEST(AutoSamples, ThePictureIsAsNearAsAsked) {
     Scene scene = grid_with_every_light();
     for (SceneLight& light : scene.lights) light.range = 0.0f;
@@ -116,8 +117,8 @@ TEST(AutoSamples, HaveTheSameBitsEveryWay) {
     expect_same(other, "nothing kept");
 }
 
-// A renderer that did it before and one that did not give the same; frames of fixed counts between
-// them, too.
+// The picture is the same from a renderer with and without such pictures before, and with frames of
+// fixed counts between.
 TEST(AutoSamples, LeaveNothingBehind) {
     const Scene scene = make_generated_scene("grid");
     const RenderSettings settings = auto_settings(70, 37, 0.05f, 64);
@@ -201,7 +202,7 @@ TEST(AutoSamples, ForwardRenderersAndPlanesHaveThem) {
     EXPECT_LT(std::sqrt(squared_error(forward.radiance, frame.radiance)), 0.1);
 }
 
-// A long picture can be left between its samples; that leaves nothing behind.
+// A long picture can be cancelled between its samples, without effect on later ones.
 TEST(AutoSamples, CanBeLeftBetweenSamples) {
     const Scene scene = make_generated_scene("grid");
     const Camera camera = first_camera(scene);

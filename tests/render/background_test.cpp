@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is seen behind a scene: in every renderer, behind what blends, in bands and samples; and
+// The background of a scene: in every renderer, behind blended surfaces, in bands and samples;
 // nothing else changes.
 #include "host/base/error.h"
 #include "host/scene/lights/prefiltered_environment.h"

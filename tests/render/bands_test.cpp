@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
-// The least memory that is not refused, by bisection of what the planner says.
+// The least memory that is not refused, by bisection of the planner's answer.
 std::uint64_t least_memory(const Scene& scene, RenderSettings settings) {
     const ScenePlan plan = make_scene_plan(scene, settings, settings.lights.count);
     const DeviceInfo device = describe(choose_device(settings.device));
@@ -57,7 +57,7 @@ void expect_same_in_bands(const Scene& scene, RenderSettings settings) {
     ASSERT_GE(at_once.memory().band_rows, settings.height);
     const Frame whole = at_once.render(first_camera(scene), 0.5);
     const std::uint64_t least = least_memory(scene, settings);
-    // Lists need some MiB beside what is planned.
+    // Lists need some MiB beside the plan.
     settings.max_memory_bytes = least;
     const ScenePlan plan = make_scene_plan(scene, settings, settings.lights.count);
     const DeviceInfo device = describe(choose_device(settings.device));

@@ -28,7 +28,7 @@ struct Picture {
     }
 };
 
-// What is past the width must not bloom into the picture.
+// Pixels past the width must not bloom into the picture.
 Picture picture(uint width, uint height, float value = 0.0f) {
     Picture out;
     out.view.width = width;

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a device with memory of its own needs (staged uploads and read-backs, two lanes, a GPU's
-// kernels and groups), with the CPU's device treated as one.
+// Paths for a device with memory of its own (staged uploads and read-backs, two lanes, a GPU's
+// kernels and groups), tested by treating the CPU's device as one.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
+#include "tests/support/environment_variable.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {
-
-// Treats the CPU as a GPU while it lives.
-class AsGpu {
- public:
-    AsGpu() { setenv("KILOLUX_DEVICE_KIND", "gpu", 1); }
-    ~AsGpu() { unsetenv("KILOLUX_DEVICE_KIND"); }
-    AsGpu(const AsGpu&) = delete;
-    AsGpu& operator=(const AsGpu&) = delete;
-};
 
 RenderSettings settings_with(Geometry geometry) {
     RenderSettings settings = small_settings(67, 41, 100);
@@ -30,8 +22,8 @@ RenderSettings settings_with(Geometry geometry) {
     return settings;
 }
 
-// Kernels differ in how they round a reciprocal root, in the last place: 1e-5 covers what a hundred
-// lights make of it.
+// Kernels differ by one unit in the last place in rounding a reciprocal root: 1e-5 covers the sum
+// over a hundred lights.
 void expect_close(const std::vector<float>& found, const std::vector<float>& expected) {
     ASSERT_EQ(found.size(), expected.size());
     ASSERT_FALSE(expected.empty());
@@ -43,7 +35,7 @@ void expect_close(const std::vector<float>& found, const std::vector<float>& exp
 
 void expect_same_picture(const Scene& scene, const RenderSettings& settings) {
     const Frame host = render_once(scene, settings);
-    const AsGpu as_gpu;
+    const EnvironmentVariable as_gpu("KILOLUX_DEVICE_KIND", "gpu");
     const DeviceInfo device = describe(choose_device(settings.device));
     ASSERT_FALSE(device.is_cpu);
     ASSERT_EQ(device.lane_width, 2);
@@ -90,7 +82,7 @@ TEST(DiscreteDevice, CastsShadows) {
 TEST(DiscreteDevice, FollowsMovingLights) {
     const Scene scene = make_generated_scene("grid");
     const RenderSettings settings = settings_with(Geometry::ids);
-    const AsGpu as_gpu;
+    const EnvironmentVariable as_gpu("KILOLUX_DEVICE_KIND", "gpu");
     Renderer renderer(scene, settings);
     const Camera camera = first_camera(scene);
     const Frame still = renderer.render(camera, 0.0), moved = renderer.render(camera, 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A display picture that shading makes itself: the bits that tone mapping makes of the radiance.
+// Shading can make the display picture itself: it has the bits of tone mapping the radiance.
 #include <cstring>
 
 #include "tests/support/render_fixture.h"
@@ -107,7 +107,7 @@ TEST(ShadedDisplay, InTheCallersMemory) {
     }
 }
 
-// Where something else reads or changes the light, or other arithmetic would make it.
+// Tone mapping makes it where other stages read or change the light, or arithmetic would differ.
 TEST(ShadedDisplay, IsLeftToToneMappingElsewhere) {
     const auto expect_mapped = [](auto change) {
         Picture picture;

@@ -47,7 +47,7 @@ double mean_step(const std::vector<SceneLight>& lights) {
 TEST(LightOrder, NeighboursInSpaceAreNeighbours) {
     const std::vector<SceneLight> lights = random_lights(5000);
     EXPECT_GT(mean_step(lights), 20.0);
-    // 5000 lights in 40^3 m^3: 2.3 m from one to the next if they stood on a lattice.
+    // 5000 lights in 40^3 m^3: 2.3 m from one to the next on a lattice.
     EXPECT_LT(mean_step(sorted(lights)), 5.0);
 }
 
@@ -62,7 +62,7 @@ std::vector<SceneLight> lattice_lights(std::size_t count) {
     return lights;
 }
 
-// Threads sort parts of many lights: whatever order they come in, one order comes out.
+// Threads sort parts of many lights: the result does not depend on their order.
 TEST(LightOrder, DependsOnPlacesAlone) {
     for (const std::size_t count : {100u, 70001u, 300000u}) {
         std::vector<SceneLight> lights = lattice_lights(count);
@@ -128,7 +128,7 @@ TEST(LightOrder, KeepsTheOrderOfEqualPlacesAndFarOnes) {
         EXPECT_EQ(out[i].inner_cone, static_cast<float>(i - 3));
 }
 
-// An exported scene's lights are ordered by the host: the picture has the bits of the swarm's.
+// The host orders an exported scene's lights: the picture has the bits of the swarm's.
 TEST(LightOrder, IsTheDevicesOrderOfGeneratedOnes) {
     const Gpu gpu = test_gpu();
     const Scene scene = make_generated_scene("grid");

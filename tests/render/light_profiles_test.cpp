@@ -74,7 +74,7 @@ TEST(LightProfiles, ListsChangeNoBitInAnyMode) {
     }
 }
 
-// In double, with the file's own angles: the error of the kernels stays that of their sums.
+// Against double with the file's own angles: the error is that of the kernels' sums.
 TEST(LightProfiles, ShadeAsTheReferenceDoes) {
     const Scene scene = scene_with_profiles();
     for (const Shading shading : {Shading::lambert, Shading::blinn_phong, Shading::pbr}) {
@@ -111,7 +111,7 @@ TEST(LightProfiles, ForwardRenderersHaveThem) {
     }
 }
 
-// Ranges that are drawn, and shadows of drawn lights, are right in the mean.
+// Drawn ranges, and shadows of drawn lights, are unbiased.
 TEST(LightProfiles, DrawnLightsHaveTheSameMean) {
     const Scene scene = scene_with_profiles(false);
     RenderSettings settings = profile_settings(Shading::lambert);

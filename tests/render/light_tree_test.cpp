@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of lights in groups: within their bound, the same however they are made.
+// Pictures of grouped lights: within their bound, and the same for all renderer settings.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -96,7 +96,7 @@ TEST(LightTreePictures, AreTheSameBitsHoweverTheyAreMade) {
     EXPECT_EQ(changed.render(first_camera(scene), 0.0).radiance, frame.radiance);
 }
 
-// What one pixel of a floor that sees all lights evaluates stands for each light once.
+// A pixel of a floor that sees all lights evaluates nodes that count each light once.
 TEST(LightTreePictures, EveryLightCountsOnce) {
     Scene scene = make_generated_scene("plain");
     const Box box = bounds(scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The approximations of shading that are off by default: bounded errors, and lists that still
-// change no bit.
+// The approximations of shading that are off by default: bounded errors, and lists still change no
+// bit.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -43,7 +43,7 @@ TEST(OpenedDevice, OtherSettingsKeepTheDeviceAndItsPrograms) {
     renderer.change(one_lane);
     EXPECT_EQ(renderer.gpu().programs, programs);
     EXPECT_EQ(renderer.device().lane_width, 1);
-    if (!renderer.device().is_cpu) return;  // whose compilers may round otherwise
+    if (!renderer.device().is_cpu) return;  // other devices' compilers may round otherwise
     EXPECT_EQ(renderer.render(first_camera(scene), 0.0).radiance, alone.radiance);
 }
 

@@ -15,7 +15,7 @@ Frame render_as(const Scene& scene, RenderSettings settings, RendererKind render
     return render_once(scene, settings);
 }
 
-// How much of the picture is lit at all: a comparison of black pictures would say nothing.
+// The lit share of the picture: a comparison of black pictures would prove nothing.
 double lit_share(const Frame& frame) {
     std::size_t lit = 0;
     for (const float value : frame.radiance) lit += value > 1e-3f;
@@ -42,7 +42,7 @@ std::vector<double> relative_differences(const Frame& a, const Frame& b) {
     return out;
 }
 
-// The first mesh's material becomes glass.
+// The scene with glass for the first mesh's material.
 Scene with_glass() {
     Scene scene = make_generated_scene("grid");
     int glass = -1;
@@ -94,7 +94,7 @@ TEST(Paths, DeferredIsDeferredAllBitForBit) {
     }
 }
 
-// OpenCL draws what OpenGL does, but for pixels whose centre is next to an edge.
+// OpenCL draws the same as OpenGL, but for pixels whose centre is next to an edge.
 TEST(Paths, ComputeDrawsAsIdsDo) {
     for (const Scene& scene : {make_generated_scene("grid"), make_generated_scene("corridor")}) {
         RenderSettings settings = small_settings(192, 108);
@@ -221,8 +221,8 @@ TEST(Paths, Oct2x4DecodesToWhatFullStores) {
     }
 }
 
-// OpenGL's object names are small numbers in every context: one renderer's end must not take
-// another's objects with it.
+// Names of OpenGL's objects are small numbers in every context: deleting one renderer must not
+// delete another's objects.
 TEST(Renderer, AnotherOnesEndLeavesItAlone) {
     const Scene scene = make_generated_scene("grid");
     const RenderSettings settings = small_settings();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame keeps of the last one changes no byte.
+// Results that a frame keeps from the last one change no byte.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-// A viewer's edits, any of which may leave the picture as it is.
+// A viewer's edits, any of which may leave the picture unchanged.
 class Script {
  public:
     Script(const Scene& scene, std::uint32_t seed)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A renderer makes anew only what hangs on the part of the scene that changed.
+// A renderer remakes only what depends on the changed part of the scene.
 #include <algorithm>
 
 #include "host/scene/animated_scene.h"

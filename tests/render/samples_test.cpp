@@ -72,8 +72,8 @@ TEST(Samples, AovsAndCountsAreThoseOfTheCentre) {
     EXPECT_EQ(one.stats.stages.size() + 1, three.stats.stages.size());  // sum_samples
 }
 
-// A picture that gets one sample after the other ends as the one made at once, and begins anew with
-// whatever else is asked for.
+// A picture refined sample by sample ends with the bits of the one made at once, and any change
+// begins it anew.
 TEST(Samples, RefinedPicturesHaveTheBitsOfWholeOnes) {
     const Scene scene = make_generated_scene("grid");
     RenderSettings settings = small_settings(64, 36, 100);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// "Model only what a scene needs": a scene without a feature compiles kernels without it, and its
-// picture is the one that kernels with it make, bit for bit.
+// A scene without a feature compiles kernels without it, and its picture is bit for bit that of
+// kernels with it.
 #include "host/render/plan/scene_plan.h"
 
 #include "host/base/error.h"
@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-// What switches each feature in the kernels' build options.
+// The build option that switches each feature.
 struct Switch {
     const char* feature;
     const char* without;
@@ -115,7 +115,7 @@ TEST(ScenePlan, AutomaticShadingIsPbrWhereAnythingIsLit) {
     EXPECT_EQ(plan_of(scene, settings).kernels.shading, SHADING_PBR);
 }
 
-// A GLSL compiler may order operations as it likes: here features change last bits at most.
+// A GLSL compiler may reorder operations: here features change last bits at most.
 TEST(ScenePlan, ForwardShadersRoundAlikeWithAFeature) {
     const Scene scene = make_generated_scene("plain");
     RenderSettings settings = settings_for(Shading::pbr);

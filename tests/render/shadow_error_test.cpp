@@ -32,7 +32,7 @@ TEST(ShadowError, AnIntervalIsOfTheStandardError) {
     EXPECT_FALSE(is_within(1.0, 0.0, 1.001));
 }
 
-// Few lights: with many rays nearly all are drawn, and next to nothing is left to chance.
+// Few lights: with many rays nearly all are drawn, and little variance is left.
 TEST(ShadowError, FallsWithTheRaysAndIsTold) {
     const auto errors = measure(lit_columns(), {.rays = {1, 4, 1000}, .draws = 400, .seeds = 2});
     ASSERT_EQ(errors.size(), 3u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact shadows: against rays in double, and the same bits however they are found.
+// Exact shadows: against rays in double, and the same bits in every form.
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
@@ -59,9 +59,9 @@ TEST(Shadows, OfRoundBodiesAreThoseOfRaysInDouble) {
 
 TEST(Shadows, ASheetSeesNoLightBehindIt) { expect_like_rays_in_double(sheet_scenario(), 1.0); }
 
-// Stored positions stray by millimetres; the rays end on the triangles all the same.
+// Stored positions err by millimetres; rays still end on the triangles.
 TEST(Shadows, AreThoseOfTheTrianglesWhateverTheGBufferStores) {
-    // To where half floats round, the floor downwards.
+    // Moved to where half floats round the floor downwards.
     const ShadowScenario scenario = moved(columns_scenario(), {0.1234, 1.3372, 0.271});
     RenderSettings settings = shadow_settings(160, 90);
     settings.want.aovs = {"visibility"};
@@ -88,7 +88,8 @@ TEST(Shadows, AreTheSameBitsWithEveryLight) {
     EXPECT_NE(render_once(scene, settings).radiance, listed.radiance);
 }
 
-// What rounding grants an edge that points at the light is wide; no walk may find more of it.
+// The tolerance of an edge that points at the light is wide; all walks must find the same part of
+// it.
 TEST(Shadows, OfEdgesThatPointAtTheLightAreTheSameBitsWithEveryLight) {
     const ShadowScenario scenario = needles_scenario();
     RenderSettings settings = shadow_settings(480, 270);
@@ -163,7 +164,7 @@ ShadowScenario masked_scenario() {
 
 TEST(Shadows, AlphaCutsThem) {
     expect_like_rays_in_double(masked_scenario(), 0.05);
-    // Twice as much is hidden where nothing is cut.
+    // Without the mask twice as much is hidden.
     ShadowScenario whole = masked_scenario();
     whole.scene.materials[1].alpha_mode = AlphaMode::opaque;
     const int cut = compare(masked_scenario(), Geometry::ids).hidden;
@@ -197,8 +198,8 @@ ShadowScenario lamps_scenario() {
     return out;
 }
 
-// Of one renderer: a frame after a change casts rays and is that of a new renderer; the next one
-// casts none and is the same.
+// For one renderer: a frame after a change casts rays and equals that of a new renderer; the next
+// one casts none and is equal.
 class KeptShadows {
  public:
     explicit KeptShadows(const RenderSettings& settings)
@@ -395,8 +396,8 @@ float luminance_of(const std::vector<float>& radiance, std::size_t i) {
            0.0722f * radiance[3 * i + 2];
 }
 
-// Of many seeds: the mean of each pixel is the exact one within its own error, and the errors that
-// are told are those that are seen.
+// Over many seeds: the mean of each pixel is the exact one within its own error, and estimated
+// errors equal the actual ones.
 TEST(SampledShadows, AreRightInTheMeanAndTellTheirError) {
     constexpr int kSeeds = 400;
     constexpr std::size_t kPixels = 48 * 27;

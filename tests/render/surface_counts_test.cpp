@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What resolving has to do, counted for its limit.
+// The work of resolving, counted for its limit.
 #include <gtest/gtest.h>
 
 #include "host/render/renderer.h"
@@ -25,7 +25,7 @@ TEST(SurfaceCounts, OnlyWhereAskedFor) {
     const FrameStats with = stats_of("atrium", true);
     EXPECT_GT(with.seen_triangles, 1000u);
     EXPECT_LT(with.seen_triangles, with.triangles);
-    // Four to eight a texture of a pixel.
+    // Four to eight texels for each texture of a pixel.
     EXPECT_GE(with.texels, 4 * with.drawn_pixels);
     EXPECT_EQ(with.texels % 4, 0u);
 }

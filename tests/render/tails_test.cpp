@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights without a range: exact, bounded with a bound of what is lost, and stochastic with its
-// error.
+// Lights without a range: exact, bounded with a bound of the loss, and stochastic with its error.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -89,7 +88,7 @@ TEST(Tails, LeaveLightsWithRangesAlone) {
     }
 }
 
-// Every pixel's bound against what it lacks.
+// Compares every pixel's bound with its loss.
 TailAgreement check_bound(Shading shading, double budget) {
     const Scene scene = scene_without_ranges(60);
     RenderSettings settings = tail_settings(Tails::bounded);
@@ -132,8 +131,8 @@ float luminance_of(const std::vector<float>& radiance, std::size_t i) {
            0.0722f * radiance[3 * i + 2];
 }
 
-// Of many seeds: each pixel's mean is the exact one within its own error, and the errors that are
-// told are those that are seen.
+// Over many seeds: each pixel's mean is the exact one within its own error, and estimated errors
+// equal the actual ones.
 void expect_right_in_the_mean(const Scene& scene, Shadows shadows, int seeds) {
     RenderSettings settings = tail_settings(Tails::exact);
     settings.shadows = shadows == Shadows::off ? Shadows::off : Shadows::exact;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of triangles that outgrow their room: the frame is drawn again, whole.
+// Lists of triangles that outgrow their room: the frame is drawn again, complete.
 #include <gtest/gtest.h>
 
 #include "host/gpu/tuning_store.h"

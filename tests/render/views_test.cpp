@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What --show draws: each view from a real frame, and the canvas it is drawn on.
+// The pictures of --show: each view from a real frame, and the canvas.
 #include "host/picture/views.h"
 
 #include <cmath>

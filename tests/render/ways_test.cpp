@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One surface, whoever makes it: OpenGL's ids and OpenCL's, resolved, OpenGL's planes, and OpenGL's
-// fragments lit where they are drawn. All are compiled from kernels/shared.
+// All ways make the same surfaces: OpenGL's ids and OpenCL's, resolved, OpenGL's planes, and
+// OpenGL's lit fragments. All are compiled from kernels/shared.
 #include <cmath>
 #include <filesystem>
 #include <random>

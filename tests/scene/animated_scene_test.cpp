@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene put from time to time is the one that loading at each time gives.
+// A scene set from time to time equals the one loaded at each time.
 #include "host/scene/animated_scene.h"
 
 #include <gtest/gtest.h>
@@ -133,7 +133,7 @@ TEST(AnimatedScene, NodesHiddenByAScaleOfZeroAreOutsideOfNoBox) {
     hidden[3] = {1e4, 0.0, 0.0, 1.0};
     scene.instances = {{0, glm::dmat4(1.0)}, {0, hidden}};
     EXPECT_EQ(bounds(scene).max, glm::dvec3(1.0));
-    // Flat is not hidden.
+    // A flat instance is not hidden.
     scene.instances[1].world_from_object[0][0] = scene.instances[1].world_from_object[1][1] = 1.0;
     EXPECT_EQ(bounds(scene).max, glm::dvec3(1e4 + 1.0, 1.0, 1.0));
 }

@@ -32,7 +32,7 @@ TEST(CameraPath, PassesItsKeysAndHoldsItsEnds) {
     EXPECT_EQ(one.at(2.0).position, some_keys()[1].position);
 }
 
-// Position and speed are continuous: what a step of one microsecond changes has no jumps.
+// Position and speed are continuous: their change over a microsecond is small.
 TEST(CameraPath, IsSmooth) {
     const CameraPath path(some_keys());
     constexpr double kStep = 1e-6;

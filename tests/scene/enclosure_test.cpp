@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which scenes are rooms, to be seen from inside, and which are objects.
+// Which scenes are interiors, seen from inside, and which are objects.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ Scene built(const Build& build) {
     return scene_of(builder.build("shape", -1, 1.0, false));
 }
 
-// Walls that face within. Bits of `open` leave sides out: -x, +x, -y, +y, -z, +z.
+// Walls that face inwards. Bits of `open` leave sides out: -x, +x, -y, +y, -z, +z.
 Mesh room(const glm::dvec3& size, unsigned open = 0) {
     Mesh mesh = box_mesh(size, true);
     std::vector<std::uint32_t> kept;

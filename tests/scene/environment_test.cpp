@@ -140,7 +140,7 @@ TEST(BuiltInEnvironment, TheSkyIsBlueItsSunWarmAndBothAsBrightAsSaid) {
     EXPECT_GT(sun.x, 1.2 * sun.z);
     EXPECT_NEAR(std::asin(towards.y) * 180.0 / std::numbers::pi, 40.0, 0.3);
     EXPECT_GT(towards.z, 0.3) << "ahead of the front of an object";
-    // One of few pixels is one of few lights, not most of them.
+    // With few pixels the sun is few lights, not most of them.
     int narrow = 0;
     for (const SceneLight& light : environment_lights(e, 128)) {
         narrow += glm::dot(-light.direction, towards) > std::cos(0.02) ? 1 : 0;

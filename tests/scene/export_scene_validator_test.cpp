@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What we write is valid by the Khronos validator, which npm brings.
+// Exported files are valid by the Khronos validator, which npm installs.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,7 +35,8 @@ Output run(const std::string& command) {
     return out;
 }
 
-// Where the validator is installed; empty, with the reason in `why`, where it cannot be had.
+// The folder of the installed validator; empty, with the reason in `why`, where it cannot be
+// installed.
 fs::path install_validator(std::string& why) {
     const fs::path source = fs::path(source_root()) / "tests" / "gltf_validator";
     const fs::path folder = fs::path(program_file()).parent_path() / "gltf_validator";

@@ -63,7 +63,7 @@ Mesh triangle(int material) {
 
 Mesh full_triangle() {
     Mesh mesh = triangle(0);
-    // The order in which the loader meets vertices; it would number them anew.
+    // The loader's order of vertices; it would renumber others.
     mesh.indices = {0, 1, 2};
     mesh.tangents = {{1, 0, 0, 1}, {1, 0, 0, -1}, {0, 1, 0, 1}};
     mesh.texcoords[0] = {{0, 0}, {1, 0}, {0, 3.5f}};
@@ -121,7 +121,7 @@ void add_instances(Scene& scene) {
     scene.instances.push_back({1, glm::scale(turned, {1.0, -2.0, 0.5})});
 }
 
-// Corner by corner: loading leaves out vertices that no triangle uses.
+// Compares corners, since loading leaves out vertices that no triangle uses.
 template <typename T>
 bool same_corners(const Mesh& m, const std::vector<T>& a, const Mesh& n, const std::vector<T>& b) {
     if (a.empty() != b.empty() || m.indices.size() != n.indices.size()) return false;
@@ -137,7 +137,7 @@ bool same_sampler(const Sampler& s, const Sampler& t) {
            s.minify == t.minify && s.mipmaps == t.mipmaps;
 }
 
-// Compares what textures show: loading numbers them in the order of their use.
+// Compares the contents of textures, since loading numbers them in the order of their use.
 struct Materials {
     const Scene& a;
     const Scene& b;
@@ -199,7 +199,7 @@ std::string mesh_difference(const Mesh& a, const Mesh& b) {
 bool same_light(const SceneLight& a, const SceneLight& b) {
     if (a.type != b.type || a.position != b.position || a.intensity != b.intensity) return false;
     if (a.type != LightType::directional && a.range != b.range) return false;
-    // A unit vector made unit again may move by its rounding in double.
+    // Normalising a unit vector again may change its rounding in double.
     const bool aimed = a.type != LightType::point || a.profile >= 0;
     if (aimed && glm::distance(a.direction, b.direction) > 1e-15) return false;
     if (a.profile != b.profile) return false;

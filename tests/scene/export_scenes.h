@@ -9,14 +9,14 @@
 
 namespace kilolux {
 
-/// A scene with everything that an export has to say: lights of all types, both kinds of cameras,
+/// A scene with everything that an export can hold: lights of all types, both kinds of cameras,
 /// materials with every member off its default, textures, samplers, mirrored and sheared instances.
 Scene scene_of_everything();
 
 /// Writes all files of an exported scene into a folder.
 void write_export(const ExportedScene& exported, const std::filesystem::path& folder);
 
-/// What is not the same in two scenes, bit for bit; "" for nothing. Names of scenes do not count.
+/// The first difference of two scenes, bit for bit; "" for none. Names are not compared.
 std::string scene_difference(const Scene& a, const Scene& b);
 
 }  // namespace kilolux

@@ -63,14 +63,14 @@ TEST(Framing, KindsOfScenes) {
     EXPECT_EQ(enclosure_of(Scene{}, Box{}).kind, SceneKind::open);
     const Scene atrium = make_generated_scene("atrium");
     EXPECT_EQ(enclosure_of(atrium, bounds(atrium)).kind, SceneKind::interior);
-    // No number is too large; what is nowhere is not seen.
+    // No coordinate is too large; NaN is not seen.
     for (const double at : {1e15, 1e30, 1e200, std::nan("")}) {
         Scene far = box_scene(glm::dvec3(2.0), true);
         far.instances.push_back({0, glm::dmat4(1.0)});
         far.instances[1].world_from_object[3] = {at, 0.0, 0.0, 1.0};
         EXPECT_EQ(enclosure_of(far, bounds(far)).kind == SceneKind::interior, std::isnan(at)) << at;
     }
-    // A mirrored instance turns its winding, not its kind.
+    // Mirroring an instance turns its winding, but the kind of scene stays.
     Scene mirrored = box_scene(glm::dvec3(2.0), true);
     mirrored.instances[0].world_from_object[0][0] = -1.0;
     EXPECT_EQ(enclosure_of(mirrored, bounds(mirrored)).kind, SceneKind::interior);

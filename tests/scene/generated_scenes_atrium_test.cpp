@@ -55,7 +55,7 @@ TEST(Atrium, SeedsDiffer) {
     EXPECT_EQ(triangle_count(other) / 10000, triangle_count(scene_of("atrium")) / 10000);
 }
 
-// Where an image wraps, neighbours must be about as like as neighbours inside it.
+// At an image's border neighbours must be about as similar as inside it.
 TEST(Atrium, TexturesTile) {
     for (const Image& image : scene_of("atrium").images) {
         const auto row_step = [&](int y) {

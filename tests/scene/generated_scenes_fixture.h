@@ -18,8 +18,8 @@ inline const Scene& scene_of(const std::string& name) {
     return made[name];
 }
 
-/// Of all vertices in the world, rounded down to 0.1 mm off the round numbers that builders like,
-/// so that the last bit of a library's sine does not matter.
+/// Hash of all vertices in the world, rounded down to 0.1 mm off the round numbers that builders
+/// use, so that the last bit of a library's sine does not matter.
 inline std::uint64_t fingerprint(const Scene& scene) {
     std::uint64_t hash = 0;
     for (const Instance& instance : scene.instances) {
@@ -36,7 +36,7 @@ inline std::uint64_t fingerprint(const Scene& scene) {
     return hash;
 }
 
-/// Of all pixels.
+/// Hash of all pixels.
 inline std::uint64_t image_fingerprint(const Scene& scene) {
     std::uint64_t hash = 0;
     for (const Image& image : scene.images) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// IES files: what is read of them, and what each bad one is told.
+// IES files: their contents, and the error for each kind of bad file.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -72,7 +72,7 @@ TEST(IesFile, TiltFactorsAreSkippedAndCommasAreGaps) {
     EXPECT_DOUBLE_EQ(read_photometric_web(text, "").peak, 100.0);
 }
 
-// A quarter, a half and the two other halves unfold to what the whole file is.
+// A quarter, a half and the other two halves unfold to the whole file.
 TEST(IesFile, SymmetriesAreUnfolded) {
     const auto quarter = [](double v, double h) {
         return 50.0 + v + 10.0 * std::cos(2.0 * h * std::numbers::pi / 180.0);
@@ -101,7 +101,7 @@ TEST(IesFile, SymmetriesAreUnfolded) {
     }
 }
 
-// No angle of the file lies at 0: the values beside it meet there.
+// The file has no angle at 0: the values on both sides meet there.
 TEST(IesFile, AHalfFrom90To270MeetsAtZero) {
     const PhotometricWeb web = web_of({.horizontal = {90, 150, 210, 270}, .candela = by_angles});
     EXPECT_EQ(web.horizontal, (std::vector<double>{0, 30, 90, 150, 210, 270, 330, 360}));
@@ -110,7 +110,7 @@ TEST(IesFile, AHalfFrom90To270MeetsAtZero) {
     EXPECT_DOUBLE_EQ(candela_at(web, 45, 0), by_angles(45, 180));
 }
 
-// The table of a file whose angles have no common step states what it loses.
+// The table of a file whose angles have no common step states its error.
 TEST(IesFile, TablesHaveTheFilesSteps) {
     const PhotometricWeb web =
         web_of({.vertical = {0, 2.5, 5, 15, 90}, .horizontal = {0, 22.5, 90}});
@@ -125,14 +125,14 @@ TEST(IesFile, TablesHaveTheFilesSteps) {
     EXPECT_GT(lossy.table_error, 0.5);
 }
 
-// The integral of the web is what the file's lamp gives.
+// The integral of the web is the flux of the file's lamp.
 TEST(IesFile, TheSphereHasTheLumensOfTheWeb) {
     constexpr double kPi = std::numbers::pi;
     const auto even = [](double, double) { return 100.0; };
     const IesText sphere{.vertical = {0, 90, 180}, .candela = even};
     EXPECT_NEAR(lumens(web_of(sphere)), 400.0 * kPi, 1e-9);
     EXPECT_NEAR(lumens(web_of({.candela = even})), 200.0 * kPi, 1e-9);
-    // A Lambertian lamp of 1000 lm, to what linear steps of a degree leave.
+    // A Lambertian lamp of 1000 lm, within the error of linear steps of a degree.
     IesText lambert{.vertical = angle_steps(0, 90, 90), .horizontal = {0, 45, 90}};
     lambert.candela = [](double v, double) { return 1000.0 / kPi * std::cos(v * kPi / 180.0); };
     EXPECT_NEAR(lumens(web_of(lambert)), 1000.0, 0.1);

@@ -41,7 +41,7 @@ std::uint64_t fingerprint(const std::vector<SceneLight>& lights) {
 
 double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
-// Mean over `points` of how many lights reach a point of the box.
+// Mean over `points` of the number of lights that reach a point of the box.
 double coverage(const std::vector<SceneLight>& lights, const Box& box, int points) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -57,9 +57,9 @@ double coverage(const std::vector<SceneLight>& lights, const Box& box, int point
     return sum / points;
 }
 
-// Mean luminance that a surface of albedo 0.5 sends out, over points of the box and random normals.
-// Each point's radiance is capped at 4: a surface a hand's breadth from a lamp is overexposed
-// anyway, and without a cap the mean of a d^-2 law needs very many points.
+// Mean luminance of a surface of albedo 0.5, over points of the box and random normals. Each
+// point's radiance is capped at 4: a surface a hand's breadth from a lamp is overexposed anyway,
+// and without a cap the mean of a d^-2 law needs very many points.
 double exposure(const std::vector<SceneLight>& lights, const Box& box, int points) {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where generated lights go in scenes of any size and shape, and how near they count.
+// The places of generated lights in scenes of any size and shape, and their least distance.
 #include "host/scene/lights/light_region.h"
 
 #include <gtest/gtest.h>

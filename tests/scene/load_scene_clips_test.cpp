@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of a file's animations play.
+// Which animations of a file play.
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
@@ -43,7 +43,7 @@ LoadOptions playing(const std::vector<std::string>& clips) {
     return options;
 }
 
-// Where the first vertices of both triangles are.
+// The first vertices of both triangles.
 struct Places {
     glm::dvec3 first{0.0};
     glm::dvec3 second{0.0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A generated file that uses everything the loader supports: the checks of load_scene_files_test,
-// on a scene that every clone has.
+// A generated file with everything that the loader supports: the checks of load_scene_files_test,
+// on a scene that needs no downloads.
 #include <gtest/gtest.h>
 
 #include "tests/scene/export_scenes.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corners of the extensions and features that real files use: what they default to, and how they
-// act together.
+// Details of extensions and features of real files: their defaults, and their combination.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -129,7 +128,7 @@ TEST(LoadSceneFeatures, TextureTransformsScaleThenRotateThenShift) {
     EXPECT_EQ(load(file).materials.at(0).normal_texture.uv_from_texcoord, glm::mat3(1.0f));
 }
 
-// What gltfpack writes: everything in small integers, undone by the texture's transform.
+// The output of gltfpack: all attributes in small integers, scaled by the texture's transform.
 TEST(LoadSceneFeatures, QuantizedAttributesOfAllKinds) {
     GltfBuilder file = quad_with_normal_map();
     json& attributes = file.primitive()["attributes"];

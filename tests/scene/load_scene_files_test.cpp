@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes that others made, from the folder beside this one where it is there. What a file holds is
-// known from its own JSON and its README.
+// Scenes of other authors, from the folder beside this one where it exists. Expected contents are
+// from their JSON and READMEs.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -46,7 +46,7 @@ TEST(LoadSceneFiles, ReadsSponza) {
     const Scene scene = load_scene(file);
     EXPECT_EQ(scene_defect(scene), "");
     EXPECT_EQ(triangle_count(scene), 262267u);
-    // Mirrored texture coordinates need tangents of both hands: a few vertices stand twice.
+    // Mirrored texture coordinates need tangents of both hands: a few vertices are doubled.
     EXPECT_GE(vertex_count(scene), 192812u);
     EXPECT_LT(vertex_count(scene), 193000u);
     EXPECT_EQ(scene.meshes.size(), 103u);

@@ -10,7 +10,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-// A file whose material shows images[0], which is not there yet.
+// A file whose material shows images[0], which the test adds.
 GltfBuilder file_with_image(const json& image) {
     GltfBuilder file = triangle_file();
     file.add("images", image);
@@ -213,7 +213,7 @@ TEST(LoadSceneImage, RefusesBrokenImages) {
     EXPECT_TRUE(contains(error_of_view(noise), "images[0]: is of no image format"));
 }
 
-// libpng has its own words for standard error, which is for us.
+// libpng prints messages of its own, which must not reach standard error.
 TEST(LoadSceneImage, BrokenPngsSayNothingButTheirError) {
     const Blob good = encode_image("png", 5, 3, Blob(3 * 25, 77));
     std::size_t refused = 0;

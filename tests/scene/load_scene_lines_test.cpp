@@ -50,7 +50,7 @@ double surface_area(const Mesh& mesh) {
     return area;
 }
 
-// Of what the triangles enclose; negative where they look inwards (divergence theorem).
+// Volume within the triangles; negative where they face inwards (divergence theorem).
 double volume(const Mesh& mesh) {
     double six = 0.0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -59,7 +59,7 @@ double volume(const Mesh& mesh) {
     return six / 6.0;
 }
 
-// Whether every edge is met once in each direction.
+// Whether every edge occurs once in each direction.
 bool is_closed(const Mesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {

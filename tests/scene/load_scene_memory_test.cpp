@@ -21,7 +21,7 @@ std::atomic<std::size_t> refused_from = kNever;  // [byte]; allocations of this 
 // The compiler inlines these and then takes malloc() and delete for a mismatched pair.
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 
-// Every allocation of this test program, so that those of any thread can be made to fail.
+// Replaces every allocation of this test program, so that those of any thread can fail.
 void* operator new(std::size_t bytes) {
     void* memory = bytes >= refused_from.load() ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
     if (memory == nullptr) throw std::bad_alloc();
@@ -82,7 +82,7 @@ TEST(LoadSceneMemory, BoundsMeshes) {
     EXPECT_NE(error.find("meshes[0].primitives[0]: needs"), std::string::npos) << error;
 }
 
-// What a moving mesh was charged is given back before it is made anew.
+// A moving mesh's charge is given back before it is made anew.
 TEST(LoadSceneMemory, ManyTimesFitWhereOneDoes) {
     const TempFolder folder;
     write_file(folder.path() / "scene.glb", every_feature_file().glb());

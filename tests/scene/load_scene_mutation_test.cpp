@@ -129,8 +129,8 @@ void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 using Mutation = Blob (*)(Random&, const GltfBuilder&);
 
-// A crash leaves the file that caused it in the folder that is printed. --gtest_random_seed=N asks
-// for other mutations than the usual ones.
+// A crash leaves the file that caused it in the folder that is printed. --gtest_random_seed=N makes
+// other mutations than the usual ones.
 void expect_loads_or_errors(Mutation mutate, unsigned random_seed) {
     reset_peak_memory();
     const TempFolder folder;
@@ -157,7 +157,7 @@ void expect_loads_or_errors(Mutation mutate, unsigned random_seed) {
             }
         }
     }
-    // Both must occur, or the mutations are not what they are meant to be.
+    // Both must occur, else the mutations are too weak or too strong.
     EXPECT_GT(refused, 0);
     EXPECT_GT(loaded + refused, 5 * kMutationsPerSeed);
     EXPECT_LT(peak_memory_kib(), kMaxMemoryKiB);

@@ -120,7 +120,7 @@ TEST(LoadSceneCameras, RefuseValuesThatNoCameraHas) {
     }
 }
 
-// Where node 0's origin is at a time, with one animated property.
+// The position of node 0's origin at a time, with one animated property.
 glm::dvec3 animated_point(const json& sampler_part, const std::vector<float>& values, double time) {
     GltfBuilder file = triangle_file();
     json sampler = sampler_part;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What readings of the loader and other people's files found.
+// Defects of the loader that were reported for real files.
 #include <gtest/gtest.h>
 
 #include <filesystem>

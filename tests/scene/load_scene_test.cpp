@@ -238,7 +238,7 @@ TEST(LoadScene, ReadsVertexColoursOfAllTypes) {
     const auto shorts = bytes_of<std::uint16_t>({0, 0, 0, 0, 65535, 0, 13107, 0, 0, 0, 0, 0});
     EXPECT_EQ(color_of(shorts, {kUnsignedShort, "VEC4", 3, true, 0}), glm::vec4(1, 0, 0.2f, 0));
     const auto bytes = bytes_of<std::uint8_t>({0, 0, 0, 0, 0, 51, 255, 51, 0, 0, 0, 0});
-    // Said to be plain integers by mistake, as some writers do.
+    // Declared as plain integers by mistake, as some writers do.
     EXPECT_EQ(color_of(bytes, {kUnsignedByte, "VEC4", 3, false, 0}), glm::vec4(0, 0.2f, 1, 0.2f));
 }
 

@@ -7,7 +7,7 @@
 
 namespace kilolux {
 
-/// From -size/2 to size/2. `inwards`: its faces show to the inside.
+/// From -size/2 to size/2. `inwards`: its faces face the inside.
 inline Mesh box_mesh(const glm::dvec3& size, bool inwards = false) {
     Mesh mesh;
     for (int axis = 0; axis < 3; ++axis) {
@@ -32,7 +32,7 @@ inline Mesh box_mesh(const glm::dvec3& size, bool inwards = false) {
     return mesh;
 }
 
-/// A scene as the loader hands it over: its kind is known.
+/// A scene as the loader returns it, with its kind.
 inline Scene box_scene(const glm::dvec3& size, bool inwards = false) {
     Scene scene;
     scene.name = "box";

@@ -27,7 +27,7 @@ constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
 
-/// Bytes of values as they stand in memory.
+/// The bytes of values in memory.
 template <typename T>
 Blob bytes_of(const std::vector<T>& values) {
     Blob bytes(values.size() * sizeof(T));
@@ -44,7 +44,7 @@ struct Layout {
     std::size_t stride = 0;  // 0: packed
 };
 
-/// A glTF file in the making: `root` is its JSON, free to be changed in any way.
+/// A glTF file in the making: `root` is its JSON, which tests may change freely.
 struct GltfBuilder {
     nlohmann::json root = {{"asset", {{"version", "2.0"}}}};
     Blob bin;
@@ -82,7 +82,8 @@ Blob encode_image(const std::string& format, int width, int channels, const Blob
 /// Positions of an instance's vertices in the world.
 std::vector<glm::dvec3> world_positions(const Scene& scene, std::size_t instance = 0);
 
-/// Problem of a scene's indices, sizes or numbers that the renderer relies on; "" for none.
+/// The first problem of a scene's indices, sizes or numbers that the renderer relies on; "" for
+/// none.
 std::string scene_defect(const Scene& scene);
 
 }  // namespace kilolux

@@ -19,12 +19,11 @@ GltfBuilder every_feature_file();
 /// that need encoding. Returns its path.
 std::filesystem::path write_with_files(GltfBuilder file, const std::filesystem::path& folder);
 
-/// A file with everything that the loader makes something else of: specular-glossiness with both
-/// textures, points and lines, instancing, variants, an extension that it leaves out.
+/// A file with everything that the loader converts: specular-glossiness with both textures, points
+/// and lines, instancing, variants, an extension that it leaves out.
 GltfBuilder converted_features_file();
 
-/// Valid files that between them use what the loader knows; what mutated and fuzzed files start
-/// from.
+/// Valid files that together use all features of the loader: the start of mutated and fuzzed files.
 std::vector<GltfBuilder> gltf_seeds();
 
 }  // namespace kilolux

@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// What an IES file says, for tests that write one.
+/// The contents of an IES file, for tests that write one.
 struct IesText {
     std::string head = "IESNA:LM-63-2002\n[TEST] generated\nTILT=NONE\n";
     std::vector<double> vertical{0, 45, 90};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene of one quad, and what its middle looks like to a camera.
+// A scene of one quad, and the surface in its middle for a camera.
 #pragma once
 
 #include "host/measure/reference/ray_cast_reference.h"

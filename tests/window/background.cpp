@@ -48,7 +48,7 @@ Background::Background(std::vector<std::string> words) {
 Background::~Background() {
     close(input_);
     if (pid_ < 0) return;
-    // A display ends with its input; what is not awaited by then is not wanted any more.
+    // A display ends when its input closes; a program that was not awaited is killed.
     kill(pid_, SIGCONT);
     kill(pid_, SIGTERM);
     waitpid(pid_, nullptr, 0);

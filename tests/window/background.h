@@ -11,14 +11,14 @@
 
 namespace kilolux {
 
-/// Asks again and again until `is_so`; throws std::runtime_error that names `what` after a minute.
+/// Calls `is_so` until it is true; throws std::runtime_error that names `what` after a minute.
 void wait_for(const std::string& what, const std::function<bool()>& is_so);
 
 /// "env" with these variables ("NAME=value") before `words`.
 std::vector<std::string> with_variables(const std::vector<std::string>& variables,
                                         const std::vector<std::string>& words);
 
-/// A program that runs beside the test. Its standard input ends when this does.
+/// A program that runs beside the test. The destructor closes its standard input.
 class Background {
  public:
     /// The first word is found in PATH. Throws std::runtime_error when it cannot be started.
@@ -30,7 +30,7 @@ class Background {
 
     void signal(int number) const;
     bool has_ended() const;
-    /// Until it ends by itself; throws std::runtime_error after a minute.
+    /// Waits until it ends by itself; throws std::runtime_error after a minute.
     ChildResult result();
 
  private:

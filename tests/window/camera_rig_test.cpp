@@ -78,7 +78,7 @@ TEST(CameraRig, OrbitZoomsAndPans) {
     const double distance = glm::length(rig.camera().position - rig.focal_point());
     EXPECT_NEAR(distance, 5.0 * std::pow(0.88, 3.0), 1e-9);
     rig.move({.pan = {1.0, 0.0}}, CameraMode::orbit, 0.02);
-    // What was in the middle is now a window's height further right.
+    // The former middle of the picture is a window's height further right.
     EXPECT_NEAR(rig.focal_point().x, -2.0 * distance * std::tan(0.4), 1e-9);
 }
 
@@ -97,7 +97,7 @@ TEST(CameraRig, FramingSeesEveryCorner) {
     }
 }
 
-// What the window copies must bring the same picture: the same camera, bit for bit.
+// The copied options must give the same camera, bit for bit.
 TEST(CameraRig, ItsPlaceAsOptionsIsTheSameCamera) {
     Scene scene;
     Mesh mesh;

@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-// As everywhere in the program: column and row without a space between.
+// The program's form of pixels: column and row without a space between.
 TEST(ClusterView, NamesThePixelAsReportsDo) {
     ProbedPixel pixel;
     pixel.x = 59;

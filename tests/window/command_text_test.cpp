@@ -11,7 +11,7 @@
 namespace kilolux {
 namespace {
 
-// What `kilolux render` would understand.
+// The options that `kilolux render` would parse.
 SharedOptions parsed(const std::string& command) {
     std::istringstream in(command);
     std::vector<std::string> words;
@@ -33,7 +33,7 @@ TEST(CommandText, DefaultsNeedNoOptions) {
     EXPECT_EQ(render_command(rig, options, scene), "kilolux render plain -o kilolux.png");
 }
 
-// A rig has other standards than the command line without one.
+// A rig has other defaults than the command line without one.
 TEST(CommandText, SaysTheLightsOfARig) {
     const Scene scene = make_generated_scene("plain");
     SharedOptions options;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A virtual display with or without a window manager, and the program's window on it as a person
-// has it: real keys, a real window manager, and what is to be seen on the screen.
+// A virtual display with or without a window manager, and the program's window on it: real keys, a
+// real window manager, and the contents of the screen.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct Place {
     bool operator==(const Place&) const = default;
 };
 
-/// What is to be seen in a rectangle of the screen: red, green, blue of each pixel, by rows.
+/// A rectangle of the screen: red, green, blue of each pixel, by rows.
 struct Seen {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
     bool operator==(const Seen&) const = default;
 };
 
-/// How many colours there are in it.
+/// Number of colours in it.
 std::size_t count_colours(const Seen& seen);
 
 class Desktop {
@@ -32,15 +32,15 @@ class Desktop {
     /// `options`: with_display's. Throws std::runtime_error that says what is missing.
     explicit Desktop(const std::vector<std::string>& options);
 
-    /// What a tool (xdotool, xprop, xwininfo) prints. Throws std::runtime_error if it is not there
+    /// The output of a tool (xdotool, xprop, xwininfo). Throws std::runtime_error if it is missing
     /// or fails.
     std::string tool(const std::vector<std::string>& words) const;
-    /// The same; false if it fails, as where it looks for something that is not there.
+    /// The same; false if it fails, for example because what it looks for does not exist.
     bool try_tool(const std::vector<std::string>& words, std::string& out) const;
 
     /// The whole screen.
     Place place() const;
-    /// Black where `part` is not on the screen.
+    /// Black where `part` is beyond the screen.
     Seen see(const Place& part) const;
 
     const std::string& variable() const { return variable_; }  // "DISPLAY=:N"
@@ -54,7 +54,7 @@ class Desktop {
 /// A `kilolux view` of the scene plain, and its window.
 class Viewer {
  public:
-    /// Returns when the window is to be seen, with or without a picture. `more`: arguments.
+    /// Returns when the window is visible, with or without a picture. `more`: arguments.
     explicit Viewer(const Desktop& desktop, const std::vector<std::string>& more = {});
 
     Background& program() { return program_; }
@@ -68,18 +68,18 @@ class Viewer {
     /// Waits until the window has the focus.
     void activate() const;
     bool has_focus() const;
-    /// Returns when, from now on, it has waited four times in full without anything to do.
+    /// Returns after it has waited four times in full without work.
     void wait_for_rest() const;
-    /// Where the picture is, without what is drawn over it.
+    /// The place of the picture, without the overlays.
     Place picture() const;
-    /// The picture when nothing is left to do: it is there, and the program waits for a person.
+    /// The picture once no work is left, while the program waits for input.
     Seen settled() const;
-    /// Waits until the picture is another, of something that goes on changing.
+    /// Waits until the picture differs, where it keeps changing.
     void wait_for_change() const;
-    /// Waits until the settled picture is this one.
+    /// Waits until the final picture is this one.
     void wait_for_picture(const Seen& wanted) const;
 
-    /// What was asked of GLFW so far, see recorder/glfw_recorder.cpp.
+    /// The calls of GLFW so far, see recorder/glfw_recorder.cpp.
     std::vector<std::string> record() const;
     std::size_t count(const std::string& call) const;
 

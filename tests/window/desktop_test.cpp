@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window among others: a window manager minimises it, gives the focus to another, and lets it
-// fill the screen. Keys are the X server's, pictures what its screen shows.
+// The window among others: a window manager minimises it, gives the focus to another, and makes it
+// fill the screen. Keys come from the X server, pictures from its screen.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ TEST(Desktop, RestsWhileMinimised) {
     viewer.wait_for_rest();
     const std::size_t rest = viewer.record().size();
     wait_for("more of it", [&] { return viewer.record().size() >= rest + 6; });
-    // Neither drawn nor rendered.
+    // The window neither draws nor renders.
     const std::vector<std::string> calls = viewer.record();
     for (std::size_t i = rest; i < calls.size(); ++i) EXPECT_EQ(calls[i], "wait 0.250") << i;
     viewer.activate();
@@ -111,7 +111,7 @@ TEST(Desktop, AnswersWhileAForwardPictureIsMade) {
     leave(viewer);
 }
 
-// So that a test that waits for rest sees the picture with all its samples.
+// A test that waits for rest then sees the picture with all its samples.
 TEST(Desktop, DoesNotRestWhileAPictureIsMade) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop, {"--renderer", "deferred-all", "--lights", "1000000"});
@@ -167,7 +167,7 @@ TEST(Desktop, CountsItsPicturesWhileMinimised) {
     const fs::path file = folder / "end.png";
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop, {"--exit-after", "120", "--screenshot", file.string()});
-    // So that it cannot end before it is minimised.
+    // Stopped, so that it cannot end before it is minimised.
     viewer.program().signal(SIGSTOP);
     viewer.minimise();
     viewer.program().signal(SIGCONT);
@@ -189,7 +189,7 @@ TEST(Desktop, LetsKeysGoWithTheFocus) {
     desktop.tool({"xdotool", "keydown", "w"});
     viewer.wait_for_change();
     const OtherWindow other(desktop, viewer);
-    // The key is down still, but not ours: the camera comes to rest.
+    // The key is still down, but for another window: the camera comes to rest.
     const Seen flown = viewer.settled();
     EXPECT_NE(flown, start);
     desktop.tool({"xdotool", "keyup", "w"});

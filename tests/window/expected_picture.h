@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the renderer makes of settings and camera, to compare screenshots with.
+// The renderer's picture for settings and camera, to compare screenshots with.
 #pragma once
 
 #include <functional>

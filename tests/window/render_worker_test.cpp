@@ -62,8 +62,8 @@ TEST_F(RenderWorkerTest, GoesOnAfterAPictureThatCannotBeMade) {
     EXPECT_EQ(worker.render(request()).get().frame.width, 96);
 }
 
-// In a window's worker, forward passes are drawn in parts: they can be given up between, and say
-// how long the whole takes.
+// In a window's worker, forward passes are drawn in parts: they can be cancelled between parts, and
+// estimate the time of the whole.
 TEST_F(RenderWorkerTest, APictureInPartsIsThatOfTheRenderer) {
     settings_.renderer = RendererKind::forward;
     RenderWorker worker = this->worker();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kWidth = 700, kHeight = 420;  // [pixel] of the window
 
-// What the command line renders with these options, where the window shows it.
+// The picture that the command line renders with these options, in the window's part for the scene.
 ScenePart rendered(const fs::path& file, std::vector<std::string> options) {
     std::vector<std::string> words = {"render",  "plain", "-q",         "--resolution",
                                       "340,420", "-o",    file.string()};
@@ -51,7 +51,7 @@ TEST(WindowRig, ShowsThePictureOfEveryRig) {
     EXPECT_GT(mean_difference(studio, scene_part(folder / "auto.png")), 0.01);
 }
 
-// An environment's lights stay beside those of any rig.
+// The lights of an environment stay beside those of any rig.
 TEST(WindowRig, KeepsTheEnvironment) {
     const TemporaryFolder folder;
     Script script(folder);
@@ -98,7 +98,7 @@ TEST(WindowRig, IsKeptUnlessTheCommandLineSaysSomethingOfLights) {
               rendered(folder / "rendered.png", {"--rig", "headlight"}).values);
 }
 
-// What is asked for while the lights are replaced waits for them.
+// Actions during the replacement of lights wait for it.
 TEST(WindowRig, SavesThePictureOfTheChosenRig) {
     const TemporaryFolder folder;
     Script script(folder);

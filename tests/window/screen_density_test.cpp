@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window on a screen of twice the usual density, as X11 desktops tell it: Xft.dpi.
+// The window on a screen of twice the usual density, which X11 desktops announce by Xft.dpi.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -92,7 +92,7 @@ TEST(ScreenDensity, ControlsAreHitAndThePictureHasEveryPixel) {
     const ScenePart start = scene_part(folder / "start.png", 2 * kPanel);
     EXPECT_LT(mean_of(scene_part(folder / "dark.png", 2 * kPanel)), 0.6 * mean_of(start));
     EXPECT_GT(mean_difference(start, scene_part(folder / "normal.png", 2 * kPanel)), 0.01);
-    // What is on the screen is the picture of the same command, pixel by pixel.
+    // The screen shows the picture of the same command, pixel by pixel.
     const FloatImage picture = read_image(folder / "kilolux-001.png");
     EXPECT_EQ(picture.width, 1400 - 2 * kPanel);
     EXPECT_EQ(picture.height, 840);
@@ -127,7 +127,7 @@ TEST(ScreenDensity, SizesAreKeptForAnyScreen) {
     EXPECT_EQ(kept_size("resize 620 400", kUsual), size);
     EXPECT_EQ(kept_size("frames 2", kDense), size);
     EXPECT_EQ(read_image(folder / "end.png").width, 1240);
-    // Full screen is not the window's size.
+    // The size of full screen is not kept.
     EXPECT_EQ(kept_size("key F11 0", kUsual), size);
     EXPECT_EQ(read_image(folder / "end.png").width, 1500);
 }

@@ -25,8 +25,8 @@ inline constexpr int kUnderlay = 120;  // [pixel] from the top: the overlay ends
 
 using Variables = std::vector<std::string>;  // "NAME=value"; "-uNAME" takes one away
 
-/// Runs the program in the virtual display of this test program, or, where with_display is told
-/// something else (`display`), in one of its own.
+/// Runs the program in the virtual display of this test program, or with other options of
+/// with_display (`display`) in a display of its own.
 inline ChildResult view_in_display(const Variables& variables,
                                    const std::vector<std::string>& arguments,
                                    const std::vector<std::string>& display = {}) {
@@ -44,20 +44,20 @@ inline ChildResult view_in_display(const Variables& variables,
     return run_child(words);
 }
 
-/// A program with sanitizers wants to be loaded before the recorder, but can do without.
+/// A program with sanitizers asks to be loaded before the recorder; this option waives that.
 inline std::string recorder_asan_options() {
     const char* given = std::getenv("ASAN_OPTIONS");
     return std::string("ASAN_OPTIONS=") + (given == nullptr ? "" : given) +
            ":verify_asan_link_order=0";
 }
 
-/// A window that begins as new, small enough for any machine.
+/// A window with default state, small enough for any machine.
 inline std::vector<std::string> small_window(const std::string& script) {
     return {"view",    "plain",     "--fresh", "--resolution", "700,420", "--lights", "150",
             "--quiet", "--samples", "1",       "--script",     script};
 }
 
-/// The part of a picture where the scene is.
+/// The part of a picture that shows the scene.
 struct ScenePart {
     int width = 0, height = 0;  // of the window [pixel]
     std::vector<float> values;
@@ -94,7 +94,7 @@ inline double mean_difference(const ScenePart& a, const ScenePart& b) {
     return sum / static_cast<double>(a.values.size());
 }
 
-/// A script and the pictures it leaves, in a folder.
+/// A script and the pictures that it saves, in a folder.
 class Script {
  public:
     explicit Script(const TemporaryFolder& folder) : folder_(folder) {}

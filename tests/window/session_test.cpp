@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `kilolux view` as a person uses it: real window, real events, pictures of the screen. Under Xvfb.
+// Uses `kilolux view` like a user: real window, real events, pictures of the screen. Under Xvfb.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,16 +19,16 @@
 namespace kilolux {
 namespace {
 
-// Goes through a session and expects that neither OpenGL, OpenCL nor the program complains: what
-// fails while a script plays ends it with a message.
+// Plays a session and expects that neither OpenGL, OpenCL nor the program complains: an error
+// during a script ends it with a message.
 void play(const Script& script) {
     const ChildResult result = view_in_display({}, small_window(script.write()));
     ASSERT_EQ(result.code, 0) << result.err << result.out;
     EXPECT_EQ(result.err, "");
 }
 
-// The camera that the README's keys promise, from formulas and not from CameraRig: an eye, a
-// direction by its angles, and the distance to the point that it orbits about.
+// The camera that the README's keys promise, by formulas instead of CameraRig: an eye, a direction
+// by its angles, and the distance to the point that it orbits about.
 struct Flight {
     explicit Flight(const Camera& start, const Box& box)
         : radius(0.5 * glm::length(box.size())), middle(box.center()), first(start) {
@@ -176,8 +176,8 @@ TEST(Window, ResizesAndHidesItsPanel) {
     EXPECT_GT(mean_difference(left_of(folder / "bare.png"), left_of(folder / "help.png")), 0.01);
 }
 
-// Pixels of the screenshot's rectangle that are not as in the other, and how many of them are
-// nearly white.
+// Pixels of the screenshot's rectangle that differ from the other, and how many of them are nearly
+// white.
 struct Changes {
     int changed = 0, white = 0;
 };
@@ -218,7 +218,7 @@ TEST(Window, LooksIntoClusters) {
     EXPECT_LT(box.changed, 80 * 80 / 2);
     EXPECT_GT(changes(file("start"), file("probed"), {590, 640, 400, 50}).changed, 400 * 45);
     EXPECT_EQ(changes(file("start"), file("after"), {360, 0, 640, 700}).changed, 0);
-    // Lines over the picture, not another picture. They stay where they are in the scene.
+    // Lines over the same picture. They stay at their place in the scene.
     const int lines = changes(file("start"), file("frozen"), {360, 120, 640, 580}).changed;
     EXPECT_GT(lines, 2000);
     EXPECT_LT(lines, 640 * 580 * 9 / 10);
@@ -226,7 +226,7 @@ TEST(Window, LooksIntoClusters) {
     EXPECT_GT(changes(file("start"), file("thawed"), {360, 120, 640, 580}).changed, 640 * 580 / 10);
 }
 
-// The smallest window that still has a picture: nothing that lies over it may run off it.
+// In the smallest window with a picture nothing over the picture may run off it.
 TEST(Window, WhatLiesOverThePictureFitsIntoASmallWindow) {
     const TemporaryFolder folder;
     Script script(folder);
@@ -246,7 +246,7 @@ TEST(Window, WhatLiesOverThePictureFitsIntoASmallWindow) {
     EXPECT_EQ(changes(file("start"), file("probed"), {0, 0, 360, 400}).changed, 0);
     EXPECT_EQ(changes(file("start"), file("probed"), {637, 0, 3, 400}).changed, 0);
     EXPECT_GT(changes(file("start"), file("probed"), {380, 340, 240, 40}).changed, 240 * 40 / 2);
-    // What the boxes' colours mean stands in the lower left: a bar from dark violet to pale yellow.
+    // The legend of the boxes' colours is in the lower left: a bar from dark violet to pale yellow.
     const FloatImage frozen = read_image(file("frozen"));
     std::set<std::array<float, 3>> colours;
     for (int x = 370; x < 600; ++x) {
@@ -295,7 +295,7 @@ TEST(Window, MeasuresItsErrorAndShowsAMap) {
     EXPECT_EQ(green, 0);
     EXPECT_GT(colours.size(), 20u);
     EXPECT_GT(mean_difference(start, map), 0.05);
-    // Errors are those of the picture that was measured: another one is shown itself.
+    // The error map belongs to the measured picture; any other picture is shown itself.
     ExpectedPicture expected;
     expect_same_picture(folder / "other.png",
                         expected.of([](RenderSettings& s) { s.exposure = 1.0f; }));
@@ -333,8 +333,8 @@ TEST(Window, SettlesWhileItRendersAlways) {
                         expected.of([](RenderSettings& s) { s.exposure = 1.0f; }));
 }
 
-// At rest the picture gets one sample after the other, and has the bits of `render --samples`; what
-// moves it begins anew.
+// At rest the picture gets one sample after the other, and has the bits of `render --samples`; any
+// movement begins it anew.
 TEST(Window, RefinesItsPictureAtRest) {
     const TemporaryFolder folder;
     Script script(folder);
@@ -372,7 +372,8 @@ TEST(Window, KeepsItsValues) {
     const ChildResult result = view_in_display(
         {config}, {"view", "plain", "-q", "--exit-after", "2", "--screenshot", again});
     ASSERT_EQ(result.code, 0) << result.err;
-    // A view of normals is nothing like the lit picture: blue is never 0 on what faces the camera.
+    // A view of normals differs from the lit picture: blue is never 0 on surfaces that face the
+    // camera.
     EXPECT_GT(mean_of(scene_part(again)), 0.1);
     EXPECT_EQ(read_image(again).width, 690);
 }

@@ -13,8 +13,8 @@ FrameStats stats_of(double shade_ms) {
     return stats;
 }
 
-// A median over pictures of two renderers beside the limit of one of them gave "622 % of its
-// limit".
+// A median must not mix pictures of two renderers: beside the limit of one of them it would exceed
+// 100 %.
 TEST(StageHistory, MediansAreOverPicturesOfTheNewestOnesSettings) {
     StageHistory history;
     for (int i = 0; i < 9; ++i) history.add(stats_of(2.0), i > 0);

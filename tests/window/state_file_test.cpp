@@ -24,6 +24,10 @@ ViewState unusual_state() {
     state.settings.exposure = -1.3f;
     state.settings.tone_curve = ToneCurve::aces;
     state.settings.bloom = 0.1f;
+    state.settings.shadows = Shadows::exact;
+    state.settings.tails = Tails::tree;
+    state.settings.tree_share = 0.25f;
+    state.settings.kernels.lanes = 4;
     state.settings.lights.count = 123456;
     state.settings.lights.radius = 0.1;
     state.settings.grid = {20, 11, 8, 32};
@@ -42,7 +46,7 @@ ViewState loaded(const fs::path& file, const ViewState& state = {}) {
     return StateFile(file).load(state, nothing_given);
 }
 
-// A run of the window that begins with what the command line gives, and ends with other values.
+// A run of the window that begins with the command line's values, and ends with others.
 void run(const fs::path& file, const ViewState& command_line, const std::set<std::string>& given,
          const std::function<void(ViewState&)>& change) {
     StateFile state_file(file);
@@ -97,7 +101,7 @@ TEST(StateFile, TheCommandLineIsNotKept) {
     EXPECT_EQ(loaded(file).settings.lights.count, 300u);
     EXPECT_EQ(loaded(file).settings.exposure, 0.0f);
     EXPECT_FALSE(loaded(file).vsync);
-    // What is changed in the window is, although the command line gave it.
+    // A value changed in the window is kept, even one of the command line.
     run(file, given, {"--lights"}, [](ViewState& state) { state.settings.lights.count = 8; });
     EXPECT_EQ(loaded(file).settings.lights.count, 8u);
 }
@@ -146,7 +150,7 @@ TEST(StateFile, WhatIsNotOursIsIgnoredAsAWhole) {
         testing::internal::CaptureStderr();
         EXPECT_EQ(loaded(file), ViewState{}) << text;
         const std::string said = testing::internal::GetCapturedStderr();
-        // Each message is said once a process.
+        // Each message is printed once a process.
         EXPECT_LE(std::count(said.begin(), said.end(), '\n'), 1) << said;
         EXPECT_EQ(text_of_file(file), text) << "the file is left as it is";
     }

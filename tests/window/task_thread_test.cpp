@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A task that runs until it is let go.
+// A task that runs until the test releases it.
 class Gate {
  public:
     /// Waits until the task has begun.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waiting for the screen's refresh, as GLFW is asked for it.
+// Waiting for the screen's refresh, by the calls of GLFW.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -9,7 +9,7 @@
 #include <immintrin.h>
 #endif
 
-// The shading model of the copy compiled for the host: the one with long tails.
+// Compiles evaluate.h for the host with the shading model whose lobes have long tails.
 #include "kernels/shared/evaluate_modes.h"
 #define SHADING SHADING_BLINN_PHONG
 #pragma GCC diagnostic push

@@ -36,7 +36,7 @@ void try_bounds(const Gpu& gpu, Findings& findings, const TailScenario& scenario
     }
 }
 
-// Of lights in groups.
+// Checks lights that a tree groups.
 void try_trees(const Gpu& gpu, Findings& findings, const TailScenario& scenario) {
     for (const float share : {0.0f, 1.0f}) {
         RenderSettings settings = tail_settings(gpu, Tails::tree, kDefaultRangeBudget);
@@ -50,7 +50,7 @@ void try_trees(const Gpu& gpu, Findings& findings, const TailScenario& scenario)
     }
 }
 
-// Directional lights have no range to lack.
+// Directional lights have no range: bounded tails must not change them.
 void try_suns(const Gpu& gpu, Findings& findings) {
     Scene scene = make_generated_scene("plain");
     SceneLight sun;

@@ -17,7 +17,7 @@ void require_once(Findings& findings, std::string_view what, const std::vector<i
     findings.none(what, static_cast<std::uint64_t>(wrong), counts.size());
 }
 
-// From within a closed body, `far` away from the world's origin.
+// Draws a closed body from within, `far` away from the world's origin.
 void try_body(const Gpu& gpu, Findings& findings, double far) {
     const glm::dvec3 centre(far, -far, 0.5 * far);
     glm::dmat4 world_from_object(1.0);

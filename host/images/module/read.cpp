@@ -45,9 +45,9 @@ OIIO::ImageSpec as_stored() {
     return wanted;
 }
 
-// A WebP file that says that it has no alpha. OpenImageIO 2.4 multiplies the colours of those that
-// have by it, in 8 bits; of this one it reads them as stored. Empty for a file without alpha.
-// RFC 9649: the flag is in the chunk VP8X, or in the header of a lossless file's one chunk.
+// The WebP file with its alpha flag cleared; empty for a file without alpha. With the flag set,
+// OpenImageIO 2.4 multiplies colours by alpha in 8 bits; without it, it reads them as stored. RFC
+// 9649: the flag is in the chunk VP8X, or in the header of a lossless file's one chunk.
 std::vector<unsigned char> without_alpha(std::span<const unsigned char> webp) {
     constexpr std::size_t kHeaders = 25;
     constexpr unsigned char kAlpha = 0x10;

@@ -26,7 +26,7 @@ std::string font_file() {
 TextMask text_mask(const std::string& text, int size) {
     static const std::string font = font_file();
     const int pixels = std::max(size * 4 / 5, 1);  // of an em
-    // Sizes are of ink: of letters that reach as high as any, and of one and two characters.
+    // text_size() measures ink: one character's height, and the advance as two characters less one.
     const OIIO::ROI one = OIIO::ImageBufAlgo::text_size("|", pixels, font);
     const OIIO::ROI two = OIIO::ImageBufAlgo::text_size("||", pixels, font);
     if (!one.defined() || !two.defined())

@@ -20,8 +20,8 @@ struct FeatureCost {
     std::string why;
 };
 
-/// Turns of a paired measurement with and without a feature. Their number is fixed: to stop once a
-/// cost shows would find one by chance.
+/// Pairs of frames with and without a feature. Their number is fixed: stopping once a cost shows
+/// would find one by chance.
 inline constexpr std::size_t kCostTurns = 9;
 
 /// The cost by kCostTurns differences [ms]: their median, and the second least and second largest,
@@ -33,12 +33,12 @@ struct CostEstimate {
 };
 CostEstimate estimate_cost(std::vector<double> differences_ms);
 
-/// What is known without measuring of each feature that the plan leaves out, then of the costlier
-/// shading models: the bytes, and why there is no time.
+/// Facts known without measuring about each feature that the plan leaves out, then about the
+/// costlier shading models: the bytes, and why there is no time.
 std::vector<FeatureCost> left_out_features(const ScenePlan& plan);
 
-/// Compiles each of them in that can be, and times the same frame with and without in kCostTurns
-/// turns of `runs` frames.
+/// Compiles in each of them that can be forced, and times the same frame with and without it in
+/// kCostTurns turns of `runs` frames.
 std::vector<FeatureCost> measure_feature_costs(LightingBench& bench, int runs = 2);
 
 }  // namespace kilolux

@@ -18,7 +18,7 @@ bool same_planes(const GBufferNeeds& a, const GBufferNeeds& b) {
            a.emissive_scale == b.emissive_scale && a.specular == b.specular && a.unlit == b.unlit;
 }
 
-// Whether one drawing's G-buffer serves both.
+// Whether both can use the same G-buffer.
 bool draws_alike(const LightingRequest& a, const LightingRequest& b) {
     const Tuning& s = a.tuning.tuning;
     const Tuning& t = b.tuning.tuning;
@@ -28,7 +28,7 @@ bool draws_alike(const LightingRequest& a, const LightingRequest& b) {
            s.raster_tile_height == t.raster_tile_height && s.geometry == t.geometry;
 }
 
-// The least time of each stage so far.
+// Keeps the least time of each stage so far.
 void keep_least(std::vector<StageTime>& least, const std::string& stage, double ms) {
     const auto found = std::ranges::find(least, stage, &StageTime::name);
     if (found == least.end()) {
@@ -58,7 +58,7 @@ struct LightingBench::Stages {
     Tonemap tonemap;
 };
 
-// What makes the G-buffer, and all that it refers to.
+// The stages that make the G-buffer, and the objects that they refer to.
 struct LightingBench::Drawing {
     Drawing(std::shared_ptr<RenderScene> scene, const LightingRequest& the_request,
             const RenderSettings& asked, const Gpu& gpu)
@@ -129,7 +129,7 @@ Radiance LightingBench::light(Stages& stages) {
     const StageTimer before = timer_;
     Radiance radiance;
     do {
-        timer_ = before;  // without lists that had no room
+        timer_ = before;  // drops the times of lists that had no room
         radiance = stages.lighting.enqueue(from, timer_);
         stages.tonemap.enqueue(radiance, settings_.exposure, timer_);
     } while (!stages.lighting.fits(timer_));

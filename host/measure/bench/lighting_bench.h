@@ -45,10 +45,10 @@ class LightingBench {
                   double time = 0.0);
     ~LightingBench();
 
-    /// Builds the stages, runs them and throws them away. The queue is idle before and after.
+    /// Builds the stages, runs them and destroys them. The queue is idle before and after.
     LightingRun run(const LightingRequest& request);
 
-    /// What the settings lead to: their plan and tuning.
+    /// The plan and the tuning that the settings lead to.
     LightingRequest request() const;
 
     /// The device as it describes itself, with its own lane width.

@@ -17,7 +17,7 @@ struct PlotPoint {
 enum class PlotStyle {
     lines_and_points,
     points,
-    steps,  // between two points only the left one's y can be had: thick, below all else
+    steps,  // between two points only the left one's y is reachable: a thick line below the others
 };
 
 /// A curve or a cloud of points.

@@ -80,7 +80,7 @@ constexpr CsvColumn kColumns[] = {
     MEMBER(error.max_relative)("max_relative_error"),
     MEMBER(error.different_pixels)("different_pixels"),
     MEMBER(error.pixels)("compared_pixels"),
-    // Not in tables of versions that did not count shadows.
+    // Missing in tables of versions that did not count shadows.
     MEMBER(shafts)("shafts"),
     MEMBER(saved_rays)("saved_rays"),
 };
@@ -98,7 +98,7 @@ BenchRow row_of(const std::vector<std::string>& fields) {
     return row;
 }
 
-// 0 is what has no model or was not counted.
+// An empty cell for 0: the stage has no model or was not counted.
 Cell unless_zero(double value) { return value > 0.0 ? Cell(value) : Cell(); }
 
 bool casts(const BenchRow& row) { return row.shafts > 0.0; }
@@ -195,7 +195,7 @@ BenchLog::BenchLog(std::filesystem::path file, bool resume) : file_(std::move(fi
     std::ifstream in(file_, std::ios::binary);
     if (!in) throw Error(fmt::format("{}: cannot read", file_.string()));
     std::string text(std::istreambuf_iterator<char>(in), {});
-    // A copy may have been cut off within a line or a point.
+    // A copied file may end within a line or a point.
     text.erase(text.rfind('\n') + 1);
     try {
         rows_ = bench_rows(parse_csv(text));

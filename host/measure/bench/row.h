@@ -42,10 +42,10 @@ struct BenchRow : StageEffort {
     bool beats_limit() const;
 };
 
-/// All that rows hold, with rates and ratios.
+/// All columns, with rates and ratios.
 Table bench_table(const std::vector<BenchRow>& rows);
 
-/// For reading: what varies between the points, and the columns that matter.
+/// A short table: the fields that vary between the points, and the most important columns.
 Table bench_summary(const std::vector<BenchRow>& rows);
 
 /// What the columns of bench_summary() mean, in a few lines.

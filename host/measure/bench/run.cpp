@@ -25,7 +25,8 @@ BenchRow stage_row(BenchRow row, const StageReport& report, const std::vector<Fr
     return row;
 }
 
-// A row of a time of each frame that is no stage's. It has no limit: some stages have none.
+// Makes a row for a time of each frame that belongs to no stage. It has no limit, since some stages
+// have none.
 template <typename Ms>
 BenchRow timed_row(BenchRow row, std::string_view stage, const std::vector<FrameStats>& frames,
                    Ms ms) {
@@ -46,7 +47,7 @@ RgbImage picture_of(const Frame& frame) {
     return rgb_image_of(frame.width, frame.height, frame.radiance);
 }
 
-// The picture's mean at every pixel: what errors of darker ones are relative to.
+// A picture whose every pixel is the mean: errors of darker pixels are relative to it.
 RgbImage mean_of(const RgbImage& picture) {
     RgbImage out = picture;
     const double sum = std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0);
@@ -175,7 +176,7 @@ SweepPoint BenchRun::error_point(SweepPoint point) const {
     return point;
 }
 
-// A frame that is not timed.
+// Renders a frame that is not timed.
 Frame BenchRun::render(const RenderSettings& settings) {
     Frame frame = Renderer(opened_, settings).render(camera_, time_);
     on_frame_();

@@ -21,7 +21,7 @@
 
 namespace kilolux {
 
-/// What changes from frame to frame, and so what a frame cannot keep of the last one.
+/// What changes from frame to frame, and so must be made anew.
 enum class BenchMotion {
     camera,  // camera and lights move a little: nothing is kept
     lights,  // the camera stands
@@ -35,7 +35,8 @@ struct BenchFrames {
     BenchMotion motion = BenchMotion::camera;
 };
 
-/// Of the pictures whose error a sweep measures: deferred-all takes a few seconds of a small CPU.
+/// The size of pictures whose error a sweep measures: deferred-all takes a few seconds on a small
+/// CPU.
 inline constexpr ErrorSizeLimits kBenchErrorSize = {.width = 480, .evaluations = 2e9};
 
 /// Measures points of a sweep over one scene from one camera at one time.

@@ -48,7 +48,7 @@ struct SweepAxes {
 /// Every combination, renderers outermost. A renderer without clusters gets the first grid only.
 std::vector<SweepPoint> sweep_points(const SweepAxes& axes);
 
-/// `base` with what the point says.
+/// `base` with the point's values.
 RenderSettings settings_at(RenderSettings base, const SweepPoint& point);
 
 /// Whether a renderer finds each pixel's lights by clusters; else it evaluates all of them.
@@ -64,7 +64,7 @@ std::string field_text(const SweepPoint& point, const std::string& field);
 /// Names of the fields in which the points differ, in fields_of()'s order.
 std::vector<std::string> varying_fields(const std::vector<SweepPoint>& points);
 
-/// Why the grid of a frame is not the one asked for; empty if it is what it says.
+/// Why the grid of a frame is not the one asked for; empty if it is.
 std::string grid_explanation(const SweepPoint& asked, const std::array<std::uint32_t, 3>& grid);
 
 }  // namespace kilolux

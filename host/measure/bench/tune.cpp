@@ -62,7 +62,7 @@ std::vector<Dimension> dimensions_of(const DeviceInfo& device) {
             {"light_group", &Tuning::light_group, {32, 64, 128, 256}}};
 }
 
-// Of triangles drawn in OpenCL.
+// Dimensions of drawing triangles in OpenCL.
 std::vector<Dimension> raster_dimensions_of(const DeviceInfo& device) {
     std::vector<Dimension> out = {
         {"raster_tile_width", &Tuning::raster_tile_width, {16, 32, 64}},
@@ -108,7 +108,7 @@ struct Search {
         } catch (const Interrupted&) {
             throw;
         } catch (const Error& error) {
-            // The OpenCL compiler fails after a signal, too.
+            // The OpenCL compiler also fails after a signal.
             check_interrupt();
             trial.error = error.what();
         }
@@ -147,7 +147,7 @@ MeasureTuning frames_of(LightingBench& bench, LightingRequest request, const OnT
     };
 }
 
-// Where OpenGL cannot draw, its time is infinite.
+// Time of a frame with OpenGL's ids; infinite where OpenGL cannot draw.
 double ids_ms(LightingBench& bench, LightingRequest request) {
     request.drawn_by = Geometry::ids;
     try {

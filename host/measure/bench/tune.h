@@ -54,7 +54,7 @@ using OnTrial = std::function<void(const StoredTuning&, double ms)>;
 /// The same on a bench's frame from the built-in table, each time the least of `runs`.
 TuningResult tune(LightingBench& bench, int runs, const OnTrial& on_trial = {});
 
-/// How triangles are drawn best in OpenCL, and what OpenGL takes instead.
+/// The best tuning of triangles drawn in OpenCL, and the time with OpenGL's.
 struct GeometryTuning {
     TuningResult raster;  // of frames whose triangles OpenCL draws; best.tuning.geometry says which
                           // of both is faster

@@ -18,11 +18,11 @@ struct PictureErrors {
     ErrorDistribution flip_display;  // LDR-FLIP of the display pictures
 };
 
-/// Which part of PictureErrors a metric is of. `flip` is slow.
+/// The part of PictureErrors that holds a metric. `flip` is slow.
 enum class MetricPart { hdr, display, flip };
 
-/// A metric. Reports' tables, `render --metric`, `--error-metric` and Python's compare() are loops
-/// over error_metrics().
+/// A metric. The tables of reports, `render --metric`, `--error-metric` and Python's compare() are
+/// loops over error_metrics().
 struct ErrorMetric {
     std::string_view name;     // of options
     std::string_view column;   // of tables, with its unit

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// What bounds the size of a comparison with a reference.
+/// Limits of the size of a comparison with a reference.
 struct ErrorSizeLimits {
     int width = 320;           // [pixel]
     double evaluations = 3e8;  // of every light at every pixel: seconds of float64 on a small CPU

@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool same_value(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-// In float32: the best that a picture can hold of a reference in double.
+// Compares in float32, the best that a picture can hold of a reference in double.
 bool same_bits(double a, double b) {
     return std::bit_cast<std::uint32_t>(static_cast<float>(a)) ==
            std::bit_cast<std::uint32_t>(static_cast<float>(b));

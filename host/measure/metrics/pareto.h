@@ -13,7 +13,7 @@ struct CostAndError {
     double error = 0.0;
 };
 
-/// From which relative difference on two values are told apart; 0: from any.
+/// The relative difference from which two values count as different; 0: any difference does.
 struct ParetoResolution {
     double cost = 0.0, error = 0.0;
 };
@@ -25,7 +25,7 @@ struct ParetoResolution {
 ///
 /// With a resolution values are compared by steps, twice as wide as it and counted from the first
 /// point, which is in the middle of its step: values of one step are equal. So "beats" is
-/// transitive, and what is not in the set is beaten by a point of the set.
+/// transitive, and every point outside the set is beaten by a point of the set.
 std::vector<std::size_t> pareto_set(std::span<const CostAndError> points,
                                     const ParetoResolution& resolution = {});
 

@@ -21,7 +21,7 @@ struct Statistics {
 /// interpolated linearly (Hyndman and Fan 1996, definition 7). A NaN makes all but the count NaN.
 Statistics statistics(std::span<const double> values);
 
-/// a / b; 0 where b is not above 0, as of what was not measured.
+/// a / b; 0 where b is not above 0, which marks values that were not measured.
 inline double ratio_of(double a, double b) { return b > 0.0 ? a / b : 0.0; }
 
 /// The value below which `share` (0..1) of the ascending, not empty `sorted` lie; interpolated.

@@ -21,7 +21,7 @@ struct ReferenceError {
 struct FrameError {
     int width = 0;   // at which it was measured [pixel]
     int height = 0;  // [pixel]
-    // Of the kernels: the reference shades the same stored surfaces. None for the forward
+    // Error of the kernels: the reference shades the same stored surfaces. None for the forward
     // renderers, which do not store surfaces.
     std::optional<ReferenceError> kernels;
     ReferenceError whole;           // the reference shades surfaces stored in float32

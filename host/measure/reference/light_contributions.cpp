@@ -10,7 +10,7 @@
 namespace kilolux {
 namespace {
 
-// Why a light adds nothing, from what is known first. `in_reach`: by range and cone.
+// Why a light adds nothing: the first reason that applies. `in_reach`: by range and cone.
 const char* why_dark(const LightContribution& light, bool in_reach, bool seen, bool faces) {
     if (light.radiance != glm::dvec3(0.0)) return "";
     if (!(light.distance < light.range)) return "out of range";

@@ -45,7 +45,7 @@ double cone(const ReferenceLight& light, const glm::dvec3& to_light) {
     return edge * edge;
 }
 
-// As evaluate.h's.
+// Repeats drawn_weight() of evaluate.h in double.
 double drawn_weight(const ReferenceLight& light, double d2, double drawn_ranges) {
     const glm::dvec3& i = light.intensity;
     return std::max(1.0, d2 * drawn_ranges / std::max({i.x, i.y, i.z}));

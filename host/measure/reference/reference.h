@@ -19,7 +19,7 @@ namespace kilolux {
 /// of float32; the kernels make about ten.
 inline constexpr double kReachMargin = 1e-5;
 
-/// What the kernels compute, as a setting that is not automatic.
+/// The kernels' shading model as a setting, which is not `automatic`.
 inline Shading shading_of(const KernelFeatures& kernels) {
     return shading_of_model(kernels.shading);
 }

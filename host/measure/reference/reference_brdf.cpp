@@ -9,8 +9,8 @@
 namespace kilolux {
 namespace {
 
-constexpr double kRoughnessMin = 0.045;  // Filament: narrower lobes are beyond float32
-constexpr double kNDotVMin = 1e-4;       // Filament: seen edge on
+constexpr double kRoughnessMin = 0.045;  // Filament: float32 cannot resolve narrower lobes
+constexpr double kNDotVMin = 1e-4;       // Filament: surfaces seen edge-on
 constexpr double kHalfMin = 1e-6;        // opposite directions of view and light: no half vector
 
 double alpha2_of(const SurfaceSample& surface) {

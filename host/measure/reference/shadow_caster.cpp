@@ -6,7 +6,7 @@
 namespace kilolux {
 namespace {
 
-// Of the way's length, from the point on: less hides nothing, since it is rounding.
+// Least distance of a hit from the point, as a share of the way's length: nearer hits are rounding.
 constexpr double kStart = 1e-9;
 // How far along the camera's ray a stored point may lie from its surface, relative to its depth.
 constexpr double kDepthError = 1e-3;

@@ -18,9 +18,9 @@ struct ShadowPoint {
     std::uint32_t triangle = 0;  // index into Bvh::triangles()
 };
 
-/// What lights points see, by rays in double: what the kernels' shadows are compared with. Every
-/// triangle hides from both sides, but those of materials that blend; alpha masks are sampled at
-/// their finest level. A point sees no light on the other side of its own triangle.
+/// Finds which lights points see, by rays in double, as the reference of the kernels' shadows.
+/// Every triangle hides from both sides, but those of materials that blend; alpha masks are sampled
+/// at their finest level. A point sees no light on the other side of its own triangle.
 class ShadowCaster {
  public:
     /// Builds the hierarchy. Keeps a reference to the scene.

@@ -12,8 +12,8 @@ namespace kilolux {
 Canvas error_map_sheet(const ReportRow& row, const ReportReferences::All& references,
                        const std::string& caption);
 
-/// The rows whose axis compares_cut_offs(), each with its error against R3, time and what it tells
-/// of its error.
+/// The rows whose axis compares_cut_offs(), each with its error against R3, its time and its
+/// estimated error.
 Canvas cut_off_sheet(const std::vector<ReportRow>& rows, const ComparedReference& unbounded,
                      const std::string& caption);
 

@@ -12,15 +12,15 @@
 namespace kilolux {
 namespace {
 
-// What tells references' lights apart: a tree's share is no matter, nor a budget without ranges.
+// Key of the lights' ranges: a tree's share does not change it, nor does a budget without ranges.
 std::string ranges_key(const RenderSettings& s) {
     const bool everywhere = s.tails == Tails::exact || s.tails == Tails::tree;
     return fmt::format("{} {} {} {}", static_cast<int>(s.tails), everywhere ? 0.0 : s.range_budget,
                        s.lights.radius, s.lights.intensity);
 }
 
-// The settings whose G-buffer R1 shades: forward shading quantises nothing, like the layout `full`,
-// and lights what OpenGL filters.
+// The settings whose G-buffer R1 shades. Forward shading quantises nothing, like the layout `full`,
+// and its surfaces are those of `--geometry planes`.
 RenderSettings decoded_settings(RenderSettings settings) {
     if (is_forward(settings.renderer)) {
         settings.gbuffer = GBUFFER_FULL;

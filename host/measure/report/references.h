@@ -47,8 +47,8 @@ class ReportReferences {
     /// shading model asked for. It differs from R2 by the rasteriser's error.
     const ComparedReference& drawn(const RenderSettings& settings);
 
-    /// R1 with every light that lacks a range reaching everywhere: what ranges, groups and random
-    /// numbers do alone is the difference from it.
+    /// R1 with every light that lacks a range reaching everywhere. A picture's difference from it
+    /// is the error of ranges, groups and random numbers alone.
     const ComparedReference& unlimited(const RenderSettings& settings);
 
     struct All {
@@ -61,7 +61,7 @@ class ReportReferences {
  private:
     ReferenceOptions options_of(const RenderSettings& settings, bool windowed) const;
     const SurfaceSamples& cast();
-    // Of the scene by ray casting, with `lights'` ranges.
+    // Casts rays into the scene, lit with the ranges of `lights`.
     ComparedReference cast_reference(const RenderSettings& lights, bool windowed);
 
     ReportView view_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSettingMs = 10000.0;    // for the frames of a setting in a round
 constexpr double kSlowFrameMs = 20000.0;  // slower frames are not timed at full size
-constexpr int kLargerSide = 4;            // of the frame that tells how time grows with pixels
+constexpr int kLargerSide = 4;            // of the frame that shows how time grows with pixels
 
 double pixels(const RenderSettings& s) { return static_cast<double>(s.width) * s.height; }
 
@@ -90,7 +90,7 @@ RenderSettings ReportRun::at_error_size(RenderSettings settings) const {
     return settings;
 }
 
-// What is timed stands for frames in which everything moves.
+// Timed frames stand for frames in which everything moves.
 RenderSettings ReportRun::whole_frames(const ReportSetting& setting) const {
     RenderSettings out = setting.settings;
     out.no_reuse = true;
@@ -197,8 +197,8 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     return row;
 }
 
-// Of a frame at full size, from that of the comparison. Where a small frame's time does not grow
-// with its pixels (few of them leave a GPU idle), a larger frame tells.
+// Time of a frame at full size, extrapolated from that of the comparison. Where a small frame's
+// time does not grow with its pixels (few pixels leave a GPU idle), a larger frame is timed.
 double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms) {
     RenderSettings larger = at_error_size(whole);
     const TimedFrame small{pixels(larger), compared_ms};
@@ -208,13 +208,13 @@ double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms) {
     if (proportional <= kSlowFrameMs || pixels(larger) >= pixels(whole)) return proportional;
     Renderer renderer(view_.opened, larger);
     on_step_();
-    renderer.render(view_.camera, view_.time);  // makes what later frames keep
+    renderer.render(view_.camera, view_.time);  // makes what later frames reuse
     on_step_();
     const Frame frame = renderer.render(view_.camera, view_.time);
     return extrapolated_ms(small, {pixels(larger), frame.stats.frame_ms}, pixels(whole));
 }
 
-// Of a second frame: to tell an error costs time.
+// Measured on a further frame, since estimating the error takes time.
 std::optional<ToldError> ReportRun::told_error(const ReportRow& row, Renderer& renderer) {
     RenderSettings settings = at_error_size(row.setting.settings);
     const std::optional<ErrorTold> kind = error_told_by(view_.scene, settings);
@@ -239,8 +239,8 @@ void ReportRun::render_into(Renderer& renderer, Timing& timing) {
     timing.stages.insert(timing.stages.end(), frame.stats.stages.begin(), frame.stats.stages.end());
 }
 
-// A round's frames of a setting, each paired with one of the default's, which is rendered first in
-// every other pair.
+// Times a round's frames of a setting, each paired with one of the default's, which is rendered
+// first in every other pair.
 void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
                             Timing* standard) {
     if (timing.scaled) return;

@@ -49,8 +49,8 @@ struct ReportRow {
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
-    HdrMetrics tails;  // where lights lack a range: of what is done about that, see unlimited()
-    std::optional<ToldError> told;      // against the same
+    HdrMetrics tails;                   // where lights lack a range: against unlimited()
+    std::optional<ToldError> told;      // see estimate_error(): against the same
     RgbImage picture;                   // linear, at the size of the comparison
     std::vector<std::uint8_t> display;  // its sRGB codes
     bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
@@ -119,7 +119,7 @@ struct TimedFrame {
 };
 double extrapolated_ms(const TimedFrame& small, const TimedFrame& larger, double pixels);
 
-/// The error by which rows are compared; none: a row is not compared.
+/// The error by which rows are compared; none: the row is not compared.
 using RowError = std::function<std::optional<double>(const ReportRow&)>;
 std::optional<double> surfaces_rmse(const ReportRow& row);   // R2, among equal ranges
 std::optional<double> unbounded_rmse(const ReportRow& row);  // R3, among the cut-offs

@@ -26,7 +26,7 @@ struct Variants {
     SettingChoice choice;
     std::vector<ReportSetting> settings;
 
-    // Adds what `change` makes of the base.
+    // Adds the base as `change` alters it.
     template <typename Change>
     void add(SettingAxis axis, const std::string& name, const std::string& options,
              const Change& change) {
@@ -155,7 +155,7 @@ bool can_group(const Scene& scene, const RenderSettings& settings) {
            settings.renderer == RendererKind::deferred && !has_blended_surfaces(scene);
 }
 
-// Other ways than ranges with many lights that lack them.
+// Adds ways other than ranges of shading many lights that lack a range.
 void add_tails(Variants& v, const Scene& scene) {
     if (v.base.renderer == RendererKind::deferred) {
         for (const int samples : {1, 4, 16}) {

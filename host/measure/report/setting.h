@@ -24,8 +24,8 @@ enum class SettingAxis {
     cut_off
 };
 
-/// Whether its settings are compared with R2, as their lights have the ranges asked for, and with
-/// R3: the cut-offs beside the default.
+/// Whether the settings of an axis are compared with R2, since they keep the lights' ranges, and
+/// with R3: the cut-offs and the default.
 constexpr bool keeps_ranges(SettingAxis axis) { return axis != SettingAxis::cut_off; }
 constexpr bool compares_cut_offs(SettingAxis axis) {
     return axis == SettingAxis::cut_off || axis == SettingAxis::none;
@@ -44,16 +44,15 @@ struct ReportSetting {
     RenderSettings settings;
 };
 
-/// What report_settings() goes through beside the axes' own values.
+/// The values of axes that report_settings() goes through.
 struct SettingChoice {
     bool quick = false;  // fewer grids, lanes and cut-offs, and not `forward`
     std::vector<int> shadow_rays = {1, 4, 16};  // of sampled shadows
 };
 
 /// The setting asked for, "default", and then every one that differs from it in one axis.
-///
-/// Where it asks for shadows, the others have some as well, but for the axis that is about them:
-/// there are no forward renderers then, which cast none.
+/// Where it asks for shadows, the other settings cast them, too, but for the axis of shadows.
+/// Forward renderers are left out then, since they cast none.
 ///
 /// A cut-off is a radiance on a white surface from which range_of_light() derives the range of the
 /// generated lights and of those whose file gives none.

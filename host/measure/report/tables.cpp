@@ -87,7 +87,7 @@ bool has_told(const Row& row) { return row.told.has_value(); }
 
 bool tells(const Row& row, ErrorTold kind) { return row.told && row.told->kind == kind; }
 
-// What pictures tell of their errors, where some do.
+// Columns of the estimated errors, where a row has one.
 void add_told(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
     if (std::ranges::none_of(rows, has_told)) return;
     columns.push_back({"tells", [](const Row& row) {

@@ -35,7 +35,7 @@ ToldError compare_bound(const Layer& told, const RgbImage& picture, const RgbIma
 ToldError compare_standard(const Layer& told, int samples, const RgbImage& picture,
                            const RgbImage& reference) {
     const std::size_t count = picture.pixel_count();
-    // An AOV of several samples is that of the sample through the pixels' centres.
+    // An AOV of several samples is that of the one through the pixels' centres.
     const double of_mean = 1.0 / std::sqrt(static_cast<double>(samples));
     ToldError out{ErrorTold::standard};
     out.told = root_mean_square(count, [&](std::size_t i) { return told.values[i] * of_mean; });
@@ -54,7 +54,8 @@ std::optional<ErrorTold> error_told_by(const Scene& scene, const RenderSettings&
     if (unranged && tails == Tails::stochastic) {
         return deferred ? std::optional(ErrorTold::standard) : std::nullopt;
     }
-    // Light that ranges take is no part of a standard error, nor noise of a bound.
+    // A standard error does not contain the light that ranges take, nor a bound the noise of
+    // shadows.
     if (settings.shadows == Shadows::sampled) {
         const bool loses = unranged && tails != Tails::exact;
         return loses ? std::nullopt : std::optional(ErrorTold::standard);

@@ -43,7 +43,7 @@ CacheValues values_of(const DeviceLimits& limits) {
     return values;
 }
 
-// None unless every limit is there and positive.
+// Empty unless every limit is there and positive.
 std::optional<DeviceLimits> limits_of(const CacheValues& values, int lanes) {
     const auto kept_lanes = values.find("lanes");
     if (kept_lanes == values.end() || kept_lanes->second != lanes) return std::nullopt;
@@ -119,7 +119,7 @@ DeviceLimits measure_device_limits(const Gpu& gpu) {
         limits.cached_write_bandwidth = std::max(small.write, large.write);
         limits.cached_copy_bandwidth = std::max(small.copy, large.copy);
         kernels.measure_transfers(limits);
-        // Once more, now that the clock rates have risen.
+        // Measures once more, after the clock rates have risen.
         raise_arithmetic_limits(limits, kernels);
         kernels.measure_launch(limits);
         return limits;

@@ -43,7 +43,7 @@ struct DeviceLimits {
     }
 };
 
-/// The limits by name, in their units; all but `lanes`.
+/// A limit by name, in its unit; the table has all but `lanes`.
 struct LimitField {
     const char* name;
     double DeviceLimits::*value;

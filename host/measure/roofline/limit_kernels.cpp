@@ -12,7 +12,7 @@ constexpr int kMostLanes = 16;
 
 using Clock = std::chrono::steady_clock;
 
-// Long against an empty launch.
+// Long compared with an empty launch.
 constexpr double kRunSeconds = 0.004;
 constexpr int kRuns = 5;
 // A rate's measurement ends after this, also on slow devices.

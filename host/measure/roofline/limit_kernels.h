@@ -13,10 +13,10 @@ namespace kilolux {
 /// Independent chains of kernels/limits/measure_limits.cl.
 inline constexpr int kFmaChains = 10;
 inline constexpr int kAddChains = 4;
-/// Of kernels/limits/measure_texels.cl: texels of the table, and of an iteration.
+/// Of kernels/limits/measure_texels.cl: texels of the table, and texels of an iteration.
 inline constexpr int kTexels = 1024;
 inline constexpr int kTexelChains = 4;
-/// Of devices that do not report theirs [byte].
+/// Assumed where a device does not report its cache [byte].
 inline constexpr std::uint64_t kSmallestCache = 1 << 20;
 
 /// Size of a buffer larger than every cache, as far as the device's memory allows [byte].
@@ -39,16 +39,16 @@ class LimitKernels {
  public:
     explicit LimitKernels(const Gpu& gpu);
 
-    /// Of a *_rate kernel that does `operations` a lane and iteration.
+    /// Operations per second of a *_rate kernel that does `operations` a lane and iteration.
     double lane_operations_per_s(const char* kernel, int operations);
 
-    /// Texels that lanes read from a table in the nearest cache.
+    /// Texels per second that lanes read from a table in the nearest cache.
     double texels_per_s();
 
-    /// Of two filled buffers of `bytes` each: what reading, writing and copying one takes.
+    /// Rates of reading, writing and copying, measured on two filled buffers of `bytes` each.
     MemoryRates memory_rates(std::uint64_t bytes);
 
-    /// Set their fields: bandwidths between host and device; times of an empty kernel.
+    /// Sets the bandwidths between host and device and the times of an empty kernel.
     void measure_transfers(DeviceLimits& limits);
     void measure_launch(DeviceLimits& limits);
 

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// What a stage did in a frame, and the least time of that.
+/// A stage's work in a frame, and its least time.
 struct StageEffort {
     double limit_ms = 0.0;  // by the device's measured limits; 0: none
     std::string bound;      // what limits it, as bound_name() says; empty: nothing
@@ -39,7 +39,7 @@ struct Efficiency {
 std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimits& limits,
                                        const FrameSetup& setup);
 
-/// Of the stages that have a limit, without the copy from OpenGL.
+/// Efficiency over the stages that have a limit, without the copy from OpenGL.
 Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameStats& stats);
 
 /// The part of the frame's time that belongs to no stage [ms]: host work, waiting, driver.

@@ -9,13 +9,14 @@
 
 namespace kilolux {
 
-/// The lights that LightOptions mean, on the device: their paths travel once, then the device moves
-/// and orders them. Where they are at a time does not depend on the times before it.
+/// The generated lights of LightOptions on the device: their paths are uploaded once, then the
+/// device moves and orders them. Their places at a time do not depend on earlier times.
 class GeneratedLights {
  public:
     GeneratedLights(const Gpu& gpu, const Tuning& tuning) : drift_(gpu, tuning) {}
 
-    /// Those of `options` in the scene as it is now, at `time` [s]. Whether paths were uploaded.
+    /// Takes the lights of `options` in the scene as it is now, at `time` [s]. Returns whether
+    /// paths were uploaded.
     bool set(const LightOptions& options, const Scene& scene, double time);
 
     std::size_t count() const { return count_; }
@@ -29,7 +30,7 @@ class GeneratedLights {
     /// Brings their order to the host for at(). Blocks.
     void read_order();
 
-    /// One of them, where there are some: all have its range and brightness.
+    /// One of the lights, where there are some: all have its range and brightness.
     SceneLight first() const { return (*generator_)[0]; }
 
     /// The light of row first + `place`: after read_order().

@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// Squares of distances to farther positions leave the range that culling vouches for (1e30 m^2,
+// Squares of distances to farther positions leave the range for which culling is exact (1e30 m^2,
 // kernels/lists/light_reach.h) [m].
 constexpr double kFarthest = 1e15;
 
@@ -45,9 +45,9 @@ Light row_of(const SceneLight& light, const glm::dvec3& relative) {
 
 }  // namespace
 
-// One light that is no number would spread over all pixels of its lists, and through filters over
-// the picture: it is left out and counted. Asked here in double, as kernels may be built to assume
-// that there are none (-cl-finite-math-only, OpenCL C 5.8.4).
+// A light with a NaN would spread over all pixels of its lists, and through filters over the
+// picture: it is left out and counted. The test is here, in double, since kernels may be built to
+// assume that there are none (-cl-finite-math-only, OpenCL C 5.8.4).
 bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
     if (!gives_light(light.intensity)) return false;
     if (light.type == LightType::directional) return has_direction(light.direction);

@@ -89,10 +89,10 @@ void LightSource::set_tails(const RenderSettings& settings) {
     revision_.reset();
 }
 
-// The scene's own lights anew where they moved.
+// Takes over the scene's own lights where they changed.
 void LightSource::take_up_changes() {
     const SceneRevisions& now = scene_.revisions;
-    // Generated lights may be placed by the surfaces' box.
+    // Generated lights may depend on the box of the surfaces.
     if (std::exchange(surfaces_, now.surfaces()) != now.surfaces()) time_.reset();
     if (revision_ == now.lights) return;
     revision_ = now.lights;
@@ -143,7 +143,7 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
     if (!all_near) order_camera_ = camera_position;
 }
 
-// Anew where the lights are others or have moved.
+// Builds the light tree anew where the lights are others or have moved.
 void LightSource::plant_tree(const std::vector<std::uint32_t>& members) {
     if (members == tree_members_ && !members.empty() && tree_revision_ == revision_) return;
     tree_members_ = members;
@@ -174,7 +174,7 @@ void LightSource::upload_profiles() {
     input_.profiles.lights = profiles_.get();
 }
 
-// The lights that the host places.
+// Uploads the lights that the host places.
 void LightSource::upload() {
     if (!scene_.aimed_profiles.empty()) upload_profiles();
     const std::span<WorldLight> rows = move_.stage(row_count() - drifting());

@@ -28,9 +28,9 @@ std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& sett
 uint tail_seed(const RenderSettings& settings, uint sample);
 
 /// All lights of a scene, its own and the generated ones, at any time. They are on the device in
-/// the world's coordinates: a camera that moves costs one kernel, lights that stay are not uploaded
-/// again. Rows are the scene's point and spot lights (light_order.h), the generated ones
-/// (DriftLights), and those of a tree.
+/// the world's coordinates: a camera that moves costs one kernel. Rows are uploaded again where the
+/// scene's lights change or headlights move. Rows are the scene's point and spot lights
+/// (light_order.h), the generated ones (DriftLights), and those of a tree.
 class LightSource {
  public:
     /// Lights of the scene without a range get one as settings.tails says. The scene must outlive
@@ -38,19 +38,19 @@ class LightSource {
     LightSource(const Gpu& gpu, const Tuning& tuning, const Scene& scene,
                 const RenderSettings& settings);
 
-    /// Other generated lights from now on.
+    /// Replaces the generated lights.
     void set_generated(const LightOptions& generated);
 
-    /// Other ranges of lights that lack one from now on.
+    /// Replaces the ranges of lights that lack one.
     void set_tails(const RenderSettings& settings);
 
     /// The lights at `time` [s] of the scene as it is now; sets their counts, and how many rows
-    /// went to the device. The camera has the
-    /// headlights, and its place decides which lights are too far away to be used.
+    /// were uploaded. The camera places the headlights, and its position decides which lights are
+    /// too far away to be used.
     void update(double time, const Camera& camera, FrameStats& stats);
 
-    /// Those of the last update() relative to the camera, on the device until the next call.
-    /// `reuse`: the last call's where nothing changed. Enqueues only.
+    /// The lights of the last update() relative to the camera, on the device until the next call.
+    /// `reuse`: returns the last call's result where nothing changed. Enqueues only.
     LightInput input(const glm::dvec3& camera_position, bool reuse, StageTimer& timer);
 
     /// The same rows on the host, made in double. After input().
@@ -83,12 +83,12 @@ class LightSource {
     std::optional<Camera> headlight_camera_;  // that they are placed by
     std::optional<double> time_;              // of the generated ones; none: not made yet
     bool is_drifted_ = false;                 // the device has their rows of time_
-    bool is_far_ = false;  // some may not be usable, as so far away: the host places them, too
+    bool is_far_ = false;          // some may be too far away to be used: the host places them, too
     std::vector<SceneLight> far_;  // the generated ones then
     // Numbers of the lights that the host places, own_ before far_: usable point and spot lights in
     // the order of the kernels; directional ones.
     std::vector<std::uint32_t> order_, directional_order_;
-    bool is_ordered_ = false;                 // the lists above are of today's lights
+    bool is_ordered_ = false;                 // order_ and directional_order_ are up to date
     std::optional<glm::dvec3> order_camera_;  // from where they are usable, if that matters
     std::optional<glm::dvec3> input_camera_;  // of input_; none: to be made
     LightInput input_;
@@ -98,7 +98,7 @@ class LightSource {
     std::vector<float> profile_tables_, profile_starts_;
     GrowingArray<AimedProfile> profiles_;
     GrowingArray<float> uploaded_tables_;
-    // With Tails::tree, what is in no list: its rows follow those of order_.
+    // With Tails::tree, the lights that are in no list: their rows follow those of order_.
     LightTree tree_;
     std::vector<std::uint32_t> tree_members_;     // numbers of its lights
     std::optional<std::uint32_t> tree_revision_;  // of the scene that they are of

@@ -4,8 +4,8 @@
 namespace kilolux {
 namespace {
 
-// Tunings are of thousands of lights. With a million a GPU hides the waits of a chunk's walk behind
-// other chunks, this many times as many.
+// Tunings are measured with thousands of lights. With a million a GPU hides the waits of a chunk's
+// walk behind other chunks, so it gets this many times as many.
 constexpr int kManyLights = 8;
 
 }  // namespace

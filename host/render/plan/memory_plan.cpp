@@ -32,20 +32,20 @@ using Bytes = std::uint64_t;
 
 // The program with its drivers and their compilers: resident size of a 16x16 picture, rounded up.
 constexpr Bytes kProgram = Bytes{256} << 20;
-// Of one light: twice as the scene has it, and its rows.
+// Bytes of one light: twice as the scene has it, and its rows.
 constexpr Bytes kLight = 2 * sizeof(SceneLight) + MoveLights::kLightBytes +
                          PrepareLights::kLightBytes + DriftLights::kLightBytes;
 // Radiance and display picture.
 constexpr Bytes kPicturePixel = Radiance::kPixelBytes + DisplayTarget::kPixelBytes;
-// As much again while a file is made of them.
+// Writing a file takes as much again.
 constexpr Bytes kHostPixel = 2 * kPicturePixel;
 // On the device, and twice on the host: as planes and pixels.
 constexpr Bytes kBandPixel = 3 * kPicturePixel;
 // Kernels count the elements of a picture's planes in 32 bits.
 constexpr Bytes kMostBandPixels = (Bytes{1} << 32) / SURFACE_PLANES_WITH_SPECULAR - 1;
-// No texture takes more memory for it.
+// Anisotropy changes no texture's memory.
 constexpr int kAnyAnisotropy = 1;
-// OpenCL drivers and images of the files leave a share of what is available unused.
+// OpenCL drivers and encoders of image files take the rest of what is available.
 constexpr double kAvailableShare = 0.8;
 
 Bytes limit_of(const RenderSettings& settings) {
@@ -59,7 +59,7 @@ std::string limit_text(const RenderSettings& settings) {
                : "there are " + mebibytes(limit_of(settings)) + " to use (--max-memory)";
 }
 
-// On the host; and for OpenGL, where its fragments sample the images, once more.
+// Bytes of the scene on the host; once more for OpenGL where its fragments sample the images.
 Bytes scene_bytes(const Scene& scene, bool sampled_by_gl) {
     Bytes bytes = 0;
     for (const Mesh& mesh : scene.meshes) {
@@ -73,7 +73,7 @@ Bytes scene_bytes(const Scene& scene, bool sampled_by_gl) {
            scene.instances.size() * 2 * sizeof(Instance);
 }
 
-// Of OpenGL's targets for a G-buffer, depth included.
+// Bytes of a pixel of OpenGL's targets for a G-buffer, depth included.
 Bytes target_pixel_bytes(const ScenePlan& plan) {
     constexpr Bytes kFloat4 = 16;
     const Bytes optional = plan.gbuffer.material ? 5 : 1;
@@ -94,7 +94,7 @@ Bytes layer_bytes(const RenderSettings& settings) {
     return settings.want.aovs.size() * kMostChannels * sizeof(float);
 }
 
-// What the whole picture takes on the host, and where stages need all of it, there too.
+// Bytes of a pixel of the whole picture on the host, and on the device where stages need all of it.
 Bytes picture_pixel_bytes(const RenderSettings& settings) {
     Bytes bytes = kHostPixel + 2 * layer_bytes(settings);
     if (settings.want.view != ViewKind::lit) bytes += DecodedSurfaces::kPixelBytes;
@@ -102,13 +102,14 @@ Bytes picture_pixel_bytes(const RenderSettings& settings) {
     return bytes;
 }
 
-// Of bloom, which mixes the whole picture, and of the display picture of that.
+// Bytes of a pixel of bloom, which mixes the whole picture, and of the display picture made from
+// it.
 Bytes bloom_pixel_bytes(const RenderSettings& settings) {
     if (settings.bloom <= 0.0f) return 0;
     return Radiance::kPixelBytes + Bloom::kPixelBytes + DisplayTarget::kPixelBytes;
 }
 
-// What the scene takes on the device, whatever the picture's size.
+// Bytes of the scene on the device, for any picture size.
 Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                          bool ids) {
     const std::size_t nodes = plan.kernels.light_tree ? 2 * scene.lights.size() : 0;
@@ -125,7 +126,7 @@ Bytes scene_device_bytes(const Scene& scene, const RenderSettings& settings, con
     return bytes;
 }
 
-// What each pixel of a band takes.
+// Bytes of a pixel of a band.
 Bytes band_pixel_bytes(const RenderSettings& settings, const ScenePlan& plan, bool blends) {
     const bool decodes = settings.want.pixels();
     Bytes bytes =
@@ -154,7 +155,8 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     need.device_fixed = on_device + width * height * bloom_pixel_bytes(settings);
     need.fixed = kProgram + scene_bytes(scene, !ids || blends) + need.device_fixed +
                  width * height * picture_pixel_bytes(settings);
-    if (settings.want.view == ViewKind::difference) need.fixed += on_device;  // the reference's
+    if (settings.want.view == ViewKind::difference)
+        need.fixed += on_device;  // of the reference pipeline
     constexpr Bytes kForwardTarget = 20;
     if (!is_forward(settings.renderer)) need.fixed += width * tile_rows * target_pixel_bytes(plan);
     if (is_forward(settings.renderer) || blends) need.fixed += width * tile_rows * kForwardTarget;
@@ -165,7 +167,7 @@ Need need_of(const Scene& scene, const RenderSettings& settings, const ScenePlan
     return need;
 }
 
-// Rows of a band at most: what a buffer of the device holds, and what 32 bits address.
+// Most rows of a band: bounded by a device's buffer, and by 32-bit indices.
 Bytes most_rows(const Need& need, const DeviceInfo& device, Bytes width) {
     const Bytes buffer = std::min<Bytes>(device.max_allocation_bytes, 0xf0000000u);
     return std::min(buffer / need.largest_element, kMostBandPixels) / width;
@@ -204,8 +206,8 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     MemoryPlan out;
     out.band_rows = settings.band_rows > 0 ? std::clamp(settings.band_rows, lowest, rows) : rows;
     out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
-    // A CPU's buffers are memory like the rest: lights and bands as planned, and for lists what is
-    // left.
+    // A CPU's buffers share the host's memory: lights and bands get what is planned, lists the
+    // rest.
     out.device_bytes = device.is_cpu ? limit - need.fixed + need.device_fixed : device.memory_bytes;
     return out;
 }

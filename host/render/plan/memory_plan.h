@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// How a picture is made within the memory there is.
+/// How a picture is made within the available memory.
 struct MemoryPlan {
     int band_rows = 0;               // rows made at once: a multiple of FINE_TILE
     std::uint64_t bytes = 0;         // what that takes, light lists aside
@@ -19,11 +19,12 @@ struct MemoryPlan {
 
 /// The highest bands that fit into settings.max_memory_bytes (0: most of what is available) and
 /// into the device's buffers. The picture's bits do not depend on it. Throws Error, before anything
-/// large is allocated, when even the lowest bands do not fit: what is needed, and what there is.
+/// large is allocated, when even the lowest bands do not fit: it says what is needed and what is
+/// available.
 MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                        const DeviceInfo& device);
 
-/// Throws Error when the generated lights alone do not fit; for before a scene is loaded.
+/// Throws Error when the generated lights alone do not fit; called before a scene is loaded.
 void check_light_memory(const RenderSettings& settings);
 
 }  // namespace kilolux

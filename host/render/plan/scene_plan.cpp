@@ -45,7 +45,7 @@ void check_forced(const std::vector<std::string>& names) {
     }
 }
 
-// Rays end where OpenCL resolved a triangle; deferred keeps what they found.
+// Shadow rays end on a triangle that OpenCL resolved, and deferred keeps their results.
 void check_shadows(const RenderSettings& settings) {
     const FrameRequest& want = settings.want;
     const bool wants_bits = want.view == ViewKind::shadows || want.has_aov("visibility");
@@ -127,7 +127,7 @@ int shading_of(const RenderSettings& settings, const std::vector<Material>& mate
     return std::ranges::all_of(materials, &Material::unlit) ? SHADING_LAMBERT : SHADING_PBR;
 }
 
-// What the pictures need of what the scene has, and what is forced.
+// The features that the pictures need of those that the scene has, and the forced ones.
 SceneFeatures needed(SceneFeatures out, bool glossy, const RenderSettings& settings) {
     out.gloss = glossy || settings.want.whole_surfaces();
     out.metallic &= glossy;

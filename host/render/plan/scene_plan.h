@@ -12,7 +12,7 @@
 
 namespace kilolux {
 
-/// What a scene needs, and so what is compiled in and stored: "model only what a scene needs".
+/// The features that a scene needs, and so those that are compiled in and stored.
 struct ScenePlan {
     std::vector<std::string> features;  // in use, by name
     std::vector<std::string> left_out;  // not needed, so neither compiled nor stored
@@ -22,8 +22,9 @@ struct ScenePlan {
     bool operator==(const ScenePlan&) const = default;
 };
 
-/// What RenderSettings::force_features may name: features of kernels and G-buffer, and shading
-/// models. The others cost nothing where they are absent: each material's shader has its own.
+/// The names that RenderSettings::force_features takes: features of kernels and G-buffer, and
+/// shading models. Other features cost nothing where they are absent, since each material's shader
+/// has its own.
 const std::vector<std::string>& forceable_features();
 
 /// The plan for a scene under these settings. `light_count`: point and spot lights at most. Throws

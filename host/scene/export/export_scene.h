@@ -19,7 +19,8 @@ struct ExportedFile {
 struct ExportedScene {
     std::vector<ExportedFile> files;  // the scene file comes last, after those that it refers to
     std::size_t lights = 0;           // written
-    std::size_t unusable_lights = 0;  // left out: glTF cannot say what is not finite or negative
+    std::size_t unusable_lights =
+        0;  // left out: glTF allows no infinite or negative value of a light
 };
 
 /// Writes the scene as glTF 2.0 that load_scene() reads back to the same picture.

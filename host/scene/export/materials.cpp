@@ -78,15 +78,15 @@ Json use_json(const TextureUse& use) {
     return out;
 }
 
-// The place of a path in a material, where the objects on the way are made.
+// The member at a path of a material; objects on the way are created.
 Json& at_path(Json& object, std::string_view path) {
     const std::size_t end = std::min(path.find('.'), path.size());
     Json& member = object[std::string(path.substr(0, end))];
     return end == path.size() ? member : at_path(member, path.substr(end + 1));
 }
 
-// Whether a factor of this path says something: it is of no map that the material lacks, and no
-// cutoff of a surface that has none.
+// Whether a factor of this path is needed: not for a map that the material lacks, nor the cutoff of
+// a surface without alpha mask.
 bool is_written(const Material& m, std::string_view path) {
     if (path == "emissiveFactor") return false;  // see add_emission()
     if (path == "alphaCutoff") return m.alpha_mode == AlphaMode::mask;

@@ -42,7 +42,7 @@ void make_orthogonal(glm::dmat3& a, glm::dmat3& v, glm::length_t p, glm::length_
 
 // Whether a node can hold the matrix: glTF asks for translation, rotation and scale.
 bool is_orthogonal(const glm::dmat3& m) {
-    constexpr double kCosine = 1e-6;  // what readers that decompose it do not notice
+    constexpr double kCosine = 1e-6;  // readers that decompose the matrix do not notice this
     for (const auto& [p, q] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{2, 0}}) {
         const double lengths = glm::length(m[p]) * glm::length(m[q]);
         if (std::abs(glm::dot(m[p], m[q])) > kCosine * lengths) return false;
@@ -98,7 +98,7 @@ double brightest(const SceneLight& light) {
     return std::max({light.intensity.x, light.intensity.y, light.intensity.z});
 }
 
-// Relative to the brightest channel; left out where it is white.
+// The colour relative to the brightest channel; left out where it is white.
 void add_color(Json& out, const SceneLight& light) {
     const glm::dvec3 color(light.intensity);
     const double most = brightest(light);

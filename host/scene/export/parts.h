@@ -17,7 +17,7 @@ struct ExportedNodes {
     nlohmann::ordered_json roots = nlohmann::ordered_json::array();  // indices into `nodes`
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
-    std::size_t profile_lights = 0;  // in nodes alone
+    std::size_t profile_lights = 0;  // in nodes, not in `lights`
     std::size_t unusable_lights = 0;
 };
 

@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// What a material looks like at one point of its texture.
+/// A material at one point of its texture.
 struct Texel {
     glm::dvec3 color{0.5};   // sRGB-encoded base colour, 0..1
     double height = 0.0;     // [m] above the surface

@@ -33,7 +33,7 @@ struct SweepFrame {
     glm::dvec3 origin{0.0};
     glm::dvec3 axis_x{1, 0, 0};  // longer than 1 at a mitre
     glm::dvec3 axis_y{0, 1, 0};
-    glm::dvec3 normal_x{1, 0, 0};  // what the normal's x goes along, unit
+    glm::dvec3 normal_x{1, 0, 0};  // unit: the direction of the normal's x
     double along = 0.0;            // [m] on the path: u
 };
 

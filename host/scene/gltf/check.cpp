@@ -79,8 +79,8 @@ bool is_one_of(json& value, const std::vector<std::string>& allowed) {
     return std::find(allowed.begin(), allowed.end(), text) != allowed.end();
 }
 
-// How a value was reached from the root: by `key`, or by `index` where that is empty. A text is
-// made of it only for an error.
+// The path to a value from the root: by `key`, or by `index` where that is empty. Only an error
+// turns it into text.
 struct JsonPlace {
     const JsonPlace* parent = nullptr;
     std::string_view key{};

@@ -29,7 +29,7 @@ std::string listed(const Names& names) {
     return names.empty() ? "none" : out;
 }
 
-// The element that a text names, or counts from 0 where no name is that number.
+// The element that a text names, or whose index it is where no name equals it.
 std::size_t find_named(const std::string& text, const Names& names, const std::string& option,
                        const std::string& kind) {
     const auto found = std::find(names.begin(), names.end(), text);

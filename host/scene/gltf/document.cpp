@@ -17,12 +17,12 @@ namespace {
 
 using nlohmann::json;
 
-// What accessors may decode to: enough for real files with instanced, skinned and compressed
-// meshes, small enough that a file of a few KiB cannot claim gigabytes.
+// Bounds of the memory that accessors decode to: enough for real files with instanced, skinned and
+// compressed meshes, small enough that a file of a few KiB cannot claim gigabytes.
 constexpr std::uint64_t kBudgetFloorBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kBudgetPerFileByte = 1024;
 
-// What charges the budget for a part of the file, and keeps the charge.
+// Charges the budget for a part of the file, and keeps the charge.
 BeforeBytes charging(const GltfDocument& document, const std::string& where) {
     return [&document, where](std::uint64_t bytes) {
         document.budget->charge_memory(bytes, document.base.file + ": " + where);
@@ -62,8 +62,8 @@ void read_buffers(GltfDocument& document, json& root, const GltfText& text) {
     document.budget->allow_for_file(total);
 }
 
-// Changes the JSON where tinygltf refuses or loses parts of valid files. Returns the indices'
-// accessor of each primitive, -1 for none: it wants a buffer view of each.
+// Changes the JSON where tinygltf refuses or loses parts of valid files. It requires a buffer view
+// of each accessor of indices, so these are taken out: returns them by primitive, -1 for none.
 std::vector<int> adapt_to_tinygltf(json& root) {
     const auto each = [&root](const char* array, const auto& change) {
         const json::json_pointer place(array);
@@ -73,7 +73,7 @@ std::vector<int> adapt_to_tinygltf(json& root) {
     each("/extensions/KHR_lights_punctual/lights", [](json& light) {
         if (light.at("type") == "spot") light.emplace("spot", json::object());
     });
-    // It drops empty objects, and the array's indices with them.
+    // tinygltf drops empty objects, and the array's indices with them.
     each("/extensions/EXT_lights_ies/lights", [](json& light) { light.emplace("name", ""); });
     std::vector<int> indices;
     each("/meshes", [&indices](json& mesh) {
@@ -106,7 +106,7 @@ void add_images(GltfDocument& document, std::vector<json>& images) {
     }
 }
 
-// An array of the file, taken out of it.
+// Moves an array out of the file.
 std::vector<json> take_array(json& root, const char* name) {
     std::vector<json> out;
     if (root.contains(name)) out = std::move(root.at(name).get_ref<json::array_t&>());
@@ -226,9 +226,11 @@ FileBytes read_source(const GltfDocument& document, const std::string& uri, int 
 
 ByteSpan bytes_of_buffer(const GltfDocument& document, std::size_t buffer,
                          const std::string& reader) {
-    if (document.buffers[buffer]) return *document.buffers[buffer];
-    document.fail(element_name("buffers", buffer),
-                  "has neither a uri nor a GLB's BIN chunk, and {} reads it", reader);
+    if (!document.buffers[buffer]) {
+        document.fail(element_name("buffers", buffer),
+                      "has neither a uri nor a GLB's BIN chunk, and {} reads it", reader);
+    }
+    return *document.buffers[buffer];
 }
 
 const json* find_member(const json& object, std::string_view path) {

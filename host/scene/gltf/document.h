@@ -28,10 +28,10 @@ struct ReleaseMemory {
     void operator()(LoadBudget* budget) const;
 };
 
-/// Memory that its budget gets back when this goes.
+/// Memory that returns to its budget when this is destroyed.
 using MemoryCharge = std::unique_ptr<LoadBudget, ReleaseMemory>;
 
-/// What loading a file may still allocate. Safe to charge from several threads.
+/// Memory that loading a file may still allocate. Safe to charge from several threads.
 class LoadBudget {
  public:
     /// All that the scene keeps in memory is bounded by `memory_bytes`.
@@ -48,13 +48,13 @@ class LoadBudget {
     /// Takes bytes for a buffer or an image, which only the memory bounds.
     void charge_memory(std::uint64_t bytes, const std::string& where);
 
-    /// The same for a while.
+    /// The same until the charge is destroyed.
     MemoryCharge borrow_memory(std::uint64_t bytes, const std::string& where);
 
     /// Gives back what charge_memory() took.
     void release_memory(std::uint64_t bytes) { memory_left_ += bytes; }
 
-    /// Gives back what charge() took: what is decoded from now on replaces it.
+    /// Gives back what charge() took: later decoding replaces the earlier results.
     void refill();
 
  private:
@@ -82,8 +82,8 @@ struct GltfDocument {
     // Key times that apply_animations() has read, by accessor.
     mutable std::map<int, std::vector<float>> key_times;
 
-    /// Tells what of the file the picture lacks or shows otherwise: a warning, or an Error where
-    /// the options are strict.
+    /// Reports a part of the file that the picture lacks or shows otherwise: as a warning, or as an
+    /// Error where the options are strict.
     void leave_out(const std::string& what) const;
 
     /// Throws Error "<file>: <where>: <what>", formatted by {fmt}.
@@ -102,7 +102,8 @@ struct FileBytes {
     MemoryCharge charge{};  // for `owned`
 };
 
-/// What a uri names, or what a buffer view holds where that is empty. Throws as read_uri() does.
+/// The bytes that a uri names, or those of a buffer view where the uri is empty. Throws as
+/// read_uri() does.
 FileBytes read_source(const GltfDocument& document, const std::string& uri, int view,
                       const std::string& where);
 

@@ -10,7 +10,8 @@ namespace {
 // An extension that a file may require.
 struct KnownExtension {
     std::string_view name;
-    std::string_view lacks{};  // how it shows that it is left out; empty: the picture lacks nothing
+    std::string_view
+        lacks{};  // how the picture shows that it is left out; empty: nothing is missing
 };
 
 constexpr std::array kKnown = {

@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// Throws Error for a required extension that the picture cannot do without, such as a compression
-/// that is not known. Tells in one warning which others are left out and how that shows.
+/// Throws Error for a required extension that is unknown here, such as a compression. One warning
+/// lists all that are left out, required or not, and their effect.
 void check_extensions(const GltfDocument& document);
 
 /// The extension's object in a map of extensions, or nullptr.

@@ -205,7 +205,7 @@ fs::path path_of_uri(const UriBase& base, const std::string& uri, const std::str
     if (relative.native().find('\0') != std::string::npos) {
         throw Error(where + ": uri '" + shown_uri(uri) + "' holds a zero byte");
     }
-    // As URIs have it, ".." takes back the name before it, whether that is there or not.
+    // A URI's ".." removes the name before it, whether that exists or not.
     relative = relative.lexically_normal();
     if (!base.allow_outside_paths &&
         (leaves_folder(relative) || links_out_of_folder(base.folder, relative))) {

@@ -25,12 +25,12 @@ struct GltfText {
     bool has_binary = false;  // whether there was one
 };
 
-/// Reads a .gltf or .glb file, told apart by its first bytes. `name` starts the error messages.
+/// Reads a .gltf or .glb file, recognised by its first bytes. `name` starts the error messages.
 GltfText read_gltf_text(
     const std::filesystem::path& file, const std::string& name,
     const BeforeBytes& before = [](std::uint64_t) {});
 
-/// What a scene file's URIs are relative to.
+/// The folder and the name that a scene file's URIs are relative to.
 struct UriBase {
     std::string file;  // the scene file, as error messages name it
     std::filesystem::path folder;

@@ -99,7 +99,7 @@ void add_profile_lights(const GltfDocument& document, const PlacedNodes& nodes, 
         SceneLight light = light_of(*use, scene.webs[web], nodes.world_from_node[n]);
         light.profile = static_cast<int>(scene.aimed_profiles.size());
         scene.aimed_profiles.push_back(profile_of(web, nodes.world_from_node[n]));
-        // Without it, it is rejected and counted like any light without direction.
+        // Without a side the light is rejected and counted like any light without a direction.
         if (!std::isfinite(glm::length(scene.aimed_profiles.back().side))) {
             light.direction = glm::dvec3(0.0);
         }

@@ -32,15 +32,16 @@ struct LoadOptions {
     bool operator==(const LoadOptions&) const = default;
 };
 
-/// Told how many of a file's images are decoded, which takes most of the loading time: first with
-/// 0, then after each. Never called by two threads at once.
+/// Receives how many of a file's images are decoded, which takes most of the loading time: first 0,
+/// then after each. Never called by two threads at once.
 using LoadProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Reads a glTF 2.0 file (.gltf or .glb) with its buffers and images.
 ///
 /// Instances hold world transforms; meshes are triangle lists with normals, and tangents where a
 /// normal map needs them. Throws Error with file, place and value seen for anything that is broken,
-/// or required and not supported. Warns once of each optional extension that is not supported.
+/// and for required extensions that it does not know. Warns of all other extensions that are left
+/// out.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 }  // namespace kilolux

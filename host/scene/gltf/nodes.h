@@ -45,7 +45,8 @@ std::string node_name(const GltfDocument& document, std::size_t node);
 
 bool is_finite(const glm::dmat4& matrix);
 
-/// Sets what the clips that play drive in `poses` (one per node) to its value at the options' time.
+/// Sets the properties in `poses` (one per node) that playing clips drive to their values at the
+/// options' time.
 ///
 /// Clips hold their first and last key outside of their range. Where two drive the same property,
 /// the first of GltfDocument::clips counts.

@@ -42,7 +42,7 @@ GltfRule multiple_of(int factor, GltfRule rule) {
     rule.multiple_of = factor;
     return rule;
 }
-// Where the object that holds it has that "type".
+// A rule for objects that have that "type".
 GltfRule where_type(std::string type, GltfRule rule) {
     rule.where_type = std::move(type);
     return rule;

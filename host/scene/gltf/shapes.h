@@ -21,8 +21,8 @@ struct Placement {
     glm::dmat4 world_from_object{1.0};
 };
 
-/// What a file draws. Which shapes and placements there are does not depend on the time, only what
-/// they hold.
+/// The shapes and placements that a file draws. Which there are does not depend on the time, only
+/// their contents do.
 struct ShapePlan {
     std::vector<MeshShape> shapes;
     std::vector<Placement> placements;
@@ -50,7 +50,7 @@ double line_width_m(const GltfDocument& document, const ShapePlan& plan,
 PrimitiveArrays open_job(const GltfDocument& document, const MeshShape& shape,
                          std::size_t primitive);
 
-/// The mesh that its arrays make in its shape; see build_mesh() for points and lines.
+/// The mesh that a primitive's arrays make in its shape; see build_mesh() for points and lines.
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,
                      const MeshShape& shape, std::size_t primitive, const PrimitiveArrays& arrays);
 

@@ -93,7 +93,7 @@ glm::dvec3 linear_of_xyy(double x, double y, double luminance) {
     return glm::max(rgb, glm::dvec3(0.0));
 }
 
-// Of a direction above the horizon, relative to a zenith of luminance 1.
+// Luminance of a direction above the horizon, relative to that of the zenith.
 glm::dvec3 clear_sky(const glm::dvec3& d) {
     static const double x = zenith_chromaticity({0.00166, -0.00375, 0.00209, 0.0},
                                                 {-0.02903, 0.06377, -0.03202, 0.00394},
@@ -109,7 +109,7 @@ glm::dvec3 clear_sky(const glm::dvec3& d) {
     return linear_of_xyy(x * relative(kX), y * relative(kY), relative(kLuminance));
 }
 
-// What a sky gives to the ground [lx].
+// Illuminance of the ground by the sky [lx].
 glm::dvec3 ground_illuminance(const Environment& sky) {
     glm::dvec3 sum(0.0);
     for (int y = 0; y < sky.height / 2; ++y) {

@@ -14,7 +14,8 @@ Environment studio_environment();
 
 /// A clear sky with a sun 40 degrees high, ahead of +Z on the left, over grey ground: Preetham,
 /// Shirley, Smits 1999, "A Practical Analytic Model for Daylight", turbidity 3. The sun gives 3 lx
-/// to what faces it, the sky 1 lx to the ground: real daylight is about 30,000 times as bright.
+/// to a surface that faces it, the sky 1 lx to the ground: real daylight is about 30,000 times as
+/// bright.
 Environment sky_environment();
 
 /// "studio", "sky".

@@ -26,8 +26,8 @@ struct Region {
     int pixels() const { return (x1 - x0) * (y1 - y0); }
 };
 
-// Sums of luminance over the pixels above and left of a corner, so that a region's costs the same
-// whatever its size.
+// Sums of luminance over the pixels above and left of a corner: the sum over a region takes the
+// same time for any size.
 class SummedLuminance {
  public:
     explicit SummedLuminance(const Environment& e)

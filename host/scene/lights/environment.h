@@ -39,7 +39,7 @@ struct Environment {
 Environment painted_environment(
     int height, const std::function<glm::dvec3(const glm::dvec3& direction)>& radiance);
 
-/// Of linear Rec. 709 light, in its unit.
+/// Luminance of linear Rec. 709 light, in its unit.
 double luminance(const glm::dvec3& light);
 
 /// A picture in any format that OpenImageIO reads: .hdr and .exr are linear, those of 8 or 16 bits

@@ -37,7 +37,7 @@ LightRegion region_of(const LightOptions& options, const Scene& scene, double ga
 
 double volume(const Box& box) { return box.size().x * box.size().y * box.size().z; }
 
-// The box, or six boxes that fill it but for the hole: below and above it, then beside it.
+// The box, or six boxes that fill it around the hole: below and above it, then beside it.
 std::vector<Box> parts_of(const LightRegion& region) {
     if (region.hole.empty()) return {region.outer};
     std::vector<Box> parts;
@@ -53,7 +53,7 @@ std::vector<Box> parts_of(const LightRegion& region) {
     return parts;
 }
 
-// Which of the parts a number in [0, 1) means, each as often as its volume says.
+// The part that a number in [0, 1) selects, in proportion to the parts' volumes.
 std::uint32_t part_at(const std::vector<Box>& parts, double unit) {
     double all = 0.0;
     for (const Box& part : parts) all += volume(part);
@@ -152,8 +152,8 @@ glm::dvec3 colour(double hue) {
     return glm::dvec3(white) + (1.0 - white) * pure;
 }
 
-// Of a light that drifts along an axis of this extent and is reflected at its ends. The phase is
-// uniform over the whole period, so lights fill the box uniformly at every time.
+// Turns of a light that drifts along an axis of this extent and is reflected at its ends. The phase
+// is uniform over the whole period, so lights fill the box uniformly at every time.
 double turns_at(double extent, double phase, double speed, double time) {
     const double turns = phase + speed * time / (2.0 * extent);
     return turns - std::floor(turns);

@@ -27,7 +27,7 @@ struct LightOptions {
 std::vector<SceneLight> generate_lights(const LightOptions& options, const Scene& scene,
                                         double time);
 
-/// What of a generated light does not change with time.
+/// The properties of a generated light that do not change with time.
 struct LightTrack {
     glm::dvec3 phase{0.0};      // along each axis of its part, in turns
     glm::dvec3 speed{0.0};      // [m/s]
@@ -49,15 +49,15 @@ class LightGenerator {
     LightGenerator(const LightOptions& options, const Scene& scene, double time);
     SceneLight operator[](std::uint64_t light) const { return at(track(light)); }
 
-    /// A light in two steps: the first costs more, and is the same at any time.
+    /// A light in two steps: the first takes longer, and its result is the same at any time.
     LightTrack track(std::uint64_t light) const;
     SceneLight at(const LightTrack& track) const;
     LightTurns turns(const LightTrack& track) const;
 
-    /// What lights stay inside: LightTrack::part.
+    /// The boxes that lights stay in: LightTrack::part.
     const std::vector<Box>& parts() const { return parts_; }
 
-    /// Of every light [m].
+    /// Range of every light [m].
     float range() const { return static_cast<float>(options_.radius); }
 
     /// Whether the lights of another time have the same tracks.

@@ -9,8 +9,8 @@
 
 namespace kilolux {
 
-/// What a kind of light has. The loader, its rules, the exporter, ranges and the Python module ask
-/// these rows instead of naming kinds.
+/// Properties of a kind of light. The loader, its rules, the exporter, ranges and the Python module
+/// read these rows instead of naming kinds.
 struct LightKind {
     LightType type;
     std::string_view name;  // in KHR_lights_punctual and in Python
@@ -30,7 +30,7 @@ constexpr const LightKind& kind_of(LightType type) {
 }
 constexpr const LightKind& kind_of(const SceneLight& light) { return kind_of(light.type); }
 
-/// Null for a name of none.
+/// Null for an unknown name.
 constexpr const LightKind* find_light_kind(std::string_view name) {
     const auto found = std::ranges::find(kLightKinds, name, &LightKind::name);
     return found == kLightKinds.end() ? nullptr : &*found;

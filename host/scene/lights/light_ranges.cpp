@@ -25,7 +25,7 @@ double range_of_light(double intensity_max_cd, double error_budget) {
 }
 
 bool lacks_range(const SceneLight& light) {
-    // Only 0 means "not given". make_light_rows() rejects and counts what is unusable.
+    // Only 0 means "not given". make_light_rows() rejects and counts unusable lights.
     if (!kind_of(light).is_placed || light.range != 0.0f) return false;
     const glm::vec3& i = light.intensity;
     return std::isfinite(i.x + i.y + i.z) && std::min({i.x, i.y, i.z}) >= 0.0f;

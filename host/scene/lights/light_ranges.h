@@ -13,19 +13,19 @@ namespace kilolux {
 /// an 8-bit linear image whose white is 1.
 inline constexpr double kDefaultRangeBudget = 1.0 / 256.0;
 
-/// What becomes of the light that lights without a range send far away.
+/// How lights without a range are treated.
 ///   exact       they reach every pixel, without a window
 ///   bounded     each gets the range of range_of_light()
 ///   stochastic  each gets a random range, at least that one, and weighs the more the less probable
 ///               it was to reach a point: the mean of many pictures is that of exact
-///   tree        points reach every pixel, far ones by groups, as nodes of a tree that err by a
-///   stated
-///               share at most; spots are as with exact
+///   tree        points reach every pixel, far ones in groups: nodes of a tree whose error is at
+/// most
+///               a stated share; spots are as with exact
 ///   automatic   exact for at most kExactTails lights, unless a budget is given; else bounded. The
 ///               number does not depend on the device: nor does the picture.
 enum class Tails { automatic, exact, bounded, stochastic, tree };
 
-/// What a node of the light tree may err by default: see kernels/tails/tree_cut.h.
+/// Default error of a node of the light tree: see kernels/tails/tree_cut.h.
 inline constexpr float kDefaultTreeShare = 0.3f;
 
 /// Most lights without a range that `automatic` evaluates at every pixel.
@@ -58,7 +58,7 @@ bool lacks_range(const SceneLight& light);
 void fill_missing_ranges(std::vector<SceneLight>& lights, Tails tails,
                          double error_budget = kDefaultRangeBudget);
 
-/// What `asked` means for these lights.
+/// The setting that `asked` stands for with these lights.
 Tails tails_for(std::span<const SceneLight> lights, Tails asked, double error_budget);
 
 }  // namespace kilolux

@@ -5,14 +5,14 @@
 
 namespace kilolux {
 
-/// Where generated lights are: a box, or what of it a hole leaves.
+/// The space of generated lights: a box, or a box with a hole.
 struct LightRegion {
     Box outer;
     Box hole;  // inside `outer`; empty: none
     bool operator==(const LightRegion&) const = default;
 };
 
-/// The region that a scene's kind asks for, when nobody gave a box:
+/// The region that a scene's kind asks for, when no box is given:
 ///
 ///   interior        the box of its surfaces less a fiftieth at each wall
 ///   closed, flat    a shell around the box, a quarter of its diagonal thick; it begins as far from

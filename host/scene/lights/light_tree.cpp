@@ -18,7 +18,7 @@ using Members = std::span<std::uint32_t>;
 
 // Below this many lights a subtree is not worth a task.
 constexpr std::size_t kTaskLights = 4096;
-// More than float32 loses of a node's radius and moments.
+// More than the rounding of a node's radius and moments to float32.
 constexpr double kRoundUp = 1.0 + 1e-6;
 
 // Sums over a node's lights.

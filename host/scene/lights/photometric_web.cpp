@@ -62,7 +62,7 @@ double ring(const PhotometricWeb& web, std::size_t column) {
     return sum;
 }
 
-// What the table holds at angles of the file, of the peak.
+// The table's value at angles of the file, as a share of the peak.
 double table_share(const PhotometricWeb& web, double row, double column) {
     const auto width = static_cast<std::size_t>(web.table[3]) + 1;
     const double last = web.table[2];

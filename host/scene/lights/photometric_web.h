@@ -7,8 +7,8 @@
 
 namespace kilolux {
 
-/// How much light a luminaire sends each way: photometry of type C (IES LM-63). Vertical angle 0 is
-/// the way it is aimed, horizontal angles turn about that axis.
+/// The intensity of a luminaire by direction: photometry of type C (IES LM-63). Vertical angle 0 is
+/// its direction, horizontal angles turn about that axis.
 struct PhotometricWeb {
     std::string name;                // of the file's light
     std::string text;                // the IES file
@@ -17,7 +17,8 @@ struct PhotometricWeb {
     std::vector<double> candela;     // [horizontal][vertical] >= 0 [cd]
     double peak = 0.0;               // the largest of them, > 0 [cd]
     std::vector<float> table;        // what kernels read: see kernels/shared/light_profile.h
-    double table_error = 0.0;  // what the table's steps lose at the file's angles, of the peak
+    double table_error =
+        0.0;  // the largest error of the table at the file's angles, as a share of the peak
 };
 
 /// Reads an IES file: LM-63-1986, -1991, -1995, -2002 and -2019. `where` starts the messages.
@@ -31,11 +32,11 @@ PhotometricWeb read_photometric_web(std::string text, const std::string& where);
 /// `horizontal` from 0 to 360.
 double candela_at(const PhotometricWeb& web, double vertical, double horizontal);
 
-/// All light, integrated exactly over what candela_at() is [lm].
+/// Total flux, integrated exactly over candela_at() [lm].
 double lumens(const PhotometricWeb& web);
 
-/// The table for kernels, of the steps that all of the file's angles are multiples of, where those
-/// are not too small; sets table_error otherwise.
+/// Makes the table for kernels, with steps of which all of the file's angles are multiples. Where
+/// those would be too small it sets table_error.
 void make_profile_table(PhotometricWeb& web);
 
 /// Where each web's table starts in all of them, one after the other. Throws Error where they are

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRoughnessMin = 0.045;  // ROUGHNESS_MIN of kernels/shared/surface.h
 constexpr double kNDotVMin = 1e-4;       // N_DOT_V_MIN, ibid.
 constexpr unsigned kTableSize = 64;
-// Of half the angle to a lobe's axis, in alphas: 96 % of its light.
+// Half the angle to a lobe's axis within which 96 % of its light is, in alphas.
 constexpr double kLobeAlphas = 5.0;
 
 // Widths of a level and of the environment that it is made of: a few texels a lobe.
@@ -44,7 +44,7 @@ Covered covered(int i, int other, int count) {
             std::min(static_cast<int>(std::ceil(end)), count) - 1};
 }
 
-// Means of what each texel covers, weighted by solid angle.
+// The mean of the texels that each new texel covers, weighted by solid angle.
 Environment resampled(const Environment& from, int height) {
     const double step = std::numbers::pi / from.height;
     Environment out{2 * height, height, {}};
@@ -71,7 +71,7 @@ Environment resampled(const Environment& from, int height) {
     return out;
 }
 
-// What a sum over an environment needs of a texel.
+// A texel in a sum over an environment.
 struct Texel {
     glm::dvec3 direction;
     double solid_angle;
@@ -86,7 +86,7 @@ std::vector<Texel> texels_of(const Environment& e) {
     return out;
 }
 
-// A lobe about an axis: GGX as light that comes and goes along it has, or a cosine.
+// A lobe about an axis: GGX with the eye on the lobe's axis, or a cosine.
 class Lobe {
  public:
     explicit Lobe(double roughness) : is_cosine_(roughness < 0.0) {
@@ -170,7 +170,7 @@ double mirrored(unsigned i) {
 // Schlick's rise at an angle.
 double rise(double cos_angle) { return std::pow(std::max(1.0 - cos_angle, 0.0), 5.0); }
 
-// f0's and f90's shares: half vectors by GGX, height-correlated Smith (Karis 2013, listing 4).
+// The shares of f0 and f90: half vectors by GGX, height-correlated Smith (Karis 2013, listing 4).
 glm::dvec2 specular_shares(double n_dot_v, double roughness) {
     constexpr unsigned kSamples = 512;
     const double alpha2 = alpha_of(roughness) * alpha_of(roughness);
@@ -193,7 +193,7 @@ glm::dvec2 specular_shares(double n_dot_v, double roughness) {
     return out;
 }
 
-// The mean of Schlick's rise over diffuse light: directions by the cosine.
+// The mean of Schlick's rise over diffuse light: directions weighted by the cosine.
 double diffuse_loss(double n_dot_v) {
     constexpr unsigned kSamples = 512;
     const glm::dvec3 v(std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v);

@@ -33,7 +33,7 @@ SceneLight headlight() {
     return light;
 }
 
-// A texture's colour, as stored, where a mesh's texture coordinates are `texcoord`; white without.
+// A texture's stored colour at a mesh's texture coordinates `texcoord`; white without a texture.
 glm::dvec3 texel_of(const Scene& scene, const TextureUse& use, const glm::vec2& texcoord) {
     if (!use.present()) return glm::dvec3(1.0);
     const Texture& texture = scene.textures[static_cast<std::size_t>(use.texture)];
@@ -50,7 +50,7 @@ glm::dvec3 texel_of(const Scene& scene, const TextureUse& use, const glm::vec2& 
     return glm::dvec3(rgba[0], rgba[1], rgba[2]) / 255.0;
 }
 
-// How much a triangle mirrors: its metal, or what a surface without metal reflects head on.
+// A triangle's mirror reflectance: its metal, or the head-on reflectance of a dielectric.
 double metallic_at(const Scene& scene, const Mesh& mesh, std::size_t first) {
     if (mesh.material < 0) return 1.0;  // of glTF's default material
     const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];

@@ -7,7 +7,7 @@
 
 namespace kilolux {
 
-/// What lights a scene beside its own lights.
+/// Lights that are added to a scene's own.
 enum class Rig { automatic, none, swarm, studio, headlight };
 
 /// The rig that `automatic` stands for: `swarm` for an interior and for a scene that the program
@@ -30,7 +30,7 @@ std::vector<SceneLight> rig_lights(Rig rig);
 /// Radiance from everywhere that belongs to the rig; `standard` where it has none of its own.
 float rig_ambient(Rig rig, float standard);
 
-/// A light of the camera's space (SceneLight::follows_camera) in the world; others as they are.
+/// A light in camera space (SceneLight::follows_camera) as a light in the world; others unchanged.
 SceneLight placed_light(SceneLight light, const glm::dmat3& world_from_view,
                         const glm::dvec3& camera_position);
 

@@ -37,7 +37,7 @@ bool same_lookup(const TextureUse& a, const TextureRow& row_a, const TextureUse&
            row_a.filters == row_b.filters;
 }
 
-// The first use's lookup serves all that read from the same places.
+// The first use's lookup serves all uses that read from the same places.
 void share_lookup(const Material& material, const TextureTable& textures, SurfaceMaterial& out) {
     out.lookup_use = SURFACE_ABSENT;
     for (uint use = 0; use < USE_COUNT; ++use) {

@@ -16,22 +16,22 @@ namespace kilolux {
 
 class TextureTable;
 
-/// What is read of a mesh; none: nothing.
+/// The features that are read of a mesh; none: the mesh is skipped.
 using MeshFeatures = std::function<std::optional<SurfaceFeatures>(const Mesh&)>;
 
 /// Whether the material of a mesh has a texture for the use USE_* that can be read.
 bool reads_use(const Scene& scene, const Mesh& mesh, int use);
 
-/// The texture uses that reach what `needs` keeps, as bits 1 << USE_*.
+/// The texture uses that affect what `needs` keeps, as bits 1 << USE_*.
 uint kept_uses(const SceneFeatures& needs);
 
-/// What the surfaces of a mesh read with these texture uses. `anisotropy` at least 1.
+/// The features that the surfaces of a mesh read with these texture uses. `anisotropy` at least 1.
 SurfaceFeatures mesh_features(const Scene& scene, const Mesh& mesh, uint uses, int anisotropy);
 
-/// What decides where the surfaces of a mesh are: positions, and what alpha masks read.
+/// The features that decide where a mesh's surfaces are: positions, and the inputs of alpha masks.
 SurfaceFeatures coverage_features(const Scene& scene, const Mesh& mesh);
 
-/// What the surfaces of a scene that do not blend read.
+/// The features that a scene's opaque and masked surfaces read.
 SurfaceFeatures surface_features(const Scene& scene, const SceneFeatures& needs, int anisotropy);
 
 /// The rows of a scene's surfaces, as kernels and shaders read them.
@@ -47,7 +47,8 @@ struct SurfaceRows {
 SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
                          const TextureTable& textures);
 
-/// Calls write(first float, rows) for the meshes of `rows` whose vertices changed since.
+/// Calls write(first float, rows) for the meshes of `rows` whose vertices changed since the last
+/// call.
 void rewrite_vertices(SurfaceRows& rows, const Scene& scene, const MeshFeatures& features,
                       const std::function<void(std::size_t, std::span<const float>)>& write);
 

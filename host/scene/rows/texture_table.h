@@ -11,11 +11,13 @@
 
 namespace kilolux {
 
-/// The textures that a scene's surfaces read, and where their texels go. An image that some slot
-/// reads as sRGB and another as linear is there twice; textures of one image share its texels.
+/// The textures that a scene's surfaces read, and the places of their texels. An image that some
+/// slot reads as sRGB and another as linear is stored twice; textures of one image share its
+/// texels.
 class TextureTable {
  public:
-    /// Those that `features` read. Throws Error when an image is too large, or all are.
+    /// Takes the textures that `features` read. Throws Error when one image or all together are too
+    /// large.
     TextureTable(const Scene& scene, const MeshFeatures& features);
 
     std::span<const TextureRow> rows() const { return rows_; }

@@ -12,8 +12,8 @@ namespace kilolux {
 /// The material that a mesh shows; the default one where it has none.
 const Material& material_of(const Scene& scene, const Mesh& mesh);
 
-/// Where a mesh's attributes stand in its vertices' rows: those that the features read. Its places
-/// in the buffers and its material are not set.
+/// The places of a mesh's attributes in its vertices' rows: of those that the features read. Its
+/// places in the buffers and its material are not set.
 MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features);
 
 /// Floats of a vertex's row.

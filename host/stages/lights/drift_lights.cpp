@@ -16,7 +16,8 @@ constexpr uint kDigitBits = 8;                                 // of kernels/lig
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr std::size_t kLeastChunk = 256;  // lights: as many as a chunk has counters
 
-// A share of a turn, or of a second, in units of 2^-64; |share| < 1. What is next to 1 is 0.
+// A share of a turn, or of a second, in units of 2^-64; |share| < 1. A share that rounds to 1
+// becomes 0.
 ulong fixed_point(double share) {
     const double units = std::ldexp(std::abs(share), 64);
     const ulong magnitude = units < 0x1p64 ? static_cast<ulong>(units) : 0;
@@ -26,7 +27,7 @@ ulong fixed_point(double share) {
 uint upper(ulong v) { return static_cast<uint>(v >> 32); }
 uint lower(ulong v) { return static_cast<uint>(v); }
 
-// Time since the start as kernels take it.
+// Time since the start, in the kernels' units.
 struct Elapsed {
     uint seconds, rest_high, rest_low;
 
@@ -121,7 +122,7 @@ void DriftLights::order(double seconds, StageTimer& timer) {
                          to.buffer());
         std::swap(from, to);
     }
-    // Whole rows are moved, whatever is in them.
+    // Moves whole rows, whatever they hold.
     permute_.enqueue(items(lights_, tuning_.light_group), timer, drifts_.get().buffer(), count,
                      from.buffer(), ordered_.reserve(lights_).buffer());
 }

@@ -24,11 +24,11 @@ LightDrift light_drift(const std::array<double, 3>& turns, const std::array<doub
 DriftBox drift_box(const std::array<double, 3>& min, const std::array<double, 3>& extent,
                    float range);
 
-/// Lights that move by themselves, kept on the device: their places at any time, in an order in
-/// which neighbours in space are beside each other.
+/// Generated lights that move, kept on the device: their places at any time, in an order in which
+/// neighbours in space are beside each other.
 class DriftLights {
  public:
-    /// Of a light: its path staged, given and in order; its place in their order, twice.
+    /// Bytes of a light: its path staged, uploaded and ordered; its place in the order, twice.
     static constexpr std::size_t kLightBytes = 3 * sizeof(LightDrift) + 2 * sizeof(std::uint64_t);
 
     DriftLights(const Gpu& gpu, const Tuning& tuning);
@@ -37,7 +37,7 @@ class DriftLights {
     /// Blocks until the last upload() is done.
     std::span<LightDrift> stage(std::size_t count, std::span<const DriftBox> boxes);
 
-    /// What was staged is the lights from now on. Enqueues only.
+    /// Makes the staged lights the current ones. Enqueues only.
     void upload();
 
     /// Orders the lights by their places `seconds` >= 0 after the start: after upload(), and

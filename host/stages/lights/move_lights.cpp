@@ -47,7 +47,7 @@ DeviceArray<Light> MoveLights::enqueue(const PointPair& eye, StageTimer& timer) 
     return out;
 }
 
-// What lights that move by themselves add is left out.
+// Does not count drift_lights.
 StageWork move_lights_work(const StageCounts& c) {
     return {.bytes_read = c.lights * sizeof(WorldLight),
             .bytes_written = c.lights * sizeof(Light),

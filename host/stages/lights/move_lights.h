@@ -19,10 +19,10 @@ inline constexpr StageInfo kMoveLightsStage = {"move_lights", StageGroup::lights
 /// A row for MoveLights::stage(): `light` at a point of the world [m].
 WorldLight world_light(const PointPair& position, const Light& light);
 
-/// Lights of the world, kept on the device -> camera-relative lights.
+/// Moves lights from world coordinates, in which the device keeps them, to the camera.
 class MoveLights {
  public:
-    /// Of a light: staged, in the world, relative to the eye.
+    /// Bytes of a light: staged, in the world, relative to the eye.
     static constexpr std::size_t kLightBytes = 2 * sizeof(WorldLight) + sizeof(Light);
 
     MoveLights(const Gpu& gpu, const Tuning& tuning);
@@ -31,8 +31,8 @@ class MoveLights {
     /// upload() is done.
     std::span<WorldLight> stage(std::size_t count);
 
-    /// What was staged is the lights from now on, but for `gap` rows of others before light
-    /// `gap_at`, which kernels write to world(). Enqueues only.
+    /// Makes the staged lights the current ones, but for `gap` rows from light `gap_at` on, which
+    /// kernels write to world(). Enqueues only.
     void upload(std::size_t gap_at = 0, std::size_t gap = 0);
 
     /// The lights in the world, until the next upload().

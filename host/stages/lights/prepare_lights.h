@@ -17,7 +17,7 @@ inline constexpr StageInfo kPrepareLightsStage = {"prepare_lights", StageGroup::
 /// Moves lights into view space and finds the part of the coarse grid that each can touch.
 class PrepareLights {
  public:
-    /// Of a light or node.
+    /// Bytes of a light or node.
     static constexpr std::size_t kLightBytes =
         sizeof(ShadeLight) + sizeof(float4) + sizeof(LightExtent);
 
@@ -34,7 +34,7 @@ class PrepareLights {
     Tuning tuning_;
     KernelProgram program_;
     Kernel prepare_, prepare_directional_;
-    std::optional<Kernel> aim_profiles_;  // made for the first lights that have some
+    std::optional<Kernel> aim_profiles_;  // made for the first lights with photometric webs
     GrowingArray<ShadeLight> lights_;
     GrowingArray<float4> bounds_;
     GrowingArray<LightExtent> extents_;

@@ -12,12 +12,12 @@ namespace kilolux {
 StageWork bin_pixels_work(const StageCounts& counts);
 inline constexpr StageInfo kBinPixelsStage = {"bin_pixels", StageGroup::lists, bin_pixels_work};
 
-/// Finds the active clusters: per fine tile, one for each slice among its pixels, with their box.
-/// And puts the tile's pixels in their order.
+/// Finds the active clusters: per fine tile, one for each slice among its pixels, with the box of
+/// its pixels. Orders the tile's pixels by cluster.
 class BinPixels {
  public:
-    /// Of a pixel: its place in the tile's order; and its share of the active clusters, about two a
-    /// tile, with their lists and the sums of both.
+    /// Bytes of a pixel: its place in the tile's order, and its share of the active clusters, about
+    /// two a tile, with their lists and the sums of both.
     static constexpr std::size_t kPixelBytes = 2;
 
     BinPixels(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);

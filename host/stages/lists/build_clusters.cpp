@@ -44,7 +44,7 @@ ClusterGrid make_cluster_grid(const GridRequest& request, uint width, uint heigh
     const float first = std::clamp(request.z_first, 0x1p-100f, 0x1p100f);
     const float last = std::clamp(request.z_last, first, 0x1p100f);
     grid.z_first_bits = std::bit_cast<uint>(first);
-    grid.slices = ~0u;  // while the last one's number is asked for
+    grid.slices = ~0u;  // while the last slice's number is computed
     grid.slices = slice_of_depth(grid, last) + 1u;
     grid.cluster_count = checked_cluster_count(grid);
     grid.position_pad = request.position_pad;

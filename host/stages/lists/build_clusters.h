@@ -12,7 +12,7 @@ StageWork build_clusters_work(const StageCounts& counts);
 inline constexpr StageInfo kBuildClustersStage = {"build_clusters", StageGroup::lists,
                                                   build_clusters_work};
 
-/// What a coarse grid is made from.
+/// The parameters of a coarse grid.
 struct GridRequest {
     uint tiles_x = 16;  // wanted; tile edges become multiples of 16 pixels
     uint tiles_y = 9;

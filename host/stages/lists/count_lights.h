@@ -13,7 +13,7 @@ struct LightCounts {
     DeviceArray<uint> covering;   // k*: lights of it whose range covers the pixel
 };
 
-/// Counts what shading evaluates and what it needs. For statistics and views.
+/// Counts the lights that shading evaluates and those that reach. For statistics and views.
 class CountLights {
  public:
     static constexpr std::size_t kPixelBytes = 2 * sizeof(uint);

@@ -10,7 +10,7 @@ namespace kilolux {
 
 inline constexpr StageInfo kCountPairsStage = {"count_pairs", StageGroup::lists};
 
-/// What the list stages counted last: one element each, on the device.
+/// The totals of the list stages' last calls: one element each, on the device.
 struct ListTotals {
     DeviceArray<std::uint64_t> coarse_pairs;     // CullLights::total()
     DeviceArray<std::uint64_t> active_clusters;  // BinPixels::total()

@@ -7,10 +7,10 @@ namespace kilolux {
 namespace {
 
 constexpr std::string_view kBruteForce = "cull_lights_brute_force";
-// Room to begin with: enough for most scenes' first frame.
+// Initial room: enough for most scenes' first frame.
 constexpr std::size_t kFirstCoarseEntries = std::size_t{1} << 20;
 
-// More lights a chunk than this are shared with more chunks.
+// A chunk of more lights is divided into more chunks.
 constexpr std::size_t kLightsOfChunk = 256;
 
 std::size_t chunk_count(std::size_t lights, const Tuning& tuning) {

@@ -23,7 +23,7 @@ class CullLights {
     CullLights(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
     /// Enqueues only. Lists ascend by light index within a cluster, whatever the tuning.
-    /// `occupied`: ActiveClusters'; clusters that are not have empty lists. None: all have lists.
+    /// `occupied`: ActiveClusters'; other clusters get empty lists. Null: all get lists.
     CoarseLists enqueue(const PreparedLights& lights, const ClusterBoxes& boxes, StageTimer& timer,
                         const DeviceArray<std::uint8_t>& occupied = {});
 

@@ -7,7 +7,7 @@
 
 namespace kilolux {
 
-/// Triangle ids without the fine tiles that need no more samples: those become background.
+/// Copies triangle ids; fine tiles that need no more samples become background.
 class MaskTiles {
  public:
     MaskTiles(const Gpu& gpu, const Tuning& tuning);

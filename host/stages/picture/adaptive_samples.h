@@ -13,11 +13,11 @@ namespace kilolux {
 inline constexpr StageInfo kAdaptiveSamplesStage = {"adaptive_samples", StageGroup::picture};
 
 /// Means of as many pictures as each fine tile needs. The pictures are in two halves, and each
-/// half's spread decides where the other's mean ends: so a mean is right on average.
+/// half's spread decides where the other's mean stops, so that the means are unbiased.
 class AdaptiveSamples {
  public:
     static constexpr std::size_t kStatePlanes = 5;  // of a half: STATE_PLANES of the kernel
-    /// Of a pixel: both halves, the mean and its variance; and taken().
+    /// Bytes of a pixel: both halves, the mean and its variance; and taken().
     static constexpr std::size_t kPixelBytes =
         (2 * kStatePlanes + 3 + 1) * sizeof(float) + sizeof(uint);
 
@@ -29,17 +29,17 @@ class AdaptiveSamples {
     /// Adds a picture to half 0 or 1; all must have the same size. Enqueues only.
     void add(uint half, const Radiance& radiance, StageTimer& timer);
 
-    /// After as many pictures of each half, at least two: ends the means of which the standard
-    /// error of the luminance, over sqrt(luminance^2 + floor^2), is at most `error`, root mean
-    /// square over the pixels of a fine tile. Enqueues only.
+    /// Call after as many pictures of each half, at least two. Stops the means whose standard error
+    /// of the luminance, over sqrt(luminance^2 + floor^2), is at most `error`, root mean square
+    /// over the pixels of a fine tile. Enqueues only.
     void decide(float error, float floor, StageTimer& timer);
 
-    /// Which fine tiles take more. Blocks.
+    /// Which fine tiles need more. Blocks.
     std::vector<bool> open_tiles() const;
     uint tile_count() const { return fine_tile_count(view_); }
     const View& view() const { return view_; }
 
-    /// Where means have ended, as MaskTiles reads it.
+    /// The counts at which means stopped, as MaskTiles reads them.
     TileCounts done() const { return {fixed_.get()}; }
 
     /// The mean of both halves. Valid until the next call. Enqueues only.

@@ -16,7 +16,7 @@ inline constexpr StageInfo kBloomStage = {"bloom", StageGroup::picture, bloom_wo
 /// Light that spreads in the eye or lens: the image mixed with wide blurs of itself.
 class Bloom {
  public:
-    /// Of a pixel: the result, and the smaller levels.
+    /// Bytes of a pixel: the result, and the smaller levels.
     static constexpr std::size_t kPixelBytes = 3 * sizeof(float) * 4 / 3;
 
     explicit Bloom(const Gpu& gpu);

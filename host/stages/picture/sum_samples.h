@@ -14,7 +14,7 @@ inline constexpr StageInfo kSumSamplesStage = {"sum_samples", StageGroup::pictur
 class SumSamples {
  public:
     static constexpr std::size_t kSumFloats = 3;  // of a value
-    /// Of a pixel: the sums and the mean.
+    /// Bytes of a pixel: the sums and the mean.
     static constexpr std::size_t kPixelBytes = 3 * (kSumFloats + 1) * sizeof(float);
 
     SumSamples(const Gpu& gpu, const Tuning& tuning);

@@ -45,7 +45,7 @@ void FillBackground::set_image(std::span<const float> rgb, uint width, uint heig
     upload<float>(gpu_, texels_.reserve(texels.size()), texels);
 }
 
-// By the angle of a pixel in the middle of the picture, where it is largest.
+// Chosen by the angle of a pixel in the middle of the picture, where it is largest.
 uint4 FillBackground::level_for(const View& view) const {
     if (view.orthographic != 0u) return levels_.front();
     const double pixel = std::abs(double{view.ray.x});  // [rad]

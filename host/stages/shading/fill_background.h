@@ -19,7 +19,7 @@ inline constexpr StageInfo kFillBackgroundStage = {"fill_background", StageGroup
 /// level whose texels are at most about as large as a pixel in the picture's middle.
 class FillBackground {
  public:
-    /// Of an image of so many texels: all levels.
+    /// Bytes of an image of so many texels: all levels.
     static constexpr std::uint64_t bytes(std::uint64_t texels) {
         return texels * 3 * sizeof(float) * 4 / 3;
     }

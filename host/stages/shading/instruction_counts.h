@@ -13,21 +13,21 @@ InstructionCounts operator*(double times, const InstructionCounts& counts);
 /// Whether evaluate() returns early for a light that is out of range in all lanes: EARLY_OUT.
 bool leaves_early(const KernelFeatures& kernels);
 
-/// Of a light that is out of range: evaluate() up to its early return.
+/// Instructions for a light that is out of range: evaluate() up to its early return.
 InstructionCounts range_test_instructions();
 
-/// Of one light at one pixel: the whole of evaluate().
+/// Instructions for one light at one pixel: the whole of evaluate().
 InstructionCounts evaluation_instructions(const KernelFeatures& kernels);
 
-/// Of a directional light at one pixel: evaluate_directional().
+/// Instructions for a directional light at one pixel: evaluate_directional().
 InstructionCounts directional_instructions(const KernelFeatures& kernels);
 
-/// Of all lights of all pixels' lists. With exact shadows seen_instructions(): only lights that
-/// are seen are evaluated, and directional ones first, as they take least.
+/// Instructions for all lights of all pixels' lists. With exact shadows seen_instructions(): only
+/// lights that are seen are evaluated, and directional ones first, as they take least.
 InstructionCounts shading_instructions(const StageCounts& counts);
 InstructionCounts seen_instructions(const StageCounts& counts);
 
-/// Lights evaluated in full at a pixel, of all pixels.
+/// Number of lights evaluated in full, summed over all pixels.
 double full_evaluations(const StageCounts& counts);
 
 }  // namespace kilolux

@@ -7,14 +7,14 @@ namespace kilolux {
 namespace {
 
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
-// make, and reads through a wild pointer (hard case 17). A CPU has no local memory to gain by
-// staging anyway, and no GPU is built for with that many lanes.
+// make, and reads through a wild pointer (hard case 17). A CPU gains nothing by staging, and GPUs
+// are not built with that many lanes.
 Tuning usable(Tuning tuning, const DeviceInfo& device) {
     if (device.lane_width >= FINE_TILE) tuning.shade_stage = 0;
     return tuning;
 }
 
-// What shading adds to the lights' sum, and where it stores: OUTPUT_ARGS.
+// The ambient light that shading adds, and its output buffers: OUTPUT_ARGS.
 struct ShadingOutput {
     float ambient;
     DeviceArray<float> radiance, variance;
@@ -28,12 +28,12 @@ struct ShadingOutput {
     }
 };
 
-// Of kernels/device/stored_light.h: float4 rows of a StoredLight.
+// float4 rows of a StoredLight of kernels/device/stored_light.h.
 std::size_t stored_light_rows(const KernelFeatures& features) {
     return features.spot_lights ? 3 : 2;
 }
 
-// Of kernels/shading/sum_lights.h: SHADOWS.
+// SHADOWS of kernels/shading/sum_lights.h.
 constexpr int kShadowBits = 1;
 constexpr int kShadowRays = 2;
 
@@ -46,7 +46,7 @@ BuildOptions all_options(const ShadingResources& resources, const KernelFeatures
     return options;
 }
 
-// Of the list of each pixel, and what is stored of its surface.
+// Bytes of a pixel's list and of its stored surface.
 double listed_surface_bytes(const StageCounts& c) {
     return (c.gbuffer_bytes_per_pixel + kPixelOrderBytes) * c.drawn_pixels +
            sizeof(ActiveCluster) * c.active_clusters + c.index_bytes() * c.refined_pairs;
@@ -79,7 +79,7 @@ BuildOptions ShadingResources::options() const {
 }
 
 WorkSize ShadingResources::work_size(const Kernel& kernel, const View& view) const {
-    // Staging is a whole tile's common work.
+    // Staging needs all work-items of a tile.
     return kernel.pixel_items(view, tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
 }
 
@@ -191,7 +191,7 @@ StageWork shade_work(const StageCounts& c) {
     return work;
 }
 
-// Each light of a pixel's list alone.
+// Evaluates each light of a pixel's list alone.
 StageWork draw_shadows_work(const StageCounts& c) {
     return {.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.drawn_pixels,
             .bytes_written = kWordBytes * c.shadow_words,

@@ -18,7 +18,8 @@ inline constexpr StageInfo kShadeStage = {"shade", StageGroup::shading, shade_wo
 inline constexpr StageInfo kDrawShadowsStage = {"draw_shadows", StageGroup::shadows,
                                                 draw_shadows_work};
 
-/// What both ways of shading have: the build options, tables, lights as they read them, output.
+/// The common part of both ways of shading: build options, tables, lights in the kernels' form,
+/// output.
 class ShadingResources {
  public:
     ShadingResources(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
@@ -26,7 +27,7 @@ class ShadingResources {
     BuildOptions options() const;
     WorkSize work_size(const Kernel& kernel, const View& view) const;
 
-    /// The lights as the kernels read them: as they are, or with colours in half precision.
+    /// The lights in the kernels' form: unchanged, or with colours in half precision.
     PreparedLights stored_lights(const PreparedLights& lights, StageTimer& timer);
 
     Radiance radiance(const View& view);
@@ -60,13 +61,13 @@ class Shade {
  public:
     Shade(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Builds the kernel that makes codes by TONE_CURVE_*; without one, that which makes radiance.
-    /// Else the first enqueue() that needs it does. Throws Error.
+    /// Builds the kernel that stores codes by TONE_CURVE_*, or, without one, the kernel that stores
+    /// radiance. Otherwise the first enqueue() that needs it builds it. Throws Error.
     void build(std::optional<int> tone_curve);
 
-    /// Enqueues only. `shadows`: with KernelFeatures::shadows, what CastShadows made of the lists.
-    /// `display`: where the codes go, the bits that Tonemap makes of the radiance; then there is no
-    /// radiance.
+    /// Enqueues only. `shadows`: with KernelFeatures::shadows, CastShadows' result for the lists.
+    /// `display`: where the codes go, with the bits that Tonemap makes of the radiance; then there
+    /// is no radiance.
     Radiance enqueue(const LitPixels& lit, StageTimer& timer, const ShadowWords& shadows = {},
                      const ShadowSamples& samples = {},
                      const std::optional<DisplayTarget>& display = {});
@@ -93,12 +94,12 @@ class ShadeAll {
     ShadeAll(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
              const SurfaceFeatures& surfaces = {});
 
-    /// Enqueues only. `shadows`: with KernelFeatures::shadows, what casts them; each work-item
-    /// casts the rays of its pixels.
+    /// Enqueues only. `shadows`: with KernelFeatures::shadows, the casters; each work-item casts
+    /// the rays of its pixels.
     Radiance enqueue(const GBuffer& gbuffer, const PreparedLights& lights, StageTimer& timer,
                      const ShadowInput& shadows = {}, const ShadowSamples& samples = {});
 
-    /// As Shade's.
+    /// See Shade::variance().
     DeviceArray<float> variance() const { return variance_.get(); }
 
     /// Radiance that falls in from everywhere.

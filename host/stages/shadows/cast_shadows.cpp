@@ -10,7 +10,7 @@ namespace {
 constexpr int kSplit = 4;
 constexpr std::size_t kFirstWords = std::size_t{1} << 18;  // that there is room for from the start
 
-// PoCL 3.1 reads through wild pointers in the work-group form, which loses values across barriers;
+// In the work-group form PoCL 3.1 loses values across barriers and reads through wild pointers;
 // oclgrind finds no fault in it. A CPU would not gain by it.
 Tuning usable_for_shadows(Tuning tuning, const DeviceInfo& device) {
     const bool is_pocl = device.platform == "Portable Computing Language";
@@ -58,7 +58,7 @@ ShadowWords CastShadows::reserve(const PreparedLights& lights, const ActiveClust
     return out;
 }
 
-// Of the kernel that casts.
+// The work size of the kernel that casts.
 WorkSize CastShadows::work_size(uint tiles, const View& view) const {
     const int group = tuning_.shadow_group;
     if (group == 0) return cast_.pixel_items(view, tuning_.shade_rows);

@@ -16,8 +16,8 @@ inline constexpr StageInfo kCastShadowsStage = {"cast_shadows", StageGroup::shad
 /// Casts the shadows of the lights in each active cluster's list onto the cluster's pixels.
 class CastShadows {
  public:
-    /// Tuning::shadow_group 0: by a walk for each light and vector of pixels. `counts`: kernels
-    /// count what they do, for measurements.
+    /// Tuning::shadow_group 0: one walk for each light and vector of pixels. `counts`: the kernels
+    /// count their walks, rays, nodes, triangles and tests, for measurements.
     CastShadows(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                 const SurfaceFeatures& surfaces, bool counts = false);
 

@@ -14,7 +14,7 @@ struct SeenCounts {
     DeviceArray<uint> seen;    // those of them that nothing hides
 };
 
-/// Counts what shadows hide. For views.
+/// Counts the lights that shadows hide. For views.
 class CountSeen {
  public:
     CountSeen(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);

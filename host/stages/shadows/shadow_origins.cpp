@@ -2,7 +2,6 @@
 #include "host/stages/shadows/shadow_origins.h"
 
 namespace kilolux {
-namespace {}  // namespace
 
 ShadowOrigins::ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features)
     : tuning_(tuning),

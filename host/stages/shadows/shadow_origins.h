@@ -20,8 +20,8 @@ class ShadowOrigins {
 
     ShadowOrigins(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// Of a G-buffer made of `ids`, which number the triangles of `scene`'s instances. Background
-    /// is undefined. Enqueues only.
+    /// The origins for a G-buffer made of `ids`, which number the triangles of `scene`'s instances.
+    /// Background is undefined. Enqueues only.
     DeviceArray<float> enqueue(const DeviceArray<uint>& ids, const SurfaceBuffers& scene,
                                const GBuffer& gbuffer, const ShadowCasters& casters,
                                const ShadowView& shadow, StageTimer& timer);

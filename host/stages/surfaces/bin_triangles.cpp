@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kFirstPairs = std::size_t{1} << 18;  // that there is room for from the start
 
-// Work-items that share their triangles' tiles: many, so that large triangles are shared by many.
-// 1: each has a chunk of its own.
+// Work-items that share their triangles' tiles: many, so that many share large triangles. 1: each
+// has its own chunk.
 int bin_group(const Gpu& gpu, const Tuning& tuning) {
     return tuning.raster_group == 1 ? 1 : std::min(256, gpu.info.max_work_group);
 }

@@ -14,11 +14,11 @@ StageWork bin_triangles_work(const StageCounts& counts);
 inline constexpr StageInfo kBinTrianglesStage = {"bin_triangles", StageGroup::surfaces,
                                                  bin_triangles_work};
 
-/// Sets up triangles and lists those that each tile's pixels may show. As CullLights, it works with
-/// the room of the last call, and fits() says whether that was enough.
+/// Sets up triangles and lists those that each tile's pixels may show. Like CullLights it works
+/// with the room of the last call, and fits() says whether that was enough.
 class BinTriangles {
  public:
-    /// Of a triangle: its row and its box of tiles. Lists are like those of lights.
+    /// Words of a triangle's box of tiles.
     static constexpr std::size_t kBoxWords = 4;
     static constexpr std::size_t kTriangleBytes = sizeof(RasterRow) + kBoxWords * sizeof(uint);
 

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// Texels that each pixel's surface is made of. For limits.
+/// Counts the texels that each pixel's surface reads. For limits.
 class CountTexels {
  public:
     CountTexels(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& surfaces);

@@ -8,10 +8,10 @@
 
 namespace kilolux {
 
-/// The G-buffer as shading sees it, as float planes: for AOVs, views and references.
+/// Decodes the G-buffer as shading does to float planes: for AOVs, views and references.
 class DecodeGBuffer {
  public:
-    /// Of a pixel at most.
+    /// Bytes of a pixel at most.
     static constexpr std::size_t kPixelBytes = SURFACE_PLANES_WITH_SPECULAR * sizeof(float);
 
     DecodeGBuffer(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);

@@ -6,8 +6,8 @@
 namespace kilolux {
 namespace {
 
-// NVIDIA's compiler takes so many registers for setting up that few work-groups fit into a unit,
-// which then waits for memory: half of the time on an H200.
+// NVIDIA's compiler uses so many registers for setting up that few work-groups fit on a
+// multiprocessor, which then waits for memory: half of the time on an H200.
 constexpr std::string_view kFewerRegisters = "-cl-nv-maxrregcount=64";
 
 KernelProgram raster_program(const Gpu& gpu, const Tuning& tuning, SurfaceFeatures features) {

@@ -11,7 +11,7 @@ StageWork raster_triangles_work(const StageCounts& counts);
 inline constexpr StageInfo kRasterTrianglesStage = {"raster_triangles", StageGroup::surfaces,
                                                     raster_triangles_work};
 
-/// Tiles' triangles -> triangle ids.
+/// Draws tiles' triangles as triangle ids.
 class RasterTriangles {
  public:
     RasterTriangles(const Gpu& gpu, const Tuning& tuning, const SurfaceFeatures& features);

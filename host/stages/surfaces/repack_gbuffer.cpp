@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kRepackGbufferStage = "repack_gbuffer";
 
-// The source as the kernel takes it.
+// The source in the kernel's form.
 struct RepackSource {
     const SourceGBuffer& planes;
     uint pitch, invert, world_normals;

@@ -8,8 +8,8 @@
 
 namespace kilolux {
 
-/// What a pixel of another renderer's depth buffer is: a float, or 24 bits, the lower (Direct3D,
-/// Vulkan) or the upper (OpenGL's UNSIGNED_INT_24_8) of 32.
+/// The format of a pixel of another renderer's depth buffer: a float, or 24 bits, the lower
+/// (Direct3D, Vulkan) or the upper (OpenGL's UNSIGNED_INT_24_8) of 32.
 enum class DepthFormat { float32, lower_24, upper_24 };
 
 /// 4x8 bits, (n + 1) / 2, the 4th unused; 2x16 bits, octahedral, (v + 1) / 2; 4 floats, the 4th
@@ -31,13 +31,14 @@ struct SourceFormat {
     bool images = false;
 };
 
-/// One frame of it: rows from the top. The caller's; read until the queue has passed the repack.
+/// A frame of another renderer: rows from the top. The caller owns it; it is read until the queue
+/// has passed the repack.
 struct SourceGBuffer {
     cl::Memory depth;         // [height][pitch]
     cl::Memory normal;        // [height][pitch]
     cl::Memory albedo;        // [height][pitch]
     uint pitch = 0;           // of buffers: pixels from a row to the next; 0: the width
-    float roughness = -1.0f;  // of all surfaces; below 0: as the albedo has it
+    float roughness = -1.0f;  // of all surfaces; below 0: the albedo's fourth channel
 };
 
 /// A packed G-buffer of another renderer's depth, normals and albedo. The way back is PackRadiance;
@@ -46,7 +47,7 @@ class RepackGBuffer {
  public:
     RepackGBuffer(const Gpu& gpu, const Tuning& tuning, const SourceFormat& format);
 
-    /// Enqueues only. Throws Error for a source that is too small or not of its kind.
+    /// Enqueues only. Throws Error for a source that is too small or has another kind.
     GBuffer enqueue(const SourceGBuffer& source, const MatrixView& view, StageTimer& timer);
 
  private:

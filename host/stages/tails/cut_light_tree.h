@@ -13,7 +13,7 @@ StageWork cut_light_tree_work(const StageCounts& counts);
 inline constexpr StageInfo kCutLightTreeStage = {"cut_light_tree", StageGroup::lists,
                                                  cut_light_tree_work};
 
-/// Where a frame's pixels are and what of their lists is known.
+/// A frame's pixels, lights and lists.
 struct CutInput {
     GBuffer gbuffer;
     PreparedLights lights;                         // with nodes
@@ -22,8 +22,9 @@ struct CutInput {
     RefinedLists refined;
 };
 
-/// Appends each active cluster's cut through the light tree to its list: nodes that stand for their
-/// lights within a share of what they send, and single lights. See kernels/tails/tree_cut.h.
+/// Appends each active cluster's cut through the light tree to its list: nodes that replace their
+/// lights within a share of the light that they send, and single lights. See
+/// kernels/tails/tree_cut.h.
 class CutLightTree {
  public:
     CutLightTree(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
@@ -35,8 +36,8 @@ class CutLightTree {
     /// Entries of the last enqueue's lists. Blocks.
     std::uint64_t entries() const { return lists_.read_total(); }
 
-    /// True if there is room for the last enqueue's `entries`; else makes room for the next. Right
-    /// only once all that goes in is complete.
+    /// True if there is room for the last enqueue's `entries`; else makes room for the next. Valid
+    /// only once all inputs are complete.
     bool fits(std::uint64_t entries) { return lists_.fits(entries); }
 
  private:

@@ -13,14 +13,14 @@ namespace kilolux {
 
 inline constexpr StageInfo kTailErrorsStage = {"tail_errors", StageGroup::picture};
 
-/// What lights without a range of their own leave out of a picture, pixel by pixel. For AOVs; no
-/// part of a frame otherwise.
+/// Errors that lights without a range of their own cause in a picture, pixel by pixel. They are
+/// AOVs; a frame without these does not compute them.
 class TailErrors {
  public:
     TailErrors(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);
 
-    /// A bound of the radiance that ranges took: [3][height][stride], 0 for background. `own`: the
-    /// camera-relative lights, of which those with a negative range have none of their own.
+    /// A bound of the radiance that ranges take away: [3][height][stride], 0 for background. `own`:
+    /// the camera-relative lights, of which those with a negative range have none of their own.
     /// Enqueues only.
     DeviceArray<float> bound(const LitPixels& lit, const DeviceArray<Light>& own,
                              const ClusterBoxes& boxes, StageTimer& timer);

@@ -16,11 +16,11 @@ class AdaptiveScale {
     void set_target(double target_ms) { target_ms_ = target_ms; }
     double target_ms() const { return target_ms_; }
 
-    /// A picture of the moving scale took `ms` at scale `scale`. The first at a scale does not
-    /// count: it makes surfaces, which later ones keep while the camera stands.
+    /// Notes that a picture of the moving scale took `ms` at scale `scale`. The first at a scale
+    /// does not count: it makes surfaces, which later ones reuse while the camera stands.
     void picture_took(double ms, double scale);
 
-    /// A picture of scale `scale` was given up; it would have taken `ms`.
+    /// Notes that a cancelled picture of scale `scale` would have taken `ms`.
     void picture_would_take(double ms, double scale);
 
     /// The scale of the next picture's edges, 0..1.

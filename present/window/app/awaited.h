@@ -10,10 +10,10 @@
 
 namespace kilolux {
 
-/// Gets the message of a task that failed.
+/// Receives the message of a task that failed.
 using OnFailure = std::function<void(const std::string&)>;
 
-/// The result of a task, from when it is asked for until it is taken.
+/// The result of a task, from its request until it is taken.
 template <typename T>
 class Awaited {
  public:

@@ -29,7 +29,7 @@ class CameraRig {
  public:
     CameraRig(const Camera& start, const Box& scene_box);
 
-    /// Goes on from another camera.
+    /// Continues from another camera.
     void set(const Camera& camera);
 
     /// Steps back until it sees all of the scene.
@@ -40,7 +40,7 @@ class CameraRig {
 
     const Camera& camera() const { return camera_; }
     const glm::dvec3& focal_point() const { return focal_; }
-    /// Whether it is still the camera that set() gave.
+    /// Whether it is still the camera of set().
     bool is_unmoved() const { return unmoved_; }
 
     double speed() const { return speed_; }  // of flying [m/s]
@@ -55,7 +55,7 @@ class CameraRig {
     Box box_;
     double radius_;  // of the scene [m]
     Camera camera_;
-    glm::dvec3 focal_{0.0};  // what it looks at, and orbits about
+    glm::dvec3 focal_{0.0};  // the point that it looks at, and orbits about
     double speed_;
     bool unmoved_ = true;
 };

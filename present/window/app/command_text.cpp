@@ -38,7 +38,7 @@ std::string camera_options(const CameraRig& rig, const SharedOptions& first, con
 
 std::string render_command(const CameraRig& rig, const SharedOptions& options, const Scene& scene) {
     SharedOptions said = options;
-    said.camera = {};                 // said by camera_options()
+    said.camera = {};                 // camera_options() writes it
     said.settings.want.aovs.clear();  // a PNG has no layers
     const std::string out = "kilolux render " + shell_word(options.scene) + option_words(said);
     const std::string camera = camera_options(rig, options, scene);

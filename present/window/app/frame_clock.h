@@ -7,20 +7,20 @@
 
 namespace kilolux {
 
-/// The time of the window's frames [s]: as long as each takes, or all of one length.
+/// The time of the window's frames [s]: measured, or all of one length.
 class FrameClock {
  public:
     static constexpr double kUsualSeconds = 1.0 / 60.0;
     static constexpr double kLongestSeconds = 0.25;
 
-    /// The frame's work is done; the loop waits for the next.
+    /// Ends the frame's work, before the loop waits for the next.
     void end_frame() { busy_seconds_ = seconds_since(begin_); }
 
-    /// The next frame begins after a wait of up to `waited`. `fixed`: its length in any case.
+    /// Begins the next frame after a wait of up to `waited`. `fixed`: its length, if given.
     void begin_frame(double waited, std::optional<double> fixed) {
         const double whole = seconds_since(begin_);
         begin_ = Clock::now();
-        // After a long wait: a key that ended it has been held for one frame at most.
+        // After a long wait a key that ended it has been down for one frame at most.
         const double most = waited > kUsualSeconds ? kUsualSeconds : kLongestSeconds;
         frame_seconds_ = fixed.value_or(std::min(whole, most));
         now_ += fixed.value_or(std::min(whole, kLongestSeconds));

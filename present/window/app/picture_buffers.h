@@ -25,14 +25,14 @@ class PictureBuffers {
     /// where the driver has no memory for it.
     std::optional<std::size_t> acquire(std::size_t pixels);
 
-    /// Where to write the slot's picture.
+    /// The memory of the slot's picture.
     std::span<uint> pixels(std::size_t slot);
 
     /// Frees a slot whose picture is not wanted.
     void release(std::size_t slot);
 
     /// Copies the slot's picture, rows display_stride() apart, to the texture. The slot is free
-    /// when OpenGL has read it.
+    /// once OpenGL has read it.
     void show(std::size_t slot, int width, int height);
 
     GLuint texture() const { return texture_.name(); }

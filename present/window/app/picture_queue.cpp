@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-constexpr double kRestSeconds = 0.25;  // without a change until a picture is made in full
+constexpr double kRestSeconds = 0.25;  // without a change before a picture is made in full
 
 bool same_camera(const Camera& a, const Camera& b) {
     return a.position == b.position && a.world_from_view == b.world_from_view &&

@@ -12,26 +12,26 @@
 
 namespace kilolux {
 
-/// Whether two requests show the same, at whatever size and smoothness.
+/// Whether two requests show the same, of any size and number of samples.
 bool same_content(const PictureRequest& a, const PictureRequest& b);
 bool same_request(const PictureRequest& a, const PictureRequest& b);
 
 /// Pictures from the request to the texture that shows the newest.
 class PictureQueue {
  public:
-    /// A picture that takes longer is given up when another is wanted [s].
+    /// A picture that takes longer is cancelled when another is wanted [s].
     static constexpr double kSlowSeconds = 0.5;
 
     struct Policy {
-        bool refines = false;  // one sample after the other, each when the last one is shown
+        bool refines = false;  // one sample after the other, each once the last one is shown
         bool again = false;    // also what is shown already
     };
 
-    /// Asks for `next`, unless it is under way or shown. Gives up slow pictures of anything else.
+    /// Asks for `next`, unless it is under way or shown. Cancels slow pictures of anything else.
     void request(RenderWorker& worker, PictureRequest next, const Policy& policy);
 
-    /// Shows the pictures that are there and passes them to `shown`. `given_up` gets the others
-    /// that were begun, with the time that they would have taken [s].
+    /// Shows finished pictures and passes them to `shown`. `given_up` receives cancelled ones that
+    /// were begun, with the time that they would have taken [s].
     struct Receiver {
         std::function<void(const PictureRequest&, Picture)> shown;
         std::function<void(const PictureRequest&, double)> given_up;
@@ -39,12 +39,12 @@ class PictureQueue {
     };
     void take(const Receiver& receiver);
 
-    /// Notes that `next` is wanted. Returns whether that is another content than before.
+    /// Notes that `next` is wanted. Returns whether its content differs from that of the last one.
     bool note_change(const PictureRequest& next);
     /// Whether the wanted content has changed within the last moment.
     bool is_moving() const;
 
-    /// The renderer has made something else since: the next request is made anew.
+    /// Makes the next request anew, since the renderer has made something else in between.
     void forget_request() { requested_.reset(); }
 
     bool is_busy() const { return !pending_.empty(); }
@@ -54,7 +54,7 @@ class PictureQueue {
     std::uint64_t shown() const { return shown_; }                         // pictures
     const PictureBuffers& buffers() const { return buffers_; }
 
-    /// The progress of the picture that is being made; none: none is.
+    /// The progress of the picture that is being made; null: none is.
     const PictureProgress* progress() const;
 
  private:

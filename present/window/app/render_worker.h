@@ -13,7 +13,7 @@
 
 namespace kilolux {
 
-/// How far a picture is. The window reads it, and may give the picture up, while it is made.
+/// The progress of a picture. The window reads it, and may cancel the picture, while it is made.
 class PictureProgress {
  public:
     void give_up() { given_up_ = true; }
@@ -22,8 +22,8 @@ class PictureProgress {
     /// About how long the whole picture takes [s]; 0 while that is unknown.
     double estimate() const { return estimate_; }
 
-    /// Called by the worker, when the picture is begun and with the share that is made. Throws
-    /// Interrupted once the picture is given up.
+    /// Called by the worker when the picture is begun, and with the finished share. Throws
+    /// Interrupted once the picture is cancelled.
     void begin();
     void note(double share);
 
@@ -38,18 +38,18 @@ class PictureProgress {
     double first_end_ = 0.0;  // [s] of the clock
 };
 
-/// A picture to render, and where to.
+/// A picture to render, and its memory.
 struct PictureRequest {
     RenderSettings settings;
     Camera camera;
     double time = 0.0;                               // [s]
     std::span<uint> pixels;                          // rows display_stride() apart
     int samples = 0;                                 // of settings.samples; 0: all
-    Rig rig{};                                       // whose lights the scene has
-    std::shared_ptr<PictureProgress> progress = {};  // none: nobody asks
+    Rig rig{};                                       // the rig whose lights the scene has
+    std::shared_ptr<PictureProgress> progress = {};  // null: not needed
 };
 
-/// What came with a rendered picture.
+/// A rendered picture without its pixels.
 struct Picture {
     Frame frame;  // without display and radiance
     DeviceInfo device;
@@ -57,7 +57,7 @@ struct Picture {
     std::uint64_t device_bytes = 0;  // of our OpenCL buffers
 };
 
-/// The Renderer in a thread of its own: the window answers while a picture is made, and shows one
+/// The Renderer in its own thread: the window responds while a picture is made, and shows one
 /// picture while the next is made.
 class RenderWorker {
  public:
@@ -83,7 +83,7 @@ class RenderWorker {
             at_stop);
     }
 
-    /// Throws what kept the renderer from being made.
+    /// Throws the error that prevented the renderer.
     void check_begun() const { thread_.check_begun(); }
     bool is_stopping() const { return thread_.is_stopping(); }
     bool stop(std::chrono::milliseconds patience) { return thread_.stop(patience); }

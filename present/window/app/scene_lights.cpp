@@ -9,7 +9,7 @@
 namespace kilolux {
 namespace {
 
-// The command line with another rig: what it says of lights was said for its own.
+// The command line's options with another rig: its options of lights belong to its own rig.
 SharedOptions with_rig(SharedOptions asked, Rig rig) {
     if (rig != Rig::automatic && rig != asked.rig) {
         asked.lights_given = asked.ambient_given = false;
@@ -21,7 +21,7 @@ SharedOptions with_rig(SharedOptions asked, Rig rig) {
     return asked;
 }
 
-// What a rig decides of the settings.
+// Takes the settings that depend on the rig.
 void settle(RenderSettings& settings, const SharedOptions& lit) {
     settings.lights.count = lit.settings.lights.count;
     settings.ambient = lit.settings.ambient;

@@ -21,11 +21,12 @@ class SceneLights {
 
     /// Asks for the lights of the state's rig; `settings`: of the next picture.
     void replace(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
-    /// Takes them, and into the state what they decide. After a failure the former ones stay.
+    /// Takes the new lights, and writes the settings that depend on them to the state. After a
+    /// failure the former lights stay.
     void take(ViewState& state, const OnFailure& failed);
     bool are_changing() const { return relit_.is_open(); }
 
-    /// The command line counts no longer for lights: those of the program's defaults.
+    /// Later rigs use the program's defaults instead of the command line's options of lights.
     void forget_command_line(const RenderSettings& defaults);
 
     Rig rig() const { return rig_; }  // of the lights that the scene has
@@ -33,8 +34,8 @@ class SceneLights {
 
  private:
     struct Relit {
-        SharedOptions options;  // settled
-        std::string line;       // what light_scene() says
+        SharedOptions options;  // after light_scene()
+        std::string line;       // the lines of light_scene()
     };
 
     AnimatedScene& scene_;  // its lights are the worker's

@@ -14,8 +14,8 @@
 namespace kilolux {
 namespace {
 
-constexpr double kIdleSeconds = 0.25;  // signals are looked for that often
-constexpr double kBusySeconds = 0.1;   // while a thread works; what it ends wakes the loop
+constexpr double kIdleSeconds = 0.25;  // signals are checked that often
+constexpr double kBusySeconds = 0.1;   // while a thread works; its end wakes the loop
 constexpr std::chrono::milliseconds kStopPatience(200);
 constexpr int kSmallestKept = 64;  // [pixel] of the window's edges, from run to run
 
@@ -174,7 +174,7 @@ bool ViewSession::is_busy() const {
            !saving_.empty() || (!renders_always() && pictures_.is_busy());
 }
 
-// Whether the last picture is what the window wants, in full size, and no task is left.
+// Whether the last picture is the wanted one, in full size, and no task is left.
 Settled ViewSession::settled() const {
     if (state_.lights_move) return Settled::never;
     const bool shown = !pictures_.is_moving() && pictures_.has_settled(wanted());

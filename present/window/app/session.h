@@ -25,10 +25,10 @@
 
 namespace kilolux {
 
-/// What a run of the window is given.
+/// The start of a run of the window.
 struct SessionOptions {
     SharedOptions asked;   // before light_scene()
-    SharedOptions shared;  // scene, camera, time, and what light_scene() settled
+    SharedOptions shared;  // scene, camera, time, and the choices of light_scene()
     ViewState state;
     std::uint64_t exit_after = 0;  // pictures; 0: until it is closed
     std::vector<ScriptStep> script;
@@ -49,7 +49,7 @@ class ViewSession {
     /// Nothing is rendered while it is minimised, unless a script or exit_after waits for pictures.
     void run();
 
-    /// Ends the worker after files that are being saved. Returns false if it is still busy after a
+    /// Stops the worker after files that are being saved. Returns false if it is still busy after a
     /// moment: then only the end of the process ends it.
     bool stop();
 
@@ -123,7 +123,7 @@ class ViewSession {
     ClusterOverlay clusters_;
     ErrorMeasurement error_;
     Awaited<DeviceLimits> limits_;
-    std::deque<Awaited<std::string>> saving_;  // what was written
+    std::deque<Awaited<std::string>> saving_;  // results of saved files
     Actions held_back_;                        // until the lights are replaced
 
     PanelFacts facts_;

@@ -46,7 +46,8 @@ void ViewSession::obey_actions(Actions actions) {
     if (actions.close) window_.close();
 }
 
-// What needs the picture's settings, which belong to the lights to come.
+// Holds back actions that need the picture's settings, which belong to lights that are not there
+// yet.
 void ViewSession::hold_back(Actions& actions) {
     for (bool Actions::*action : {&Actions::measure_error, &Actions::save_png, &Actions::save_exr,
                                   &Actions::copy_command}) {
@@ -54,7 +55,8 @@ void ViewSession::hold_back(Actions& actions) {
     }
 }
 
-// The program's defaults, whatever the command line said; the device was chosen for the run.
+// Restores the program's defaults, without the command line's values; the device is fixed for the
+// run.
 void ViewSession::reset_settings() {
     ViewState fresh;
     fresh.settings = SharedOptions().settings;

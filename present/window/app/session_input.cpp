@@ -27,7 +27,7 @@ void step_view(ViewState& state, int step) {
     state.settings.want.view = static_cast<ViewKind>((now + step + count) % count);
 }
 
-// What a key does, with Shift, Ctrl, both or none held as `modifiers` says.
+// The action of a key, with Shift, Ctrl, both or none held, as `modifiers` says.
 struct KeyBinding {
     int key;
     int modifiers;
@@ -84,7 +84,7 @@ void ViewSession::steer() {
                          input_.was_button_down(kMiddle);
     const bool begins = pressed && !dragging_ && !gui_.wants_mouse();
     if (begins) dragging_ = true;
-    // While flying, the mouse is not stopped by the screen's edges.
+    // While the camera flies, the screen's edges do not stop the mouse.
     if (begins && !script_ && state_.camera_mode == CameraMode::fly) window_.grab_mouse(true);
     rig_.move(camera_motion(), state_.camera_mode, clock_.frame_seconds());
     if (dragging_ && !pressed) {

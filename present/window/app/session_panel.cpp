@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame of the window shows.
+// The contents of a frame of the window.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -11,11 +11,11 @@
 namespace kilolux {
 namespace {
 
-constexpr double kPatienceSeconds = 2.0;  // a picture that takes longer says so
+constexpr double kPatienceSeconds = 2.0;  // a picture that takes longer is reported
 
 }  // namespace
 
-// What is said of a picture that is being made and takes long; empty: nothing.
+// The line about a picture that takes long; empty: none.
 std::string ViewSession::waiting_line() const {
     const PictureProgress* progress = pictures_.progress();
     if (progress == nullptr) return "";

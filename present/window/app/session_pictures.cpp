@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which picture the window wants, and what is told of those that the worker makes.
+// Chooses the picture that the window wants, and reports on those of the worker.
 #include <unistd.h>
 
 #include <algorithm>
@@ -46,8 +46,8 @@ ShownPicture ViewSession::shown_picture() {
             gui_.scaled(1.0f)};
 }
 
-// Whether the picture at rest gets more samples than one that moves. Probes and frozen clusters are
-// those of the sample through the pixels' centres.
+// Whether the picture at rest gets more samples than a moving one. Probes and frozen clusters need
+// the sample through the pixels' centres alone.
 bool ViewSession::refines() const {
     return !renders_always() && state_.settings.want.view == ViewKind::lit && !state_.probe &&
            !state_.frozen;
@@ -78,7 +78,7 @@ void ViewSession::request_picture() {
     if (state_.rig != lights_.rig() && !lights_.are_changing()) {
         lights_.replace(*worker_, state_, wanted().settings);
     }
-    if (lights_.are_changing()) return;  // its settings belong to the lights to come
+    if (lights_.are_changing()) return;  // its settings belong to lights that are not there yet
     if (state_.lights_move) time_ += state_.light_speed * clock_.frame_seconds();
     scale_.set_target(state_.target_ms);
     PictureRequest next = wanted();

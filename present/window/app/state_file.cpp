@@ -22,8 +22,8 @@ using Names = std::vector<std::string>;
 
 constexpr int kVersion = 2;
 
-// Calls `visit` with every value that is kept: what the panel shares with the command line, then
-// the window's own.
+// Calls `visit` with every value that is kept: those that the panel shares with the command line,
+// then the window's own.
 void visit_state(ViewState& state, const SettingVisitor& visit) {
     SharedOptions shared;
     shared.settings = state.settings;

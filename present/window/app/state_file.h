@@ -26,15 +26,15 @@ class StateFile {
     /// whole, with a warning.
     ViewState load(const ViewState& state, const std::function<bool(const std::string&)>& is_given);
 
-    /// From now on all values but the window's size count as set in the window.
+    /// Keeps all values but the window's size from now on, as if set in the window.
     void forget();
 
     /// Writes the values that changed since load(), and for the others those of the file. Writes
-    /// the file whole or not at all; makes its folder. Throws Error with the reason.
+    /// the whole file or nothing; makes its folder. Throws Error with the reason.
     void save(const ViewState& state);
 
-    /// Called in every frame, at `now` [s]: saves a change that has lasted a moment, so that a
-    /// crash does not lose it. A failure is a warning.
+    /// Call in every frame, at `now` [s]: saves a change that has lasted a moment, so that a crash
+    /// does not lose it. A failure is a warning.
     void keep(const ViewState& state, double now);
 
  private:
@@ -43,8 +43,8 @@ class StateFile {
     std::filesystem::path file_;
     Json kept_;               // without the command line
     Json started_;            // with it
-    Json written_;            // what the file holds
-    ViewState seen_, saved_;  // by keep()
+    Json written_;            // the contents of the file
+    ViewState seen_, saved_;  // of keep()
     double next_look_ = 0.0;  // [s]
 };
 

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/task_thread.h"
 
-#include <unistd.h>
-
 namespace kilolux {
 
 TaskThread::TaskThread(Call begin, Call end, Call wake)
     : begin_(std::move(begin)),
       end_(std::move(end)),
       wake_(std::move(wake)),
-      process_(::getpid()),
       thread_([this] { run(); }) {}
 
 TaskThread::~TaskThread() {
-    if (::getpid() != process_) {
-        thread_.detach();
-        return;
-    }
     stop({});
     thread_.join();
 }
@@ -73,7 +66,7 @@ void TaskThread::run() {
 void TaskThread::work() {
     while (std::optional<Task> task = next()) {
         task->run();
-        task.reset();  // what it holds goes in this thread
+        task.reset();  // destroys its captures in this thread
         {
             const std::lock_guard lock(mutex_);
             must_finish_ = false;

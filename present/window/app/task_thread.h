@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -18,7 +16,7 @@
 
 namespace kilolux {
 
-/// What becomes of a waiting task when its thread is stopped.
+/// What happens to a waiting task when its thread is stopped.
 enum class AtStop { drop, finish };
 
 /// Runs tasks one after the other in a thread of its own. The future of a task that was dropped
@@ -30,8 +28,7 @@ class TaskThread {
     /// `begin` runs first in the thread and `end` last; `wake` runs in it after every task. When
     /// `begin` throws, no task runs.
     TaskThread(Call begin, Call end, Call wake);
-    /// Stops, however long the running task takes. Does nothing in a process that was forked
-    /// meanwhile, which has no such thread.
+    /// Stops, however long the running task takes.
     ~TaskThread();
     TaskThread(const TaskThread&) = delete;
     TaskThread& operator=(const TaskThread&) = delete;
@@ -52,10 +49,10 @@ class TaskThread {
         return std::move(result);
     }
 
-    /// Throws what `begin` threw.
+    /// Throws the exception of `begin`.
     void check_begun() const;
 
-    /// For long tasks: whether to give up.
+    /// Whether a long task should give up.
     bool is_stopping() const { return stopping_; }
 
     /// Drops waiting tasks, waits for those that must finish, and at most `patience` for any other.
@@ -90,7 +87,6 @@ class TaskThread {
     bool ended_ = false;
     std::exception_ptr failure_;  // of begin_
     std::atomic<bool> stopping_ = false;
-    pid_t process_;
     std::thread thread_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace kilolux {
 
-/// Jittered samples a pixel that a picture at rest gets, unless told otherwise.
+/// Default number of jittered samples a pixel of a picture at rest.
 inline constexpr int kRestSamples = 16;
 
 inline RenderSettings window_settings() {
@@ -18,15 +18,15 @@ inline RenderSettings window_settings() {
     return settings;
 }
 
-/// What can be set in the window. All but the last group is kept from one run to the next.
+/// The window's settings. All but the last group are kept from one run to the next.
 struct ViewState {
     RenderSettings settings = window_settings();  // width, height and aovs follow from the window
-    Rig rig = Rig::automatic;                     // decides of settings' lights and ambient
+    Rig rig = Rig::automatic;                     // decides the settings' lights and ambient light
     bool lights_move = false;
     double light_speed = 1.0;  // seconds of the lights' time per second
     CameraMode camera_mode = CameraMode::fly;
     bool adaptive = true;      // fewer pixels while something moves
-    double target_ms = 80.0;   // that a picture may take then
+    double target_ms = 80.0;   // most time of a picture then
     double fixed_scale = 1.0;  // of the picture's edges when not adaptive
     bool continuous = false;   // render even when nothing changes
     bool vsync = true;
@@ -36,7 +36,7 @@ struct ViewState {
     std::array<int, 2> window_size = {1280, 800};
 
     bool frozen = false;     // draw the clusters of one picture as boxes
-    int box_lights = 1;      // that a frozen cluster must have to be drawn
+    int box_lights = 1;      // least lights of a frozen cluster that is drawn
     bool error_map = false;  // show the measured error in place of the picture
 
     bool operator==(const ViewState&) const = default;

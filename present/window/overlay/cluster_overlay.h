@@ -12,7 +12,7 @@
 
 namespace kilolux {
 
-/// The picture in the window, as probing and freezing see it.
+/// The picture in the window, for probing and freezing.
 struct ShownPicture {
     const std::optional<PictureRequest>& drawn;  // none: no picture yet
     std::uint64_t number = 0;                    // of the picture
@@ -25,14 +25,14 @@ struct ShownPicture {
 /// Drawn over the picture: the lists of the pixel under the mouse, and frozen clusters as boxes.
 class ClusterOverlay {
  public:
-    /// Asks the worker for what the state wants to see and is not there.
+    /// Asks the worker for data that the state shows and that is missing.
     void ask(RenderWorker& worker, const ViewState& state, const ShownPicture& picture);
-    /// Takes what was asked for. Switches the probe or the freeze off where that failed.
+    /// Takes the data. Switches the probe or the freeze off where it failed.
     void take(ViewState& state, const OnFailure& failed);
-    /// Describes it for Dear ImGui, which draws it in this frame.
+    /// Describes the overlay for Dear ImGui, which draws it in this frame.
     void describe(const ViewState& state, const ShownPicture& picture);
 
-    /// The depths of a new picture; it hides boxes.
+    /// Takes the depths of a new picture, which hide boxes.
     void take_depths(const Frame& frame);
 
     bool is_open() const { return probing_.is_open() || freezing_.is_open(); }

@@ -23,8 +23,8 @@ glm::dvec3 to_world(const Camera& camera, const glm::dvec3& view) {
     return camera.world_from_view * view + camera.position;
 }
 
-// Of a list with this share of the longest one's lights. Starts at a quarter: the dark end of the
-// heat map is invisible over dark pictures.
+// Colour of a list with this share of the longest one's lights. Starts at a quarter, since the dark
+// end of the heat map is invisible over dark pictures.
 DisplayColor color_of_list(double share) { return heat_color(0.25 + 0.75 * share); }
 
 double brightness(const glm::dvec3& radiance) {

@@ -12,7 +12,7 @@ struct ImDrawList;
 
 namespace kilolux {
 
-/// A pixel that the mouse points at, and the lights of its list.
+/// The pixel under the mouse, and the lights of its list.
 struct ProbedPixel {
     int x = 0, y = 0;           // of the picture [pixel]
     int width = 0, height = 0;  // of the picture [pixel]
@@ -37,17 +37,17 @@ struct ScreenPlace {
 void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
                 const ScreenPlace& place);
 
-/// "59,126  depth 2.50 m", or that nothing was drawn there.
+/// "59,126  depth 2.50 m", or that the pixel is background.
 std::string pixel_line(const ProbedPixel& pixel);
 
-/// A box of text about the pixel in the lower right of the picture: tile, slice, size, and as many
-/// of the list's lights as it has room for.
+/// Describes a box of text about the pixel in the lower right of the picture: tile, slice, size,
+/// and as many of the list's lights as fit.
 void describe_probe(const ProbedPixel& pixel, const ScreenPlace& place, float scale);
 
 /// Lights of the longest list, at least 1.
 uint longest_list(const FrozenClusters& frozen);
 
-/// Which colour means how many lights, in the lower left of the picture.
+/// Describes the legend of the boxes' colours, in the lower left of the picture.
 void describe_box_colors(uint most, const ScreenPlace& place, float scale);
 
 /// Boxes for BoxPass, coloured by the length of their lists. Clusters of fewer than `least` lights

@@ -19,11 +19,11 @@ class ErrorMeasurement {
     void begin(RenderWorker& worker, const PictureRequest& request,
                const std::function<void()>& wake);
 
-    /// Takes the errors once they are there. Returns whether they are new.
+    /// Takes the errors once they are measured. Returns whether they are new.
     bool take(const OnFailure& failed);
 
     bool is_open() const { return measuring_.is_open(); }
-    float share() const { return share_; }  // of the measurement that is done
+    float share() const { return share_; }  // of the measurement, 0 to 1
     const std::optional<FrameError>& error() const { return error_; }
 
     /// The map's texture, if it is that of `wanted`; else 0.

@@ -9,11 +9,12 @@
 
 namespace kilolux {
 
-/// A line about what has been done, such as a file that was saved. It fades.
+/// A line about a finished action, such as a saved file. It fades.
 class Notice {
  public:
     void show(std::string text, double now);
-    /// Returns whether it looks other than a moment ago. `now`: seconds of the same clock.
+    /// Fades. Returns whether its look changed since the last call. `now`: seconds of the same
+    /// clock.
     bool fade(double now);
     const std::string& text() const { return text_; }  // empty: none
     float alpha() const { return alpha_; }
@@ -32,7 +33,7 @@ void describe_overlay(const std::vector<std::string>& lines, const Notice& notic
 /// text shrinks to fit.
 void describe_help(const ScreenPlace& place, float scale);
 
-/// A message at the lower edge. Returns whether it was dismissed.
+/// Describes a message at the lower edge. Returns whether it was dismissed.
 bool describe_failure(Widgets& ui, const std::string& text, const ScreenPlace& place, float scale);
 
 }  // namespace kilolux

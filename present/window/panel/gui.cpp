@@ -46,7 +46,7 @@ constexpr Shade kGrays[] = {
 
 constexpr Shade kAmbers[] = {{ImGuiCol_ButtonHovered, 0.62f, 1.0f},
                              {ImGuiCol_ButtonActive, 0.8f, 1.0f},
-                             // White digits are drawn over a slider's grip.
+                             // A slider's grip is under white digits.
                              {ImGuiCol_SliderGrab, 0.48f, 1.0f},
                              {ImGuiCol_SliderGrabActive, 0.56f, 1.0f},
                              {ImGuiCol_CheckMark, 1.0f, 1.0f},
@@ -117,7 +117,8 @@ void Gui::take(const InputEvent& event) {
 void Gui::begin(const InputState& input, std::optional<double> seconds) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    // The backend asks the window system for the mouse. Ours comes from events, a script's too.
+    // The backend would ask the window system for the mouse. Ours comes from events, also a
+    // script's.
     ImGuiIO& io = ImGui::GetIO();
     io.MousePos = {static_cast<float>(input.mouse().x), static_cast<float>(input.mouse().y)};
     for (std::size_t i = 0; i < InputState::kButtons; ++i) {

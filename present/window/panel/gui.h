@@ -10,7 +10,7 @@
 
 namespace kilolux {
 
-/// A window that stays where the program puts it.
+/// A window at a place that the program chooses.
 inline constexpr ImGuiWindowFlags kPinned =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings;
@@ -30,9 +30,9 @@ class Gui {
     /// clock.
     void begin(const InputState& input, std::optional<double> seconds);
 
-    /// Draws what was described since begin() to the current framebuffer.
+    /// Draws the widgets described since begin() to the current framebuffer.
     void draw();
-    /// Instead of draw(), while the window is not visible.
+    /// Ends the frame without drawing, while the window is not visible.
     void skip();
 
     /// Whether the mouse is on a panel, and whether keys belong to a text field.

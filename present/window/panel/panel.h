@@ -15,7 +15,7 @@
 
 namespace kilolux {
 
-/// What the panel shows of the last picture and of what made it.
+/// Facts about the last picture that the panel shows.
 struct PanelFacts {
     const Scene& scene;  // but its lights, which the worker replaces
     bool has_unranged_lights = false;
@@ -26,7 +26,7 @@ struct PanelFacts {
     FrameStats stats{};
     RenderSettings drawn{};  // of the last picture
     double scale = 1.0;      // of its edges
-    int samples = 1;         // a pixel that it has, of drawn.samples
+    int samples = 1;         // a pixel of the picture, out of drawn.samples
     StageHistory history{};
     std::optional<DeviceLimits> limits{};
     std::uint64_t device_bytes = 0;   // of our OpenCL buffers
@@ -35,7 +35,7 @@ struct PanelFacts {
     const ErrorMeasurement& error;
 };
 
-/// What input asks for in one frame.
+/// The actions that input asks for in one frame.
 struct Actions {
     std::optional<int> scene_camera;
     bool reset_camera = false;

@@ -14,7 +14,7 @@ class StageHistory {
  public:
     static constexpr std::size_t kLength = 160;  // pictures
 
-    /// `as_before`: the picture has the settings of the one before. Medians are over pictures of
+    /// `as_before`: the picture has the settings of the last one. Medians are over pictures with
     /// the newest one's settings.
     void add(const FrameStats& stats, bool as_before);
 
@@ -25,8 +25,8 @@ class StageHistory {
     /// Time of a stage in picture i, 0 the oldest [ms]; 0 where it did not run.
     double ms(std::size_t i, std::size_t stage) const;
 
-    /// Median of a stage over the latest few pictures that have it [ms]; < 0: the latest one lacks
-    /// it.
+    /// Median of a stage over the latest few pictures that have it [ms]; < 0: the latest picture
+    /// lacks it.
     double median_ms(std::size_t stage) const;
     double median_frame_ms() const;
 

@@ -19,7 +19,7 @@ ImGuiSliderFlags flags_of(const SliderRange& range) {
 
 }  // namespace
 
-// As ImGui::SliderBehavior has it: the grab stays inside the frame.
+// Repeats ImGui::SliderBehavior: the grab stays inside the frame.
 double WidgetPlace::x_of(double value) const {
     const auto [low, high, logarithmic, format] = slider.value();
     double t = (value - low) / (high - low);

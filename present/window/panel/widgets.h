@@ -18,8 +18,8 @@ struct SliderRange {
     const char* format = "%.2f";
 };
 
-/// Where a widget was in the last frame, in window coordinates: for scripts, which find and click
-/// it as a person does.
+/// The place of a widget in the last frame, in window coordinates: scripts find and click it as
+/// users do.
 struct WidgetPlace {
     float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
     bool visible = false;               // it can be clicked
@@ -27,7 +27,7 @@ struct WidgetPlace {
     std::optional<SliderRange> slider;  // of a slider
     double middle_x() const { return 0.5 * (x0 + x1); }
     double middle_y() const { return 0.5 * (y0 + y1); }
-    /// Where on the slider a value is.
+    /// The place of a value on the slider.
     double x_of(double value) const;
 };
 
@@ -54,7 +54,7 @@ class Widgets {
         value = static_cast<T>(std::is_integral_v<T> ? std::round(wide) : wide);
         return true;
     }
-    /// `value`: the place of the chosen name, as a number or enumeration.
+    /// `value`: the index of the chosen name, as a number or enumeration.
     template <typename T>
     bool choice(const char* label, T& value, const std::vector<std::string>& names) {
         auto place = static_cast<std::size_t>(value);

@@ -11,7 +11,7 @@ namespace {
 
 int end_at_once(Display*) {
     constexpr std::string_view kText = "kilolux: window: the display was closed\n";
-    // A line that cannot be written leaves the exit code.
+    // The exit code does not depend on whether the line could be written.
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText.data(), kText.size());
     _exit(1);
 }

@@ -3,8 +3,8 @@
 
 namespace kilolux {
 
-/// From now on a lost X display ends the program at once, with one line and code 1. Xlib calls
-/// exit() by itself, which destroys what threads that still render use.
+/// From now on a lost X display ends the program at once, with one line and code 1. Otherwise Xlib
+/// calls exit(), which destroys objects that rendering threads still use.
 void end_when_display_is_lost();
 
 }  // namespace kilolux

@@ -17,7 +17,7 @@ bool is_typed(const InputEvent& event) {
     return std::holds_alternative<KeyEvent>(event) || std::holds_alternative<TextEvent>(event);
 }
 
-// Releases do not count: a key that is down must come up.
+// Releases are never dropped: a key that is down must come up.
 bool asks_for_something(const InputEvent& event) {
     const auto* key = std::get_if<KeyEvent>(&event);
     if (key != nullptr) return key->action != GLFW_RELEASE;

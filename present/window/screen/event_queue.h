@@ -11,16 +11,15 @@ namespace kilolux {
 /// Events between the window system and the session, in their order.
 class EventQueue {
  public:
-    /// What asks for something and has waited this long is dropped [s]: the user has meant it for
-    /// another picture.
+    /// Input that has waited this long is dropped [s]: the user meant it for another picture.
     static constexpr double kStaleSeconds = 0.5;
     /// Frames that a press of the mouse needs until the widget under it takes the keys.
     static constexpr int kPressFrames = 2;
 
     void post(const InputEvent& event) { waiting_.push_back(event); }
 
-    /// The events of this frame. Keys and text after a press of the mouse, and what follows them,
-    /// wait until the press has had its effect. `busy_seconds`: how long nobody took events.
+    /// The events of this frame. Keys and text after a press of the mouse, and later events, wait
+    /// until the press has had its effect. `busy_seconds`: how long no events were taken.
     std::vector<InputEvent> take(double busy_seconds);
 
     bool empty() const { return waiting_.empty(); }

@@ -19,7 +19,7 @@ void InputState::take(const InputEvent& event) {
     }
     const auto* focus = std::get_if<FocusEvent>(&event);
     if (focus != nullptr && !focus->focused) {
-        // The releases of held keys and buttons go to the window that has the focus now.
+        // The window that has the focus now gets the releases of held keys and buttons.
         keys_.clear();
         buttons_.fill(false);
     }

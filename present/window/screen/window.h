@@ -36,7 +36,7 @@ class Window {
     void make_current() const;
     static void make_none_current();  // in this thread
 
-    /// `take` gets every event, a person's and a script's.
+    /// `take` receives every event, the user's and a script's.
     void on_event(std::function<void(const InputEvent&)> take) { take_ = std::move(take); }
     void post(const InputEvent& event) const {
         if (take_) take_(event);
@@ -56,11 +56,12 @@ class Window {
     float content_scale() const;             // of fonts: 2 on a screen of twice the usual density
     bool is_minimised() const;
     void resize(std::array<int, 2> size) const;
-    /// The window's context is current. Does nothing when it is so already.
+    /// Sets vertical sync of the current context. Does nothing when it is set already.
     void set_vsync(bool on);
     void set_full_screen(bool on);
     bool is_full_screen() const;
-    /// The size to give Window() next time: not that of full screen, for a screen of usual density.
+    /// The size for the next run's Window(): that of the window outside of full screen, for a
+    /// screen of usual density.
     std::array<int, 2> size_to_keep() const;
     /// Hides the mouse and lets it move without end.
     void grab_mouse(bool on) const;

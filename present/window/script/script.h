@@ -24,10 +24,10 @@ struct ScriptStep {
 /// README.md lists the steps.
 std::vector<ScriptStep> read_script(const std::filesystem::path& file);
 
-/// Whether the picture is final: never while something goes on changing it.
+/// Whether the picture is final; `never` while it keeps changing.
 enum class Settled { yes, not_yet, never };
 
-/// What a script acts on.
+/// The window's functions that a script uses.
 struct ScriptStage {
     const Window& window;
     const Widgets& ui;
@@ -35,7 +35,7 @@ struct ScriptStage {
     std::function<void(const std::filesystem::path&)> screenshot;
 };
 
-/// Replays user input, one step per line, through the same events as a person's.
+/// Replays input, one step per line, through the events of user input.
 class ScriptPlayer {
  public:
     /// A script's frames are this long, however long they take.
@@ -43,11 +43,11 @@ class ScriptPlayer {
 
     ScriptPlayer(std::vector<ScriptStep> steps, ScriptStage stage);
 
-    /// Does what comes before the next frame. Throws Error that names the line when a step fails.
+    /// Does the steps before the next frame. Throws Error that names the line when a step fails.
     void advance();
 
     bool is_done() const { return steps_.empty() && actions_.empty(); }
-    /// Waiting for the renderer.
+    /// Whether it waits for the renderer.
     bool is_settling() const { return settling_; }
 
  private:

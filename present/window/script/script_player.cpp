@@ -140,7 +140,7 @@ void ScriptPlayer::begin_widget(const ScriptStep& step) {
         add_click(phrase(step, 1));
         add_click(phrase(step, 0));
     } else {
-        // A drag reaches the value to within a pixel; typing it then sets it exactly.
+        // A drag reaches the value to within a pixel; typing then sets it exactly.
         if (name == "slide") add_slide(phrase(step, 1), number(step, step.words.size() - 1));
         add_value(phrase(step, 1), step.words.back());
     }

@@ -10,7 +10,7 @@
 
 namespace {
 
-// The drivers' entries, ours over them, and which call is to fail.
+// The drivers' functions, ours that replace them, and the number of the call that fails.
 struct Layer {
     const cl_icd_dispatch* next = nullptr;
     cl_icd_dispatch table{};
@@ -24,7 +24,7 @@ Layer& layer() {
     return value;
 }
 
-// The code that this call is to fail with, or 0.
+// The code with which this call fails, or 0.
 cl_int fault() {
     Layer& l = layer();
     return ++l.calls == l.failing ? l.code.load() : CL_SUCCESS;

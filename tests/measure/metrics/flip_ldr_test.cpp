@@ -29,7 +29,7 @@ RgbImage noise(int width, int height, unsigned seed) {
     return out;
 }
 
-// Smooth blobs with a few hard edges: what pictures are made of.
+// Smooth blobs with a few hard edges, as in pictures.
 RgbImage shapes(int width, int height, double shift) {
     RgbImage out = make_rgb_image(width, height);
     for (int y = 0; y < height; ++y) {

@@ -25,7 +25,8 @@ TEST(Pareto, EqualPointsStayTogetherAndNanNever) {
     EXPECT_EQ(pareto_set(std::vector<CostAndError>{{2, INFINITY}}), (Indices{0}));
 }
 
-// By another way: walking up in cost, a point stays if its error is below all before it.
+// Computes the set in another way: walking up in cost, a point stays if its error is below all
+// before it.
 TEST(Pareto, IsTheStaircaseOfSortedPoints) {
     std::mt19937 random(8);
     for (int round = 0; round < 200; ++round) {
@@ -54,14 +55,14 @@ TEST(Pareto, IsTheStaircaseOfSortedPoints) {
 constexpr ParetoResolution kQuiet = {kCostResolution, kErrorResolution};
 
 TEST(ParetoOfMeasurements, WhatCannotBeToldApartIsEqual) {
-    // As fast within 3 %, but ten times as exact.
+    // Equally fast within 3 %, but ten times as exact.
     EXPECT_EQ(pareto_set(std::vector<CostAndError>{{1.00, 1.0}, {1.02, 0.1}}, kQuiet),
               (Indices{1}));
     // 10 % slower: both stay, unless the noise hides it.
     const std::vector<CostAndError> slower = {{1.0, 1.0}, {1.1, 0.1}};
     EXPECT_EQ(pareto_set(slower, kQuiet), (Indices{0, 1}));
     EXPECT_EQ(pareto_set(slower, {0.2, kErrorResolution}), (Indices{1}));
-    // As exact within 0.5 dB, but slower.
+    // Equally exact within 0.5 dB, but slower.
     const std::vector<CostAndError> close = {{1.0, 1.0}, {1.5, 0.97}, {1.5, 0.9}};
     EXPECT_EQ(pareto_set(close, kQuiet), (Indices{0, 2}));
     // Equal in both: all stay.
@@ -71,8 +72,8 @@ TEST(ParetoOfMeasurements, WhatCannotBeToldApartIsEqual) {
     EXPECT_EQ(pareto_set(std::vector<CostAndError>{{1.0, 0.0}, {2.0, 0.5}}, kQuiet), (Indices{0}));
 }
 
-// Each is a little cheaper and a little less exact than the one before: pair by pair all are equal,
-// and the ends are not. Something must be left, and it must beat what is not.
+// Each is a little cheaper and a little less exact than the one before: each pair is equal, but the
+// ends are not. Some points must stay, and they must beat all others.
 TEST(ParetoOfMeasurements, WhatIsLeftOutIsBeatenByWhatIsLeft) {
     std::mt19937 random(5);
     for (int round = 0; round < 200; ++round) {

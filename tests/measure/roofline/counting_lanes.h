@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands for kernels/shared/types.h and counts: what the shared formulas and kernels of this
-// translation unit compute on FV is added up by kind of operation. Operations of which no operand
-// varies between lights or iterations are loop invariants and do not count.
+// Replaces kernels/shared/types.h with lanes that count: it adds up, by kind of operation, what the
+// shared formulas and kernels of this translation unit compute on FV. Operations of which no
+// operand varies between lights or iterations are loop invariants and do not count.
 #pragma once
 
 #include <bit>
@@ -99,7 +99,7 @@ inline FV3 cross3(FV3 a, FV3 b) {
     return {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))};
 }
 
-// A light's values: they vary.
+// The values of a light, which vary.
 struct float4 {
     FV x, y, z, w;
 };

@@ -48,7 +48,7 @@ TEST_F(DeviceLimitsTest, DoNotDependOnTheLanesThatTheCallerShadesWith) {
 TEST_F(DeviceLimitsTest, AreMeasuredOnceAndKept) {
     const DeviceLimits first = cached_device_limits(gpu_);
     EXPECT_EQ(cached_device_limits(gpu_), first);
-    // What is kept is what is read: a changed entry comes back as it is.
+    // A changed entry is read back unchanged: limits are not measured again.
     auto values = read_device_cache(gpu_.info, kKind);
     ASSERT_TRUE(values);
     (*values)["fma_flops"] = 12345.0;

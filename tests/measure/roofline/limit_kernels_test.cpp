@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What measured rates divide by: the operations and bytes of kernels/limits/measure_limits.cl,
+// The divisors of measured rates: the operations and bytes of kernels/limits/measure_limits.cl,
 // compiled as C++ with lanes that count.
 #include "host/measure/roofline/limit_kernels.h"
 
@@ -10,7 +10,7 @@
 #include "host/measure/roofline/independent_limits.h"
 #include "tests/measure/roofline/counting_lanes.h"
 
-// OpenCL C's words.
+// Words of OpenCL C.
 #define KILOLUX_DEVICE_LANES_H
 #define kernel inline
 #define global

@@ -117,7 +117,7 @@ TEST(Roofline, IsMonotoneInEveryCount) {
         if (!stage->work) continue;
         bool grew = false;
         for (double StageCounts::*const field : fields) {
-            // The background's pixels are those that are not drawn.
+            // Background pixels are those without a surface.
             if (field == &StageCounts::drawn_pixels && stage == &kFillBackgroundStage) continue;
             StageCounts more = some_counts();
             more.*field = 2.0 * more.*field + 100.0;
@@ -141,7 +141,8 @@ TEST(Roofline, EveryDeclaredWorkHasALimitEvenWithoutWork) {
     EXPECT_EQ(group_of("no such stage"), StageGroup::host);
 }
 
-// As deferred-all of 5000 lights: most are out of range, and leave evaluate() at its range test.
+// Counts of deferred-all with 5000 lights: most are out of range, and leave evaluate() at its range
+// test.
 TEST(Roofline, CountsLightsThatLeaveEarlyAsRangeTests) {
     StageCounts all = some_counts();
     all.kernels.shading = SHADING_PBR;
@@ -160,7 +161,7 @@ double shade_ms(const StageCounts& counts) {
     return stage_limit(shade_work(counts), round_limits()).ms;
 }
 
-// What exact shadows hide is not evaluated, whether it is in range or not.
+// Lights that exact shadows hide are not evaluated, in range or not.
 TEST(Roofline, ShadingOwesNothingForLightsThatShadowsHide) {
     StageCounts c = some_counts();
     c.kernels.shading = SHADING_PBR;

@@ -15,7 +15,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// How a light drifts.
+// The path of a light.
 struct Path {
     Point min{}, extent{}, turns{}, rate{};
 
@@ -100,7 +100,7 @@ TEST(DriftLights, MoveAsDoublesDo) {
             const std::vector<std::uint32_t> order = drift.order();
             ASSERT_EQ(order.size(), paths.size());
             for (std::size_t i = 0; i < paths.size(); ++i) {
-                // Doubles lose bits of the turns, too: those of whole ones.
+                // Doubles lose bits of the turns, too: those of whole turns.
                 const double most = std::ldexp(40.0 + far, -45) + std::ldexp(seconds * 40.0, -51);
                 EXPECT_LE(distance(position(rows[i]), paths[order[i]].at(seconds)), most)
                     << far << ' ' << seconds << ' ' << i;
@@ -154,13 +154,13 @@ double mean_step(const std::vector<WorldLight>& rows, std::size_t count) {
 TEST(DriftLights, NeighboursInSpaceAreNeighbours) {
     constexpr std::size_t kCount = 20000;
     Drift drift(random_paths(kCount, {-20, -20, -20}, {40, 40, 40}));
-    // 1.5 m from one to the next if they stood on a lattice; 26 m at random.
+    // 1.5 m from one to the next on a lattice; 26 m at random.
     EXPECT_LT(mean_step(drift.rows(0.0, 0.0), kCount), 4.0);
     EXPECT_LT(mean_step(drift.rows(7.5, 7.5), kCount), 4.0);
     EXPECT_GT(mean_step(drift.rows(7.5, 0.0), kCount), 15.0) << "of other places";
 }
 
-// Stable, and the same for any chunks: each number once, and by their cells alone.
+// Stable, and the same for any chunks: each number occurs once, and cells alone decide the order.
 TEST(DriftLights, OrderIsAPermutationForAnyChunks) {
     for (const std::size_t count : {1u, 2u, 255u, 257u, 70001u}) {
         const std::vector<Path> paths = random_paths(count, {3, -20, 5}, {9, 40, 1});

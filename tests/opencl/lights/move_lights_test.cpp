@@ -76,7 +76,7 @@ TEST(MoveLights, IsTheDifferenceOfDoubles) {
     }
 }
 
-// Rows of others between: where they are and what they hold is theirs.
+// Kernels write the rows of a gap: the stage leaves them alone.
 TEST(MoveLights, LeavesAGapForOthers) {
     const Gpu gpu = test_gpu();
     MoveLights move(gpu, default_tuning(gpu.info));

@@ -86,7 +86,7 @@ void expect_occupied(const Gpu& gpu, const ActiveClusters& found, const ClusterG
     EXPECT_EQ(download<std::uint8_t>(gpu, found.occupied, grid.cluster_count), expected);
 }
 
-// Each tile's pixels once, cluster by cluster in ascending order, then those of none.
+// Each tile's pixels once, cluster by cluster in ascending order, then background pixels.
 void expect_order(const Gpu& gpu, const ActiveClusters& found, const ClusterGrid& grid,
                   const Planes& planes) {
     const View& view = planes.view;

@@ -28,7 +28,7 @@ Bracket covering(const std::vector<float4>& bounds, const std::vector<Light>& li
     return count;
 }
 
-// What the stage made of an image, and what it made it from.
+// The counts of an image, and their inputs.
 struct Counted {
     ClusterGrid grid{};
     HostLists lists;

@@ -85,7 +85,7 @@ Pairs expect_none_missing(const CullCase& c, const ReachTest& test, const HostLi
 
 double interval_distance(double c, double lo, double hi) { return std::max({lo - c, c - hi, 0.0}); }
 
-// Whoever is listed reaches the box of the pixels, but for rounding.
+// Every listed light reaches the box of the pixels, but for rounding.
 void expect_no_idlers(const CullCase& c, const ReachTest& test, const HostLists& lists) {
     for (const ActiveCluster& box : lists.clusters) {
         const auto list = lists.refined_of(box);

@@ -33,7 +33,7 @@ ViewShape oblique() {
     return shape;
 }
 
-// A random drawn pixel's position in view space.
+// A random pixel's position in view space, of those with a surface.
 glm::dvec3 some_position(const CullCase& c, Random& random) {
     const uint pixel = c.pixels[random.below(static_cast<uint>(c.pixels.size()))];
     const View& view = c.planes.view;
@@ -98,7 +98,7 @@ void make_tangent(const Gpu& gpu, CullCase& c, Random& random) {
     }
 }
 
-// All drawn pixels, or a sample of many.
+// All pixels with a surface, or a sample of many.
 std::vector<uint> sampled_pixels(const Synthetic& image, Random& random) {
     const std::vector<uint> pixels = image.drawn_pixels();
     if (pixels.size() <= std::size_t{2} * kPixelSample) return pixels;

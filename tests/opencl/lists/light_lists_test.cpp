@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LightLists does beside running its stages: checks sizes, keeps lists, answers for a pixel.
+// The tasks of LightLists beside running its stages: checks of sizes, kept lists, the lists of a
+// pixel.
 #include "host/lighting/light_lists.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refined lists: the coarse list of each active cluster, less the lights that its pixels' box is
-// out of reach of. That none is missing is cull_lights_test.cpp's subject.
+// Refined lists: the coarse list of each active cluster, without the lights that do not reach its
+// pixels' box. cull_lights_test.cpp tests that none is missing.
 #include "host/stages/lists/refine_lights.h"
 
 #include <gtest/gtest.h>

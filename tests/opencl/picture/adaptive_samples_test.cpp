@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Means of as many pictures as tiles need: right on average whatever the light's spread, variances
-// against float64, and tiles that are done.
+// Means of as many pictures as tiles need: unbiased for any spread of the light, variances against
+// float64, and tiles that are done.
 #include "host/stages/picture/adaptive_samples.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::size_t size_of(const View& view) { return std::size_t{view.stride} * view.h
 // Light of a picture's pixel, the same in all channels.
 using Light = std::function<float(uint x, uint y)>;
 
-// Feeds pictures to the stage and keeps what it says.
+// Adds pictures to the stage and keeps its results.
 struct Feed {
     Gpu gpu;
     View view;
@@ -92,8 +92,8 @@ TEST(AdaptiveSamples, StillLightNeedsTheLeastAndKeepsItsBits) {
     }
 }
 
-// Light that is rare and bright: most tiles see none of it at first. A mean that ended because its
-// own samples agree would lose much of it.
+// Rare, bright light: most tiles see none of it at first. A mean that stopped because its own
+// samples agree would lose much of it.
 TEST(AdaptiveSamples, RareLightIsRightOnAverage) {
     constexpr double kRare = 0.125;
     Feed feed{test_gpu(), view_with(512, 512)};
@@ -127,8 +127,8 @@ TEST(AdaptiveSamples, RareLightIsRightOnAverage) {
     EXPECT_NEAR(average, 1.0, 4.0 * error);
 }
 
-// Noise of every pixel: the error that is told is that of the mean, and tiles end about where they
-// reach the one asked for.
+// Noise at every pixel: the estimated error is that of the mean, and tiles stop about where they
+// reach the error asked for.
 TEST(AdaptiveSamples, TilesEndWhereTheirErrorIsTheOneAskedFor) {
     constexpr double kError = 0.05;
     Feed feed{test_gpu(), view_with(128, 96)};
@@ -180,7 +180,7 @@ TEST(AdaptiveSamples, TilesThatNeverAgreeTakeTheMostAndAreTold) {
     const std::size_t row = 8 * std::size_t{feed.view.stride};
     EXPECT_EQ(mean[row + 40], infinite);
     EXPECT_EQ(mean[row + 41], 2.0f);
-    // What is past the infinite pixel's tile goes on without it.
+    // Pixels beyond the infinite pixel's tile are not affected by it.
     EXPECT_NEAR(mean[row + 20], 0.5f, 0.2f);
 }
 

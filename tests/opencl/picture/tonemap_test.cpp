@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Display codes against double: exact rounding to sRGB, tone curves, and light that is no number.
+// Display codes against double: exact rounding to sRGB, tone curves, and light with NaN.
 #include "host/stages/picture/tonemap.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ struct Colors {
     glm::dvec3 at(std::size_t i) const { return {red[i], green[i], blue[i]}; }
 };
 
-// An image of one row, as wide as need be.
+// An image of one row of the necessary width.
 std::vector<uint> display_of(int lanes, int curve, const Colors& colors, float exposure_ev = 0.0f) {
     const Gpu gpu = test_gpu(lanes);
     View view{};

@@ -7,7 +7,7 @@
 
 namespace kilolux {
 
-/// Surfaces rounded to what the device is given, and the device's radiance of each.
+/// Surfaces rounded to the device's floats, and the device's radiance of each.
 struct ProbeResult {
     std::vector<SurfaceD> surfaces;
     std::vector<glm::dvec3> radiance;

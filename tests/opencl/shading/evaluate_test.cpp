@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one light adds to one point, on the device, against double: the numerically hard cases.
+// The light of one light at one point, on the device, against double: the numerically hard cases.
 #include "kernels/shared/evaluate_modes.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ SurfaceD random_surface(Random& random, double roughness_min) {
     SurfaceD s;
     const double z = random.log_uniform(0.5, 20);
     s.position = {z * random.uniform(-1, 1), z * random.uniform(-1, 1), -z};
-    // Towards the eye, perspective or not, as what is drawn is: where n.h <= 0, Blinn-Phong's
+    // Facing the eye, perspective or not, like visible surfaces: where n.h <= 0, Blinn-Phong's
     // exponents below 1 have infinite slope.
     do {
         s.normal = random.direction();
@@ -58,7 +58,7 @@ SurfaceD random_surface(Random& random, double roughness_min) {
     s.metallic = random.below(3) * 0.5;
     s.occlusion = random.unit();
     if (random.below(2) == 0) return s;
-    // As KHR_materials_specular and KHR_materials_ior can make it: tinted, weighted, up to a
+    // Values that KHR_materials_specular and KHR_materials_ior allow: tinted, weighted, up to a
     // mirror.
     s.specular_f90 = random.below(4) * (1.0 / 3.0);
     s.specular = glm::dvec3{random.unit(), random.unit(), random.unit()} * s.specular_f90;
@@ -119,7 +119,7 @@ TEST(Evaluate, LightAtTheShadingPointIsFinite) {
                 const std::vector<ShadeLight> lights = {
                     light_at(s.position + direction * d, 3, {1, 1, 1})};
                 const Lighting lighting{lights, {}, 0, false, shading};
-                // I / LIGHT_D_MIN^2 is the most that falls in.
+                // I / LIGHT_D_MIN^2 is the largest irradiance.
                 EXPECT_LE(worst_error({s}, lighting), kTolerance)
                     << "shading " << shading << ", d = " << d;
             }
@@ -187,7 +187,7 @@ TEST(Evaluate, HugeIntensityInAMirrorStaysFinite) {
     surfaces[0].roughness = 0;
     for (const int shading : kShadings) {
         const std::vector<ShadeLight> lights = {light_at({0, 0, 0}, 50, {1e30, 1e25, 1})};
-        // Some ulp of alpha, of which the peak is the inverse square, to spare.
+        // Tolerates some ulp of alpha, of which the peak is the inverse square.
         const Lighting lighting{lights, {}, 0, false, shading};
         EXPECT_LE(worst_error(surfaces, lighting), kTolerance) << "shading " << shading;
     }

@@ -17,8 +17,7 @@
 namespace kilolux {
 namespace {
 
-// As ACCURACY's gate for float32 kernels: relative to the larger of radiance and intensity *
-// falloff.
+// Relative to the larger of radiance and intensity * falloff.
 constexpr double kTolerance = 1e-5;
 constexpr float kAmbient = 0.05f;
 
@@ -204,8 +203,8 @@ std::vector<Tuning> tunings(const DeviceInfo& info) {
     return all;
 }
 
-// What two lane widths may differ by where a GPU's compiler is free in divisions and square roots
-// (2.5 and 3 ulp, OpenCL C 7.4): the gate between devices. On PoCL they are exact, and so are the
+// The tolerance between two lane widths where a GPU's compiler is free in divisions and square
+// roots (2.5 and 3 ulp, OpenCL C 7.4): that between devices. On PoCL they are exact, and so are the
 // bits.
 bool same_for_lanes(const Gpu& gpu, const std::vector<float>& a, const std::vector<float>& b) {
     if (gpu.info.is_cpu) return same_bits(a, b);

@@ -8,7 +8,7 @@
 
 namespace kilolux {
 
-/// A point on a surface in view space, as kernels/shared/evaluate.h's Surface.
+/// A point on a surface in view space: Surface of kernels/shared/evaluate.h in double.
 struct SurfaceD {
     glm::dvec3 position{0.0};
     glm::dvec3 normal{0.0};  // any length
@@ -19,7 +19,7 @@ struct SurfaceD {
     double specular_f90 = 1;                // and at grazing angles
 };
 
-/// How the scene is lit and looked at.
+/// The lights and the view of a surface.
 struct Lighting {
     std::span<const ShadeLight> lights;
     std::span<const DirectionalLight> directional;

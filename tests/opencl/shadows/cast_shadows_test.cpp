@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows of a few triangles on a small odd image: the same bits however they are cast. Runs under
-// oclgrind, too.
+// Shadows of a few triangles on a small odd image: all forms of the kernel give the same bits. Also
+// runs under oclgrind.
 #include "host/stages/shadows/cast_shadows.h"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,8 @@ struct CastFrame {
     ShadowCounts counts{};
 };
 
-// What bin_pixels leaves undefined in the order of tiles that the picture has a part of.
+// Overwrites the entries of `order` that bin_pixels leaves undefined in tiles that are partly
+// outside the picture.
 void spoil_order(const Gpu& gpu, const View& view, const ActiveClusters& clusters) {
     std::vector<std::uint8_t> order = download(gpu, clusters.order);
     const uint tiles_x = fine_tiles_x(view);
@@ -185,7 +186,7 @@ void expect_shadows(int lanes, int group, std::uint32_t light_count = 70) {
     EXPECT_LE(c.shafts, c.nodes) << "each begins at the root";
     EXPECT_LE(c.triangles, kTriangles * c.shafts);
     EXPECT_LE(c.rays - c.seen, c.points) << "a ray is hidden by a test";
-    if (group == 0) return;  // leaves bits of background
+    if (group == 0) return;  // this form leaves bits of background
     std::uint64_t bits = 0;
     for (const uint word : frame.words) bits += static_cast<uint>(std::popcount(word));
     EXPECT_EQ(c.seen, bits);
@@ -196,7 +197,7 @@ TEST(EveryKernel, Shadows) { expect_shadows(4, 1); }
 TEST(EveryKernel, ShadowsByGroup) { expect_shadows(1, 32, 40); }
 TEST(EveryKernel, ShadowsByBundle) { expect_shadows(4, 0); }
 
-// Nodes all of whose children are the next node, and one of leaves that hide everything.
+// Nodes whose children are all the next node, and one of leaves that hide everything.
 ShadowCasters deep_casters(const Gpu& gpu, std::size_t levels) {
     std::vector<ShadowNode> nodes(levels, empty_node());
     for (std::size_t i = 0; i < levels; ++i) {

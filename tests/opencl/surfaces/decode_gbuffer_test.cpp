@@ -68,7 +68,7 @@ TEST(DecodeGBuffer, DepthAndPositionLieOnThePixelsRay) {
         const double extent = std::abs(view.ray.y) + std::abs(view.ray.w) + 1;
         for_drawn(image, [&](uint x, uint y) {
             const double z = expected_depth(view, image, x, y);
-            // Orthographic z is near zero where its terms cancel: then their size counts.
+            // Orthographic z is near zero where its terms cancel: there their size is the unit.
             const double size = view.orthographic != 0 ? 200.0 : z;
             EXPECT_NEAR(planes.at(SURFACE_DEPTH, x, y), z, kDepthTolerance * size);
             const glm::dvec3 p = position_on_ray(view, x, y, planes.at(SURFACE_DEPTH, x, y));

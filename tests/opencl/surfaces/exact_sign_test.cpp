@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// exact_sign.h against 128-bit integers of another make.
+// exact_sign.h against an independent implementation in 128-bit integers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ std::vector<int> device_sides(const std::vector<Triple>& triples) {
 
 int sign(Integer v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 
-// Of whole coordinates below 2^24.
+// For whole coordinates below 2^24.
 int side_of_integers(const Triple& t) {
     const auto at = [&](std::size_t v, std::size_t axis) {
         return static_cast<Integer>(t.at(v).at(axis));

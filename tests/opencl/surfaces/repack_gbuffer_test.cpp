@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other renderers' depth, normals and albedo in every format, from buffers and from images, against
-// what the host packs; and radiance back.
+// the host's packing; and radiance back.
 #include "host/stages/surfaces/repack_gbuffer.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 constexpr uint kWidth = 37, kHeight = 11, kPitch = 41;
 
 struct Pixel {
-    float depth = 0.0f;  // as the depth buffer has it: 1 is background
+    float depth = 0.0f;  // of the depth buffer: 1 is background
     float4 normal{};     // world
     float4 albedo{};     // linear; w: roughness
 };

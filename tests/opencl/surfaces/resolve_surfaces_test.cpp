@@ -36,7 +36,7 @@ View small_view() {
     return view;
 }
 
-// Keeps what SurfaceBuffers refer to.
+// Owns the buffers that SurfaceBuffers refer to.
 class QuadScene {
  public:
     // `repeats` of the texture along each edge.
@@ -161,7 +161,7 @@ std::vector<std::byte> resolved(const Gpu& gpu, uint layout, int anisotropy,
             download<float>(gpu, decode.enqueue(out, timer), decode.plane_count() * ids.size());
     }
     std::vector<std::byte> bytes = download(gpu, out.bytes);
-    // What lies between planes is no one's.
+    // The gaps between planes are undefined.
     std::vector<std::byte> kept;
     for (uint plane = 0; plane < PLANE_COUNT; ++plane) {
         if (planes.offset_bytes[plane] == PLANE_ABSENT) continue;
@@ -230,7 +230,7 @@ std::vector<uint> drawn_ids(const Gpu& gpu, int group) {
     return ids;
 }
 
-// Texels that a pixel of the quad is made of, all the same.
+// Number of texels of every pixel of the quad: all are equal.
 uint texels_of_quad(int lanes, float repeats, int anisotropy) {
     const Gpu gpu = test_gpu(lanes);
     const View view = small_view();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts through a tree of lights on a small odd image: what they leave out is within its bound. Runs
-// under oclgrind, too.
+// Cuts through a tree of lights on a small odd image: their error is within its bound. Also runs
+// under oclgrind.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -63,7 +63,8 @@ void add_node(TreeLights& out, std::span<const Light> lights) {
         constexpr double kRoundUp = 1.0 + 1e-4;
         out.nodes[place].radius = static_cast<float>(kRoundUp * std::sqrt(radius2));
         out.nodes[place].spread = static_cast<float>(kRoundUp * std::sqrt(second / sum));
-        out.nodes[place].offset = 1e-4f * out.nodes[place].radius;  // what rounding moves it by
+        out.nodes[place].offset =
+            1e-4f * out.nodes[place].radius;  // rounding moves it by that much
     }
     out.nodes[place].next = static_cast<uint>(out.nodes.size());
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loaded before GLFW, it writes what the program asks of it to the file $KILOLUX_GLFW_RECORD, a
-// call a line, and passes it on: "interval N", "swap", "wait SECONDS", "poll", "wake". What
-// glfwSwapInterval() does cannot be seen otherwise: llvmpipe's GLX has no swap control to read
-// back.
+// Loaded before GLFW, it writes the program's calls to the file $KILOLUX_GLFW_RECORD, a call a
+// line, and passes them on: "interval N", "swap", "wait SECONDS", "poll", "wake". The effect of
+// glfwSwapInterval() is not visible otherwise: llvmpipe's GLX has no swap control to read back.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>

@@ -12,8 +12,8 @@ namespace kilolux {
 /// building.
 Scene make_atrium(std::uint64_t seed);
 
-/// Adds what stands and hangs in the atrium: urns, benches, trees, lanterns, banners and curtains.
-/// `scene` has the atrium's materials; `seed` chooses colours and leaves.
+/// Adds the furniture of the atrium: urns, benches, trees, lanterns, banners and curtains. `scene`
+/// has the atrium's materials; `seed` chooses colours and leaves.
 void furnish_atrium(Scene& scene, std::uint64_t seed);
 
 }  // namespace kilolux

@@ -7,7 +7,6 @@
 #include "host/scene/lights/light_generator_hash.h"
 
 namespace kilolux {
-namespace {}  // namespace
 
 MeshBuilder urn() {
     MeshBuilder builder;

@@ -12,7 +12,8 @@ namespace kilolux {
 namespace {
 
 constexpr int kMaxSide = 16384;  // [pixel]; what OpenGL implementations take
-// A header that claims more than both is refused: no encoder packs that many pixels into its bytes.
+// Headers that claim more than both limits are refused: kFreeBytes, and kMaxExpansion times the
+// encoded bytes, which no encoder reaches.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kMaxExpansion = 8192;
 

@@ -27,7 +27,7 @@ AlphaMode convert_alpha_mode(const std::string& mode) {
     return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-// Whether a property counts: those that specular-glossiness replaces do not.
+// Whether a property counts: specular-glossiness replaces some.
 bool counts(const json& source, std::string_view path) {
     return !is_specular_glossiness(source) ||
            !(path.starts_with("pbrMetallicRoughness.") || path.starts_with("extensions."));

@@ -14,7 +14,7 @@ struct RoughnessImage {
     bool operator==(const RoughnessImage&) const = default;
 };
 
-/// What of points and lines decides about their material.
+/// Properties of points and lines that decide their material.
 struct LineMaterial {
     int material = -1;
     bool normals = false;
@@ -36,13 +36,13 @@ struct GltfMaterials {
 /// Converts all materials. Factors are clamped to the ranges that the specification gives them.
 GltfMaterials convert_materials(const GltfDocument& document);
 
-/// Makes a material show its base colour alone; what it would reflect goes.
+/// Makes a material show its base colour alone, without reflections.
 void set_unlit(Material& material);
 
-/// What a primitive needs of its mesh.
+/// Attributes of its mesh that a primitive needs.
 MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive& primitive);
 
-/// What decides about the material of a primitive of points or lines.
+/// The key of the material of a primitive of points or lines.
 LineMaterial line_material_of(const tinygltf::Primitive& primitive);
 
 /// Adds the materials that the file's points and lines need beside its own (glTF 2.0,

@@ -26,14 +26,15 @@ glm::vec3 any_perpendicular(const glm::vec3& normal);
 glm::dvec3 triangle_cross(const Mesh& mesh, std::size_t triangle);
 
 /// Derives tangents for a normal map from positions, normals and the texture coordinates that the
-/// map uses, as MikkTSpace does: per triangle the direction of growing u, projected into each
-/// corner's tangent plane and summed with the corner's angle over all vertices of equal position,
+/// map uses. As in MikkTSpace, a triangle's direction of growing u is projected into each corner's
+/// tangent plane and summed, weighted by the corner's angle, over all vertices of equal position,
 /// normal and texture coordinate. Triangles with mirrored texture coordinates have sums of their
 /// own: vertices where both orientations meet are already split (split_mirrored()).
 ///
-/// w is +1 where the image's up is cross(normal, tangent). Unlike MikkTSpace, the triangles around
-/// a vertex need not be connected. Where texture coordinates are degenerate, any perpendicular of
-/// the normal is taken: the result is always finite and unit.
+/// Unlike in MikkTSpace, the triangles around a vertex need not be connected, so tangents may
+/// differ where surfaces touch at one vertex. w is +1 where the image's up is cross(normal,
+/// tangent). Where texture coordinates are degenerate, any perpendicular of the normal is taken:
+/// the result is always finite and unit.
 void derive_tangents(Mesh& mesh, const TextureUse& normal_texture);
 
 /// Where a texture is read: `texcoords` as its use transforms them, zeros where there are none.

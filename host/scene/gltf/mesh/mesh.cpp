@@ -12,7 +12,7 @@
 namespace kilolux {
 namespace {
 
-// For each vertex of the mesh its element of the attributes, and the triangles.
+// The element of the attributes of each vertex of the mesh, and the triangles.
 struct VertexPlan {
     std::vector<std::uint32_t> elements;
     std::vector<std::uint32_t> indices;
@@ -47,8 +47,8 @@ struct AttributeReader {
 
     using Components = std::initializer_list<std::size_t>;
 
-    // Empty when the primitive lacks the attribute. `normalized`: also where the file does not say
-    // so.
+    // Empty when the primitive lacks the attribute. `normalized`: also where the file lacks the
+    // flag.
     template <typename Vector>
     std::vector<Vector> read(const std::string& name, Components allowed,
                              bool normalized = false) const {

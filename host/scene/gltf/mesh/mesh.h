@@ -27,7 +27,7 @@ struct MeshShading {
 Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
                 const MeshShading& shading, const Deformation& deformation);
 
-/// What points (1 corner) or segments (2) become.
+/// The size of the solid that replaces a point (1 corner) or segment (2).
 struct SolidSize {
     int corners = 1;
     double width = 0.0;  // in object space

@@ -54,7 +54,7 @@ double uv_area(std::span<const glm::dvec2> uvs, const std::uint32_t* corner) {
     return d1.x * d2.y - d1.y * d2.x;
 }
 
-// By texture coordinates alone: what an animation does to positions changes nothing.
+// By texture coordinates alone, so that animated positions do not change it.
 Orientation orientation_of(std::span<const glm::dvec2> uvs, const std::uint32_t* corner) {
     const double area = uv_area(uvs, corner);
     if (area == 0.0 || !std::isfinite(area)) return kUnknown;
@@ -112,7 +112,7 @@ glm::vec4 tangent_of(const glm::vec3& normal, const TangentSums& sums, Orientati
     return usable ? glm::vec4(glm::vec3(sum), w) : glm::vec4(any_perpendicular(normal), w);
 }
 
-// The orientation of each vertex's first triangle that has one.
+// The orientation of each vertex's first triangle that has an orientation.
 std::vector<Orientation> vertex_orientations(std::size_t vertices,
                                              std::span<const std::uint32_t> indices,
                                              const std::vector<TriangleFrame>& frames) {
