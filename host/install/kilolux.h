@@ -12,9 +12,9 @@
 // albedo from buffers or images, MoveLights its lights in the world, and PackRadiance gives RGBA
 // back. Behind it stand LightLists (BinPixels, PrepareLights, BuildClusters, CullLights,
 // RefineLights), Visibility with shadows, and Shade; a program may run these stages itself. A stage
-// compiles in its constructor, and its results stay valid until its next enqueue(). What must match
-// between stages is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid
-// a frame.
+// compiles in its constructor, but for kernels that few frames need, and its results stay valid
+// until its next enqueue(). What must match between stages is one KernelFeatures and one Tuning for
+// all of them, and one View and ClusterGrid a frame.
 //
 // BUFFERS. Planes have rows of View::stride elements (the width rounded up to 16) and View::height
 // rows, from the top. Those that the library owns are valid until the next call of the stage that
@@ -62,18 +62,18 @@
 #include "host/lighting/light_lists.h"        // LightLists: which lights each pixel needs
 #include "host/lighting/visibility.h"         // Visibility: which of them it sees
 //
-#include "host/base/error.h"           // Error: what every function throws
-#include "host/base/gbuffer_layout.h"  // where a G-buffer's planes lie
-#include "host/base/log.h"             // who hears notes and warnings
-#include "host/base/make_view.h"       // a View from view and projection matrices
-#include "host/base/version.h"         // KILOLUX_VERSION
-#include "host/gpu/buffer.h"           // DeviceArray, GrowingBuffer, upload, download
-#include "host/gpu/device.h"           // choose_device, Gpu
-#include "host/gpu/features.h"         // KernelFeatures, Tuning
-#include "host/gpu/flow.h"             // what passes between stages
-#include "host/gpu/program.h"          // in_stage: OpenCL's errors with the stage's name
-#include "host/gpu/stage_timer.h"      // times by stage
-#include "host/gpu/tuning_store.h"     // known_tuning: the best work sizes known of a device
+#include "host/base/error.h"                   // Error: what every function throws
+#include "host/base/formats/gbuffer_layout.h"  // where a G-buffer's planes lie
+#include "host/base/log.h"                     // who hears notes and warnings
+#include "host/base/make_view.h"               // a View from view and projection matrices
+#include "host/base/version.h"                 // KILOLUX_VERSION
+#include "host/gpu/buffer.h"                   // DeviceArray, GrowingBuffer, upload, download
+#include "host/gpu/device.h"                   // choose_device, Gpu
+#include "host/gpu/features.h"                 // KernelFeatures, Tuning
+#include "host/gpu/flow.h"                     // what passes between stages
+#include "host/gpu/program.h"                  // in_stage: OpenCL's errors with the stage's name
+#include "host/gpu/stage_timer.h"              // times by stage
+#include "host/gpu/tuning/tuning_store.h"  // known_tuning: the best work sizes known of a device
 #include "host/stages/lights/move_lights.h"
 #include "host/stages/lights/prepare_lights.h"
 #include "host/stages/lists/bin_pixels.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/mips.h"
+#include "host/base/formats/mips.h"
 #include "host/scene/rows/texture_table.h"
 #include "host/scene/rows/vertex_rows.h"
 #include "host/stages/surfaces/build_mips.h"
@@ -18,7 +18,7 @@ constexpr std::string_view kOwner = "surfaces";
 // Features of the surfaces that do not blend.
 MeshFeatures solid_features(const Scene& scene, const SurfaceFeatures& features) {
     return [&scene, features](const Mesh& mesh) -> std::optional<SurfaceFeatures> {
-        if (material_of(scene, mesh).alpha_mode == AlphaMode::blend) return {};
+        if (is_blended(scene, mesh)) return {};
         return features;
     };
 }
