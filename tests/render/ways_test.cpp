@@ -136,7 +136,7 @@ struct Way {
 class Ways {
  public:
     Ways(const Scene& scene, const Camera& camera, const RenderSettings& settings)
-        : renderer_(scene, settings), camera_(camera), settings_(settings) {}
+        : camera_(camera), settings_(settings), renderer_(scene, first(settings)) {}
 
     Way deferred(Geometry geometry) {
         settings_.renderer = RendererKind::deferred;
@@ -154,9 +154,14 @@ class Ways {
     }
 
  private:
-    Renderer renderer_;
+    static RenderSettings first(RenderSettings settings) {
+        settings.geometry = Geometry::compute;
+        return settings;
+    }
+
     Camera camera_;
     RenderSettings settings_;
+    Renderer renderer_;
 };
 
 std::size_t pixel_count(const DecodedSurfaces& a) {
@@ -216,14 +221,15 @@ void expect_same_picture(const Frame& a, const Frame& b) {
 
 void expect_one_surface(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     Ways ways(scene, camera, settings);
-    const Way ids = ways.deferred(Geometry::ids);
+    const Way compute = ways.deferred(Geometry::compute);
+    const Way planes = ways.deferred(Geometry::planes);
+    const Way ids = ways.deferred(Geometry::ids);  // last: the forward renderers share its stages
     {
         SCOPED_TRACE("compute");
-        expect_same_ids(ids.surfaces, ways.deferred(Geometry::compute).surfaces);
+        expect_same_ids(ids.surfaces, compute.surfaces);
     }
     {
         SCOPED_TRACE("planes");
-        const Way planes = ways.deferred(Geometry::planes);
         expect_same_surfaces(ids.surfaces, planes.surfaces);
         expect_same_picture(ids.frame, planes.frame);
     }
