@@ -128,9 +128,9 @@ std::vector<double> surface_differences(const DecodedSurfaces& a, const DecodedS
     std::size_t drawn = 0;
     std::size_t same = 0;
     for (std::size_t i = 0; i < size; ++i) {
-        drawn += a.is_drawn(i) || b.is_drawn(i) ? 1 : 0;
+        drawn += a.shows_surface(i) || b.shows_surface(i) ? 1 : 0;
         const double depth = a.at(SURFACE_DEPTH, i);
-        if (!a.is_drawn(i) || std::abs(b.at(SURFACE_DEPTH, i) / depth - 1.0) > 1e-6) continue;
+        if (!a.shows_surface(i) || std::abs(b.at(SURFACE_DEPTH, i) / depth - 1.0) > 1e-6) continue;
         ++same;
         double largest = 0.0;
         for (std::size_t plane = SURFACE_DEPTH + 1; plane < a.planes.size() / size; ++plane) {
