@@ -97,10 +97,10 @@ TEST(Tune, GoesOnWhereTheDeviceRefuses) {
     });
     EXPECT_EQ(result.best.lanes, 8);
     EXPECT_EQ(result.best.tuning.cull_chunks, 32);
-    bool told = false;
+    bool reported = false;
     for (const TuningTrial& trial : result.trials)
-        told = told || trial.error == "shade: out of resources";
-    EXPECT_TRUE(told);
+        reported = reported || trial.error == "shade: out of resources";
+    EXPECT_TRUE(reported);
 }
 
 TEST(Tune, EndsAtAnInterruption) {

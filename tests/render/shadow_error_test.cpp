@@ -50,7 +50,7 @@ TEST(ShadowError, FallsWithTheRaysAndIsTold) {
     EXPECT_LT(4.0 * errors[1].variance, 1.3 * errors[0].variance) << "1/N or less";
     EXPECT_GT(errors[0].tested_share, 0.02);
     EXPECT_NEAR(errors[0].within_mean, 0.95, 0.03) << "of tested pixels";
-    EXPECT_LT(errors[0].within_picture, 0.9) << "one ray tells too little of a pixel";
+    EXPECT_LT(errors[0].within_picture, 0.9) << "one ray estimates a pixel badly";
     EXPECT_LT(errors[2].variance, 1e-4 * errors[0].variance);
     EXPECT_LT(errors[2].noisy_share, 0.01);
 }
