@@ -9,7 +9,7 @@
 #include <new>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 
 namespace kilolux {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "present/exit_code.h"
 #include "present/program.h"
 

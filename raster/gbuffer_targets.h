@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "raster/gl_object.h"
 #include "raster/gl_program.h"
 

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "host/base/error.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/scene/rows/mip_levels.h"
 #include "host/scene/rows/texture_table.h"
 #include "host/scene/rows/vertex_rows.h"

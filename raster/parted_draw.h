@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 
 namespace kilolux {
 

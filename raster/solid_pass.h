@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/scene/camera.h"
 #include "host/scene/draw_list.h"
 #include "raster/gbuffer_targets.h"

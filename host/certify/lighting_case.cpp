@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "host/base/gbuffer_layout.h"
-#include "host/base/interrupt.h"
+#include "host/base/formats/gbuffer_layout.h"
+#include "host/base/system/interrupt.h"
 #include "host/gpu/buffer.h"
 #include "host/measure/reference/decoded_samples.h"
 

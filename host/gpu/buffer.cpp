@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host/base/memory.h"
+#include "host/base/system/memory.h"
 #include "host/gpu/program.h"
 
 namespace kilolux {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/gpu/memory_budget.h"
+#include "host/gpu/memory/memory_budget.h"
 
 namespace kilolux {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/gpu/program.h"
 
 namespace kilolux {

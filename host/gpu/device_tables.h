@@ -11,7 +11,7 @@ struct Gpu;
 /// Constant tables on a device.
 struct DeviceTables {
     cl::Buffer srgb;             // float[256]: linear value of an sRGB code
-    cl::Buffer bucket_boundary;  // float[SRGB_BUCKETS], see host/base/srgb.h
+    cl::Buffer bucket_boundary;  // float[SRGB_BUCKETS], see host/base/formats/srgb.h
     cl::Buffer bucket_code;      // uint[SRGB_BUCKETS]
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/program.h"
 
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/base/source.h"
+#include "host/base/system/interrupt.h"
 
 namespace kilolux {
 namespace {

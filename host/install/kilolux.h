@@ -62,18 +62,18 @@
 #include "host/lighting/light_lists.h"        // LightLists: which lights each pixel needs
 #include "host/lighting/visibility.h"         // Visibility: which of them it sees
 //
-#include "host/base/error.h"           // Error: what every function throws
-#include "host/base/gbuffer_layout.h"  // where a G-buffer's planes lie
-#include "host/base/log.h"             // who hears notes and warnings
-#include "host/base/make_view.h"       // a View from view and projection matrices
-#include "host/base/version.h"         // KILOLUX_VERSION
-#include "host/gpu/buffer.h"           // DeviceArray, GrowingBuffer, upload, download
-#include "host/gpu/device.h"           // choose_device, Gpu
-#include "host/gpu/features.h"         // KernelFeatures, Tuning
-#include "host/gpu/flow.h"             // what passes between stages
-#include "host/gpu/program.h"          // in_stage: OpenCL's errors with the stage's name
-#include "host/gpu/stage_timer.h"      // times by stage
-#include "host/gpu/tuning_store.h"     // known_tuning: the best work sizes known of a device
+#include "host/base/error.h"                   // Error: what every function throws
+#include "host/base/formats/gbuffer_layout.h"  // where a G-buffer's planes lie
+#include "host/base/log.h"                     // who hears notes and warnings
+#include "host/base/make_view.h"               // a View from view and projection matrices
+#include "host/base/version.h"                 // KILOLUX_VERSION
+#include "host/gpu/buffer.h"                   // DeviceArray, GrowingBuffer, upload, download
+#include "host/gpu/device.h"                   // choose_device, Gpu
+#include "host/gpu/features.h"                 // KernelFeatures, Tuning
+#include "host/gpu/flow.h"                     // what passes between stages
+#include "host/gpu/program.h"                  // in_stage: OpenCL's errors with the stage's name
+#include "host/gpu/stage_timer.h"              // times by stage
+#include "host/gpu/tuning/tuning_store.h"  // known_tuning: the best work sizes known of a device
 #include "host/stages/lights/move_lights.h"
 #include "host/stages/lights/prepare_lights.h"
 #include "host/stages/lists/bin_pixels.h"

@@ -5,10 +5,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/pinned_memory.h"
+#include "host/gpu/memory/pinned_memory.h"
 #include "raster/gbuffer_targets.h"
 #include "raster/gl_object.h"
 

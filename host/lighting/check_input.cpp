@@ -2,7 +2,7 @@
 #include "host/lighting/check_input.h"
 
 #include "host/base/error.h"
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/gpu/program.h"
 
 namespace kilolux {

@@ -9,7 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/base/version.h"
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "host/lighting/deferred_lighting.h"
 #include "host/stages/lights/move_lights.h"
 #include "host/stages/picture/pack_radiance.h"

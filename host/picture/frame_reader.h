@@ -9,7 +9,7 @@
 
 #include "host/gpu/device.h"
 #include "host/gpu/flow.h"
-#include "host/gpu/pinned_memory.h"
+#include "host/gpu/memory/pinned_memory.h"
 #include "host/gpu/stage_timer.h"
 
 namespace kilolux {

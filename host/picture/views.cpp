@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "host/base/error.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/picture/view_canvas.h"
 
 namespace kilolux {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "host/picture/frame_bands.h"
 #include "host/picture/sample_pattern.h"
 #include "host/picture/views.h"

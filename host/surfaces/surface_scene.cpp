@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/mips.h"
+#include "host/base/formats/mips.h"
 #include "host/scene/rows/texture_table.h"
 #include "host/scene/rows/vertex_rows.h"
 #include "host/stages/surfaces/build_mips.h"

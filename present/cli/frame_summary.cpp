@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/base/version.h"
 #include "host/measure/roofline/stage_report.h"
 #include "present/cli/names.h"

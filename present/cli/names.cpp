@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/metrics/error_metrics.h"
 #include "host/picture/decoded_surfaces.h"

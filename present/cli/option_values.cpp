@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/base/suggest.h"
 
 namespace kilolux {

@@ -9,7 +9,7 @@
 #include "host/base/hash.h"
 #include "host/base/log.h"
 #include "host/base/version.h"
-#include "host/gpu/device_cache.h"
+#include "host/gpu/tuning/device_cache.h"
 #include "host/scene/lights/built_in_environments.h"
 
 namespace kilolux {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
+#include "host/base/system/atomic_write.h"
 #include "host/measure/roofline/stage_report.h"
 
 namespace kilolux {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "host/measure/bench/run.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/bench/table.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/base/text.h"
 #include "present/cli/names.h"
 #include "present/cli/option_builder.h"

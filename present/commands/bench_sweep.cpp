@@ -8,8 +8,8 @@
 #include <span>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/interrupt.h"
 #include "host/base/text.h"
 #include "host/measure/bench/plots.h"
 #include "host/measure/bench/row.h"

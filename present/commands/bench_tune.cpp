@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/interrupt.h"
 #include "host/measure/bench/tune.h"
 #include "present/cli/scene_choice.h"
 #include "present/commands/bench.h"

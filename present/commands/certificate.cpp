@@ -10,10 +10,10 @@
 #include <fstream>
 #include <set>
 
-#include "host/base/child_process.h"
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
-#include "host/base/temporary_folder.h"
+#include "host/base/system/child_process.h"
+#include "host/base/system/interrupt.h"
+#include "host/base/system/temporary_folder.h"
 #include "host/base/text.h"
 #include "host/measure/bench/run.h"
 #include "host/render/renderer.h"

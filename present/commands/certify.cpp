@@ -6,11 +6,11 @@
 #include <optional>
 #include <set>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
 #include "host/base/suggest.h"
+#include "host/base/system/atomic_write.h"
+#include "host/base/system/interrupt.h"
 #include "host/base/text.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/progress.h"

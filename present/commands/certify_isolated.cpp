@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/base/child_process.h"
-#include "host/base/interrupt.h"
-#include "host/base/temporary_folder.h"
+#include "host/base/system/child_process.h"
+#include "host/base/system/interrupt.h"
+#include "host/base/system/temporary_folder.h"
 
 namespace kilolux {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/interrupt.h"
 #include "host/measure/report/tail_budget.h"
 #include "present/cli/conditions.h"
 #include "present/cli/frame_summary.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
+#include "host/base/system/interrupt.h"
 #include "host/base/text.h"
 #include "host/scene/export/export_scene.h"
 #include "host/scene/lights/light_generator.h"

@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
+#include "host/base/system/interrupt.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"

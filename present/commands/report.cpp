@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
+#include "host/base/system/interrupt.h"
 #include "host/images/images.h"
 #include "host/measure/bench/plot.h"
 #include "host/measure/report/error_sheets.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/interrupt.h"
 #include "host/measure/roofline/roofline.h"
 #include "host/render/plan/kernel_choice.h"
 #include "present/cli/scene_choice.h"

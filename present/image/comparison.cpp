@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "host/base/error.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/measure/metrics/error_metrics.h"
 #include "host/measure/metrics/flip.h"
 #include "present/image/display_picture.h"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/base/suggest.h"
 #include "kernels/shared/tone_curve.h"
 

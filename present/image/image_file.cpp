@@ -9,10 +9,10 @@
 #include <cstring>
 #include <limits>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
-#include "host/base/half.h"
+#include "host/base/formats/half.h"
 #include "host/base/suggest.h"
+#include "host/base/system/atomic_write.h"
 #include "host/base/version.h"
 #include "host/images/images.h"
 

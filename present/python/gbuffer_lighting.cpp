@@ -8,7 +8,7 @@
 #include <span>
 
 #include "host/base/error.h"
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/lighting/deferred_lighting.h"
 #include "host/render/lights/light_rows.h"
 #include "host/scene/lights/light_ranges.h"

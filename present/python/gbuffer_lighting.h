@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/gpu/device.h"
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "host/scene/camera.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/types.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "host/base/text.h"
 #include "host/measure/reference/decoded_samples.h"
 #include "present/program.h"

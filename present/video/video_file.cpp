@@ -8,10 +8,10 @@
 #include <optional>
 #include <string_view>
 
-#include "host/base/atomic_write.h"
-#include "host/base/child_process.h"
-#include "host/base/descriptor.h"
 #include "host/base/error.h"
+#include "host/base/system/atomic_write.h"
+#include "host/base/system/child_process.h"
+#include "host/base/system/descriptor.h"
 #include "host/base/text.h"
 
 namespace kilolux {

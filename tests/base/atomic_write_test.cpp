@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/atomic_write.h"
+#include "host/base/system/atomic_write.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 

@@ -10,8 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/interrupt.h"
 #include "host/measure/roofline/limit_kernels.h"
 #include "present/cli/progress.h"
 #include "present/cli/scene_choice.h"

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/measure/roofline/limit_kernels.h"
 #include "host/measure/roofline/roofline.h"
 #include "host/render/plan/kernel_choice.h"

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <limits>
 
-#include "host/base/atomic_write.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
+#include "host/base/system/atomic_write.h"
 #include "host/images/images.h"
 #include "host/scene/lights/environment.h"
 #include "tests/support/messages.h"

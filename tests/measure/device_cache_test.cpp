@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cache entries that somebody else could have written are ignored and replaced.
-#include "host/gpu/device_cache.h"
+#include "host/gpu/tuning/device_cache.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

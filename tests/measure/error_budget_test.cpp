@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "host/base/error.h"
-#include "host/gpu/device_cache.h"
+#include "host/gpu/tuning/device_cache.h"
 #include "tests/support/cache_sandbox.h"
 
 namespace kilolux {

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "host/base/error.h"
-#include "host/base/temporary_folder.h"
+#include "host/base/system/temporary_folder.h"
 #include "host/measure/bench/plots.h"
 #include "host/measure/bench/run.h"
 

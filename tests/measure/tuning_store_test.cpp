@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,8 +11,8 @@
 
 #include "host/base/error.h"
 #include "host/base/version.h"
-#include "host/gpu/device_cache.h"
-#include "host/gpu/shipped_tunings.h"
+#include "host/gpu/tuning/device_cache.h"
+#include "host/gpu/tuning/shipped_tunings.h"
 #include "tests/support/cache_sandbox.h"
 #include "tests/support/paths.h"
 

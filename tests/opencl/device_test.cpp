@@ -7,7 +7,7 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {

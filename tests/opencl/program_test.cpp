@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "host/base/hash.h"
-#include "host/base/memory.h"
 #include "host/base/source.h"
+#include "host/base/system/memory.h"
 #include "host/base/text.h"
 #include "host/gpu/buffer.h"
 #include "host/gpu/stage_timer.h"

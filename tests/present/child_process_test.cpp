@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/child_process.h"
+#include "host/base/system/child_process.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "host/base/child_process.h"
+#include "host/base/system/child_process.h"
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
 #include "tests/support/messages.h"

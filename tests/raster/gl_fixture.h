@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "raster/gl_context.h"
 #include "raster/solid_pass.h"
 

@@ -3,7 +3,7 @@
 // way.
 #include <cmath>
 
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "host/picture/sample_pattern.h"
 #include "tests/support/render_fixture.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "host/render/plan/memory_plan.h"
 #include "kernels/shared/cluster_grid.h"
 #include "tests/support/render_fixture.h"

@@ -2,7 +2,7 @@
 // Lists of triangles that outgrow their room: the frame is drawn again, complete.
 #include <gtest/gtest.h>
 
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {

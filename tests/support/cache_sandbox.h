@@ -6,7 +6,7 @@
 #include <deque>
 #include <filesystem>
 
-#include "host/base/temporary_folder.h"
+#include "host/base/system/temporary_folder.h"
 #include "tests/support/environment_variable.h"
 
 namespace kilolux {

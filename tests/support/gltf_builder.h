@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/base/temporary_folder.h"
+#include "host/base/system/temporary_folder.h"
 #include "host/scene/gltf/load_scene.h"
 
 namespace kilolux {

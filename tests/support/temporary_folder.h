@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "host/base/temporary_folder.h"
+#include "host/base/system/temporary_folder.h"
 
 namespace kilolux {
 

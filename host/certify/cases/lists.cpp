@@ -9,7 +9,7 @@
 #include "host/certify/cases.h"
 #include "host/certify/scene_case.h"
 #include "host/gpu/buffer.h"
-#include "host/gpu/list_size.h"
+#include "host/gpu/memory/list_size.h"
 #include "host/render/plan/scene_plan.h"
 #include "host/render/renderer.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "host/base/gbuffer_layout.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/gbuffer_layout.h"
+#include "host/base/formats/srgb.h"
 #include "host/certify/cases.h"
 #include "host/certify/opengl_beside.h"
 #include "host/certify/scene_case.h"

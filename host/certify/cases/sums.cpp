@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/half.h"
+#include "host/base/formats/half.h"
 #include "host/certify/cases.h"
 #include "kernels/shared/evaluate_modes.h"
 

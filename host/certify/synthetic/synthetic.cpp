@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "host/base/gbuffer_layout.h"
-#include "host/base/half.h"
+#include "host/base/formats/gbuffer_layout.h"
+#include "host/base/formats/half.h"
 #include "host/certify/synthetic/probe.h"
 #include "host/stages/surfaces/decode_gbuffer.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "host/gpu/stage_timer.h"
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "host/lighting/deferred_lighting.h"
 #include "host/picture/frame.h"
 #include "host/render/lights/light_source.h"

@@ -8,10 +8,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "host/base/atomic_write.h"
-#include "host/base/child_process.h"
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
+#include "host/base/system/child_process.h"
 #include "host/measure/bench/plot_script.h"
 
 namespace kilolux {

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
+#include "host/base/system/atomic_write.h"
 #include "host/measure/roofline/stages.h"
 
 namespace kilolux {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "host/base/error.h"
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/base/text.h"
 #include "kernels/shared/cluster_grid.h"
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
 #include "host/base/log.h"
+#include "host/base/system/interrupt.h"
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {

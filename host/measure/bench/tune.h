@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "host/measure/bench/lighting_bench.h"
 #include "host/measure/metrics/pareto.h"
 

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "host/base/error.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 
 namespace kilolux {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
-#include "host/gpu/device_cache.h"
+#include "host/gpu/tuning/device_cache.h"
 
 namespace kilolux {
 namespace {

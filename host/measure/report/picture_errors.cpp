@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/measure/metrics/flip.h"
 #include "host/measure/metrics/ssim.h"
 #include "kernels/shared/tone_curve.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/reference/reference.h"
 #include "host/render/plan/kernel_choice.h"

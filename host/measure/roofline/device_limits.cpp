@@ -8,7 +8,7 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
-#include "host/gpu/device_cache.h"
+#include "host/gpu/tuning/device_cache.h"
 #include "host/measure/roofline/limit_kernels.h"
 
 namespace kilolux {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 #include "host/render/settings.h"
 
 namespace kilolux {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "host/base/error.h"
-#include "host/base/memory.h"
+#include "host/base/system/memory.h"
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/render/forward_shading.h"

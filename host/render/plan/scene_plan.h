@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 #include "host/gpu/features.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"

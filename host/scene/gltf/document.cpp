@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/base/log.h"
-#include "host/base/memory.h"
+#include "host/base/system/memory.h"
 #include "host/scene/gltf/check.h"
 #include "host/scene/gltf/choices.h"
 #include "host/scene/gltf/extensions.h"

@@ -12,7 +12,7 @@
 #include <span>
 
 #include "host/base/error.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 #include "host/images/images.h"
 
 namespace kilolux {

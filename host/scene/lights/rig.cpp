@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 
 namespace kilolux {
 namespace {

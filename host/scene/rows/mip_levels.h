@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "host/base/mips.h"
+#include "host/base/formats/mips.h"
 
 namespace kilolux {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "host/base/mips.h"
+#include "host/base/formats/mips.h"
 #include "host/scene/rows/vertex_rows.h"
 
 namespace kilolux {

@@ -8,7 +8,7 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
-#include "host/gpu/pinned_memory.h"
+#include "host/gpu/memory/pinned_memory.h"
 #include "host/stages/lists/prefix_sum.h"
 #include "kernels/shared/light_drift.h"
 

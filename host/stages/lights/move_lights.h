@@ -7,7 +7,7 @@
 #include "host/gpu/features.h"
 #include "host/gpu/flow.h"
 #include "host/gpu/kernel.h"
-#include "host/gpu/pinned_memory.h"
+#include "host/gpu/memory/pinned_memory.h"
 #include "host/gpu/stage_info.h"
 #include "kernels/shared/light.h"
 

@@ -2,7 +2,7 @@
 #include "host/stages/lists/bin_pixels.h"
 
 #include <algorithm>
-#include "host/base/gbuffer_layout.h"
+#include "host/base/formats/gbuffer_layout.h"
 
 namespace kilolux {
 namespace {

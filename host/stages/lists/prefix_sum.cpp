@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host/gpu/list_size.h"
+#include "host/gpu/memory/list_size.h"
 
 namespace kilolux {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/picture/pack_radiance.h"
 
-#include "host/gpu/picture_memory.h"
+#include "host/gpu/memory/picture_memory.h"
 
 namespace kilolux {
 namespace {

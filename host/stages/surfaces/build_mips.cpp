@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/build_mips.h"
 
-#include "host/base/mips.h"
+#include "host/base/formats/mips.h"
 
 namespace kilolux {
 namespace {

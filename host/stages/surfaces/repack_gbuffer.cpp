@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/stages/surfaces/repack_gbuffer.h"
 
-#include "host/base/gbuffer_layout.h"
-#include "host/gpu/picture_memory.h"
+#include "host/base/formats/gbuffer_layout.h"
+#include "host/gpu/memory/picture_memory.h"
 
 namespace kilolux {
 namespace {

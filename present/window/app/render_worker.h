@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "host/render/renderer.h"
 #include "host/scene/lights/rig.h"
 #include "present/window/app/task_thread.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 #include "present/cli/scene_choice.h"
 #include "raster/gl_context.h"
 

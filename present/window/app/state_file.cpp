@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
 #include "present/cli/conditions.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/options.h"

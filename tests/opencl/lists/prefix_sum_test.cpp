@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/random.h"
-#include "host/gpu/list_size.h"
+#include "host/gpu/memory/list_size.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/base/gbuffer_layout.h"
-#include "host/base/half.h"
+#include "host/base/formats/gbuffer_layout.h"
+#include "host/base/formats/half.h"
 #include "host/certify/synthetic/host_lists.h"
 #include "host/certify/synthetic/synthetic.h"
 #include "tests/support/test_gpu.h"

@@ -9,8 +9,8 @@
 #include <cstring>
 
 #include "host/base/error.h"
-#include "host/base/half.h"
-#include "host/base/srgb.h"
+#include "host/base/formats/half.h"
+#include "host/base/formats/srgb.h"
 #include "host/certify/synthetic/random.h"
 #include "host/stages/picture/pack_radiance.h"
 #include "tests/support/test_gpu.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "host/base/gbuffer_layout.h"
-#include "host/base/mips.h"
+#include "host/base/formats/gbuffer_layout.h"
+#include "host/base/formats/mips.h"
 #include "host/stages/surfaces/bin_triangles.h"
 #include "host/stages/surfaces/build_mips.h"
 #include "host/stages/surfaces/count_texels.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/gpu/shipped_tunings.h"
+#include "host/gpu/tuning/shipped_tunings.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Writes shipped_tunings() as C++: the tunings that certificates hold as measured on their device, by
 # the run that made them or by an earlier one whose tuning it was shipped with.
-#   cmake -DOUTPUT=<file.cpp> "-DFILES=<certificate.json>|..." -P host/gpu/shipped_tunings.cmake
+#   cmake -DOUTPUT=<file.cpp> "-DFILES=<certificate.json>|..." -P host/gpu/tuning/shipped_tunings.cmake
 cmake_minimum_required(VERSION 3.22)
 string(REPLACE "|" ";" FILES "${FILES}")
 
@@ -45,7 +45,7 @@ foreach(file IN LISTS FILES)
 endforeach()
 file(WRITE ${OUTPUT} "#include <vector>
 
-#include \"host/gpu/shipped_tunings.h\"
+#include \"host/gpu/tuning/shipped_tunings.h\"
 
 namespace kilolux {
 std::span<const ShippedTuning> shipped_tunings() {

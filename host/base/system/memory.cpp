@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/memory.h"
+#include "host/base/system/memory.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

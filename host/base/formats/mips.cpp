@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/mips.h"
+#include "host/base/formats/mips.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 
 namespace kilolux {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 
 namespace kilolux {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/atomic_write.h"
+#include "host/base/system/atomic_write.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,7 +9,7 @@
 #include <string>
 
 #include "host/base/error.h"
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 
 namespace kilolux {
 namespace {

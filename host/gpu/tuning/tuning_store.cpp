@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/gpu/tuning_store.h"
+#include "host/gpu/tuning/tuning_store.h"
 
 #include <bit>
 #include <cstdlib>
 
-#include "host/gpu/device_cache.h"
-#include "host/gpu/shipped_tunings.h"
+#include "host/gpu/tuning/device_cache.h"
+#include "host/gpu/tuning/shipped_tunings.h"
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/srgb.h"
+#include "host/base/formats/srgb.h"
 
 #include <bit>
 #include <cmath>

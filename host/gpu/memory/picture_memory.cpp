@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/gpu/picture_memory.h"
+#include "host/gpu/memory/picture_memory.h"
 
 #include "host/base/error.h"
 #include "host/gpu/program.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "host/base/descriptor.h"
+#include "host/base/system/descriptor.h"
 
 namespace kilolux {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/interrupt.h"
+#include "host/base/system/interrupt.h"
 
 #include <signal.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/gpu/pinned_memory.h"
+#include "host/gpu/memory/pinned_memory.h"
 
 namespace kilolux {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/gpu/device_cache.h"
+#include "host/gpu/tuning/device_cache.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,10 +11,10 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "host/base/atomic_write.h"
 #include "host/base/error.h"
 #include "host/base/hash.h"
 #include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
 #include "host/base/version.h"
 
 namespace kilolux {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/descriptor.h"
+#include "host/base/system/descriptor.h"
 
 #include <unistd.h>
 
