@@ -6,6 +6,7 @@
 #include <string>
 
 #include "raster/gl_debug.h"
+#include "raster/parted_draw.h"
 #include "raster/raster_state.h"
 
 namespace kilolux {
@@ -101,7 +102,7 @@ void ForwardPass::draw_opaque(const Camera& camera, const CameraRow& row) {
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
     }
-    parts_.draw(width, height, [&] { opaque_->draw(draws, row); });
+    draw_in_parts(width, height, [&] { opaque_->draw(draws, row); });
 }
 
 void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
@@ -115,7 +116,7 @@ void ForwardPass::draw_transparent(const Camera& camera, const CameraRow& row) {
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    parts_.draw(width, height, [&] { blended_.draw(draws, row); });
+    draw_in_parts(width, height, [&] { blended_.draw(draws, row); });
 }
 
 void ForwardPass::draw_blended(const Camera& camera, const View& view,

@@ -10,7 +10,6 @@
 #include "raster/forward_lights.h"
 #include "raster/gbuffer_targets.h"
 #include "raster/gl_timer.h"
-#include "raster/parted_draw.h"
 #include "raster/scene_programs.h"
 
 namespace kilolux {
@@ -61,7 +60,6 @@ class ForwardPass {
     ForwardLightBuffers light_buffers_;
     std::unique_ptr<GBufferTargets> targets_;
     GlTimer timer_;
-    PartedDraw parts_;
 };
 
 }  // namespace kilolux

@@ -121,9 +121,9 @@ TEST(ScreenDensity, SizesAreKeptForAnyScreen) {
             {config}, {"view", "plain", "-q", "--lights", "100", "--script", script}, display);
         EXPECT_EQ(result.code, 0) << result.err;
         const auto kept = nlohmann::json::parse(text_of_file(folder / "kilolux" / "view.json"));
-        return std::array{kept.at("width").get<int>(), kept.at("height").get<int>()};
+        return kept.at("resolution").get<std::string>();
     };
-    const std::array size = {620, 400};
+    const std::string size = "620,400";
     EXPECT_EQ(kept_size("resize 620 400", kUsual), size);
     EXPECT_EQ(kept_size("frames 2", kDense), size);
     EXPECT_EQ(read_image(folder / "end.png").width, 1240);

@@ -34,7 +34,7 @@ inline ChildResult view_in_display(const Variables& variables,
     words.insert(words.end(), variables.begin(), variables.end());
     if (display.empty()) {
         static const Desktop shared({});
-        words.insert(words.begin() + 1, shared.variable());
+        words.push_back(shared.variable());  // after env's options
     } else {
         words.emplace_back(source_root() + "/tests/window/with_display");
         words.insert(words.end(), display.begin(), display.end());

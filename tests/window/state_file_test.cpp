@@ -24,6 +24,10 @@ ViewState unusual_state() {
     state.settings.exposure = -1.3f;
     state.settings.tone_curve = ToneCurve::aces;
     state.settings.bloom = 0.1f;
+    state.settings.shadows = Shadows::exact;
+    state.settings.tails = Tails::tree;
+    state.settings.tree_share = 0.25f;
+    state.settings.kernels.lanes = 4;
     state.settings.lights.count = 123456;
     state.settings.lights.radius = 0.1;
     state.settings.grid = {20, 11, 8, 32};
