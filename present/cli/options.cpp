@@ -4,6 +4,7 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/text.h"
+#include "host/render/plan/settings_check.h"
 #include "present/cli/option_builder.h"
 
 namespace kilolux {
@@ -33,6 +34,7 @@ void begin_command(const SharedOptions& options, bool compares) {
     if (options.show_error && !compares) {
         throw UsageError("--show error: needs --reference FILE, which render takes");
     }
+    check_settings(options.settings);
     if (options.reflections) check_reflections(options);
     if (options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0) {
         throw UsageError("--rig swarm: needs lights, and --lights is 0");

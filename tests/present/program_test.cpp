@@ -52,6 +52,13 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
         {{"render", "atrium", "grid", "-o", "a.png"}, "unexpected argument 'grid'"},
         {{"render", "-o", "a.bmp"}, "image type '.bmp' is none of"},
         {{"render", "--quiet=perhaps", "-o", "a.png"}, "quiet"},
+        // Before the scene is looked for.
+        {{"render", "no.glb", "--renderer", "forward", "--show", "false-positives", "-o", "a.png"},
+         "--show false-positives: shows the lists"},
+        {{"render", "no.glb", "--renderer", "forward", "--shadows", "exact", "-o", "a.png"},
+         "shadows: the forward renderers cast none"},
+        {{"render", "no.glb", "--aov", "sample-count", "-o", "a.exr"},
+         "aov sample-count: needs --samples auto"},
         {{"info", "--frames", "1:2"}, "unknown option --frames"},
         {{"--completion", "csh"}, "--completion: 'csh' is none of bash"},
         {{"help", "redner"}, "did you mean 'render'?"},

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/render/plan/settings_check.h"
+
+#include <algorithm>
+
+#include "host/base/error.h"
+#include "host/base/text.h"
+#include "host/render/plan/scene_plan.h"
+
+namespace kilolux {
+namespace {
+
+void check_forced(const std::vector<std::string>& names) {
+    const std::vector<std::string>& known = forceable_features();
+    for (const std::string& name : names) {
+        if (std::ranges::count(known, name) > 0) continue;
+        throw Error("scene plan: '" + name + "' cannot be forced; these can: " + joined(known));
+    }
+}
+
+// Shadow rays end on a triangle that OpenCL resolved, and deferred keeps their results.
+void check_shadows(const RenderSettings& settings) {
+    const FrameRequest& want = settings.want;
+    const bool wants_bits = want.view == ViewKind::shadows || want.has_aov("visibility");
+    if (wants_bits &&
+        (settings.shadows != Shadows::exact || settings.renderer != RendererKind::deferred)) {
+        throw UsageError("shadows: to show them takes --shadows exact and --renderer deferred");
+    }
+    if (settings.shadows == Shadows::off) return;
+    if (is_forward(settings.renderer)) {
+        throw UsageError("shadows: the forward renderers cast none; take --renderer deferred");
+    }
+    if (!resolves_ids(settings.geometry)) {
+        throw UsageError("shadows: none with --geometry planes; take ids or compute");
+    }
+}
+
+void check_tails(const RenderSettings& settings) {
+    const bool drawn = settings.tails == Tails::stochastic;
+    const bool deferred = settings.renderer == RendererKind::deferred;
+    if (settings.want.has_aov("sample-count") && !settings.auto_samples.on) {
+        throw UsageError("aov sample-count: needs --samples auto");
+    }
+    if (settings.want.has_aov("error-standard") && !settings.auto_samples.on) {
+        if (!drawn && settings.shadows != Shadows::sampled) {
+            throw UsageError(
+                "aov error-standard: only --samples auto, --shadows sampled and --tails stochastic "
+                "have one");
+        }
+        if (drawn && !deferred) {
+            throw UsageError(
+                "aov error-standard: of --tails stochastic only --renderer deferred "
+                "has one");
+        }
+    }
+    if (settings.tails == Tails::tree && !deferred) {
+        throw UsageError("tails tree: only --renderer deferred has it; take --tails exact");
+    }
+    if (settings.tails == Tails::tree && settings.shadows != Shadows::off) {
+        throw UsageError(
+            "tails tree: its nodes cast no shadows; take --shadows off, or --tails stochastic");
+    }
+    if (settings.want.has_aov("error-bound") && (drawn || !deferred)) {
+        throw UsageError(
+            "aov error-bound: it takes --renderer deferred, and not --tails stochastic, which has "
+            "error-standard");
+    }
+}
+
+// Deferred shading alone has lists, and knows which of their lights reach a pixel in vain.
+void check_view(const RenderSettings& settings) {
+    if (settings.want.view == ViewKind::false_positives &&
+        settings.renderer != RendererKind::deferred) {
+        throw UsageError("--show false-positives: shows the lists of --renderer deferred only");
+    }
+}
+
+}  // namespace
+
+void check_settings(const RenderSettings& settings) {
+    check_forced(settings.force_features);
+    check_shadows(settings);
+    check_tails(settings);
+    check_view(settings);
+}
+
+}  // namespace kilolux

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/render/settings.h"
+
+namespace kilolux {
+
+/// Throws UsageError for settings that exclude each other whatever the scene, so that a program can
+/// refuse them before it loads one; Error for a name that settings.force_features does not know.
+void check_settings(const RenderSettings& settings);
+
+}  // namespace kilolux
