@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <thread>
 
@@ -34,16 +35,17 @@ TEST(IdleTime, BeginsWhereTheLastOfOverlappingCommandsEnds) {
 // Host spans are not idle time: within a gap, across its ends, beside it, after the enqueue.
 TEST(IdleTime, LeavesOutWhatTheHostTellsOf) {
     const std::vector<CommandSpan> commands = {{0, 0, 100}, {200, 250, 300}};
-    const auto enqueue = [&](std::vector<HostSpan> host) {
+    using Times = std::array<std::int64_t, 2>;
+    const auto times = [&](const std::vector<HostSpan>& host) {
         const IdleTime found = idle_time(commands, host);
-        EXPECT_EQ(found.launch, 50);
-        return found.enqueue;
+        return Times{found.enqueue, found.launch};
     };
-    EXPECT_EQ(enqueue({}), 100);
-    EXPECT_EQ(enqueue({{110, 130}, {150, 160}}), 70);
-    EXPECT_EQ(enqueue({{50, 120}, {190, 240}}), 70);
-    EXPECT_EQ(enqueue({{0, 100}, {210, 400}}), 100);
-    EXPECT_EQ(enqueue({{0, 400}}), 0);
+    EXPECT_EQ(times({}), (Times{100, 50}));
+    EXPECT_EQ(times({{110, 130}, {150, 160}}), (Times{70, 50}));
+    EXPECT_EQ(times({{50, 120}, {190, 240}}), (Times{70, 10}));
+    EXPECT_EQ(times({{0, 100}, {210, 400}}), (Times{100, 10}));
+    EXPECT_EQ(times({{0, 400}}), (Times{0, 0}));
+    EXPECT_EQ(times({{150, 180}, {120, 180}}), (Times{40, 50})) << "spans that overlap";
 }
 
 using Clock = std::chrono::steady_clock;
@@ -90,6 +92,23 @@ TEST_F(Timer, TellsWhatTheHostDidBeforeTheFirstAndAfterTheLastCommand) {
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
     timer_.take();
     EXPECT_GE(timer_.enqueue_ms(), 60.0);
+}
+
+// A frame drops commands that it repeats. What the host did meanwhile keeps its row, and is no idle
+// time.
+TEST_F(Timer, KeepsTheHostsTimeWhereCommandsAreDropped) {
+    run_after(0.0);
+    timer_.take();
+    const StageTimer before = timer_;
+    const Clock::time_point start = Clock::now();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    timer_.record_host(200.0);
+    run_after(0.0);
+    timer_.drop_commands_since(before);
+    run_after(0.0);
+    const double elapsed = ms_since(start);
+    ASSERT_EQ(timer_.take().size(), 1u);
+    EXPECT_LE(timer_.enqueue_ms() + timer_.launch_ms(), elapsed - 200.0 + 50.0);
 }
 
 TEST_F(Timer, LeavesOutTheHostsOwnRows) {
