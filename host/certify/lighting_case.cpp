@@ -172,7 +172,7 @@ void check_exact(Findings& findings, const LightingCase& input, const DeviceResu
     Worst number;
     for (uint y = 0; y < input.image.view.height; ++y) {
         for (uint x = 0; x < input.image.view.stride; ++x) {
-            const bool drawn = x < input.image.view.width && input.image.is_drawn(x, y);
+            const bool drawn = x < input.image.view.width && input.image.shows_surface(x, y);
             const auto place = [&] { return at_pixel(x, y); };
             for (std::size_t c = 0; c < 3; ++c) {
                 const float v = result.radiance(x, y, c);
@@ -188,7 +188,7 @@ void check_exact(Findings& findings, const LightingCase& input, const DeviceResu
 
 std::uint64_t check_none_missing(Findings& findings, const LightingCase& input,
                                  const DeviceResult& result, std::size_t pixel_limit) {
-    const std::vector<uint> pixels = input.image.drawn_pixels();
+    const std::vector<uint> pixels = input.image.surface_pixels();
     const uint width = input.image.view.width;
     const std::size_t step = std::max<std::size_t>(pixels.size() / pixel_limit, 1);
     Worst missed;

@@ -77,7 +77,7 @@ void for_each_pixel(const View& view, Visit&& visit) {
 template <typename Visit>
 void for_each_drawn(const LightingCase& input, Visit&& visit) {
     for_each_pixel(input.image.view, [&](uint x, uint y) {
-        if (input.image.is_drawn(x, y)) visit(x, y);
+        if (input.image.shows_surface(x, y)) visit(x, y);
     });
 }
 
@@ -106,7 +106,7 @@ void check_same_bits(Findings& findings, std::string_view what, const std::vecto
 /// Checks that radiance by lists has the bits of radiance by every light, and background is 0.
 void check_exact(Findings& findings, const LightingCase& input, const DeviceResult& result);
 
-/// Checks that of `pixel_limit` drawn pixels, no light with float64 distance below its range is
+/// Checks that of `pixel_limit` surface pixels, no light with float64 distance below its range is
 /// missing from the pixel's list. Returns how many (pixel, light) pairs reach.
 std::uint64_t check_none_missing(Findings& findings, const LightingCase& input,
                                  const DeviceResult& result, std::size_t pixel_limit = 400);
@@ -122,7 +122,7 @@ Worst error_against_r1(const LightingCase& input, const DeviceResult& result);
 SurfaceSamples decoded_surfaces(const LightingCase& input, const DeviceResult& result);
 ReferencePicture r1_picture(const LightingCase& input, const DeviceResult& result);
 
-/// Of the lights that drawn pixels list (k), the share that is within range by float64 (k*).
+/// Of the lights that surface pixels list (k), the share that is within range by float64 (k*).
 double useful_share(const LightingCase& input, const DeviceResult& result);
 
 }  // namespace kilolux

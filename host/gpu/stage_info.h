@@ -9,9 +9,9 @@ namespace kilolux {
 
 /// Quantities of work of a frame's stages.
 struct StageCounts {
-    double pixels = 0.0;        // of the image
-    double drawn_pixels = 0.0;  // that show a surface
-    double lights = 0.0;        // point and spot
+    double pixels = 0.0;          // of the image
+    double surface_pixels = 0.0;  // that show a surface
+    double lights = 0.0;          // point and spot
     double directional_lights = 0.0;
     double tiles = 0.0;          // fine tiles
     double box_intervals = 0.0;  // of the coarse grid: slices * (tiles_x + tiles_y + 1)
@@ -25,7 +25,7 @@ struct StageCounts {
     // Of resolving; not counted: 0.
     double seen_triangles = 0.0;
     double texels = 0.0;
-    double evaluations = 0.0;       // of lights at pixels: k * drawn_pixels
+    double evaluations = 0.0;       // of lights at pixels: k * surface_pixels
     double full_evaluations = 0.0;  // of those that do not leave early; not counted: 0
     // Of shadows, see ShadowCounts; not counted: 0.
     double shadow_rays = 0.0;
@@ -39,8 +39,8 @@ struct StageCounts {
     KernelFeatures kernels;
 
     double index_bytes() const { return kernels.light_index_bits / 8; }
-    /// Pairs of a drawn pixel and a light of its list, directional ones too.
-    double listed_pairs() const { return evaluations + drawn_pixels * directional_lights; }
+    /// Pairs of a surface pixel and a light of its list, directional ones too.
+    double listed_pairs() const { return evaluations + surface_pixels * directional_lights; }
 };
 
 inline constexpr double kRadianceBytes = 12.0;          // of a pixel: three floats

@@ -35,7 +35,7 @@ Layer world_layer(std::string_view name, std::vector<std::string> channels,
     const bool position = name == "position";
     fill(layer.values, 3, s.view, [&](std::size_t pixel, float* out) {
         const glm::dvec3 v = s.vector(position ? SURFACE_POSITION : SURFACE_NORMAL, pixel);
-        const bool drawn = s.is_drawn(pixel);
+        const bool drawn = s.shows_surface(pixel);
         const glm::dvec3 world =
             camera.world_from_view * v + (position ? camera.position : glm::dvec3(0.0));
         for (int c = 0; c < 3; ++c) out[c] = drawn ? static_cast<float>(world[c]) : 0.0f;
@@ -66,7 +66,7 @@ Layer visibility_layer(const DecodedSurfaces& s) {
     if (s.seen.empty()) throw UsageError("aov visibility: no shadows were cast");
     Layer layer{"visibility", {"visibility"}};
     fill(layer.values, 1, s.view, [&](std::size_t pixel, float* out) {
-        *out = s.is_drawn(pixel) ? static_cast<float>(1.0 - hidden_share(s, pixel)) : 0.0f;
+        *out = s.shows_surface(pixel) ? static_cast<float>(1.0 - hidden_share(s, pixel)) : 0.0f;
     });
     return layer;
 }
@@ -75,7 +75,7 @@ Layer error_layer(const DecodedSurfaces& s) {
     if (s.variance.empty()) throw UsageError("aov error-standard: nothing was sampled");
     Layer layer{"error-standard", {"error.standard"}};
     fill(layer.values, 1, s.view, [&](std::size_t pixel, float* out) {
-        *out = s.is_drawn(pixel) ? std::sqrt(s.variance[pixel]) : 0.0f;
+        *out = s.shows_surface(pixel) ? std::sqrt(s.variance[pixel]) : 0.0f;
     });
     return layer;
 }
@@ -113,7 +113,7 @@ std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixe
     return cluster_index(s.grid, x, row / s.grid.tile_height, slice_of_depth(s.grid, z));
 }
 
-double mean_of_drawn(const std::vector<uint>& counts) {
+double mean_over_surfaces(const std::vector<uint>& counts) {
     double sum = 0.0;
     std::size_t drawn = 0;
     for (const uint count : counts) {

@@ -16,7 +16,7 @@
 namespace kilolux {
 
 /// Mean of the counts that are not background's ~0; 0 if there are none.
-double mean_of_drawn(const std::vector<uint>& counts);
+double mean_over_surfaces(const std::vector<uint>& counts);
 
 /// The count of lights at background pixels.
 constexpr uint kBackground = ~0u;
@@ -51,7 +51,7 @@ struct DecodedSurfaces {
     glm::dvec3 vector(std::size_t plane, std::size_t pixel) const {
         return {at(plane, pixel), at(plane + 1, pixel), at(plane + 2, pixel)};
     }
-    bool is_drawn(std::size_t pixel) const { return at(SURFACE_DEPTH, pixel) != 0.0f; }
+    bool shows_surface(std::size_t pixel) const { return at(SURFACE_DEPTH, pixel) != 0.0f; }
 };
 
 /// The surfaces and lights of a picture that was shaded, on the host.

@@ -84,7 +84,7 @@ struct FrameStats : PairCounts {
 
 /// Lights evaluated at a pixel that shows a surface; 0 without any.
 inline double mean_list_length(const PairCounts& counts) {
-    const auto pixels = static_cast<double>(counts.drawn_pixels);
+    const auto pixels = static_cast<double>(counts.surface_pixels);
     return pixels > 0.0 ? static_cast<double>(counts.evaluations) / pixels : 0.0;
 }
 

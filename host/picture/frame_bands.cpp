@@ -74,8 +74,8 @@ void place_surfaces(DecodedSurfaces& whole, DecodedSurfaces&& band, int height) 
 }
 
 void add_band(FrameStats& whole, const FrameStats& band) {
-    const auto above = static_cast<double>(whole.drawn_pixels);
-    const auto here = static_cast<double>(band.drawn_pixels);
+    const auto above = static_cast<double>(whole.surface_pixels);
+    const auto here = static_cast<double>(band.surface_pixels);
     whole.evaluations_per_pixel =
         mean_of(whole.evaluations_per_pixel, above, band.evaluations_per_pixel, here);
     whole.useful_evaluations_per_pixel =
@@ -83,7 +83,7 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     std::copy_n(band.grid, 3, whole.grid);
     using S = FrameStats;
     for (const auto count : {&S::coarse_pairs, &S::active_clusters, &S::refine_tests,
-                             &S::refined_pairs, &S::drawn_pixels, &S::evaluations}) {
+                             &S::refined_pairs, &S::surface_pixels, &S::evaluations}) {
         whole.*count += band.*count;
     }
     for (const auto count : {&S::triangles, &S::triangle_pairs, &S::seen_triangles, &S::texels}) {

@@ -35,7 +35,7 @@ void for_each_drawn(const DecodedSurfaces& surfaces, const Each& each) {
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.width; ++x) {
             const Pixel pixel{x, y, std::size_t{y} * view.stride + x};
-            if (surfaces.is_drawn(pixel.index)) each(pixel);
+            if (surfaces.shows_surface(pixel.index)) each(pixel);
         }
     }
 }

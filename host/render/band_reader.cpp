@@ -31,7 +31,8 @@ void BandReader::count(const LastSample& last, FrameStats& stats) {
     const RendererKind kind = context_.settings.renderer;
     stats.useful_evaluations_per_pixel = -1.0;
     if (is_forward(kind)) {
-        stats.evaluations_per_pixel = want.counts ? mean_of_drawn(pixels(last).evaluated) : -1.0;
+        stats.evaluations_per_pixel =
+            want.counts ? mean_over_surfaces(pixels(last).evaluated) : -1.0;
         return;
     }
     if (kind == RendererKind::deferred_all) {
@@ -40,7 +41,7 @@ void BandReader::count(const LastSample& last, FrameStats& stats) {
     }
     stats.evaluations_per_pixel = mean_list_length(stats);
     if (want.counts) {
-        stats.useful_evaluations_per_pixel = mean_of_drawn(
+        stats.useful_evaluations_per_pixel = mean_over_surfaces(
             download<uint>(context_.gpu, count_lights(last).covering, plane_size(last.band)));
     }
     if (!want.shadow_counts || !last.stages.visibility()) return;

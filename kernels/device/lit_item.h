@@ -30,7 +30,7 @@ static inline bool has_clusters(Clusters from, uint tile) {
 
 typedef struct LitItem {
     Pixels pixels;
-    MASK drawn;  // lanes with a surface
+    MASK shown;  // lanes with a surface
     bool any;    // whether there are some
     FV z;        // their depths [m]
     UV slice;    // their fine slices; of clustered items
@@ -41,9 +41,9 @@ static inline LitItem lit_item(GBuffer g, Pixels pixels) {
     LitItem item;
     item.pixels = pixels;
     FV depth01 = load_depth01(g, pixels);
-    item.drawn = lane_mask(depth01 > fv(BACKGROUND_DEPTH)) & within_width(g.view, pixels);
-    item.any = lane_any(item.drawn);
-    item.z = view_depth(g.view, pixels.x, pixels.y, lane_select(item.drawn, depth01, fv(1.0f)));
+    item.shown = lane_mask(depth01 > fv(BACKGROUND_DEPTH)) & within_width(g.view, pixels);
+    item.any = lane_any(item.shown);
+    item.z = view_depth(g.view, pixels.x, pixels.y, lane_select(item.shown, depth01, fv(1.0f)));
     return item;
 }
 
@@ -72,7 +72,7 @@ static inline LitItem clustered_item(GBuffer g, Clusters from, Pixels pixels) {
 
 // The lanes that cluster i of the item's tile holds.
 static inline MASK lanes_in_cluster(LitItem item, Clusters from, uint i) {
-    return lane_mask(item.slice == (UV)(from.clusters[i].slice)) & item.drawn;
+    return lane_mask(item.slice == (UV)(from.clusters[i].slice)) & item.shown;
 }
 
 #if ORDERED_PIXELS

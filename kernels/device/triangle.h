@@ -74,13 +74,13 @@ static inline uint first_of(UV numbers, MASK mask) {
 #endif
 }
 
-// The attributes where `drawn`; undefined elsewhere.
+// The attributes where `shown`; undefined elsewhere.
 static inline Fragment interpolate_fragment(SurfaceScene scene, View view, Pixels pixels, UV ids,
-                                            MASK drawn) {
+                                            MASK shown) {
     Fragment fragment = no_fragment();
-    for (MASK left = drawn; lane_any(left);) {
+    for (MASK left = shown; lane_any(left);) {
         uint id = first_of(ids, left);
-        MASK mask = lane_mask(ids == (UV)(id)) & drawn;
+        MASK mask = lane_mask(ids == (UV)(id)) & shown;
         interpolate_triangle(view, pixels, fetch_triangle(scene, id), mask, &fragment);
         left &= ~mask;
     }

@@ -42,7 +42,7 @@ kernel void count_pairs(global const ulong* restrict coarse_pairs,     // [1]
         counts->active_clusters = *active_clusters;
         counts->refine_tests = *refine_tests;
         counts->refined_pairs = sums.x;
-        counts->drawn_pixels = sums.y;
+        counts->surface_pixels = sums.y;
         counts->evaluations = sums.z;
     }
 }

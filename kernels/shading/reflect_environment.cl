@@ -115,18 +115,18 @@ kernel void reflect_environment(GBUFFER_ARGS, REFLECTION_ARGS,
     LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
     if (!item.any) return;
     Pixels pixels = item.pixels;
-    MASK drawn = item.drawn;
+    MASK shown = item.shown;
     Surface s = load_surface(g, pixels, item.z);
     ReflectionMaps maps = {texels, levels, roughness_levels, table, table_size};
     MapTexels around = texels_towards(rotate_to_world(view, s.normal), levels[roughness_levels]);
     FV3 added = reflected(maps, view, s, filtered_rgb(texels, around));
 #if HAS_UNLIT
-    drawn &= lane_mask(is_lit(s));
+    shown &= lane_mask(is_lit(s));
 #endif
     uint plane_size = view.stride * view.height;
     FV3 former =
         fv3(lane_load(radiance + pixels.first), lane_load(radiance + plane_size + pixels.first),
             lane_load(radiance + 2 * plane_size + pixels.first));
     FV3 sum = add3(former, scale3(added, s.occlusion));
-    store_radiance(radiance, view, pixels, select3(drawn, sum, former));
+    store_radiance(radiance, view, pixels, select3(shown, sum, former));
 }

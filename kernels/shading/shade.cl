@@ -28,9 +28,9 @@ typedef struct ClusterLists {
 #endif
 } ClusterLists;
 
-// The sum over the lights of a tile's clusters, each cluster's at the drawn pixels of its slice.
-// Without `any_drawn` the work-item only helps to stage.
-static inline LightSum sum_clusters(ClusterLists from, uint tile, LitItem item, bool any_drawn,
+// The sum over the lights of a tile's clusters, each cluster's at the surface pixels of its slice.
+// Without `any_shown` the work-item only helps to stage.
+static inline LightSum sum_clusters(ClusterLists from, uint tile, LitItem item, bool any_shown,
                                     ShadingPoint p, LightSet set) {
 #if !SHADOWS
     LightSum unlit = sum_directional(p, set, from.directional, from.directional_count);
@@ -42,7 +42,7 @@ static inline LightSum sum_clusters(ClusterLists from, uint tile, LitItem item, 
     FOR_EACH_CLUSTER(i, from.clusters, tile) {
         global const ActiveCluster* cluster = from.clusters.clusters + i;
         MASK mine = lanes_in_cluster(item, from.clusters, i);
-        bool wanted = any_drawn && lane_any(mine);
+        bool wanted = any_shown && lane_any(mine);
 #if SHADOWS
         if (wanted) {
             set.shadows = bits_of_cluster(from.shadows, cluster, from.place);
@@ -77,9 +77,9 @@ kernel void shade(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS, OUTPUT_ARGS) {
         return;
     }
     LitItem item = clustered_item(g, active, pixels_of_item(view, at.x, row, order));
-    bool any_drawn = at.inside && item.any;
+    bool any_shown = at.inside && item.any;
 #if STAGE == 0
-    if (!any_drawn) {
+    if (!any_shown) {
         store_light(to, view, item.pixels, zero3());
         return;
     }
@@ -97,12 +97,12 @@ kernel void shade(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS, OUTPUT_ARGS) {
     set.variance = &spread;
     set.draw = make_draw(s, whole, view, item.pixels, at.x, row, rays, seed);
 #endif
-    LightSum sum = sum_clusters(from, at.tile, item, any_drawn, p, set);
+    LightSum sum = sum_clusters(from, at.tile, item, any_shown, p, set);
 #if SAMPLED_SHADOWS
     FV3 color = without_hidden(set.draw, load_radiance(whole, view, item.pixels), sum);
-    if (at.inside) store_plane(variance, item.pixels, lane_select(item.drawn, spread, fv(0.0f)));
+    if (at.inside) store_plane(variance, item.pixels, lane_select(item.shown, spread, fv(0.0f)));
 #else
     FV3 color = finish_shading(s, sum, ambient);
 #endif
-    if (at.inside) store_light(to, view, item.pixels, select3(item.drawn, color, zero3()));
+    if (at.inside) store_light(to, view, item.pixels, select3(item.shown, color, zero3()));
 }

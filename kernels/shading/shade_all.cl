@@ -24,9 +24,9 @@ kernel void shade_all(GBUFFER_ARGS, LIGHT_ARGS(const), SHADOW_ARGS, SAMPLE_ARGS,
     uint row = at.inside ? at.y : view.height - 1u;  // rows below the image only help to stage
     prefetch_next_tile(g, to, at.x, row);
     LitItem item = lit_item(g, row_pixels(view, at.x, row));
-    bool any_drawn = at.inside && item.any;
+    bool any_shown = at.inside && item.any;
 #if STAGE == 0
-    if (!any_drawn) {
+    if (!any_shown) {
         store_light(to, view, item.pixels, zero3());
         return;
     }
@@ -37,7 +37,7 @@ kernel void shade_all(GBUFFER_ARGS, LIGHT_ARGS(const), SHADOW_ARGS, SAMPLE_ARGS,
     ShadowPoints points;
     set.shadows.scene = SHADOW_SCENE_OF_ARGS;
     set.shadows.points = &points;
-    set.shadows.drawn = item.drawn;
+    set.shadows.wanted = item.shown;
     set.shadows.bounds = bounds;
     set.shadows.directional = directional_lights;
     load_origins(&points, 0u, origins, view.stride * view.height, item.pixels);
@@ -48,12 +48,12 @@ kernel void shade_all(GBUFFER_ARGS, LIGHT_ARGS(const), SHADOW_ARGS, SAMPLE_ARGS,
     set.draw = make_draw(s, whole, view, item.pixels, at.x, row, rays, seed);
 #endif
     LightSum sum = sum_directional(p, set, directional_lights, directional_count);
-    sum = sum_lights(sum, any_drawn, p, set, 0, light_count);
+    sum = sum_lights(sum, any_shown, p, set, 0, light_count);
 #if SAMPLED_SHADOWS
     FV3 color = without_hidden(set.draw, load_radiance(whole, view, item.pixels), sum);
-    if (at.inside) store_plane(variance, item.pixels, lane_select(item.drawn, spread, fv(0.0f)));
+    if (at.inside) store_plane(variance, item.pixels, lane_select(item.shown, spread, fv(0.0f)));
 #else
     FV3 color = finish_shading(s, sum, ambient);
 #endif
-    if (at.inside) store_light(to, view, item.pixels, select3(item.drawn, color, zero3()));
+    if (at.inside) store_light(to, view, item.pixels, select3(item.shown, color, zero3()));
 }

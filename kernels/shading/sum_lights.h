@@ -105,9 +105,9 @@ static inline MASK hides_drawn(LightSet set, uint entry, uint light) {
 #else
 // The same; `one`: the light's sum alone.
 static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum one) {
-    MASK drawn = set.shadows.drawn & draws_light(set.draw, light_alone(set.draw, one), light);
+    MASK drawn = set.shadows.wanted & draws_light(set.draw, light_alone(set.draw, one), light);
     if (!lane_any(drawn)) return drawn;
-    set.shadows.drawn = drawn;
+    set.shadows.wanted = drawn;
     MASK seen = (light & DRAWN_DIRECTIONAL) != 0u ? sees_directional(set, entry)
                                                   : sees_entry(set, entry, light);
     return drawn & ~seen;

@@ -44,9 +44,9 @@ kernel void cast_shadows(
         for (uint j = 0; j < directional_count + clusters[i].list_count; ++j) {
             ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
                                                  directional_count, bounds, lists);
-            rays.drawn = mine;
+            rays.wanted = mine;
 #if DRAWN_ONLY
-            rays.drawn &= sees_light(bits, j);  // the bits are those of drawn lights
+            rays.wanted &= sees_light(bits, j);  // the bits are those of drawn lights
 #endif
             put_seen(bits, j, mine, sees(rays, light), words);
         }

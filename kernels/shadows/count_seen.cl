@@ -63,12 +63,12 @@ kernel void count_seen(LIT_ARGS, WORD_ARGS(const),
         out.seen = select(out.seen, sum.seen, lane_bits(mine));
     }
     uint of_facing[VW], of_seen[VW];
-    int is_drawn[VW];
+    int is_shown[VW];
     lane_store(out.facing, of_facing);
     lane_store(out.seen, of_seen);
-    lane_store(item.drawn, is_drawn);
+    lane_store(item.shown, is_shown);
     for (uint i = 0; i < VW; ++i) {
-        if (is_drawn[i] == 0) continue;
+        if (is_shown[i] == 0) continue;
         facing[item.pixels.place[i]] = of_facing[i];
         seen[item.pixels.place[i]] = of_seen[i];
     }

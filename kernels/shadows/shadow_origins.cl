@@ -56,10 +56,10 @@ kernel void shadow_origins(
     if (!at.inside) return;
     Pixels pixels = row_pixels(view, at.x, at.y);
     UV id = lane_load(ids + pixels.first);
-    MASK drawn = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
-    if (!lane_any(drawn)) return;
+    MASK shown = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
+    if (!lane_any(shown)) return;
     GBuffer g = GBUFFER_OF_ARGS;
-    FV depth01 = lane_select(drawn, load_depth01(g, pixels), fv(1.0f));
+    FV depth01 = lane_select(shown, load_depth01(g, pixels), fv(1.0f));
     FV3 v = load_position(g, pixels, view_depth(view, pixels.x, pixels.y, depth01));
     FV3 p = fv3(lane_shadow_row(shadow.shadow_from_view[0], v),
                 lane_shadow_row(shadow.shadow_from_view[1], v),
@@ -68,9 +68,9 @@ kernel void shadow_origins(
     FV3 out = p;
     FV3 normal = to_eye;
     SurfaceScene scene = SCENE_OF_ARGS;
-    for (MASK left = drawn; lane_any(left);) {
+    for (MASK left = shown; lane_any(left);) {
         uint number = first_of(id, left) - 1u;
-        MASK mask = lane_mask(id == (UV)(number + 1u)) & drawn;
+        MASK mask = lane_mask(id == (UV)(number + 1u)) & shown;
         global const InstanceRow* o = instances + instance_of(scene, number);
         ulong caster = (ulong)o->first_caster + (number - o->first_triangle);
         OriginPlane t = plane_of(casters + caster * 9u);

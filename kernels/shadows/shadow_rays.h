@@ -9,13 +9,13 @@
 typedef struct ShadowRays {
     ShadowScene scene;
     ShadowPoints* points;
-    MASK drawn;
+    MASK wanted;                  // lanes that cast rays
     global const float4* bounds;  // of the lights: position in view space, 1 / range^2
     global const DirectionalLight* directional;
 } ShadowRays;
 
 static inline MASK sees(ShadowRays rays, ShadowLight light) {
-    MASK lit = face_light(rays.points, 0u, light, rays.drawn);
+    MASK lit = face_light(rays.points, 0u, light, rays.wanted);
     if (!lane_any(lit)) return lit;
     ulong tests_before = counted_tests(rays.points);
     uint count = lane_count(lit);

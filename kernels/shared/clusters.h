@@ -36,7 +36,7 @@ SHARED_STRUCT(PairCounts) {
     ulong active_clusters;  // of all fine tiles
     ulong refine_tests;     // lights tested, once for each active cluster
     ulong refined_pairs;    // entries of the refined lists
-    ulong drawn_pixels;     // pixels of the active clusters, those with a surface
+    ulong surface_pixels;   // pixels of the active clusters, those with a surface
     ulong evaluations;      // sum over active clusters of list_count * pixel_count
 };
 SHARED_ASSERT(pair_counts_size, sizeof(PairCounts) == 48);

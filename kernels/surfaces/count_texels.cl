@@ -60,13 +60,13 @@ kernel void count_texels(
     if (y >= view.height) return;
     Pixels pixels = row_pixels(view, x, y);
     UV id = lane_load(ids + pixels.first);
-    MASK drawn = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
+    MASK shown = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
     UV count = (UV)(0u);
-    if (lane_any(drawn)) {
+    if (lane_any(shown)) {
         SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
                               indices,   materials,       textures, texels};
-        Fragment fragment = interpolate_fragment(scene, view, pixels, id, drawn);
-        for (MASK left = drawn; lane_any(left);) {
+        Fragment fragment = interpolate_fragment(scene, view, pixels, id, shown);
+        for (MASK left = shown; lane_any(left);) {
             uint material = first_of(fragment.material, left);
             MASK mask = lane_mask(fragment.material == (UV)(material)) & left;
             count = select(count, texels_of_material(scene, material, &fragment), mask);

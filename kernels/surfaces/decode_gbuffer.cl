@@ -9,11 +9,11 @@ typedef struct SurfacePlanes {
     global float* planes;
     uint plane_size;  // [float]
     uint first;       // place of the pixels in a plane
-    MASK drawn;       // other pixels become 0
+    MASK shown;       // other pixels become 0
 } SurfacePlanes;
 
 static inline void store_scalar(SurfacePlanes to, uint plane, FV value) {
-    lane_store(lane_select(to.drawn, value, fv(0.0f)),
+    lane_store(lane_select(to.shown, value, fv(0.0f)),
                to.planes + plane * to.plane_size + to.first);
 }
 
@@ -30,7 +30,7 @@ kernel void decode_gbuffer(GBUFFER_ARGS,
     ItemPlace at = place_in_planes(view);
     if (!at.inside) return;
     LitItem item = lit_item(g, row_pixels(view, at.x, at.y));
-    SurfacePlanes to = {planes, view.stride * view.height, item.pixels.first, item.drawn};
+    SurfacePlanes to = {planes, view.stride * view.height, item.pixels.first, item.shown};
     Surface s = load_surface(g, item.pixels, item.z);
     store_scalar(to, SURFACE_DEPTH, item.z);
     store_vector(to, SURFACE_POSITION, s.position);

@@ -20,15 +20,15 @@ kernel void resolve_surfaces(
     if (y - y % BLOCK_ROWS >= view.height) return;
     Pixels pixels = block_pixels(view, x, y);
     UV id = load_block(ids + pixels.first, pixels, view.stride);
-    MASK drawn = lane_mask(id != (UV)(0u)) & within_picture(view, pixels);
-    GBufferTarget to = {gbuffer, layout, view, bucket_boundary, bucket_code, pixels, drawn};
-    if (!lane_any(drawn)) {
+    MASK shown = lane_mask(id != (UV)(0u)) & within_picture(view, pixels);
+    GBufferTarget to = {gbuffer, layout, view, bucket_boundary, bucket_code, pixels, shown};
+    if (!lane_any(shown)) {
         store_surface(to, background_surface(), fv(1.0f));
         return;
     }
     SurfaceScene scene = SCENE_OF_ARGS;
-    Fragment fragment = interpolate_fragment(scene, view, pixels, id, drawn);
-    Surface s = resolve_materials(scene, &fragment, drawn);
+    Fragment fragment = interpolate_fragment(scene, view, pixels, id, shown);
+    Surface s = resolve_materials(scene, &fragment, shown);
     s.position = view_position(view, pixels.x, pixels.y, fragment.z);
     store_surface(to, s, fragment.z);
 }

@@ -5,9 +5,9 @@
 #include "kernels/device/triangle.h"
 #include "kernels/shared/surface_of.h"
 
-static inline Surface resolve_materials(SurfaceScene scene, const Fragment* f, MASK drawn) {
+static inline Surface resolve_materials(SurfaceScene scene, const Fragment* f, MASK shown) {
     Surface s = background_surface();
-    for (MASK left = drawn; lane_any(left);) {
+    for (MASK left = shown; lane_any(left);) {
         uint material = first_of(f->material, left);
         MASK mask = lane_mask(f->material == (UV)(material)) & left;
         Textures textures = textures_of(scene, scene.materials + material, f);

@@ -17,7 +17,7 @@ typedef struct GBufferTarget {
     global const float* bucket_boundary;  // [SRGB_BUCKETS]
     global const uint* bucket_code;       // [SRGB_BUCKETS]
     Pixels pixels;
-    MASK drawn;  // other pixels become 0 in every plane
+    MASK shown;  // other pixels become 0 in every plane
 } GBufferTarget;
 
 static inline global uchar* plane_of(GBufferTarget to, uint plane) {
@@ -25,36 +25,36 @@ static inline global uchar* plane_of(GBufferTarget to, uint plane) {
 }
 
 static inline void store_plane_float(GBufferTarget to, uint plane, FV value) {
-    FV kept = lane_select(to.drawn, value, fv(0.0f));
+    FV kept = lane_select(to.shown, value, fv(0.0f));
     global float* at = (global float*)plane_of(to, plane) + to.pixels.first;
     STORE_BLOCK(kept, at, to.pixels, to.view.stride);
 }
 
 static inline void store_plane_uint(GBufferTarget to, uint plane, UV value) {
-    UV kept = select((UV)(0u), value, to.drawn);
+    UV kept = select((UV)(0u), value, to.shown);
     global uint* at = (global uint*)plane_of(to, plane) + to.pixels.first;
     STORE_BLOCK(kept, at, to.pixels, to.view.stride);
 }
 
 static inline void store_plane_byte(GBufferTarget to, uint plane, UV value) {
-    UV kept = select((UV)(0u), value, to.drawn);
+    UV kept = select((UV)(0u), value, to.shown);
     global uchar* at = plane_of(to, plane) + to.pixels.first;
     STORE_BLOCK(lane_to_uchar(kept), at, to.pixels, to.view.stride);
 }
 
 #if GBUFFER == GBUFFER_HALF
 static inline void store_plane_half(GBufferTarget to, uint plane, FV value) {
-    FV kept = lane_select(to.drawn, value, fv(0.0f));
+    FV kept = lane_select(to.shown, value, fv(0.0f));
     global half* at = (global half*)plane_of(to, plane) + to.pixels.first;
     STORE_BLOCK_HALF(kept, at, to.pixels, to.view.stride);
 }
 #elif GBUFFER == GBUFFER_OCT_2X4
 static inline void store_plane_row(GBufferTarget to, uint plane, FV x, FV y, FV z, FV w) {
     float lanes[4][VW];
-    lane_store(lane_select(to.drawn, x, fv(0.0f)), lanes[0]);
-    lane_store(lane_select(to.drawn, y, fv(0.0f)), lanes[1]);
-    lane_store(lane_select(to.drawn, z, fv(0.0f)), lanes[2]);
-    lane_store(lane_select(to.drawn, w, fv(0.0f)), lanes[3]);
+    lane_store(lane_select(to.shown, x, fv(0.0f)), lanes[0]);
+    lane_store(lane_select(to.shown, y, fv(0.0f)), lanes[1]);
+    lane_store(lane_select(to.shown, z, fv(0.0f)), lanes[2]);
+    lane_store(lane_select(to.shown, w, fv(0.0f)), lanes[3]);
     global float4* rows = (global float4*)plane_of(to, plane) + to.pixels.first;
 #if BLOCK_PIXELS
     for (uint i = 0; i < to.pixels.rows * BLOCK_COLUMNS; ++i) {

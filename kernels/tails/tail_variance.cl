@@ -72,5 +72,5 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
         }
     }
     store_plane(variance, item.pixels,
-                lane_select(item.drawn, LOAD_PLANE(FV, variance, item.pixels) + sum, fv(0.0f)));
+                lane_select(item.shown, LOAD_PLANE(FV, variance, item.pixels) + sum, fv(0.0f)));
 }

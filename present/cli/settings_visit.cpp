@@ -120,7 +120,8 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
                  "Decides the range of a bounded one: where it adds this radiance", kPicture},
                 s.range_budget, kAboveZeroRange)
         .number({"--tree-share", "S", "0.3",
-                 "What a group of a tree may err by, of the light that it sends", kPanelPicture},
+                 "Largest error of a group of a tree, as a share of the light that it sends",
+                 kPanelPicture},
                 s.tree_share, kShareRange);
 }
 
@@ -178,8 +179,7 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
                 kPanelPicture},
                grid, grid_text)
         .value({"--lanes", "auto|1|2|4|8|16", "auto",
-                "Pixels or lights a work-item treats at once; changes no bit of a picture",
-                kPanelTime},
+                "Pixels or lights a work-item treats at once; changes no bit on CPUs", kPanelTime},
                s.kernels.lanes, parse_lanes,
                [&s] { return s.kernels.lanes == 0 ? "auto" : text_of(s.kernels.lanes); })
         .choice({"--math", "", "exact", "How shading kernels compute", kPicture}, s.kernels.math)

@@ -106,6 +106,7 @@ std::string failure(const HardCaseRow& row) {
     return fmt::format("* {} {}: {}\n", row.hard_case.label, row.hard_case.name, text);
 }
 
+// In the words of the program of that commit.
 std::string failures(const Certified& c) {
     std::string out;
     for (const HardCaseRow& row : c.rows) {
@@ -116,7 +117,9 @@ std::string failures(const Certified& c) {
         if (found.is_null() || found.at("passed").get<bool>()) continue;
         out += fmt::format("* {}: {}\n", part.name, found.value("error", "see the certificate"));
     }
-    return out.empty() ? "" : fmt::format("\n## {}: failures\n\n{}", c.stem, out);
+    if (out.empty()) return out;
+    return fmt::format("\n## {}: failures of commit {}\n\n{}", c.stem, word(c, "/program/commit"),
+                       out);
 }
 
 }  // namespace

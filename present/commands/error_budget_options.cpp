@@ -45,9 +45,9 @@ std::vector<ReportSetting> candidates_of(const SharedOptions& shared, const Repo
     asked.want = {};  // views and AOVs have no error
     auto settings = report_settings(view.scene, asked, device, budget_candidates(budget));
     const std::vector<std::string>& aovs = shared.settings.want.aovs;
-    const bool tells = std::ranges::find(aovs, "error-standard") != aovs.end();
+    const bool asks_error = std::ranges::find(aovs, "error-standard") != aovs.end();
     std::erase_if(settings, [&](const ReportSetting& setting) {
-        const bool lacks_error = tells && setting.settings.shadows != Shadows::sampled;
+        const bool lacks_error = asks_error && setting.settings.shadows != Shadows::sampled;
         return !is_candidate(setting, budget) || lacks_error;
     });
     return settings;

@@ -164,19 +164,19 @@ void ThreadRenderer::change(RendererOptions next, std::optional<Lights> lights) 
         rendered_ = false;
         const bool relights = next.light_words != options_.light_words;
         if (!relights) {  // keep the values that light_scene() chose for the lights
-            const SharedOptions& settled = options_.shared;
-            next.shared.rig = settled.rig;
-            next.shared.settings.ambient = settled.settings.ambient;
-            next.shared.settings.lights.count = settled.settings.lights.count;
-            next.shared.environment = settled.environment;
+            const SharedOptions& present = options_.shared;
+            next.shared.rig = present.rig;
+            next.shared.settings.ambient = present.settings.ambient;
+            next.shared.settings.lights.count = present.settings.lights.count;
+            next.shared.environment = present.environment;
             Tails& tails = next.shared.settings.tails;
-            if (tails == Tails::automatic) tails = settled.settings.tails;
-            next.shared.reflections = settled.reflections;
-            next.shared.maps = settled.maps;
-            next.shared.background = settled.background;
-            next.shared.shown_background = settled.shown_background;
+            if (tails == Tails::automatic) tails = present.settings.tails;
+            next.shared.reflections = present.reflections;
+            next.shared.maps = present.maps;
+            next.shared.background = present.background;
+            next.shared.shown_background = present.shown_background;
         }
-        // options_.shared is what pictures_ obeys: it takes `next` itself.
+        // pictures_ refers to options_.shared, and sets it to `next`.
         pictures_->change(next.shared, next.budget, request_of(next.shared, false, false),
                           relights);
         options_.budget = next.budget;

@@ -124,7 +124,7 @@ void time_variants(std::vector<Variant>& variants, const Gpu& gpu, const GBuffer
 void set_limits(Variant& variant, const View& view, const DeviceLimits& limits) {
     ShadingMeasurement& m = variant.measurement;
     StageCounts counts;
-    counts.pixels = counts.drawn_pixels = static_cast<double>(view.width) * view.height;
+    counts.pixels = counts.surface_pixels = static_cast<double>(view.width) * view.height;
     counts.lights = kShadingLights;
     counts.evaluations = counts.full_evaluations = counts.pixels * kShadingLights;
     counts.kernels = variant.features;

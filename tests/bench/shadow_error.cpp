@@ -31,7 +31,7 @@ struct TruePictures {
 // Every other picture of one number of rays, by pixel: sums of luminances and of estimated
 // variances.
 struct HalfOfPictures {
-    std::vector<double> sum, told;
+    std::vector<double> sum, estimated;
     int seeds = 0;
 };
 
@@ -43,7 +43,7 @@ class SampledSums {
         result_.rays = rays;
         for (HalfOfPictures& half : halves_) {
             half.sum.resize(pixels_);
-            half.told.resize(pixels_);
+            half.estimated.resize(pixels_);
         }
     }
 
@@ -58,25 +58,25 @@ class SampledSums {
 
     SampledShadowError result() const {
         SampledShadowError out = result_;
-        double noisy = 0.0, noisy_within = 0.0, settled = 0.0, settled_within = 0.0;
+        double noisy = 0.0, noisy_within = 0.0, tested = 0.0, tested_within = 0.0;
         for (std::size_t i = 0; i < pixels_; ++i) {
             if (!noisy_[i].differs) continue;
             ++noisy;
             noisy_within += noisy_[i].within;
             for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
                 if (hidden_draws(halves_[1 - half], i) < kEnoughDraws) continue;
-                settled += 0.5;
-                settled_within += is_mean_within(halves_[half], i) ? 0.5 : 0.0;
+                tested += 0.5;
+                tested_within += is_mean_within(halves_[half], i) ? 0.5 : 0.0;
             }
         }
         const double all = std::max(added_, 1.0);
         out.rmse = std::sqrt(squares_ / (3.0 * all));
         out.variance /= all;
-        out.told_variance /= all;
+        out.estimated_variance /= all;
         out.noisy_share = noisy * out.seeds / all;
-        out.settled_share = settled * out.seeds / all;
+        out.tested_share = tested * out.seeds / all;
         out.within_picture = noisy > 0.0 ? noisy_within / (noisy * out.seeds) : 1.0;
-        out.within_mean = settled > 0.0 ? settled_within / settled : 1.0;
+        out.within_mean = tested > 0.0 ? tested_within / tested : 1.0;
         return out;
     }
 
@@ -89,17 +89,17 @@ class SampledSums {
     void add_pixel(const Frame& picture, std::size_t i, HalfOfPictures& half) {
         const float* x = &picture.radiance[3 * i];
         const float* r = &of_.exact.radiance[3 * i];
-        const double told = std::pow(double{picture.aovs[0].values[i]}, 2.0);
+        const double estimated = std::pow(double{picture.aovs[0].values[i]}, 2.0);
         const double off = luminance(x) - luminance(r);
         ++added_;
         for (int c = 0; c < 3; ++c) squares_ += std::pow(double{x[c]} - double{r[c]}, 2.0);
         result_.variance += off * off;
-        result_.told_variance += told;
+        result_.estimated_variance += estimated;
         half.sum[i] += luminance(x);
-        half.told[i] += told;
+        half.estimated[i] += estimated;
         noisy_[i].differs =
-            noisy_[i].differs || told > 0.0 || differs_from(r, x, &of_.whole.radiance[3 * i]);
-        noisy_[i].within += is_within(luminance(x), told, luminance(r)) ? 1 : 0;
+            noisy_[i].differs || estimated > 0.0 || differs_from(r, x, &of_.whole.radiance[3 * i]);
+        noisy_[i].within += is_within(luminance(x), estimated, luminance(r)) ? 1 : 0;
     }
 
     // A hidden light that was drawn takes the luminance without shadows over the rays away, and
@@ -107,12 +107,12 @@ class SampledSums {
     // kernels/shadows/shadow_draw.h.
     double hidden_draws(const HalfOfPictures& half, std::size_t i) const {
         const double each = luminance(&of_.whole.radiance[3 * i]) / result_.rays;
-        return each > 0.0 ? half.told[i] / (each * each) : 0.0;
+        return each > 0.0 ? half.estimated[i] / (each * each) : 0.0;
     }
 
     bool is_mean_within(const HalfOfPictures& half, std::size_t i) const {
         const double n = half.seeds;
-        return is_within(half.sum[i] / n, half.told[i] / (n * n),
+        return is_within(half.sum[i] / n, half.estimated[i] / (n * n),
                          luminance(&of_.exact.radiance[3 * i]));
     }
 
@@ -174,27 +174,29 @@ Table shadow_error_table(const std::vector<SampledShadowError>& errors) {
          {"RMSE", &E::rmse},
          {"variance", &E::variance},
          {"N x variance", [](const E& e) { return e.rays * e.variance; }},
-         {"told variance", &E::told_variance},
+         {"estimated variance", &E::estimated_variance},
          {"noisy pixels [%]", [](const E& e) { return 100.0 * e.noisy_share; }},
          {"a picture in 95 % [%]", [](const E& e) { return 100.0 * e.within_picture; }},
-         {"settled pixels [%]", [](const E& e) { return 100.0 * e.settled_share; }},
+         {"tested pixels [%]", [](const E& e) { return 100.0 * e.tested_share; }},
          {"mean in 95 % [%]",
-          [](const E& e) { return e.settled_share > 0.0 ? Cell(100.0 * e.within_mean) : Cell(); }}},
+          [](const E& e) { return e.tested_share > 0.0 ? Cell(100.0 * e.within_mean) : Cell(); }}},
         errors);
 }
 
 std::string shadow_error_notes() {
     return fmt::format(
         "Sampled shadows against exact ones of the same renderer: pictures with seeds 1, 2, ...\n"
-        "RMSE: of the radiance. variance: mean square of the luminance's error; told: by --aov "
+        "RMSE: of the radiance. variance: mean square of the luminance's error; estimated: by "
+        "--aov "
         "error-standard.\n"
-        "noisy pixels: of the drawn ones, those that some picture has otherwise than the exact "
-        "one; no other has a variance.\n"
-        "in 95 %: the exact luminance is within 1.96 of the told error: of a picture, at noisy "
+        "noisy pixels: of those with a surface, those that differ from the exact one in some "
+        "picture; no other has a variance.\n"
+        "in 95 %: the exact luminance is within 1.96 of the estimated error: of a picture, at "
+        "noisy "
         "pixels; of the mean of half of the\n"
-        "pictures, at settled ones, on which the other half drew {} hidden lights or more. One "
-        "picture with few rays tells too little\n"
-        "of single pixels: where it draws no hidden light it tells 0.\n",
+        "pictures, at tested ones, on which the other half drew {} hidden lights or more. One "
+        "picture with few rays estimates single\n"
+        "pixels badly: where it draws no hidden light its estimate is 0.\n",
         kEnoughDraws);
 }
 
@@ -208,7 +210,7 @@ Plot shadow_error_plot(const std::vector<SampledShadowError>& errors, const std:
     for (const SampledShadowError& e : errors) {
         const double rays = e.rays;
         series_of(plot, "measured").push_back({rays, e.variance});
-        series_of(plot, "told", PlotStyle::points).push_back({rays, e.told_variance});
+        series_of(plot, "estimated", PlotStyle::points).push_back({rays, e.estimated_variance});
         series_of(plot, "1/N")
             .push_back({rays, errors.front().variance * errors.front().rays / rays});
     }

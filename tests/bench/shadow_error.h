@@ -16,13 +16,13 @@ struct SampledShadowError {
     int rays = 0;
     int seeds = 0;  // pictures
     double rmse = 0.0;
-    double variance = 0.0;       // mean square of the luminance's error
-    double told_variance = 0.0;  // the same, estimated by the AOV error-standard
+    double variance = 0.0;            // mean square of the luminance's error
+    double estimated_variance = 0.0;  // the same, estimated by the AOV error-standard
     // Shares of the pixels with a surface: those on which some picture differs from the exact one;
     // and of them those on which each half of the pictures draws kEnoughDraws hidden lights or
     // more.
     double noisy_share = 0.0;
-    double settled_share = 0.0;
+    double tested_share = 0.0;
     // Shares of pixels and pictures whose exact value is within the estimated interval, see
     // is_within(): for noisy pixels the interval of a picture; for tested ones that of the mean of
     // half of the pictures.

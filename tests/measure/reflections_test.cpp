@@ -71,7 +71,7 @@ Material material_of(double roughness, double metallic) {
 }
 
 struct Pictures {
-    std::vector<glm::dvec3> seen, expected;  // at the drawn pixels
+    std::vector<glm::dvec3> seen, expected;  // at the surface pixels
     std::vector<SurfaceSample> surfaces;
     Camera camera;
 

@@ -97,10 +97,10 @@ TEST(Tune, GoesOnWhereTheDeviceRefuses) {
     });
     EXPECT_EQ(result.best.lanes, 8);
     EXPECT_EQ(result.best.tuning.cull_chunks, 32);
-    bool told = false;
+    bool reported = false;
     for (const TuningTrial& trial : result.trials)
-        told = told || trial.error == "shade: out of resources";
-    EXPECT_TRUE(told);
+        reported = reported || trial.error == "shade: out of resources";
+    EXPECT_TRUE(reported);
 }
 
 TEST(Tune, EndsAtAnInterruption) {
@@ -165,8 +165,8 @@ TEST(LightingBenchTest, CountsAsTheRendererDoes) {
     LightingBench bench(scene, small_frame(), camera_for(scene));
     const FrameStats stats = bench.run(bench.request()).stats;
     EXPECT_EQ(stats.lights_used, 300u);
-    EXPECT_GT(stats.drawn_pixels, 0u);
-    EXPECT_LE(stats.drawn_pixels, 150u * 70u);
+    EXPECT_GT(stats.surface_pixels, 0u);
+    EXPECT_LE(stats.surface_pixels, 150u * 70u);
     EXPECT_GT(stats.active_clusters, 0u);
     EXPECT_GE(stats.refine_tests, stats.refined_pairs);
     EXPECT_GT(stats.evaluations_per_pixel, 0.0);

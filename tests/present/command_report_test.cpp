@@ -103,7 +103,7 @@ TEST_F(Report, ABudgetOfSampledShadowsKeepsTheLayerOfTheirError) {
                                       "rmse", "--error-width", "32", "--aov", "error-standard"});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_TRUE(contains(result.err, "chose   ")) << result.err;
-    EXPECT_FALSE(contains(result.err, "chose   shadows exact")) << "it tells no error";
+    EXPECT_FALSE(contains(result.err, "chose   shadows exact")) << "it has no estimate";
 }
 
 // The budget for a command line of sampled shadows.

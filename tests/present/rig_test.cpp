@@ -76,7 +76,7 @@ TEST_F(RigTest, ARigAskedForIsTheRigAndTheFilesLightsCount) {
 
 // The command that the window copies must give the same lights.
 TEST_F(RigTest, ASwarmIsNamedWhereTheSceneWouldNotChooseIt) {
-    const auto settled = [&](const std::string& scene, const std::string& more) {
+    const auto chosen = [&](const std::string& scene, const std::string& more) {
         CLI::App app;
         SharedOptions options;
         add_shared_options(app, options);
@@ -85,11 +85,11 @@ TEST_F(RigTest, ASwarmIsNamedWhereTheSceneWouldNotChooseIt) {
         return options.rig;
     };
     const std::string object = (folder_ / "object.glb").string();
-    EXPECT_EQ(settled("grid", "--rig swarm"), Rig::automatic);
-    EXPECT_EQ(settled((folder_ / "room.glb").string(), ""), Rig::automatic);
-    EXPECT_EQ(settled(object, "--rig swarm"), Rig::swarm);
-    EXPECT_EQ(settled(object, "--lights 5000"), Rig::swarm);
-    EXPECT_EQ(settled("grid", "--environment sky --rig swarm"), Rig::swarm);
+    EXPECT_EQ(chosen("grid", "--rig swarm"), Rig::automatic);
+    EXPECT_EQ(chosen((folder_ / "room.glb").string(), ""), Rig::automatic);
+    EXPECT_EQ(chosen(object, "--rig swarm"), Rig::swarm);
+    EXPECT_EQ(chosen(object, "--lights 5000"), Rig::swarm);
+    EXPECT_EQ(chosen("grid", "--environment sky --rig swarm"), Rig::swarm);
 }
 
 TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
@@ -97,7 +97,7 @@ TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
     metal.materials[0].metallic = 1.0f;
     write("metal.glb", metal);
     EXPECT_EQ(lights("metal.glb"), "0+5 0.2") << "a command that has no reflections";
-    const auto settled = [&](const std::string& more) {
+    const auto chosen = [&](const std::string& more) {
         CLI::App app;
         SharedOptions options;
         options.shows_environment = true;
@@ -109,12 +109,12 @@ TEST_F(RigTest, MetalGetsAStudiosRoomWhereItCanBeSeen) {
                           contains(line, "most of the surface is metal"),
                           scene.scene().lights.size());
     };
-    EXPECT_EQ(settled(""), std::tuple(true, false, true, 0u));
-    EXPECT_EQ(settled("--background 1,1,1"), std::tuple(true, true, true, 0u));
-    EXPECT_EQ(settled("--rig studio"), std::tuple(false, false, false, 5u)) << "asked for";
-    EXPECT_EQ(settled("--renderer forward"), std::tuple(false, false, false, 5u));
-    EXPECT_EQ(settled("--environment sky --reflections"), std::tuple(true, true, false, 0u));
-    EXPECT_EQ(settled("--environment sky --environment-lights 3"),
+    EXPECT_EQ(chosen(""), std::tuple(true, false, true, 0u));
+    EXPECT_EQ(chosen("--background 1,1,1"), std::tuple(true, true, true, 0u));
+    EXPECT_EQ(chosen("--rig studio"), std::tuple(false, false, false, 5u)) << "asked for";
+    EXPECT_EQ(chosen("--renderer forward"), std::tuple(false, false, false, 5u));
+    EXPECT_EQ(chosen("--environment sky --reflections"), std::tuple(true, true, false, 0u));
+    EXPECT_EQ(chosen("--environment sky --environment-lights 3"),
               std::tuple(false, true, false, 3u));
 }
 
@@ -126,7 +126,7 @@ TEST_F(RigTest, ManyFarLightsWithoutARangeTakeATree) {
         scene.lights.push_back(light);
     }
     write("many.glb", scene);
-    const auto settled = [&](const std::string& more) {
+    const auto chosen = [&](const std::string& more) {
         CLI::App app;
         SharedOptions options;
         options.shows_environment = true;
@@ -135,10 +135,10 @@ TEST_F(RigTest, ManyFarLightsWithoutARangeTakeATree) {
         open_scene(options);
         return options.settings.tails;
     };
-    EXPECT_EQ(settled(""), Tails::tree);
-    EXPECT_EQ(settled("--tails bounded"), Tails::bounded);
-    EXPECT_EQ(settled("--shadows exact"), Tails::automatic) << "a tree casts no shadows";
-    EXPECT_EQ(settled("--range-budget 1e-9"), Tails::automatic);
+    EXPECT_EQ(chosen(""), Tails::tree);
+    EXPECT_EQ(chosen("--tails bounded"), Tails::bounded);
+    EXPECT_EQ(chosen("--shadows exact"), Tails::automatic) << "a tree casts no shadows";
+    EXPECT_EQ(chosen("--range-budget 1e-9"), Tails::automatic);
 }
 
 TEST_F(RigTest, TheViewDecidesCameraAndRig) {

@@ -44,7 +44,7 @@ void expect_same_frame(const Frame& banded, const Frame& whole) {
     EXPECT_GE(banded.stats.coarse_pairs, whole.stats.coarse_pairs);
     EXPECT_EQ(banded.stats.active_clusters, whole.stats.active_clusters);
     EXPECT_EQ(banded.stats.refined_pairs, whole.stats.refined_pairs);
-    EXPECT_EQ(banded.stats.drawn_pixels, whole.stats.drawn_pixels);
+    EXPECT_EQ(banded.stats.surface_pixels, whole.stats.surface_pixels);
     EXPECT_NEAR(banded.stats.evaluations_per_pixel, whole.stats.evaluations_per_pixel, 1e-9);
     EXPECT_NEAR(banded.stats.useful_evaluations_per_pixel, whole.stats.useful_evaluations_per_pixel,
                 1e-9);

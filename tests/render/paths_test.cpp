@@ -130,7 +130,7 @@ TEST(Paths, AllFourAgreeWithTheFullGBuffer) {
     const Scene scene = grid_with_every_light();
     RenderSettings settings = small_settings(192, 108);
     settings.gbuffer = GBUFFER_FULL;
-    settings.geometry = Geometry::planes;  // filtered by OpenGL, as what forward renderers light
+    settings.geometry = Geometry::planes;  // OpenGL's fragments, as in the forward renderers
     const Frame deferred = render_as(scene, settings, RendererKind::deferred);
     for (const RendererKind other :
          {RendererKind::deferred_all, RendererKind::forward, RendererKind::forward_plus}) {
@@ -149,7 +149,7 @@ TEST(Paths, SurfacesThatBlendAreDrawnByAll) {
     }
     RenderSettings settings = small_settings(192, 108);
     settings.gbuffer = GBUFFER_FULL;
-    settings.geometry = Geometry::planes;  // filtered by OpenGL, as what forward renderers light
+    settings.geometry = Geometry::planes;  // OpenGL's fragments, as in the forward renderers
     const Frame deferred = render_as(scene, settings, RendererKind::deferred);
     expect_same_bits(deferred, render_as(scene, settings, RendererKind::deferred_all));
     for (const RendererKind other : {RendererKind::forward, RendererKind::forward_plus}) {

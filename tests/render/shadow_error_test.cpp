@@ -42,15 +42,15 @@ TEST(ShadowError, FallsWithTheRaysAndIsTold) {
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
         const SampledShadowError& e = errors[i];
         EXPECT_GT(e.rmse, 0.0) << e.rays;
-        EXPECT_NEAR(e.told_variance / e.variance, 1.0, 0.15) << e.rays;
+        EXPECT_NEAR(e.estimated_variance / e.variance, 1.0, 0.15) << e.rays;
         EXPECT_GT(e.noisy_share, 0.05) << e.rays;
         EXPECT_LT(e.noisy_share, 0.95) << e.rays << ": no shadow falls there";
-        EXPECT_LE(e.settled_share, e.noisy_share) << e.rays;
+        EXPECT_LE(e.tested_share, e.noisy_share) << e.rays;
     }
     EXPECT_LT(4.0 * errors[1].variance, 1.3 * errors[0].variance) << "1/N or less";
-    EXPECT_GT(errors[0].settled_share, 0.02);
-    EXPECT_NEAR(errors[0].within_mean, 0.95, 0.03) << "of settled pixels";
-    EXPECT_LT(errors[0].within_picture, 0.9) << "one ray tells too little of a pixel";
+    EXPECT_GT(errors[0].tested_share, 0.02);
+    EXPECT_NEAR(errors[0].within_mean, 0.95, 0.03) << "of tested pixels";
+    EXPECT_LT(errors[0].within_picture, 0.9) << "one ray estimates a pixel badly";
     EXPECT_LT(errors[2].variance, 1e-4 * errors[0].variance);
     EXPECT_LT(errors[2].noisy_share, 0.01);
 }
@@ -59,19 +59,19 @@ TEST(ShadowError, IsNoneWhereNothingHides) {
     const auto errors = measure(grazing_scenario(), {.rays = {1}, .draws = 8, .seeds = 4});
     EXPECT_EQ(errors.front().seeds, 8);
     EXPECT_EQ(errors.front().rmse, 0.0);
-    EXPECT_EQ(errors.front().told_variance, 0.0);
+    EXPECT_EQ(errors.front().estimated_variance, 0.0);
     EXPECT_EQ(errors.front().noisy_share, 0.0);
 }
 
 TEST(ShadowError, TablesAndPlotsHaveARowForEachNumberOfRays) {
     std::vector<SampledShadowError> errors(2);
-    errors[0] = {.rays = 2, .seeds = 8, .variance = 0.5, .told_variance = 0.4};
-    errors[1] = {.rays = 8, .seeds = 8, .variance = 0.1, .told_variance = 0.1};
+    errors[0] = {.rays = 2, .seeds = 8, .variance = 0.5, .estimated_variance = 0.4};
+    errors[1] = {.rays = 8, .seeds = 8, .variance = 0.1, .estimated_variance = 0.1};
     const Table table = shadow_error_table(errors);
     ASSERT_EQ(table.rows.size(), 2u);
     EXPECT_EQ(table.columns.front(), "rays N");
     EXPECT_EQ(std::get<double>(table.rows[0][4]), 1.0) << "N x variance";
-    EXPECT_TRUE(std::holds_alternative<std::monostate>(table.rows[0].back())) << "none is settled";
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(table.rows[0].back())) << "none is tested";
     const Plot plot = shadow_error_plot(errors, "here");
     ASSERT_EQ(plot.series.size(), 3u);
     EXPECT_EQ(plot.series[0].points[1].y, 0.1);

@@ -411,7 +411,7 @@ TEST(SampledShadows, AreRightInTheMeanAndTellTheirError) {
     const Frame exact = Renderer(scenario.scene, settings).render(scenario.camera, 0.0);
     settings = sampled_settings(48, 27, 0, 2);
     Renderer renderer(scenario.scene, settings);
-    std::vector<double> sum(kPixels), squares(kPixels), told(kPixels);
+    std::vector<double> sum(kPixels), squares(kPixels), estimated(kPixels);
     for (int seed = 1; seed <= kSeeds; ++seed) {
         settings.seed = static_cast<uint>(seed);
         renderer.change(settings);
@@ -421,11 +421,11 @@ TEST(SampledShadows, AreRightInTheMeanAndTellTheirError) {
             const double error = frame.aovs.front().values[i];
             sum[i] += off;
             squares[i] += off * off;
-            told[i] += error * error;
+            estimated[i] += error * error;
         }
     }
     int noisy = 0, beyond = 0;
-    double seen_variance = 0.0, told_variance = 0.0;
+    double seen_variance = 0.0, estimated_variance = 0.0;
     for (std::size_t i = 0; i < kPixels; ++i) {
         const double mean = sum[i] / kSeeds;
         const double variance = squares[i] / kSeeds - mean * mean;
@@ -436,11 +436,11 @@ TEST(SampledShadows, AreRightInTheMeanAndTellTheirError) {
         ++noisy;
         beyond += std::abs(mean) > 3.0 * std::sqrt(variance / kSeeds) ? 1 : 0;
         seen_variance += variance;
-        told_variance += told[i] / kSeeds;
+        estimated_variance += estimated[i] / kSeeds;
     }
     EXPECT_GT(noisy, 100);
     EXPECT_LE(beyond, noisy / 50 + 2);
-    EXPECT_NEAR(told_variance / seen_variance, 1.0, 0.1);
+    EXPECT_NEAR(estimated_variance / seen_variance, 1.0, 0.1);
 }
 
 void expect_refused(const RenderSettings& settings, std::string_view reason) {

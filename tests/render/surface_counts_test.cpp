@@ -26,7 +26,7 @@ TEST(SurfaceCounts, OnlyWhereAskedFor) {
     EXPECT_GT(with.seen_triangles, 1000u);
     EXPECT_LT(with.seen_triangles, with.triangles);
     // Four to eight texels for each texture of a pixel.
-    EXPECT_GE(with.texels, 4 * with.drawn_pixels);
+    EXPECT_GE(with.texels, 4 * with.surface_pixels);
     EXPECT_EQ(with.texels % 4, 0u);
 }
 

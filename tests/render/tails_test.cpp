@@ -142,7 +142,7 @@ void expect_right_in_the_mean(const Scene& scene, Shadows shadows, int seeds) {
     settings.shadows = shadows;
     settings.want.aovs = {"error-standard"};
     Renderer renderer(scene, settings);
-    std::vector<double> sum(kPixels), squares(kPixels), told(kPixels);
+    std::vector<double> sum(kPixels), squares(kPixels), estimated(kPixels);
     for (int seed = 1; seed <= seeds; ++seed) {
         settings.seed = static_cast<uint>(seed);
         renderer.change(settings);
@@ -152,11 +152,11 @@ void expect_right_in_the_mean(const Scene& scene, Shadows shadows, int seeds) {
             const double error = frame.aovs.front().values[i];
             sum[i] += off;
             squares[i] += off * off;
-            told[i] += error * error;
+            estimated[i] += error * error;
         }
     }
     int noisy = 0, beyond = 0;
-    double seen_variance = 0.0, told_variance = 0.0;
+    double seen_variance = 0.0, estimated_variance = 0.0;
     for (std::size_t i = 0; i < kPixels; ++i) {
         const double mean = sum[i] / seeds;
         const double variance = squares[i] / seeds - mean * mean;
@@ -164,11 +164,11 @@ void expect_right_in_the_mean(const Scene& scene, Shadows shadows, int seeds) {
         ++noisy;
         beyond += std::abs(mean) > 3.0 * std::sqrt(variance / seeds) ? 1 : 0;
         seen_variance += variance;
-        told_variance += told[i] / seeds;
+        estimated_variance += estimated[i] / seeds;
     }
     EXPECT_GT(noisy, 500);
     EXPECT_LE(beyond, noisy / 50 + 2);
-    EXPECT_NEAR(told_variance / seen_variance, 1.0, 0.1);
+    EXPECT_NEAR(estimated_variance / seen_variance, 1.0, 0.1);
 }
 
 TEST(Tails, StochasticOnesAreRightInTheMeanAndTellTheirError) {

@@ -173,7 +173,7 @@ void expect_same_ids(const DecodedSurfaces& a, const DecodedSurfaces& b) {
     const std::size_t size = pixel_count(a);
     std::size_t drawn = 0, others = 0;
     for (std::size_t i = 0; i < size; ++i) {
-        drawn += a.is_drawn(i) ? 1 : 0;
+        drawn += a.shows_surface(i) ? 1 : 0;
         bool same = true;
         for (std::size_t at = i; at < a.planes.size(); at += size) {
             same = same && a.planes[at] == b.planes[at];
@@ -191,7 +191,7 @@ void expect_same_surfaces(const DecodedSurfaces& a, const DecodedSurfaces& b) {
         SCOPED_TRACE("plane " + std::to_string(plane));
         std::vector<double> differences;
         for (std::size_t i = 0; i < size; ++i) {
-            if (!a.is_drawn(i) && !b.is_drawn(i)) continue;
+            if (!a.shows_surface(i) && !b.shows_surface(i)) continue;
             const double scale = plane < SURFACE_NORMAL ? a.at(SURFACE_DEPTH, i) : 1.0;
             differences.push_back(std::abs(a.at(plane, i) - b.at(plane, i)) / scale);
         }

@@ -141,7 +141,7 @@ void try_boundaries_and_tangents(const Gpu& gpu, Findings& findings) {
     const View& view = input.image.view;
     const ClusterGrid grid = grid_of(input);
     const Planes planes = planes_of(gpu, input);
-    const std::vector<uint> pixels = input.image.drawn_pixels();
+    const std::vector<uint> pixels = input.image.surface_pixels();
     Random random(12);
     for (uint i = 0; i < 3000; ++i) {
         const uint pixel = pixels[random.below(static_cast<uint>(pixels.size()))];
@@ -158,7 +158,7 @@ void try_tiny_lights(const Gpu& gpu, Findings& findings) {
         input.request = {6, 4, 4, 0.25f, 2000.0f, 0.0f};
         const Planes planes = planes_of(gpu, input);
         uint index = 0;
-        for (const uint pixel : input.image.drawn_pixels()) {
+        for (const uint pixel : input.image.surface_pixels()) {
             const float range = kTiny[index % 6];
             glm::dvec3 p = point_of(planes, pixel);
             // Towards the eye by half the range, so that the light reaches the surface from the

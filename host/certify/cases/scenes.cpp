@@ -250,7 +250,7 @@ void try_degenerate_surfaces(const Gpu& gpu, Findings& findings) {
     std::uint64_t not_finite = count_invalid(found.radiance);
     for (const float v : found.aovs[0].values) not_finite += std::isfinite(v) ? 0 : 1;
     findings.none("NaN, Inf or negative", not_finite, found.radiance.size());
-    // The drawn pixels of broken quads equal those of mended ones, whose zero normals are +z.
+    // The surface pixels of broken quads equal those of mended ones, whose zero normals are +z.
     std::uint64_t drawn = 0;
     std::uint64_t different = 0;
     for (std::size_t i = 0; i < found.aovs[1].values.size(); ++i) {
@@ -260,7 +260,7 @@ void try_degenerate_surfaces(const Gpu& gpu, Findings& findings) {
         different += std::equal(pixel, pixel + 3, &expected.radiance[3 * i], same_bits) ? 0 : 1;
     }
     findings.none("pixels unlike those of sound normals", different, drawn);
-    findings.at_least("drawn pixels", drawn, 64 * 32 / 2);
+    findings.at_least("surface pixels", drawn, 64 * 32 / 2);
     findings.require("zero normals counted", found.stats.zero_normals == 32,
                      fmt::format("{} counted", found.stats.zero_normals));
 }

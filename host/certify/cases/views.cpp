@@ -103,7 +103,7 @@ void render_background(const Gpu& gpu, Findings& findings) {
     findings.none("NaN or Inf drawn by OpenGL", not_finite, frame.radiance.size());
     findings.none("background not the clear colour", wrong, 3 * background);
     findings.at_least("background pixels", background, 100);
-    findings.at_least("drawn pixels", frame.aovs[0].values.size() - background, 100);
+    findings.at_least("surface pixels", frame.aovs[0].values.size() - background, 100);
 }
 
 // Case 9, odd-sizes: writes and reads past the end of a buffer.

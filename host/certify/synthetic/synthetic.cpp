@@ -86,15 +86,15 @@ void Synthetic::put(uint first_plane, std::size_t pixel, const glm::dvec3& value
     for (int c = 0; c < 3; ++c) put(first_plane + static_cast<uint>(c), pixel, value[c]);
 }
 
-bool Synthetic::is_drawn(uint x, uint y) const {
+bool Synthetic::shows_surface(uint x, uint y) const {
     const std::byte* depth = bytes.data() + layout.offset_bytes[PLANE_DEPTH];
     return reinterpret_cast<const float*>(depth)[std::size_t{y} * view.stride + x] > 0.0f;
 }
 
-std::vector<uint> Synthetic::drawn_pixels() const {
+std::vector<uint> Synthetic::surface_pixels() const {
     std::vector<uint> pixels;
     for (uint i = 0; i < view.width * view.height; ++i) {
-        if (is_drawn(i % view.width, i / view.width)) pixels.push_back(i);
+        if (shows_surface(i % view.width, i / view.width)) pixels.push_back(i);
     }
     return pixels;
 }

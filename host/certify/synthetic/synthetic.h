@@ -67,9 +67,9 @@ struct Synthetic {
     void put(uint plane_index, std::size_t pixel, double value);
     void put(uint first_plane, std::size_t pixel, const glm::dvec3& value);
     /// Whether the pixel shows a surface.
-    bool is_drawn(uint x, uint y) const;
+    bool shows_surface(uint x, uint y) const;
     /// y * width + x of the pixels that show a surface.
-    std::vector<uint> drawn_pixels() const;
+    std::vector<uint> surface_pixels() const;
 };
 
 /// Attributes are noise; `features` says which planes there are. Half of the normals face the

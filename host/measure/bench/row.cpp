@@ -153,7 +153,7 @@ Table bench_summary(const std::vector<BenchRow>& rows) {
 std::string bench_legend(const std::vector<BenchRow>& rows) {
     std::string out =
         "limit: least time by the device's measured rates; ratio: limit / median (1 is best).\n"
-        "k: lights evaluated a drawn pixel; k*: of those, lights whose range covers the pixel.\n"
+        "k: lights evaluated a surface pixel; k*: of those, lights whose range covers the pixel.\n"
         "Geval/s: lights evaluated in full at a pixel (refine_lights: light against box).\n"
         "other: frame time outside of the stages.\n";
     if (std::ranges::none_of(rows, casts)) return out;

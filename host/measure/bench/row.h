@@ -28,7 +28,7 @@ struct BenchRow : StageEffort {
     SweepPoint point;
     std::string stage;  // a stage of FrameStats, kOtherStage or kFrameStage
     Statistics ms;
-    double k = 0.0;         // lights evaluated a drawn pixel
+    double k = 0.0;         // lights evaluated a surface pixel
     double useful_k = 0.0;  // k*: of those in range
     PictureError error;
 

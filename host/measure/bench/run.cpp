@@ -120,7 +120,7 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     const FrameStats& covered = coverage(point);
     FrameStats stats = frames.back();
     const auto local = static_cast<double>(stats.lights_used - stats.directional_lights);
-    if (stats.drawn_pixels == 0) stats.drawn_pixels = covered.drawn_pixels;
+    if (stats.surface_pixels == 0) stats.surface_pixels = covered.surface_pixels;
     if (point.renderer == RendererKind::deferred_all) stats.evaluations_per_pixel = local;
     stats.useful_evaluations_per_pixel = covered.useful_evaluations_per_pixel;
     stats.shadows = covered.shadows;

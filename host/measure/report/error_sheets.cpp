@@ -101,11 +101,11 @@ class PanelSheet {
     int panel_ = 0;
 };
 
-std::string told_text(const ReportRow& row) {
-    if (!row.told) return "";
-    return fmt::format(", tells {} {:.1e}",
-                       row.told->kind == ErrorTold::bound ? "bound" : "standard error",
-                       row.told->told);
+std::string estimate_text(const ReportRow& row) {
+    if (!row.estimate) return "";
+    return fmt::format(", estimated {} {:.1e}",
+                       row.estimate->kind == EstimateKind::bound ? "bound" : "standard error",
+                       row.estimate->estimated);
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ Canvas cut_off_sheet(const std::vector<ReportRow>& rows, const ComparedReference
     for (const ReportRow* row : shown) {
         sheet.draw(row->setting.name, row->display);
         sheet.draw(fmt::format("{:.3g} ms, RMSE {:.1e}{}", row->speed.frame_ms,
-                               row->unbounded.hdr.rmse, told_text(*row)),
+                               row->unbounded.hdr.rmse, estimate_text(*row)),
                    error_codes(*row, unbounded.picture));
     }
     return sheet.finish();

@@ -186,7 +186,7 @@ ReportRow ReportRun::compare(const ReportSetting& setting, Timing& timing) {
     if (std::ranges::any_of(view_.scene.lights, lacks_range)) {
         row.tails = compare_hdr(row.picture, references_.unlimited(settings).picture.radiance);
     }
-    row.told = told_error(row, renderer);
+    row.estimate = estimated_error(row, renderer);
     timing.stats = frame.stats;
     timing.expected_ms = expected_ms(setting.settings, frame.stats.frame_ms);
     timing.scaled = timing.expected_ms > kSlowFrameMs;
@@ -215,20 +215,20 @@ double ReportRun::expected_ms(const RenderSettings& whole, double compared_ms) {
 }
 
 // Measured on a further frame, since estimating the error takes time.
-std::optional<ToldError> ReportRun::told_error(const ReportRow& row, Renderer& renderer) {
+std::optional<ErrorEstimate> ReportRun::estimated_error(const ReportRow& row, Renderer& renderer) {
     RenderSettings settings = at_error_size(row.setting.settings);
-    const std::optional<ErrorTold> kind = error_told_by(view_.scene, settings);
+    const std::optional<EstimateKind> kind = estimate_kind(view_.scene, settings);
     if (!kind) return std::nullopt;
     const ReferencePicture& reference = references_.unlimited(settings).picture;
     on_step_();
     settings.samples = 1;
     settings.want = {};
     settings.want.display = false;
-    settings.want.aovs = {told_aov(*kind)};
+    settings.want.aovs = {estimate_aov(*kind)};
     renderer.change(settings);
     const Frame frame = renderer.render(view_.camera, view_.time);
-    return compare_told(*kind, frame.aovs.front(), row.setting.settings.samples, row.picture,
-                        reference.radiance);
+    return compare_estimate(*kind, frame.aovs.front(), row.setting.settings.samples, row.picture,
+                            reference.radiance);
 }
 
 void ReportRun::render_into(Renderer& renderer, Timing& timing) {
@@ -303,7 +303,7 @@ void ReportRun::count(ReportRow& row, const Timing& timing) {
     row.speed.useful_k = found->second.useful_evaluations_per_pixel;
     const double scale = timing.scaled ? pixels(row.setting.settings) / pixels(settings) : 1.0;
     const double evaluations =
-        scale * row.speed.k * static_cast<double>(found->second.drawn_pixels);
+        scale * row.speed.k * static_cast<double>(found->second.surface_pixels);
     row.speed.evaluations_per_s = ratio_of(1e3 * evaluations, shading_ms(row.speed));
 }
 

@@ -13,9 +13,9 @@
 #include "host/measure/bench/run.h"
 #include "host/measure/metrics/error_size.h"
 #include "host/measure/metrics/statistics.h"
+#include "host/measure/report/estimated_error.h"
 #include "host/measure/report/references.h"
 #include "host/measure/report/setting.h"
-#include "host/measure/report/told_error.h"
 #include "host/render/renderer.h"
 
 namespace kilolux {
@@ -36,7 +36,7 @@ struct ReportSpeed {
     // Ratio to the default's frame time, of frames rendered in pairs: median, 5 % and 95 %.
     double relative = 1.0, relative_p5 = 1.0, relative_p95 = 1.0;
     double noise = 0.0;              // of that median, relative, from the scatter of the pairs
-    double k = -1.0;                 // lights evaluated per drawn pixel; < 0: not counted
+    double k = -1.0;                 // lights evaluated per surface pixel; < 0: not counted
     double useful_k = -1.0;          // k*: those of them in range
     double evaluations_per_s = 0.0;  // of the stage that shades
 };
@@ -49,10 +49,10 @@ struct ReportRow {
     PictureErrors kernels, surfaces, unbounded;  // against R1, R2, R3
     HdrMetrics drawn;  // against float64 shading of what the rasteriser drew, nothing quantised
     std::optional<std::uint64_t> missed_lights;
-    HdrMetrics tails;                   // where lights lack a range: against unlimited()
-    std::optional<ToldError> told;      // see estimate_error(): against the same
-    RgbImage picture;                   // linear, at the size of the comparison
-    std::vector<std::uint8_t> display;  // its sRGB codes
+    HdrMetrics tails;                       // where lights lack a range: against unlimited()
+    std::optional<ErrorEstimate> estimate;  // see estimate_error(): against the same
+    RgbImage picture;                       // linear, at the size of the comparison
+    std::vector<std::uint8_t> display;      // its sRGB codes
     bool surfaces_front = false;   // in the Pareto set of time and R2's RMSE, among equal ranges
     bool unbounded_front = false;  // in that of time and R3's RMSE, among the cut-offs
     bool tails_front = false;      // in that of time and the RMSE of `tails`, among the same
@@ -94,7 +94,7 @@ class ReportRun {
     RenderSettings whole_frames(const ReportSetting& setting) const;
     ReportRow compare(const ReportSetting& setting, Timing& timing);
     double expected_ms(const RenderSettings& whole, double compared_ms);
-    std::optional<ToldError> told_error(const ReportRow& row, Renderer& renderer);
+    std::optional<ErrorEstimate> estimated_error(const ReportRow& row, Renderer& renderer);
     void time_frames(const ReportSetting& setting, const BenchFrames& frames, Timing& timing,
                      Timing* standard);
     void render_into(Renderer& renderer, Timing& timing);

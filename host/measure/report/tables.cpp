@@ -83,22 +83,27 @@ void add_errors(std::vector<Column<Row>>& columns, const std::string& of, Errors
 
 bool casts_shadows(const Row& row) { return row.setting.settings.shadows != Shadows::off; }
 
-bool has_told(const Row& row) { return row.told.has_value(); }
+bool has_estimate(const Row& row) { return row.estimate.has_value(); }
 
-bool tells(const Row& row, ErrorTold kind) { return row.told && row.told->kind == kind; }
+bool has_estimate_of(const Row& row, EstimateKind kind) {
+    return row.estimate && row.estimate->kind == kind;
+}
 
 // Columns of the estimated errors, where a row has one.
-void add_told(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
-    if (std::ranges::none_of(rows, has_told)) return;
-    columns.push_back({"tells", [](const Row& row) {
-                           if (!row.told) return Cell();
-                           return Cell(row.told->kind == ErrorTold::bound ? "bound" : "standard");
+void add_estimates(std::vector<Column<Row>>& columns, const std::vector<Row>& rows) {
+    if (std::ranges::none_of(rows, has_estimate)) return;
+    columns.push_back({"estimate", [](const Row& row) {
+                           if (!row.estimate) return Cell();
+                           return Cell(row.estimate->kind == EstimateKind::bound ? "bound"
+                                                                                 : "standard");
                        }});
-    columns.push_back(
-        {"told", [](const Row& row) { return row.told ? Cell(row.told->told) : Cell(); }});
-    columns.push_back({"told / error", [](const Row& row) {
-                           const bool errs = row.told && row.told->error > 0.0;
-                           return errs ? Cell(row.told->told / row.told->error) : Cell();
+    columns.push_back({"estimated error", [](const Row& row) {
+                           return row.estimate ? Cell(row.estimate->estimated) : Cell();
+                       }});
+    columns.push_back({"estimated / error", [](const Row& row) {
+                           const bool errs = row.estimate && row.estimate->error > 0.0;
+                           return errs ? Cell(row.estimate->estimated / row.estimate->error)
+                                       : Cell();
                        }});
 }
 
@@ -143,15 +148,18 @@ constexpr PlotKind kPlots[] = {
     {"time_against_tails_error",
      "Speed against error: lights without a range, on the same surfaces",
      "RMSE against every light at every pixel [radiance]", tails_rmse},
-    {"time_against_bound", "Speed against the bound that the picture tells",
+    {"time_against_bound", "Speed against the estimated error, a bound",
      "median of the AOV error-bound [radiance]",
      [](const Row& row) {
-         return tells(row, ErrorTold::bound) ? std::optional(row.told->told) : std::nullopt;
+         return has_estimate_of(row, EstimateKind::bound) ? std::optional(row.estimate->estimated)
+                                                          : std::nullopt;
      }},
-    {"time_against_standard_error", "Speed against the standard error that the picture tells",
+    {"time_against_standard_error", "Speed against the estimated error, a standard error",
      "root mean square of the luminance's standard error [radiance]",
      [](const Row& row) {
-         return tells(row, ErrorTold::standard) ? std::optional(row.told->told) : std::nullopt;
+         return has_estimate_of(row, EstimateKind::standard)
+                    ? std::optional(row.estimate->estimated)
+                    : std::nullopt;
      }},
     {"time_against_cut_off", "Speed against the radiance at which lights are cut off",
      "cut-off [radiance on a white surface]", [](const Row& row) {
@@ -195,7 +203,7 @@ Table report_table(const std::vector<Row>& rows) {
          {"drawn 99.9 % rel", [](const Row& row) { return row.drawn.relative.percentile_99_9; }},
          {"drawn max rel", [](const Row& row) { return row.drawn.relative.max; }},
          {"tails rmse", [](const Row& row) { return row.tails.rmse; }}});
-    add_told(columns, rows);
+    add_estimates(columns, rows);
     return make_table(columns, rows);
 }
 
@@ -224,7 +232,7 @@ Table report_summary(const std::vector<Row>& rows) {
         const auto shade = std::ranges::find(columns, "shade", &Column<Row>::name);
         columns.insert(shade, group_column("cast", StageGroup::shadows));
     }
-    add_told(columns, rows);
+    add_estimates(columns, rows);
     return make_table(columns, rows);
 }
 
@@ -245,7 +253,7 @@ Table cut_off_table(const std::vector<Row>& rows) {
         {"tails RMSE", [](const Row& row) { return row.tails.rmse; }},
         {"tails relMSE", [](const Row& row) { return row.tails.rel_mse; }},
         {"R3 RMSE", [](const Row& row) { return row.unbounded.hdr.rmse; }}};
-    add_told(columns, shown);
+    add_estimates(columns, shown);
     columns.push_back({"time", [](const Row& row) { return row.speed.scaled ? "by pixels" : ""; }});
     return make_table(columns, shown);
 }
@@ -255,16 +263,16 @@ std::string report_notes(const std::vector<Row>& rows) {
     return fmt::format(
         "Errors are measured on pictures of {} pixels (--error-width sets this), times on {}.\n"
         "x default: frame time relative to the default's, median over pairs of frames.\n"
-        "k: lights evaluated per drawn pixel. k*: those of them in range. k*/k: the useful share.\n"
+        "k: lights evaluated per surface pixel. k*: those of them in range. k*/k: the useful "
+        "share.\n"
         "R1: against float64 shading of the stored surfaces, the kernels' error. drawn: of the "
         "unquantised surfaces.\n"
         "R2: against float64 ray casting, the error of the whole picture. R3: as R2, with lights "
         "of unlimited range.\n{}",
         error_size_text(rows.front()), size_text(s.width, s.height),
-        std::ranges::any_of(rows, has_told)
-            ? "told: the error that a picture tells of itself, of a bound the median, of a "
-              "standard "
-              "error the root mean square; and its ratio to the error's.\n"
+        std::ranges::any_of(rows, has_estimate)
+            ? "estimated error: a bound (the median over the pixels) or a standard error (the root "
+              "mean square); estimated / error: its ratio to the same of the actual error.\n"
             : "");
 }
 

@@ -70,7 +70,7 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     const auto tiles = [](int size) { return (size + FINE_TILE - 1) / FINE_TILE; };
     StageCounts c;
     c.pixels = number(setup.width) * setup.height;
-    c.drawn_pixels = stats.drawn_pixels > 0 ? number(stats.drawn_pixels) : c.pixels;
+    c.surface_pixels = stats.surface_pixels > 0 ? number(stats.surface_pixels) : c.pixels;
     c.directional_lights = number(stats.directional_lights);
     c.lights = number(stats.lights_used) - c.directional_lights;
     c.tiles = number(tiles(setup.width)) * tiles(setup.height);
@@ -85,9 +85,9 @@ StageCounts stage_counts(const FrameStats& stats, const FrameSetup& setup) {
     c.texels = number(stats.texels);
     c.refined_pairs = number(stats.refined_pairs);
     const bool all_lights = setup.renderer == RendererKind::deferred_all;
-    c.evaluations = c.drawn_pixels * (all_lights ? c.lights : stats.evaluations_per_pixel);
+    c.evaluations = c.surface_pixels * (all_lights ? c.lights : stats.evaluations_per_pixel);
     // k* of them are in range at their pixel, and so are evaluated in full.
-    const double in_range = std::max(stats.useful_evaluations_per_pixel, 0.0) * c.drawn_pixels;
+    const double in_range = std::max(stats.useful_evaluations_per_pixel, 0.0) * c.surface_pixels;
     c.full_evaluations =
         leaves_early(setup.kernels) ? std::min(in_range, c.evaluations) : c.evaluations;
     c.all_lights = all_lights;

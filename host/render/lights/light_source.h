@@ -28,8 +28,9 @@ std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& sett
 uint tail_seed(const RenderSettings& settings, uint sample);
 
 /// All lights of a scene, its own and the generated ones, at any time. They are on the device in
-/// the world's coordinates: a camera that moves costs one kernel. Rows are uploaded again where the
-/// scene's lights change or headlights move. Rows are the scene's point and spot lights
+/// the world's coordinates: a camera that moves costs one kernel. The host uploads rows again
+/// where the scene's lights change, headlights move, or camera or lights are so far away (4e14 m)
+/// that some may be unusable. Rows are the scene's point and spot lights
 /// (light_order.h), the generated ones (DriftLights), and those of a tree.
 class LightSource {
  public:

@@ -25,7 +25,7 @@ struct PrefilteredEnvironment {
 /// texels, and where the height is odd of all that a texel covers.
 Environment shrunk(const Environment& from, int width);
 
-/// Takes about a second on two cores.
+/// Takes a few seconds of processor time, spread over all cores.
 PrefilteredEnvironment prefiltered(const Environment& environment);
 
 }  // namespace kilolux

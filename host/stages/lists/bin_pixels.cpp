@@ -57,7 +57,7 @@ StageWork bin_pixels_work(const StageCounts& c) {
     const double position = 3.0 * plane_element_bytes(c.kernels.gbuffer, PLANE_POSITION_X) +
                             plane_element_bytes(c.kernels.gbuffer, PLANE_ROW_0);
     StageWork work = prefix_sum_work(c.tiles);
-    work.bytes_read += 4.0 * c.pixels + (4.0 + position) * c.drawn_pixels;
+    work.bytes_read += 4.0 * c.pixels + (4.0 + position) * c.surface_pixels;
     work.bytes_written += kWordBytes * c.tiles + sizeof(ActiveCluster) * c.active_clusters +
                           kPixelOrderBytes * c.pixels;
     work.launches += 3;

@@ -18,7 +18,7 @@ struct ListTotals {
 };
 
 /// Gathers the totals of a frame's lists and the sums over its active clusters in one place, so
-/// that one read of 48 bytes tells whether the lists fit and what they hold:
+/// that one read of 48 bytes shows whether the lists fit and what they hold:
 ///
 ///     const PairCounts counts = count_pairs.read();  // the frame's only wait
 ///     const bool coarse = cull.fits(counts.coarse_pairs), active =

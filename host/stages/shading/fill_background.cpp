@@ -69,7 +69,7 @@ void FillBackground::enqueue_everywhere(const Radiance& radiance, StageTimer& ti
 
 // Neighbouring pixels share texels.
 StageWork fill_background_work(const StageCounts& c) {
-    const double open = c.pixels - c.drawn_pixels;
+    const double open = c.pixels - c.surface_pixels;
     return {.bytes_read = sizeof(float) * c.pixels + kRadianceBytes * open,
             .bytes_written = kRadianceBytes * open,
             .launches = 1};

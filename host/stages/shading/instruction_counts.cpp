@@ -97,18 +97,18 @@ InstructionCounts shading_instructions(const StageCounts& c) {
     const double left_early = c.evaluations - c.full_evaluations;
     return left_early * range_test_instructions() +
            c.full_evaluations * evaluation_instructions(c.kernels) +
-           c.drawn_pixels * c.directional_lights * directional_instructions(c.kernels);
+           c.surface_pixels * c.directional_lights * directional_instructions(c.kernels);
 }
 
 InstructionCounts seen_instructions(const StageCounts& c) {
-    const double directional = std::min(c.shadow_seen, c.drawn_pixels * c.directional_lights);
+    const double directional = std::min(c.shadow_seen, c.surface_pixels * c.directional_lights);
     const double listed = leaves_early(c.kernels) ? c.full_evaluations : c.evaluations;
     return std::min(c.shadow_seen - directional, listed) * evaluation_instructions(c.kernels) +
            directional * directional_instructions(c.kernels);
 }
 
 double full_evaluations(const StageCounts& c) {
-    return c.full_evaluations + c.drawn_pixels * c.directional_lights;
+    return c.full_evaluations + c.surface_pixels * c.directional_lights;
 }
 
 }  // namespace kilolux

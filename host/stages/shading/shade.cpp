@@ -51,7 +51,7 @@ BuildOptions all_options(const ShadingResources& resources, const KernelFeatures
 
 // Bytes of a pixel's list and of its stored surface.
 double listed_surface_bytes(const StageCounts& c) {
-    return (c.gbuffer_bytes_per_pixel + kPixelOrderBytes) * c.drawn_pixels +
+    return (c.gbuffer_bytes_per_pixel + kPixelOrderBytes) * c.surface_pixels +
            sizeof(ActiveCluster) * c.active_clusters + c.index_bytes() * c.refined_pairs;
 }
 
@@ -192,7 +192,7 @@ StageWork shade_work(const StageCounts& c) {
         work.instructions = seen_instructions(c);
         work.evaluations = c.shadow_seen;
     } else if (c.kernels.shadows) {
-        work.bytes_read = 2.0 * work.bytes_read + words + kRadianceBytes * c.drawn_pixels;
+        work.bytes_read = 2.0 * work.bytes_read + words + kRadianceBytes * c.surface_pixels;
         work.bytes_written = 2.0 * work.bytes_written + sizeof(float) * c.pixels;
         work.instructions = 2.0 * work.instructions;
         work.launches = 2;
@@ -203,7 +203,7 @@ StageWork shade_work(const StageCounts& c) {
 
 // Evaluates each light of a pixel's list alone.
 StageWork draw_shadows_work(const StageCounts& c) {
-    return {.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.drawn_pixels,
+    return {.bytes_read = listed_surface_bytes(c) + kRadianceBytes * c.surface_pixels,
             .bytes_written = kWordBytes * c.shadow_words,
             .instructions = shading_instructions(c),
             .launches = 2};

@@ -87,7 +87,7 @@ ShadowCounts CastShadows::counts() const {
 // Nodes and triangles come from near caches.
 StageWork cast_shadows_work(const StageCounts& c) {
     StageWork work = prefix_sum_work(c.tiles);
-    work.bytes_read += (kRowBytes + kPixelOrderBytes) * c.drawn_pixels +
+    work.bytes_read += (kRowBytes + kPixelOrderBytes) * c.surface_pixels +
                        sizeof(ActiveCluster) * c.active_clusters +
                        c.index_bytes() * c.refined_pairs + kRowBytes * c.lights;
     work.bytes_written += kWordBytes * c.shadow_words;

@@ -21,8 +21,8 @@ DeviceArray<float> ShadowOrigins::enqueue(const DeviceArray<uint>& ids, const Su
 }
 
 StageWork shadow_origins_work(const StageCounts& c) {
-    return {.bytes_read = sizeof(uint) * c.pixels + sizeof(float) * c.drawn_pixels,
-            .bytes_written = kRowBytes * c.drawn_pixels,
+    return {.bytes_read = sizeof(uint) * c.pixels + sizeof(float) * c.surface_pixels,
+            .bytes_written = kRowBytes * c.surface_pixels,
             .launches = 1};
 }
 

@@ -28,9 +28,9 @@ class TailErrors {
     /// With a light tree, a bound of what its nodes add or leave out. Enqueues only.
     DeviceArray<float> tree_bound(const LitPixels& lit, StageTimer& timer);
 
-    /// The estimated variance of the luminance that drawn ranges cause: [height][stride], 0 for
-    /// background. `shadow_variance`: with sampled shadows, theirs, which is added. `shadows`: with
-    /// shadows, what CastShadows made. Enqueues only.
+    /// The estimated variance of the luminance that drawn ranges cause: [height][stride]; for
+    /// background 0, with sampled shadows undefined. `shadow_variance`: with sampled shadows,
+    /// theirs, which is added. `shadows`: with shadows, what CastShadows made. Enqueues only.
     DeviceArray<float> variance(const LitPixels& lit, const ShadowWords& shadows,
                                 const ShadowSamples& samples,
                                 const DeviceArray<float>& shadow_variance, StageTimer& timer);

@@ -22,7 +22,7 @@ SharedOptions with_rig(SharedOptions asked, Rig rig) {
 }
 
 // Takes the settings that depend on the rig.
-void settle(RenderSettings& settings, const SharedOptions& lit) {
+void take_lit(RenderSettings& settings, const SharedOptions& lit) {
     settings.lights.count = lit.settings.lights.count;
     settings.ambient = lit.settings.ambient;
     settings.background = lit.shown_background;
@@ -42,7 +42,7 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
         try {
             scene.replace_lights({});
             out.line = light_scene(out.options, scene);
-            settle(next, out.options);
+            take_lit(next, out.options);
             renderer.change(next);
             renderer.refit();
             return out;
@@ -56,8 +56,8 @@ void SceneLights::replace(RenderWorker& worker, const ViewState& state,
 void SceneLights::take(ViewState& state, const OnFailure& failed) {
     const auto take_relit = [&](Relit relit) {
         note(relit.line);
-        settle(state.settings, relit.options);
-        settled_ = std::move(relit.options);
+        take_lit(state.settings, relit.options);
+        lit_ = std::move(relit.options);
         rig_ = state.rig;
     };
     if (!relit_.take(take_relit, failed)) state.rig = rig_;

@@ -15,9 +15,9 @@ namespace kilolux {
 /// the lights.
 class SceneLights {
  public:
-    /// `asked`: the options before light_scene(); `settled`: after it.
-    SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions settled, Rig rig)
-        : scene_(scene), asked_(std::move(asked)), settled_(std::move(settled)), rig_(rig) {}
+    /// `asked`: the options before light_scene(); `lit`: after it.
+    SceneLights(AnimatedScene& scene, SharedOptions asked, SharedOptions lit, Rig rig)
+        : scene_(scene), asked_(std::move(asked)), lit_(std::move(lit)), rig_(rig) {}
 
     /// Asks for the lights of the state's rig; `settings`: of the next picture.
     void replace(RenderWorker& worker, const ViewState& state, const RenderSettings& settings);
@@ -30,7 +30,7 @@ class SceneLights {
     void forget_command_line(const RenderSettings& defaults);
 
     Rig rig() const { return rig_; }  // of the lights that the scene has
-    const SharedOptions& options() const { return settled_; }
+    const SharedOptions& options() const { return lit_; }
 
  private:
     struct Relit {
@@ -39,7 +39,7 @@ class SceneLights {
     };
 
     AnimatedScene& scene_;  // its lights are the worker's
-    SharedOptions asked_, settled_;
+    SharedOptions asked_, lit_;
     Rig rig_;
     Awaited<Relit> relit_;
 };

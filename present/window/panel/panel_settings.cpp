@@ -82,7 +82,7 @@ void Panel::clusters() const {
     if (ui.choice("Lanes", lane, lanes)) {
         state.settings.kernels.lanes = lane == 0 ? 0 : 1 << (lane - 1);
     }
-    ui.tip("Pixels or lights per work-item; changes no bit of a picture");
+    ui.tip("Pixels or lights per work-item; changes no bit on CPUs");
     ui.checkbox("Point at a pixel", state.probe);
     ui.tip("Shows its tile, slice and box, and what each light of its list adds");
     ui.checkbox("Freeze", state.frozen);

@@ -20,12 +20,12 @@ TEST(ParallelRows, CallsEveryRowOnce) {
 }
 
 TEST(ParallelRows, ProgressRisesToOne) {
-    std::vector<double> told;
+    std::vector<double> shares;
     parallel_rows(
-        97, [](int) {}, [&](double share) { told.push_back(share); });
-    ASSERT_EQ(told.size(), 97u);
-    for (std::size_t i = 1; i < told.size(); ++i) EXPECT_GT(told[i], told[i - 1]);
-    EXPECT_EQ(told.back(), 1.0);
+        97, [](int) {}, [&](double share) { shares.push_back(share); });
+    ASSERT_EQ(shares.size(), 97u);
+    for (std::size_t i = 1; i < shares.size(); ++i) EXPECT_GT(shares[i], shares[i - 1]);
+    EXPECT_EQ(shares.back(), 1.0);
 }
 
 TEST(ParallelRows, ExceptionOfARowComesOut) {

@@ -43,7 +43,7 @@ DeviceLimits round_limits() {
 StageCounts some_counts() {
     StageCounts c;
     c.pixels = 1920.0 * 1080.0;
-    c.drawn_pixels = 2e6;
+    c.surface_pixels = 2e6;
     c.lights = 5000.0;
     c.tiles = 8160.0;
     c.box_intervals = 500.0;
@@ -95,7 +95,7 @@ TEST(Roofline, WhatFitsTheCacheMovesAtItsRate) {
 
 TEST(Roofline, IsMonotoneInEveryCount) {
     double StageCounts::*const fields[] = {&StageCounts::pixels,
-                                           &StageCounts::drawn_pixels,
+                                           &StageCounts::surface_pixels,
                                            &StageCounts::lights,
                                            &StageCounts::directional_lights,
                                            &StageCounts::tiles,
@@ -118,7 +118,7 @@ TEST(Roofline, IsMonotoneInEveryCount) {
         bool grew = false;
         for (double StageCounts::*const field : fields) {
             // Background pixels are those without a surface.
-            if (field == &StageCounts::drawn_pixels && stage == &kFillBackgroundStage) continue;
+            if (field == &StageCounts::surface_pixels && stage == &kFillBackgroundStage) continue;
             StageCounts more = some_counts();
             more.*field = 2.0 * more.*field + 100.0;
             const double before = stage_limit(stage->work(some_counts()), round_limits()).ms;
@@ -192,7 +192,7 @@ FrameStats some_stats() {
     FrameStats stats;
     stats.lights_used = 103;
     stats.directional_lights = 3;
-    stats.drawn_pixels = 1000;
+    stats.surface_pixels = 1000;
     stats.evaluations_per_pixel = 5.0;
     stats.useful_evaluations_per_pixel = 4.0;
     stats.refine_tests = 700;
@@ -206,7 +206,7 @@ FrameStats some_stats() {
 TEST(StageCountsTest, ComeFromTheFrame) {
     const StageCounts c = stage_counts(some_stats(), some_setup());
     EXPECT_EQ(c.pixels, 3072.0);
-    EXPECT_EQ(c.drawn_pixels, 1000.0);
+    EXPECT_EQ(c.surface_pixels, 1000.0);
     EXPECT_EQ(c.lights, 100.0);
     EXPECT_EQ(c.directional_lights, 3.0);
     EXPECT_EQ(c.tiles, 12.0);

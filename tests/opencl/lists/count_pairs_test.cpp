@@ -40,7 +40,7 @@ TEST(CountPairs, AgreesWithTheSumOnTheHost) {
                 (std::uint64_t{1} << 33) + 5, count, std::uint64_t{1} << 40, 0, 0, 0};
             for (const ActiveCluster& c : host) {
                 expected.refined_pairs += c.list_count;
-                expected.drawn_pixels += c.pixel_count;
+                expected.surface_pixels += c.pixel_count;
                 expected.evaluations += std::uint64_t{c.list_count} * c.pixel_count;
             }
             StageTimer timer;
@@ -52,7 +52,7 @@ TEST(CountPairs, AgreesWithTheSumOnTheHost) {
             EXPECT_EQ(found.active_clusters, expected.active_clusters);
             EXPECT_EQ(found.refine_tests, expected.refine_tests);
             EXPECT_EQ(found.refined_pairs, expected.refined_pairs);
-            EXPECT_EQ(found.drawn_pixels, expected.drawn_pixels);
+            EXPECT_EQ(found.surface_pixels, expected.surface_pixels);
             EXPECT_EQ(found.evaluations, expected.evaluations);
         }
     }

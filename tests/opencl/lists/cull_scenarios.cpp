@@ -100,7 +100,7 @@ void make_tangent(const Gpu& gpu, CullCase& c, Random& random) {
 
 // All pixels with a surface, or a sample of many.
 std::vector<uint> sampled_pixels(const Synthetic& image, Random& random) {
-    const std::vector<uint> pixels = image.drawn_pixels();
+    const std::vector<uint> pixels = image.surface_pixels();
     if (pixels.size() <= std::size_t{2} * kPixelSample) return pixels;
     std::vector<uint> sample;
     for (uint i = 0; i < kPixelSample; ++i) {

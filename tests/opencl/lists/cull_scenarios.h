@@ -28,7 +28,7 @@ struct CullCase {
     ClusterGrid grid{};
     GBuffer gbuffer;
     Planes planes;
-    std::vector<uint> pixels;  // y * width + x of drawn pixels: all, or a sample
+    std::vector<uint> pixels;  // y * width + x of surface pixels: all, or a sample
     std::vector<Light> lights;
 };
 

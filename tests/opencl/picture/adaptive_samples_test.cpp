@@ -143,20 +143,20 @@ TEST(AdaptiveSamples, TilesEndWhereTheirErrorIsTheOneAskedFor) {
     const std::vector<float> mean = feed.mean();
     const std::vector<uint> taken = feed.samples.taken();
     const auto variance = download<float>(feed.gpu, feed.samples.variance());
-    double seen = 0.0, told = 0.0;
+    double seen = 0.0, estimated = 0.0;
     for (uint y = 0; y < 96; ++y) {
         for (uint x = 0; x < 128; ++x) {
             const std::size_t i = std::size_t{y} * feed.view.stride + x;
             const double m = middle(x);
             seen += std::pow(mean[i] / m - 1.0, 2.0) / (128 * 96);
-            told += variance[i] / (m * m) / (128 * 96);
+            estimated += variance[i] / (m * m) / (128 * 96);
             const double least = 1.0 / (3.0 * kError * kError);
             const double granted = 1.0 + std::sqrt(2.0 / (least / 2.0 - 1.0));
             ASSERT_GT(taken[i], 0.98 * least);
             ASSERT_LT(taken[i], 1.05 * granted * least + 8);
         }
     }
-    EXPECT_NEAR(seen / told, 1.0, 0.06);
+    EXPECT_NEAR(seen / estimated, 1.0, 0.06);
     EXPECT_LT(std::sqrt(seen), 1.02 * kError);
     EXPECT_GT(std::sqrt(seen), 0.85 * kError);
 }

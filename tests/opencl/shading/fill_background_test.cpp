@@ -159,10 +159,10 @@ TEST(FillBackground, SurfacesStayAndBandsAgree) {
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.width; ++x) {
             const std::size_t at = std::size_t{y} * view.stride + x;
-            drawn += image.is_drawn(x, y) ? 1 : 0;
+            drawn += image.shows_surface(x, y) ? 1 : 0;
             for (std::size_t c = 0; c < 3; ++c) {
                 ASSERT_EQ(filled[c * plane + at],
-                          image.is_drawn(x, y) ? kFormer : all[c * plane + at])
+                          image.shows_surface(x, y) ? kFormer : all[c * plane + at])
                     << x << "," << y;
             }
         }

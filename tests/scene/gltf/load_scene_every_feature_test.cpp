@@ -132,7 +132,7 @@ TEST_F(LoadSceneEveryFeature, MovesWithTime) {
                     1e-6);
     }
     EXPECT_EQ(world_positions(later, 2), world_positions(scene_, 2));
-    EXPECT_EQ(later.still_box, bounds(later)) << "what a camera that nobody placed frames";
+    EXPECT_EQ(later.still_box, bounds(later)) << "what a camera of no file frames";
 }
 
 TEST_F(LoadSceneEveryFeature, IsTheSameSceneFromFilesBesideIt) {

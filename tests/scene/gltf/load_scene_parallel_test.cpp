@@ -91,14 +91,14 @@ TEST(LoadSceneParallel, TellsEveryImageOnceAndInOrder) {
     const TempFolder folder;
     write_file(folder.path() / "scene.glb", large_file().glb());
     const Threads threads = limit_threads(4);
-    std::vector<std::size_t> told;
+    std::vector<std::size_t> counts;
     const AnimatedScene scene(folder.path() / "scene.glb", {},
                               [&](std::size_t done, std::size_t total) {
-                                  told.push_back(done);
+                                  counts.push_back(done);
                                   EXPECT_EQ(total, 25u);
                               });
-    ASSERT_EQ(told.size(), 26u);
-    for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i], i);
+    ASSERT_EQ(counts.size(), 26u);
+    for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_EQ(counts[i], i);
 }
 
 TEST(LoadSceneParallel, DoesAllWorkBesideWhatFails) {

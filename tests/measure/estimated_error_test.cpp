@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimated errors of pictures in the rows of a report.
-#include "host/measure/report/told_error.h"
+#include "host/measure/report/estimated_error.h"
 
 #include <gtest/gtest.h>
 
@@ -24,44 +24,48 @@ Scene scene_without_ranges() {
     return scene;
 }
 
-TEST(ToldError, IsComparedAsMediansAndRootMeanSquares) {
+TEST(ErrorEstimate, IsComparedAsMediansAndRootMeanSquares) {
     RgbImage picture = make_rgb_image(2, 1), reference = make_rgb_image(2, 1);
     picture.rgb = {1, 2, 3, 4, 5, 6};
     reference.rgb = {1, 2, 3, 4, 5, 3};
     picture.rgb[1] = 2.5;
     picture.rgb[2] = 3.25;
     const Layer bound{"error-bound", {"R", "G", "B"}, {0, 2, 1, 0, 0, 4}};
-    const ToldError bounded = compare_told(ErrorTold::bound, bound, 4, picture, reference);
-    EXPECT_DOUBLE_EQ(bounded.told, 2.0) << "of a bound no sample takes anything away";
+    const ErrorEstimate bounded =
+        compare_estimate(EstimateKind::bound, bound, 4, picture, reference);
+    EXPECT_DOUBLE_EQ(bounded.estimated, 2.0) << "of a bound no sample takes anything away";
     EXPECT_DOUBLE_EQ(bounded.error, 0.5) << "the middle one of 0.25, 0.5 and 3";
     picture.rgb = {1, 2, 3, 4, 5, 6};
     const Layer standard{"error-standard", {"error.standard"}, {0, 4}};
-    const ToldError sampled = compare_told(ErrorTold::standard, standard, 4, picture, reference);
-    EXPECT_DOUBLE_EQ(sampled.told, std::sqrt(4.0 / 2.0)) << "half of one sample's";
+    const ErrorEstimate sampled =
+        compare_estimate(EstimateKind::standard, standard, 4, picture, reference);
+    EXPECT_DOUBLE_EQ(sampled.estimated, std::sqrt(4.0 / 2.0)) << "half of one sample's";
     EXPECT_NEAR(sampled.error, std::sqrt(0.0722 * 0.0722 * 9.0 / 2.0), 1e-15);
-    EXPECT_THROW(compare_told(ErrorTold::bound, standard, 1, picture, reference), std::exception);
+    EXPECT_THROW(compare_estimate(EstimateKind::bound, standard, 1, picture, reference),
+                 std::exception);
 }
 
-TEST(ToldError, IsThatOfTheWayWithLights) {
+TEST(ErrorEstimate, IsThatOfTheWayWithLights) {
     const Scene unranged = scene_without_ranges();
     const Scene ranged = make_generated_scene("grid");
     RenderSettings settings = small_settings(32, 18, 0);
-    const auto told = [&](const Scene& scene, Tails tails, Shadows shadows = Shadows::off) {
+    const auto estimate = [&](const Scene& scene, Tails tails, Shadows shadows = Shadows::off) {
         settings.tails = tails;
         settings.shadows = shadows;
-        return error_told_by(scene, settings);
+        return estimate_kind(scene, settings);
     };
-    EXPECT_EQ(told(unranged, Tails::exact), std::nullopt);
-    EXPECT_EQ(told(unranged, Tails::bounded), ErrorTold::bound);
-    EXPECT_EQ(told(unranged, Tails::tree), ErrorTold::bound);
-    EXPECT_EQ(told(unranged, Tails::stochastic), ErrorTold::standard);
-    EXPECT_EQ(told(unranged, Tails::stochastic, Shadows::sampled), ErrorTold::standard);
-    EXPECT_EQ(told(unranged, Tails::exact, Shadows::sampled), ErrorTold::standard);
-    EXPECT_EQ(told(unranged, Tails::bounded, Shadows::sampled), std::nullopt) << "it is half of it";
-    EXPECT_EQ(told(ranged, Tails::bounded), std::nullopt) << "nothing is lost";
-    EXPECT_EQ(told(ranged, Tails::bounded, Shadows::sampled), ErrorTold::standard);
+    EXPECT_EQ(estimate(unranged, Tails::exact), std::nullopt);
+    EXPECT_EQ(estimate(unranged, Tails::bounded), EstimateKind::bound);
+    EXPECT_EQ(estimate(unranged, Tails::tree), EstimateKind::bound);
+    EXPECT_EQ(estimate(unranged, Tails::stochastic), EstimateKind::standard);
+    EXPECT_EQ(estimate(unranged, Tails::stochastic, Shadows::sampled), EstimateKind::standard);
+    EXPECT_EQ(estimate(unranged, Tails::exact, Shadows::sampled), EstimateKind::standard);
+    EXPECT_EQ(estimate(unranged, Tails::bounded, Shadows::sampled), std::nullopt)
+        << "it is half of it";
+    EXPECT_EQ(estimate(ranged, Tails::bounded), std::nullopt) << "nothing is lost";
+    EXPECT_EQ(estimate(ranged, Tails::bounded, Shadows::sampled), EstimateKind::standard);
     settings.renderer = RendererKind::deferred_all;
-    EXPECT_EQ(told(unranged, Tails::bounded), std::nullopt) << "only deferred tells it";
+    EXPECT_EQ(estimate(unranged, Tails::bounded), std::nullopt) << "only deferred has one";
 }
 
 // The settings of the axis of cut-offs, measured once.
@@ -91,25 +95,26 @@ double standard_error(const CutOffs& of, const ReportRow& row) {
     return std::sqrt(sum / (48 * 27) / settings.samples);
 }
 
-TEST(ToldError, StandsInAReportBesideTheError) {
+TEST(ErrorEstimate, StandsInAReportBesideTheError) {
     CutOffs measured;
     std::set<std::string> bounds, standards;
     for (const ReportRow& row : measured.rows) {
-        if (!row.told) {
+        if (!row.estimate) {
             EXPECT_EQ(row.setting.name, "tails exact");
             EXPECT_LT(row.tails.rmse, 1e-5) << "only what the kernels round";
             continue;
         }
-        const double ratio = row.told->told / row.told->error;
+        const double ratio = row.estimate->estimated / row.estimate->error;
         EXPECT_GT(row.tails.rmse, 1e-4) << row.setting.name;
-        if (row.told->kind == ErrorTold::bound) {
+        if (row.estimate->kind == EstimateKind::bound) {
             bounds.insert(row.setting.name);
             EXPECT_GE(ratio, 1.0) << row.setting.name;
-            EXPECT_LE(row.told->error, row.tails.absolute.max) << row.setting.name;
+            EXPECT_LE(row.estimate->error, row.tails.absolute.max) << row.setting.name;
         } else {
             standards.insert(row.setting.name);
-            EXPECT_GT(row.told->error, 0.0) << row.setting.name;
-            EXPECT_DOUBLE_EQ(row.told->told, standard_error(measured, row)) << row.setting.name;
+            EXPECT_GT(row.estimate->error, 0.0) << row.setting.name;
+            EXPECT_DOUBLE_EQ(row.estimate->estimated, standard_error(measured, row))
+                << row.setting.name;
         }
     }
     EXPECT_EQ(bounds, (std::set<std::string>{"default", "cut-off 1/16", "cut-off 1/256"}));
@@ -122,7 +127,7 @@ TEST(ToldError, StandsInAReportBesideTheError) {
     EXPECT_TRUE(stems.contains("time_against_cut_off"));
     EXPECT_TRUE(stems.contains("time_against_tails_error"));
     const Table summary = report_summary(measured.rows);
-    EXPECT_EQ(std::ranges::count(summary.columns, "told / error"), 1);
+    EXPECT_EQ(std::ranges::count(summary.columns, "estimated / error"), 1);
     EXPECT_EQ(cut_off_table(measured.rows).rows.size(), measured.rows.size());
     const ComparedReference& unbounded = measured.run->references().unbounded();
     const Canvas sheet = cut_off_sheet(measured.rows, unbounded, "here");
