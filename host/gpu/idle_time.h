@@ -16,14 +16,14 @@ struct HostSpan {
     std::int64_t start, end;
 };
 
-/// How long a device idled between its commands [ns].
+/// How long a device idled between its commands, without the time of host spans [ns].
 struct IdleTime {
-    std::int64_t launch = 0;  // although the next command was enqueued
-    std::int64_t enqueue =
-        0;  // before the next command was enqueued, without the time of host spans
+    std::int64_t launch = 0;   // although the next command was enqueued
+    std::int64_t enqueue = 0;  // before the next command was enqueued
+    std::int64_t overlap = 0;  // several of these at the same time: each has counted it
 };
 
-/// Spans in any order; host spans do not overlap each other.
-IdleTime idle_time(std::vector<CommandSpan> commands, const std::vector<HostSpan>& host);
+/// Spans in any order.
+IdleTime idle_time(std::vector<CommandSpan> commands, std::vector<HostSpan> host);
 
 }  // namespace kilolux

@@ -73,4 +73,6 @@ double StageTimer::launch_ms() const { return kMsPerTick * static_cast<double>(i
 
 double StageTimer::enqueue_ms() const { return kMsPerTick * static_cast<double>(idle_.enqueue); }
 
+double StageTimer::overlap_ms() const { return kMsPerTick * static_cast<double>(idle_.overlap); }
+
 }  // namespace kilolux

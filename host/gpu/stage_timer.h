@@ -32,8 +32,15 @@ class StageTimer {
     /// Between the last two take(), or from this object's beginning to the first: for how long the
     /// device idled although the next command was enqueued [ms].
     double launch_ms() const;
-    /// How long it idled because no command was enqueued, without the time of record_host() [ms].
+    /// How long it idled because no command was enqueued [ms]. Both are without the time of
+    /// record_host().
     double enqueue_ms() const;
+    /// What the device and record_host() count of the same time [ms]. Without it the stages, launch
+    /// and enqueue sum to the time between the two take().
+    double overlap_ms() const;
+
+    /// Forgets the commands that were recorded after the copy `before`, but not the host's time.
+    void drop_commands_since(const StageTimer& before) { entries_ = before.entries_; }
 
  private:
     using Clock = std::chrono::steady_clock;

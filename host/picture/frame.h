@@ -79,6 +79,7 @@ struct FrameStats : PairCounts {
     SampleCounts samples;
     bool shaded_display = false;  // shading made the display picture: there is no tonemap stage
     std::vector<StageTime> stages;
+    double overlap_ms = 0.0;  // that stages of the host and of the device ran at the same time
     double frame_ms = 0.0;
 };
 

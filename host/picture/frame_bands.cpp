@@ -93,6 +93,7 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     whole.shadows = whole.shadows + band.shadows;
     add_samples(whole.samples, band.samples);
     whole.shaded_display = band.shaded_display;
+    whole.overlap_ms += band.overlap_ms;
     for (const StageTime& stage : band.stages) add_stage_time(whole.stages, stage.name, stage.ms);
 }
 

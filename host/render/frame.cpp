@@ -132,7 +132,7 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
             StageTimer before = p.timer;
             Room room;
             while (!room.enough()) {
-                p.timer = before;  // drops the times of stages that lacked room
+                p.timer.drop_commands_since(before);  // stages that lacked room
                 lit.drop_lists();
                 if (!room.surfaces) stages.draw_surfaces(sample, lit, out);
                 const StageTimer drawn = p.timer;

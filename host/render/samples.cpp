@@ -43,6 +43,7 @@ void add_times(StageTimer& timer, FrameStats& stats) {
     }
     add_stage_time(stats.stages, kLaunchStage, timer.launch_ms());
     add_stage_time(stats.stages, kEnqueueStage, timer.enqueue_ms());
+    stats.overlap_ms += timer.overlap_ms();
 }
 
 void Samples::begin(const PictureKey& key, int refining) {

@@ -99,6 +99,14 @@ SHARED_FN FV3 tone_curve_of(int curve, FV3 c) {
     return c;
 }
 
+// Whether light is that of a backdrop, but for the rounding of a mean of samples.
+SHARED_FN MASK is_backdrop(FV3 c, FV3 backdrop) {
+    FV3 d = fv3(max(c.x - backdrop.x, backdrop.x - c.x), max(c.y - backdrop.y, backdrop.y - c.y),
+                max(c.z - backdrop.z, backdrop.z - c.z));
+    return (d.x <= fv(1e-5f) * backdrop.x) & (d.y <= fv(1e-5f) * backdrop.y) &
+           (d.z <= fv(1e-5f) * backdrop.z);
+}
+
 #if defined(__cplusplus)
 }  // namespace kilolux
 #endif

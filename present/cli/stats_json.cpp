@@ -53,6 +53,7 @@ void add_frame(Json& out, const FrameRecord& record) {
     }
     out["stages"].push_back(
         {{"name", kOtherStage.name}, {"ms", other_ms(s)}, {"limit_ms", nullptr}});
+    out["overlap_ms"] = s.overlap_ms;
     out["frame_ms"] = s.frame_ms;
     if (record.comparison) out["error"] = comparison_json(*record.comparison);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <thread>
 
@@ -34,16 +35,18 @@ TEST(IdleTime, BeginsWhereTheLastOfOverlappingCommandsEnds) {
 // Host spans are not idle time: within a gap, across its ends, beside it, after the enqueue.
 TEST(IdleTime, LeavesOutWhatTheHostTellsOf) {
     const std::vector<CommandSpan> commands = {{0, 0, 100}, {200, 250, 300}};
-    const auto enqueue = [&](std::vector<HostSpan> host) {
+    const auto times = [&](std::vector<HostSpan> host) {
         const IdleTime found = idle_time(commands, host);
-        EXPECT_EQ(found.launch, 50);
-        return found.enqueue;
+        return std::array{found.enqueue, found.launch, found.overlap};
     };
-    EXPECT_EQ(enqueue({}), 100);
-    EXPECT_EQ(enqueue({{110, 130}, {150, 160}}), 70);
-    EXPECT_EQ(enqueue({{50, 120}, {190, 240}}), 70);
-    EXPECT_EQ(enqueue({{0, 100}, {210, 400}}), 100);
-    EXPECT_EQ(enqueue({{0, 400}}), 0);
+    using Times = std::array<std::int64_t, 3>;
+    EXPECT_EQ(times({}), (Times{100, 50, 0}));
+    EXPECT_EQ(times({{110, 130}, {150, 160}}), (Times{70, 50, 0}));
+    EXPECT_EQ(times({{50, 120}, {190, 240}}), (Times{70, 10, 50}));
+    EXPECT_EQ(times({{0, 100}, {210, 300}}), (Times{100, 10, 150}));
+    EXPECT_EQ(times({{0, 300}}), (Times{0, 0, 150}));
+    EXPECT_EQ(times({{150, 180}, {120, 180}}), (Times{20 + 20, 50, 30}));
+    EXPECT_EQ(idle_time({{0, 0, 100}, {0, 40, 90}}, {}).overlap, 50) << "of commands";
 }
 
 using Clock = std::chrono::steady_clock;

@@ -11,7 +11,7 @@
 
 namespace kilolux {
 
-/// Calls `is_so` until it is true; throws std::runtime_error that names `what` after a minute.
+/// Calls `is_so` until it is true; throws std::runtime_error that names `what` after five minutes.
 void wait_for(const std::string& what, const std::function<bool()>& is_so);
 
 /// "env" with these variables ("NAME=value") before `words`.
@@ -30,7 +30,7 @@ class Background {
 
     void signal(int number) const;
     bool has_ended() const;
-    /// Waits until it ends by itself; throws std::runtime_error after a minute.
+    /// Waits until it ends by itself; throws std::runtime_error after five minutes.
     ChildResult result();
 
  private:

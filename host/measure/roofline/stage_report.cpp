@@ -54,7 +54,7 @@ Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameSta
 }
 
 double other_ms(const FrameStats& stats) {
-    double ms = stats.frame_ms;
+    double ms = stats.frame_ms + stats.overlap_ms;
     for (const StageTime& stage : stats.stages) ms -= stage.ms;
     return ms;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "host/picture/view_canvas.h"
 #include "host/scene/lights/light_ranges.h"
@@ -75,10 +76,9 @@ void share_row(const LightContribution& share, double total) {
     const bool ends = share.range < 0.5 * double{kUnlimitedRange};
     ImGui::TextUnformatted(ends ? fmt::format("{:.2f} m", share.range).c_str() : "none");
     ImGui::TableNextColumn();
+    if (*share.why_dark != '\0') return ImGui::TextWrapped("%s", share.why_dark);
     const double part = total > 0.0 ? brightness(share.radiance) / total : 0.0;
-    const std::string text = *share.why_dark != '\0'
-                                 ? share.why_dark
-                                 : fmt::format("{:.3g}", brightness(share.radiance));
+    const std::string text = fmt::format("{:.3g}", brightness(share.radiance));
     ImGui::ProgressBar(static_cast<float>(part), {-FLT_MIN, ImGui::GetFontSize()}, text.c_str());
 }
 
@@ -91,9 +91,13 @@ void describe_lights(const ProbedPixel& pixel, std::size_t most) {
         reaching += share.distance < share.range ? 1 : 0;
     }
     fact_line("List", fmt::format("{} lights, {} reach the pixel", pixel.shares.size(), reaching));
-    if (pixel.shares.empty() || !ImGui::BeginTable("shares", 4)) return;
+    if (pixel.shares.empty()) return;
+    if (!ImGui::BeginTable("shares", 4, ImGuiTableFlags_SizingStretchProp)) return;
+    constexpr std::pair<const char*, float> kColumns[] = {
+        {"light", 0.6f}, {"distance", 0.9f}, {"range", 0.8f}, {"adds", 1.5f}};
+    for (const auto& [text, weight] : kColumns) ImGui::TableSetupColumn(text, 0, weight);
     ImGui::TableNextRow();
-    for (const char* text : {"light", "distance", "range", "adds"}) {
+    for (const auto& [text, weight] : kColumns) {
         ImGui::TableNextColumn();
         ImGui::TextDisabled("%s", text);
     }

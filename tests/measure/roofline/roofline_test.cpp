@@ -266,6 +266,8 @@ TEST(StageReports, OtherIsWhatTheStagesLeaveOfTheFrame) {
     FrameStats stats = some_stats();
     stats.frame_ms = 5.5;
     EXPECT_DOUBLE_EQ(other_ms(stats), 1.5);
+    stats.overlap_ms = 0.25;  // two stages have counted it
+    EXPECT_DOUBLE_EQ(other_ms(stats), 1.75);
 }
 
 }  // namespace
