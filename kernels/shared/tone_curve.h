@@ -99,12 +99,12 @@ SHARED_FN FV3 tone_curve_of(int curve, FV3 c) {
     return c;
 }
 
-// Whether light is that of a backdrop, but for the rounding of a mean of samples.
+// Whether light is that of a backdrop, but for the rounding of a mean of samples. NaN is not.
 SHARED_FN MASK is_backdrop(FV3 c, FV3 backdrop) {
-    FV3 d = fv3(max(c.x - backdrop.x, backdrop.x - c.x), max(c.y - backdrop.y, backdrop.y - c.y),
-                max(c.z - backdrop.z, backdrop.z - c.z));
-    return (d.x <= fv(1e-5f) * backdrop.x) & (d.y <= fv(1e-5f) * backdrop.y) &
-           (d.z <= fv(1e-5f) * backdrop.z);
+    FV3 d = fv3(c.x - backdrop.x, c.y - backdrop.y, c.z - backdrop.z);
+    FV distance2 = fma(d.x, d.x, fma(d.y, d.y, d.z * d.z));
+    FV length2 = fma(backdrop.x, backdrop.x, fma(backdrop.y, backdrop.y, backdrop.z * backdrop.z));
+    return distance2 <= fv(1e-10f) * length2;
 }
 
 #if defined(__cplusplus)
