@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/kernel.h"
 
+#include <algorithm>
+#include <bit>
+
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
 
 WorkSize Kernel::pixel_items(const View& view, int rows) const {
     const std::size_t width = FINE_TILE / lanes_;
-    const auto height = static_cast<std::size_t>(rows);
+    const std::size_t most = std::bit_floor(std::max<std::size_t>(largest_group_ / width, 1));
+    const std::size_t height = std::min(static_cast<std::size_t>(rows), most);
     return {cl::NDRange(view.stride / FINE_TILE * width, round_up(view.height, height)),
             cl::NDRange(width, height)};
 }
@@ -24,6 +28,8 @@ Kernel::Kernel(const Gpu& gpu, const KernelProgram& program, std::string_view st
       kernel_(in_stage(stage, [&] { return cl::Kernel(program, name); })),
       stage_(stage),
       lanes_(static_cast<std::size_t>(program.lanes)),
+      largest_group_(in_stage(
+          stage, [&] { return kernel_.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(gpu.device); })),
       tables_(in_stage(stage, [&] { return device_tables(gpu); })) {
     if (gpu.checks_arguments) {
         parameters_ = in_stage(stage, [&] { return parameters_of(kernel_); });

@@ -54,7 +54,7 @@ class Kernel {
         return items((count + lanes_ - 1) / lanes_, group);
     }
     /// A work-item for every vector of pixels of a row. A work-group is as wide as a fine tile and
-    /// `rows` high.
+    /// `rows` high, or as many as the device allows this kernel.
     WorkSize pixel_items(const View& view, int rows) const;
     /// The same for whole tiles: of blocks of pixels (kernels/surfaces/block.h).
     WorkSize block_items(const View& view, int rows) const;
@@ -123,6 +123,7 @@ class Kernel {
     cl::Kernel kernel_;
     std::string stage_;
     std::size_t lanes_;
+    std::size_t largest_group_;  // work-items that the device allows in a group
     std::shared_ptr<const DeviceTables> tables_;
     std::vector<KernelParameter> parameters_;  // with Gpu::checks_arguments
 };

@@ -12,9 +12,9 @@
 // albedo from buffers or images, MoveLights its lights in the world, and PackRadiance gives RGBA
 // back. Behind it stand LightLists (BinPixels, PrepareLights, BuildClusters, CullLights,
 // RefineLights), Visibility with shadows, and Shade; a program may run these stages itself. A stage
-// compiles in its constructor, and its results stay valid until its next enqueue(). What must match
-// between stages is one KernelFeatures and one Tuning for all of them, and one View and ClusterGrid
-// a frame.
+// compiles in its constructor, but for kernels that few frames need, and its results stay valid
+// until its next enqueue(). What must match between stages is one KernelFeatures and one Tuning for
+// all of them, and one View and ClusterGrid a frame.
 //
 // BUFFERS. Planes have rows of View::stride elements (the width rounded up to 16) and View::height
 // rows, from the top. Those that the library owns are valid until the next call of the stage that

@@ -21,7 +21,7 @@ std::vector<WebInView> webs_in_view(std::span<const AimedProfile> rows, const Sc
     std::vector<WebInView> out;
     for (const AimedProfile& row : rows) {
         WebInView& view = out.emplace_back();
-        if (row.down.w < 0.0f) continue;
+        if (!has_web(row)) continue;
         const auto web = std::ranges::lower_bound(starts, row.down.w) - starts.begin();
         view = {&scene.webs[static_cast<std::size_t>(web)],
                 {row.down.x, row.down.y, row.down.z},

@@ -156,10 +156,7 @@ DrawList::DrawList(const Scene& scene) : scene_(scene) {
         MeshBox& out = boxes_.emplace_back();
         out.box = box_of_vertices(mesh);
         out.revision = mesh.revision;
-        if (mesh.material >= 0) {
-            const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
-            out.blended = material.alpha_mode == AlphaMode::blend;
-        }
+        out.blended = is_blended(scene, mesh);
     }
 }
 

@@ -47,11 +47,6 @@ std::vector<glm::dvec3> directions(std::size_t count) {
     return out;
 }
 
-bool is_seen_through(const Scene& scene, const Mesh& mesh) {
-    return mesh.material >= 0 &&
-           scene.materials[static_cast<std::size_t>(mesh.material)].alpha_mode == AlphaMode::blend;
-}
-
 struct DeviceDeleter {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 };
@@ -142,7 +137,7 @@ struct LookAround::Rays {
     void add(std::size_t number, const Instance& instance) {
         const auto shape = static_cast<std::size_t>(instance.mesh);
         const Mesh& mesh = scene.meshes[shape];
-        if (mesh.indices.empty() || is_seen_through(scene, mesh)) return;
+        if (mesh.indices.empty() || is_blended(scene, mesh)) return;
         glm::dmat4 placed = instance.world_from_object;
         const double volume = std::abs(glm::determinant(glm::dmat3(placed)));
         if (!(volume > 0.0 && std::isfinite(volume))) return;  // Embree inverts it

@@ -93,14 +93,26 @@ std::size_t triangle_count(const Scene& scene) {
     return count;
 }
 
+const Material& material_of(const Scene& scene, const Mesh& mesh) {
+    static const Material kDefault;
+    return mesh.material == kDefaultMaterial
+               ? kDefault
+               : scene.materials[static_cast<std::size_t>(mesh.material)];
+}
+
+std::size_t material_row(const Scene& scene, const Mesh& mesh) {
+    return mesh.material == kDefaultMaterial ? scene.materials.size()
+                                             : static_cast<std::size_t>(mesh.material);
+}
+
+bool is_blended(const Scene& scene, const Mesh& mesh) {
+    return material_of(scene, mesh).alpha_mode == AlphaMode::blend;
+}
+
 bool has_blended_surfaces(const Scene& scene) {
-    return std::any_of(
-        scene.instances.begin(), scene.instances.end(), [&](const Instance& instance) {
-            const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-            return material >= 0 &&
-                   scene.materials[static_cast<std::size_t>(material)].alpha_mode ==
-                       AlphaMode::blend;
-        });
+    return std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+        return is_blended(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+    });
 }
 
 }  // namespace kilolux

@@ -80,6 +80,9 @@ glm::vec3 dielectric_reflectance(const Material& material);
 /// Whether the dielectric part reflects otherwise than glTF's default one, which needs no storing.
 bool has_own_reflectance(const Material& material);
 
+/// A mesh's material where its file names none: glTF's default one, material_of() of it.
+constexpr int kDefaultMaterial = -1;
+
 /// A triangle list. Optional arrays are empty or as long as `positions`.
 struct Mesh {
     std::string name;
@@ -90,7 +93,7 @@ struct Mesh {
     std::array<std::vector<glm::vec2>, 2> texcoords;
     std::vector<glm::vec4> colors;       // linear, multiplies base_color
     std::vector<std::uint32_t> indices;  // 3 per triangle, each < positions.size()
-    int material = -1;                   // index into Scene::materials, -1 for the default material
+    int material = kDefaultMaterial;     // index into Scene::materials
     std::uint32_t revision = 0;          // grows whenever the vertices change
 };
 
@@ -220,6 +223,15 @@ Box resting_bounds(const Scene& scene);
 
 /// Triangles that one frame draws: those of every instance.
 std::size_t triangle_count(const Scene& scene);
+
+/// The material that a mesh shows.
+const Material& material_of(const Scene& scene, const Mesh& mesh);
+
+/// Its place where rows of the default material follow those of Scene::materials.
+std::size_t material_row(const Scene& scene, const Mesh& mesh);
+
+/// Such surfaces cast no shadow, and no kernel draws them.
+bool is_blended(const Scene& scene, const Mesh& mesh);
 
 /// Whether any instance's material blends: OpenGL draws those over the lit picture.
 bool has_blended_surfaces(const Scene& scene);

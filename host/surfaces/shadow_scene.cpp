@@ -16,15 +16,11 @@ namespace {
 
 constexpr std::string_view kShadowOwner = "shadows";
 
-bool casts(const Scene& scene, const Mesh& mesh) {
-    return material_of(scene, mesh).alpha_mode != AlphaMode::blend;
-}
-
 std::uint64_t caster_count(const Scene& scene) {
     std::uint64_t count = 0;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        if (casts(scene, mesh)) count += mesh.indices.size() / 3;
+        if (!is_blended(scene, mesh)) count += mesh.indices.size() / 3;
     }
     return count;
 }
@@ -42,8 +38,7 @@ MaskedCaster masked_caster(const Scene& scene, const Mesh& mesh, std::size_t tri
         out.alpha[i] = mesh.colors.empty() ? 1.0f : mesh.colors[vertex].w;
     }
     out.triangle = number;
-    out.material = static_cast<uint>(mesh.material < 0 ? scene.materials.size()
-                                                       : static_cast<std::size_t>(mesh.material));
+    out.material = static_cast<uint>(material_row(scene, mesh));
     return out;
 }
 
@@ -86,7 +81,7 @@ void add_triangle(const float* corners, uint child, Casters& out) {
 void add_instance(const Scene& scene, const Instance& instance, const glm::dvec3& anchor,
                   Casters& out) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    if (!casts(scene, mesh)) return;
+    if (is_blended(scene, mesh)) return;
     const bool masked = material_of(scene, mesh).alpha_mode == AlphaMode::mask;
     glm::dmat4 shadow_from_object = instance.world_from_object;
     shadow_from_object[3] -= glm::dvec4(anchor, 0.0);

@@ -18,7 +18,7 @@ constexpr std::string_view kOwner = "surfaces";
 // Features of the surfaces that do not blend.
 MeshFeatures solid_features(const Scene& scene, const SurfaceFeatures& features) {
     return [&scene, features](const Mesh& mesh) -> std::optional<SurfaceFeatures> {
-        if (material_of(scene, mesh).alpha_mode == AlphaMode::blend) return {};
+        if (is_blended(scene, mesh)) return {};
         return features;
     };
 }

@@ -41,7 +41,7 @@ static inline LitItem lit_item(GBuffer g, Pixels pixels) {
     LitItem item;
     item.pixels = pixels;
     FV depth01 = load_depth01(g, pixels);
-    item.drawn = lane_mask(depth01 > fv(0.0f)) & within_width(g.view, pixels);
+    item.drawn = lane_mask(depth01 > fv(BACKGROUND_DEPTH)) & within_width(g.view, pixels);
     item.any = lane_any(item.drawn);
     item.z = view_depth(g.view, pixels.x, pixels.y, lane_select(item.drawn, depth01, fv(1.0f)));
     return item;

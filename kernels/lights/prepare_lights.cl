@@ -95,7 +95,7 @@ kernel void prepare_lights(global const Light* restrict own,  // camera-relative
         ShadeLight out = shade_light(view, own[light], light, seed);
         float4 p = out.position_inv_range2;
         float range = fabs(own[light].position_range.w);
-        if (p.w < 0.0f) range = sqrt(-1.0f / p.w);
+        if (has_drawn_range(out)) range = sqrt(-1.0f / p.w);
         p.w = fabs(p.w);
         lights[light] = out;
         bounds[light] = p;

@@ -26,7 +26,7 @@ static inline UV slices_of_pixels(GBuffer g, ClusterGrid grid, Pixels pixels, FV
     FV depth01 = load_depth01(g, pixels);
     *z = view_depth(g.view, pixels.x, pixels.y, depth01);
     UV slice = fine_slice_of_depth(grid, *z);
-    MASK drawn = lane_mask(depth01 > fv(0.0f)) & within_width(g.view, pixels);
+    MASK drawn = lane_mask(depth01 > fv(BACKGROUND_DEPTH)) & within_width(g.view, pixels);
     return select((UV)(NO_SLICE), slice, drawn);
 }
 

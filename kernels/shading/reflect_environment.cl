@@ -121,7 +121,7 @@ kernel void reflect_environment(GBUFFER_ARGS, REFLECTION_ARGS,
     MapTexels around = texels_towards(rotate_to_world(view, s.normal), levels[roughness_levels]);
     FV3 added = reflected(maps, view, s, filtered_rgb(texels, around));
 #if HAS_UNLIT
-    drawn &= lane_mask(s.roughness > fv(0.0f));
+    drawn &= lane_mask(is_lit(s));
 #endif
     uint plane_size = view.stride * view.height;
     FV3 former =

@@ -125,7 +125,7 @@ SHARED_FN FV drawn_weight(ShadeLight light, FV d2) {
 SHARED_FN FV window_of(ShadeLight light, FV d2) {
     FV x = d2 * fv(light.position_inv_range2.w);
 #if HAS_DRAWN_RANGES
-    if (light.position_inv_range2.w < 0.0f) {
+    if (has_drawn_range(light)) {
         return lane_select(x > fv(-1.0f), drawn_weight(light, d2), fv(0.0f));
     }
 #endif
@@ -225,7 +225,7 @@ SHARED_FN FV3 finish_shading(Surface s, LightSum sum, float ambient) {
                        fma(base.z * k * (fv(1.0f) - f0.z), sum.diffuse.z, lobe * sum.specular.z));
 #endif
 #if HAS_UNLIT
-    MASK lit = s.roughness > fv(0.0f);
+    MASK lit = is_lit(s);
     out_radiance =
         fv3(lane_select(lit, out_radiance.x, fv(0.0f)), lane_select(lit, out_radiance.y, fv(0.0f)),
             lane_select(lit, out_radiance.z, fv(0.0f)));

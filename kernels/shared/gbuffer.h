@@ -22,12 +22,17 @@ namespace kilolux {
 // Planes. Each is stride * height elements; a G-buffer is one buffer that holds its planes one
 // after the other. A layout has some of them; the scene plan leaves out what the scene does not
 // need ("optional").
-// all: float reversed-Z depth01, 0 = background
+// all: float reversed-Z depth01, or BACKGROUND_DEPTH
 #define PLANE_DEPTH 0
+#define BACKGROUND_DEPTH 0.0f
 // packed: uint, 2x16 UNORM octahedral view-space normal, x in the low half; normal-xy: its x and y
 #define PLANE_NORMAL 1
 // packed: uchar4, sRGB-encoded base colour, roughness linear in the 4th; half: colour linear too
 #define PLANE_ALBEDO 2
+// The roughness that marks unlit surfaces; lit ones have at least LIT_ROUGHNESS_MIN, whose lobe has
+// the same width.
+#define UNLIT_ROUGHNESS 0.0f
+#define LIT_ROUGHNESS_MIN (1.0f / 255.0f)
 // packed, optional: uchar4, sRGB-encoded emissive / emissive_scale, metallic in the 4th
 #define PLANE_MATERIAL 3
 // packed, optional: uchar, ambient occlusion, linear

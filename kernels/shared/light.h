@@ -16,14 +16,16 @@ namespace kilolux {
 
 // A point or spot light, camera-relative: world axes, camera at the origin.
 SHARED_STRUCT(Light) {
-    // xyz: position - camera [m]; w: range [m]; < 0: minus the range that a light without one of
-    // its own got
+    // xyz: position - camera [m]; w: range [m], negative unless has_own_range()
     float4 position_range;
     float4 color_scale;  // xyz: luminous intensity, linear Rec. 709 [cd]; w: 1/(cos_in - cos_out)
     float4
         axis_cos;  // xyz: unit spot axis (0 for a point light); w: cos_out (-1 for a point light)
 };
 SHARED_ASSERT(light_size, sizeof(Light) == 48);
+
+// Whether its file gives the range; lights without one get a range, see light_ranges.h.
+SHARED_FN bool has_own_range(Light light) { return light.position_range.w > 0.0f; }
 
 // A point or spot light in the world: positions as pairs of floats, 48 bits of a double's 53.
 SHARED_STRUCT(WorldLight) {
@@ -34,13 +36,15 @@ SHARED_ASSERT(world_light_size, sizeof(WorldLight) == 64);
 
 // A light in view space, as shading reads it.
 SHARED_STRUCT(ShadeLight) {
-    // xyz: p_view [m]; w: 1/range^2 [1/m^2]; < 0: minus that of a drawn range, see
-    // light_transform.h
+    // xyz: p_view [m]; w: 1/range^2 [1/m^2], negative if has_drawn_range()
     float4 position_inv_range2;
     float4 color_scale;  // as Light
     float4 axis_cos;     // as Light, axis in view space
 };
 SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
+
+// Whether the range is a random one: inv_range2_of() of light_transform.h.
+SHARED_FN bool has_drawn_range(ShadeLight light) { return light.position_inv_range2.w < 0.0f; }
 
 // A directional light: parallel, never culled.
 SHARED_STRUCT(DirectionalLight) {

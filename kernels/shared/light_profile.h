@@ -12,6 +12,7 @@
 #include "kernels/shared/types.h"
 
 #define PROFILE_HEAD 4u
+#define NO_WEB (-1.0f)
 // A web that ends at a vertical angle extends so far beyond it [rad]: five roundings of the angle.
 #define PROFILE_EDGE 1e-6f
 
@@ -31,14 +32,17 @@ namespace kilolux {
 
 // The web of a light and its orientation, in the axes of the light's position.
 SHARED_STRUCT(AimedProfile) {
-    // xyz: unit direction of vertical angle 0; w: first float of the table, exact below 2^24;
-    // < 0: the light has none
+    // xyz: unit direction of vertical angle 0; w: first float of the table, exact below 2^24, or
+    // NO_WEB
     float4 down;
     // xyz: unit direction of vertical angle 90 and horizontal angle 0; w: 1, or -1 where a mirrored
     // node turns horizontal angles the other way
     float4 side;
 };
 SHARED_ASSERT(aimed_profile_size, sizeof(AimedProfile) == 32);
+
+// Whether the light has a web; without one it sends its intensity all around.
+SHARED_FN bool has_web(AimedProfile aim) { return aim.down.w != NO_WEB; }
 
 #if HAS_PROFILE_POINTER
 SHARED_PLAIN_STRUCT(LightProfiles) {
@@ -118,7 +122,7 @@ SHARED_FN FV profile_between(LightProfiles from, uint values, FV row, FV column,
 // The share that a light sends to a point; `to_light`: from the point to the light, of any length.
 SHARED_FN FV profile_share(LightProfiles from, uint light, FV3 to_light) {
     AimedProfile aim = profile_of_light(from, light);
-    if (aim.down.w < 0.0f) return fv(1.0f);
+    if (!has_web(aim)) return fv(1.0f);
     FV3 down = fv3(fv(aim.down.x), fv(aim.down.y), fv(aim.down.z));
     FV3 side = fv3(fv(aim.side.x), fv(aim.side.y), fv(aim.side.z));
     FV along = -dot3(to_light, down);

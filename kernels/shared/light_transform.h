@@ -30,7 +30,7 @@ SHARED_FN float4 rotated(View view, float4 v, float w) {
 SHARED_FN float inv_range2_of(Light light, uint index, uint seed) {
     float range = light.position_range.w;
     float inv = min(1.0f / (range * range), INV_RANGE2_MAX);
-    if (seed == 0u || range > 0.0f) return inv;
+    if (seed == 0u || has_own_range(light)) return inv;
     return -inv * (1.0f - random_of(hash_of(hash_of(seed) ^ index)));
 }
 

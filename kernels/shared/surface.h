@@ -7,6 +7,7 @@
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"
+#include "kernels/shared/gbuffer.h"
 #include "kernels/shared/types.h"
 
 #ifndef SHADING
@@ -21,8 +22,7 @@
 #ifndef HAS_SPECULAR
 #define HAS_SPECULAR 0
 #endif
-// A roughness of 0 marks unlit surfaces; lit ones have at least 1/255, whose lobe has the same
-// width.
+// Whether the G-buffer may hold unlit surfaces: is_lit().
 #ifndef HAS_UNLIT
 #define HAS_UNLIT 0
 #endif
@@ -56,6 +56,9 @@ SHARED_PLAIN_STRUCT(Surface) {
     FV specular_f90;  // and at grazing angles
 #endif
 };
+
+// Unlit surfaces send their emissive light alone.
+SHARED_FN MASK is_lit(Surface s) { return s.roughness > fv(UNLIT_ROUGHNESS); }
 
 // The values of a surface that are the same for all lights.
 SHARED_PLAIN_STRUCT(ShadingPoint) {

@@ -182,13 +182,17 @@ SHARED_FN Surface with_specular(SurfaceScene scene, IN(Textures) textures, IN(Fr
 // KHR_materials_unlit: the base colour leaves the surface, whatever the lights.
 SHARED_FN Surface with_unlit(MaterialRef material, Surface s) {
 #if HAS_UNLIT
-    s.roughness = max(s.roughness, fv(1.0f / 255.0f));  // 0 marks unlit surfaces
+    s.roughness = max(s.roughness, fv(LIT_ROUGHNESS_MIN));
 #endif
     if ((MATERIAL(material).flags & MATERIAL_UNLIT) == 0u) return s;
     s.emissive = s.albedo;
     s.albedo = zero3();
     s.metallic = fv(0.0f);
-    s.roughness = fv(1.0f - float_of(HAS_UNLIT));
+#if HAS_UNLIT
+    s.roughness = fv(UNLIT_ROUGHNESS);
+#else
+    s.roughness = fv(1.0f);
+#endif
     return s;
 }
 

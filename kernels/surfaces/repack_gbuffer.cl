@@ -111,7 +111,7 @@ kernel void repack_gbuffer(SOURCE(uint) depth,     // [height][pitch], bits of a
                        srgb_code(bucket_boundary, bucket_code, color.z), unorm_code(rough, 255.0f));
 #endif
     }
-    bool drawn = depth01 > 0.0f;
+    bool drawn = depth01 > BACKGROUND_DEPTH;
     ((global float*)(gbuffer + layout.offset_bytes[PLANE_DEPTH]))[place] = depth01;
     ((global uint*)(gbuffer + layout.offset_bytes[PLANE_NORMAL]))[place] = drawn ? normal_word : 0u;
     ((global uint*)(gbuffer + layout.offset_bytes[PLANE_ALBEDO]))[place] = drawn ? albedo_word : 0u;

@@ -72,7 +72,7 @@ kernel void tail_bound(GBUFFER_ARGS, ClusterGrid grid,
         float irradiance = irradiance_bound(sums, s.normal);
         out[c] = ROUNDING * radiance_bound(s, p, albedo[c], f0_of[c], sums[TAIL_ALL], irradiance);
 #if HAS_UNLIT
-        if (!(s.roughness > 0.0f)) out[c] = 0.0f;
+        if (!is_lit(s)) out[c] = 0.0f;
 #endif
     }
     store_radiance(bound, view, item.pixels, fv3(out[0], out[1], out[2]));

@@ -125,7 +125,7 @@ kernel void tail_moments(
         for (uint i = 0; i < TAIL_MOMENTS; ++i) sums[c][i] = fv(0.0f);
     }
     for (uint i = 0; i < light_count; ++i) {
-        if (own[i].position_range.w > 0.0f) continue;
+        if (has_own_range(own[i])) continue;
         LostLight lost = lost_light(boxes, lights[i]);
         float4 color = lights[i].color_scale;
         add_lost(sums[0], lost, color.x);

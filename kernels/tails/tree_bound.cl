@@ -121,7 +121,7 @@ kernel void tree_bound(LIT_ARGS,
             }
         }
 #if HAS_UNLIT
-        if (!(s.roughness > 0.0f)) out[0] = out[1] = out[2] = 0.0f;
+        if (!is_lit(s)) out[0] = out[1] = out[2] = 0.0f;
 #endif
     }
     store_radiance(bound, view, item.pixels, fv3(out[0], out[1], out[2]));

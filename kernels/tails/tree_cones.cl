@@ -32,7 +32,7 @@ static inline ClusterCone cone_of_pixels(GBuffer g, uint tile, global const ucha
         sum += normal_at(g, pixel);
 #if SHADING != SHADING_LAMBERT
         Surface s = load_surface(g, pixel, 1.0f);
-        if (s.roughness > 0.0f) sharpness = max(sharpness, sharpness_of(s.roughness));
+        if (is_lit(s)) sharpness = max(sharpness, sharpness_of(s.roughness));
 #endif
     }
     float length2 = dot(sum, sum);

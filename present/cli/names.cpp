@@ -92,7 +92,7 @@ const Choices& choices_of(Tails) {
 const Choices& choices_of(ToneCurve) {
     static const Choices choices = {
         {"none", "clamp at 1"},
-        {"neutral", "Khronos PBR Neutral: 0.04 less, above 0.8 compressed"},
+        {"neutral", "Khronos PBR Neutral: up to 0.04 less, above 0.8 compressed"},
         {"aces", "ACES, filmic contrast"},
         {"agx", "AgX, bright colours go to white softly"}};
     return choices;

@@ -35,6 +35,7 @@ struct SharedOptions {
     std::uint64_t environment_lights = 128;  // directional lights that replace it
     bool lights_given = false;               // settings.lights.count was asked for
     bool ambient_given = false;              // settings.ambient was asked for
+    bool tone_curve_given = false;           // settings.tone_curve was asked for
     bool shadow_rays_given = false;          // settings.shadow_rays was asked for
     bool takes_automatic_exposure = false;   // the command can choose the exposure
     bool automatic_exposure = false;

@@ -131,7 +131,8 @@ void take_exposure(SharedOptions& o, const std::string& name, const std::string&
 
 void visit_display(const SettingVisitor& f, SharedOptions& o) {
     RenderSettings& s = o.settings;
-    const auto take_curve = [&s](std::size_t place) {
+    const auto take_curve = [&o, &s](std::size_t place) {
+        o.tone_curve_given = true;
         const bool whole_name = place == names_of<ToneCurve>().size();
         s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
     };
@@ -152,8 +153,8 @@ void visit_display(const SettingVisitor& f, SharedOptions& o) {
              kPanelPicture},
             [&o](const auto& name, const auto& text) { take_exposure(o, name, text); },
             [&o] { return o.automatic_exposure ? "auto" : text_of(o.settings.exposure); })
-        .choice({"--tonemap", "", "neutral", "Curve from scene light to the display's range",
-                 kPanelPicture},
+        .choice({"--tonemap", "", "neutral; of an unlit scene none",
+                 "Curve from scene light to the display's range", kPanelPicture},
                 tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
         .value({"--background", "COLOUR|none|auto", "auto",
                 "What is behind the scene: #RRGGBB, as the display shows it without bloom; R,G,B: "

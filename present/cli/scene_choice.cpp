@@ -232,6 +232,17 @@ void reflect_studio(SharedOptions& options) {
     }
 }
 
+// Colours of unlit materials are meant as they are: no curve shifts them.
+std::string choose_tone_curve(SharedOptions& options, const Scene& scene) {
+    const bool is_unlit = std::ranges::all_of(scene.instances, [&](const Instance& instance) {
+        return material_of(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)]).unlit;
+    });
+    const bool shows_light = scene.instances.empty() || !options.environment.empty();
+    if (options.tone_curve_given || !is_unlit || shows_light) return "";
+    options.settings.tone_curve = ToneCurve::none;
+    return "\ntonemap none (automatic): all surfaces are unlit";
+}
+
 }  // namespace
 
 AnimatedScene open_animated_scene(const SharedOptions& options) {
@@ -275,7 +286,8 @@ std::string light_scene(SharedOptions& options, AnimatedScene& scene) {
     options.rig = rig == Rig::swarm && has_swarm ? Rig::automatic : rig;
     return view_line(options, scene) + rig_line(rig, automatic, options.settings, own) +
            from_around + (metal ? " (a studio's room, as most of the surface is metal)" : "") +
-           tails_line(scene.scene(), options.settings, finds_tails);
+           tails_line(scene.scene(), options.settings, finds_tails) +
+           choose_tone_curve(options, scene.scene());
 }
 
 void measure_swarm(SharedOptions& options) {

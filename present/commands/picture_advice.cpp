@@ -41,10 +41,7 @@ bool any_face_shows(const Scene& scene, const Camera& camera) {
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0.0;
-        if (mesh.material >= 0 &&
-            scene.materials[static_cast<std::size_t>(mesh.material)].double_sided) {
-            return true;
-        }
+        if (material_of(scene, mesh).double_sided) return true;
         const auto corner = [&](std::size_t i) {
             return glm::dvec3(instance.world_from_object *
                               glm::dvec4(mesh.positions[mesh.indices[i]], 1.0));

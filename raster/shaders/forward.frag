@@ -60,7 +60,7 @@ float profile_value(LightProfiles from, uint i) { return profile_tables[i]; }
 float profile_head(LightProfiles from, uint i) { return profile_value(from, i); }
 #endif
 
-layout(location = 0) out vec4 out_radiance;  // linear; alpha for materials that blend
+layout(location = 0) precise out vec4 out_radiance;  // linear; alpha for materials that blend
 
 // First and end of the fragment's lights in light_lists, or in lights.
 uvec2 light_range(float z) {

@@ -11,7 +11,7 @@ layout(std430, binding = SRGB_BLOCK) readonly buffer SrgbTable {
     float srgb_boundary[SRGB_BUCKETS];
     uint srgb_bucket_code[SRGB_BUCKETS];
 };
-layout(location = 0) out uvec4 out_planes[ATTACHMENTS];
+layout(location = 0) precise out uvec4 out_planes[ATTACHMENTS];
 
 struct GBufferTarget {
     View view;

@@ -120,6 +120,19 @@ TEST_F(Faults, AFolderOfKernelsWithoutSpaceOrExecution) {
     EXPECT_EQ(listed(0, "size=64m"), "");
 }
 
+// Groups of 256 are built in for GPUs; a device may allow fewer.
+TEST_F(Faults, ADeviceOfSmallWorkGroups) {
+    const fs::path expected = elsewhere_ / "large.exr", small_file = elsewhere_ / "small.exr";
+    const Words more = {"--geometry", "compute", "--shadows", "exact", "--bloom", "0.1"};
+    const std::string device = "KILOLUX_DEVICE_KIND=gpu";
+    const ChildResult large = run_child(render_words(with_environment({device}), expected, more));
+    EXPECT_EQ(large.code, 0) << large.err;
+    const ChildResult small = run_child(
+        render_words(with_environment({device, "POCL_MAX_WORK_GROUP_SIZE=64"}), small_file, more));
+    EXPECT_EQ(small.code, 0) << small.err;
+    EXPECT_EQ(read_image(small_file).values, read_image(expected).values);
+}
+
 // Where OpenGL was not asked for, OpenCL draws; libEGL's own messages are not printed.
 TEST_F(Faults, OpenGlThatCannotBeUsedIsNotNeeded) {
     // A device for which OpenGL was not measured to be slower.

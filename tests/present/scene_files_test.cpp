@@ -2,11 +2,14 @@
 // Scene files through the program: export and back, files outside the scene's folder.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -47,6 +50,29 @@ TEST(Export, RefusesWhatIsNoSceneFile) {
     EXPECT_EQ(run_kilolux({"export", "grid"}).code, 2);
     EXPECT_EQ(run_kilolux({"export", "grid", "-o", (folder / "no/a.glb").string()}).code, 1);
     EXPECT_TRUE(names_in(folder).empty());
+}
+
+// A colour that a designer chose for the screen is on the screen, unless a curve was asked for.
+TEST(SceneFile, UnlitColoursAreShownAsTheyAre) {
+    const TemporaryFolder folder;
+    for (const int code : {40, 128, 230}) {
+        const double light = std::pow((code / 255.0 + 0.055) / 1.055, 2.4);
+        GltfBuilder file = triangle_file();
+        file.root["extensionsUsed"] = {"KHR_materials_unlit"};
+        file.root["materials"] = {
+            {{"pbrMetallicRoughness", {{"baseColorFactor", {light, light, light, 1.0}}}},
+             {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+        file.primitive()["material"] = 0;
+        const std::string scene = (folder / "unlit.gltf").string();
+        write_text(scene, file.gltf());
+        const auto brightest = [&](const std::vector<std::string>& more) {
+            const ChildResult result = render(scene, folder / "a.png", more);
+            EXPECT_EQ(result.code, 0) << result.err;
+            return std::lround(255.0 * std::ranges::max(read_image(folder / "a.png").values));
+        };
+        EXPECT_EQ(brightest({"--background", "0,0,0"}), code);
+        EXPECT_LT(brightest({"--background", "0,0,0", "--tonemap", "neutral"}), code);
+    }
 }
 
 TEST(SceneFile, LeavesItsFolderOnlyWithPermission) {

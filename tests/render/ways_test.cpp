@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // All ways make the same surfaces: OpenGL's ids and OpenCL's, resolved, OpenGL's planes, and
-// OpenGL's lit fragments. All are compiled from kernels/shared.
+// OpenGL's lit fragments. All are compiled from kernels/shared, and on most devices all would have
+// the same bits: but Mesa's software rasterizer makes fma() a product and a sum, rounded each. The
+// limits follow from that.
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -96,8 +98,29 @@ Camera hill_camera() {
     return look_at({1.0, 1.6, 4.5}, {0, 0.4, -1}, {0, 1, 0}, glm::radians(60.0));
 }
 
+constexpr int kWidth = 144;
+constexpr int kHeight = 80;
+
+// As kernels/shared/triangle.h says, rounding moves a triangle by a few 2^-24 of its distance: by
+// 2^-23 as seen from the camera, of a picture kWidth pixels wide that is 2 along its wider side.
+constexpr double kShift = 0x1p-23 * kWidth;  // [pixel]
+
+// A map's level has at most two texels a pixel, which differ by at most 1. A vertex's attributes
+// differ less.
+constexpr double kMostOfSurface = 2.0 * kShift;
+// Eight units in the last place of a value in [0.5, 1).
+constexpr double kMedianOfSurface = 8.0 * 0x1p-23;
+// A highlight's radiance follows its normal with a slope of up to ten.
+constexpr double kMostOfPicture = 10.0 * kMostOfSurface;
+constexpr double kMedianOfPicture = 10.0 * kMedianOfSurface;
+// Pixels that may be beyond: textures' and masks' thresholds, silhouettes.
+constexpr double kMost = 0.99;
+// OpenGL snaps vertices to 1/256 pixel, which moves edges by up to half of that: with four edges a
+// pixel, at so many pixels the centre is so near to one that OpenCL may see another triangle.
+constexpr double kSnapped = 4.0 / 512.0;
+
 RenderSettings way_settings() {
-    RenderSettings settings = small_settings(192, 108, 200);
+    RenderSettings settings = small_settings(kWidth, kHeight, 200);
     settings.shading = Shading::pbr;
     settings.gbuffer = GBUFFER_FULL;
     settings.ambient = 0.1f;
@@ -109,39 +132,67 @@ struct Way {
     DecodedSurfaces surfaces;  // none of the forward renderers
 };
 
-Way render_way(const Scene& scene, const Camera& camera, RenderSettings settings, RendererKind kind,
-               Geometry geometry) {
-    settings.renderer = kind;
-    settings.geometry = geometry;
-    Renderer renderer(scene, settings);
-    Way out{renderer.render(camera, 0.0), {}};
-    const bool forward = kind == RendererKind::forward || kind == RendererKind::forward_plus;
-    if (!forward) out.surfaces = renderer.lit_surfaces().surfaces;
-    return out;
+// Renders a scene in one way after the other.
+class Ways {
+ public:
+    Ways(const Scene& scene, const Camera& camera, const RenderSettings& settings)
+        : renderer_(scene, settings), camera_(camera), settings_(settings) {}
+
+    Way deferred(Geometry geometry) {
+        settings_.renderer = RendererKind::deferred;
+        settings_.geometry = geometry;
+        renderer_.change(settings_);
+        Way out{renderer_.render(camera_, 0.0), {}};
+        out.surfaces = renderer_.lit_surfaces().surfaces;
+        return out;
+    }
+    Way forward(RendererKind kind) {
+        settings_.renderer = kind;
+        settings_.geometry = Geometry::ids;
+        renderer_.change(settings_);
+        return {renderer_.render(camera_, 0.0), {}};
+    }
+
+ private:
+    Renderer renderer_;
+    Camera camera_;
+    RenderSettings settings_;
+};
+
+std::size_t pixel_count(const DecodedSurfaces& a) {
+    return std::size_t{a.view.stride} * a.view.height;
 }
 
-// Differences of all planes but depth at pixels that show the same triangle: other triangles have
-// other depths.
-std::vector<double> surface_differences(const DecodedSurfaces& a, const DecodedSurfaces& b) {
-    std::vector<double> out;
-    const std::size_t size = std::size_t{a.view.stride} * a.view.height;
-    std::size_t drawn = 0;
-    std::size_t same = 0;
+// OpenCL resolves both: where the triangles are the same, so is every bit.
+void expect_same_ids(const DecodedSurfaces& a, const DecodedSurfaces& b) {
+    const std::size_t size = pixel_count(a);
+    std::size_t drawn = 0, others = 0;
     for (std::size_t i = 0; i < size; ++i) {
-        drawn += a.is_drawn(i) || b.is_drawn(i) ? 1 : 0;
-        const double depth = a.at(SURFACE_DEPTH, i);
-        if (!a.is_drawn(i) || std::abs(b.at(SURFACE_DEPTH, i) / depth - 1.0) > 1e-6) continue;
-        ++same;
-        double largest = 0.0;
-        for (std::size_t plane = SURFACE_DEPTH + 1; plane < a.planes.size() / size; ++plane) {
-            const double scale = plane < SURFACE_NORMAL ? depth : 1.0;
-            largest = std::max(largest, std::abs(a.at(plane, i) - b.at(plane, i)) / scale);
+        drawn += a.is_drawn(i) ? 1 : 0;
+        bool same = true;
+        for (std::size_t at = i; at < a.planes.size(); at += size) {
+            same = same && a.planes[at] == b.planes[at];
         }
-        out.push_back(largest);
+        others += same ? 0 : 1;
     }
-    EXPECT_GT(drawn, size / 4);
-    EXPECT_GT(same, drawn * 99 / 100) << "of " << drawn;
-    return out;
+    EXPECT_GT(drawn, size / 2) << "the camera should see the scene";
+    EXPECT_LE(static_cast<double>(others), kSnapped * static_cast<double>(drawn));
+}
+
+// OpenGL's rasterizer decides for both which triangle a pixel shows.
+void expect_same_surfaces(const DecodedSurfaces& a, const DecodedSurfaces& b) {
+    const std::size_t size = pixel_count(a);
+    for (std::size_t plane = 0; plane < a.planes.size() / size; ++plane) {
+        SCOPED_TRACE("plane " + std::to_string(plane));
+        std::vector<double> differences;
+        for (std::size_t i = 0; i < size; ++i) {
+            if (!a.is_drawn(i) && !b.is_drawn(i)) continue;
+            const double scale = plane < SURFACE_NORMAL ? a.at(SURFACE_DEPTH, i) : 1.0;
+            differences.push_back(std::abs(a.at(plane, i) - b.at(plane, i)) / scale);
+        }
+        EXPECT_LT(quantile(differences, 0.5), kMedianOfSurface);
+        EXPECT_LT(quantile(differences, kMost), kMostOfSurface);
+    }
 }
 
 // Relative to the value, or to a hundredth of the mean where it is nearly black.
@@ -157,41 +208,47 @@ std::vector<double> picture_differences(const Frame& a, const Frame& b) {
     return out;
 }
 
+void expect_same_picture(const Frame& a, const Frame& b) {
+    const std::vector<double> differences = picture_differences(a, b);
+    EXPECT_LT(quantile(differences, 0.5), kMedianOfPicture);
+    EXPECT_LT(quantile(differences, kMost), kMostOfPicture);
+}
+
 void expect_one_surface(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-    const Way ids = render_way(scene, camera, settings, RendererKind::deferred, Geometry::ids);
-    for (const Geometry geometry : {Geometry::compute, Geometry::planes}) {
-        SCOPED_TRACE(geometry == Geometry::planes ? "planes" : "compute");
-        const Way way = render_way(scene, camera, settings, RendererKind::deferred, geometry);
-        const std::vector<double> surfaces = surface_differences(ids.surfaces, way.surfaces);
-        EXPECT_LT(quantile(surfaces, 0.5), 1e-6);
-        EXPECT_LT(quantile(surfaces, 0.99), 2e-5) << "texture coordinates, in texels, round";
-        const std::vector<double> pictures = picture_differences(ids.frame, way.frame);
-        EXPECT_LT(quantile(pictures, 0.5), 1e-5);
+    Ways ways(scene, camera, settings);
+    const Way ids = ways.deferred(Geometry::ids);
+    {
+        SCOPED_TRACE("compute");
+        expect_same_ids(ids.surfaces, ways.deferred(Geometry::compute).surfaces);
+    }
+    {
+        SCOPED_TRACE("planes");
+        const Way planes = ways.deferred(Geometry::planes);
+        expect_same_surfaces(ids.surfaces, planes.surfaces);
+        expect_same_picture(ids.frame, planes.frame);
     }
     for (const RendererKind kind : {RendererKind::forward, RendererKind::forward_plus}) {
         SCOPED_TRACE(kind == RendererKind::forward ? "forward" : "forward-plus");
-        const Way way = render_way(scene, camera, settings, kind, Geometry::ids);
-        const std::vector<double> pictures = picture_differences(ids.frame, way.frame);
-        EXPECT_LT(quantile(pictures, 0.5), 1e-4);
-        EXPECT_LT(quantile(pictures, 0.95), 1e-3);
+        expect_same_picture(ids.frame, ways.forward(kind).frame);
     }
 }
 
 TEST(Ways, MakeTheSameSurfacesOfEveryMap) {
     expect_one_surface(mapped_scene(), hill_camera(), way_settings());
-    RenderSettings settings = way_settings();
-    settings.anisotropy = 4;
-    expect_one_surface(mapped_scene(), hill_camera(), settings);
 }
 
+// Nearest texels and levels, no mipmaps, and several samples a pixel.
 TEST(Ways, MakeTheSameSurfacesWithOtherFilters) {
     Scene scene = mapped_scene();
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         Sampler& sampler = scene.textures[i].sampler;
-        sampler.between_mipmaps = i % 2 == 0 ? Filter::nearest : Filter::linear;
-        sampler.mipmaps = i % 3 != 0;
+        if (i % 4 == 1) sampler.between_mipmaps = Filter::nearest;
+        if (i % 4 == 2) sampler.mipmaps = false;
+        if (i % 4 == 3) sampler.magnify = sampler.minify = Filter::nearest;
     }
-    expect_one_surface(scene, hill_camera(), way_settings());
+    RenderSettings settings = way_settings();
+    settings.anisotropy = 4;
+    expect_one_surface(scene, hill_camera(), settings);
 }
 
 TEST(Ways, MakeTheSameSurfacesOfAGeneratedScene) {
@@ -201,11 +258,15 @@ TEST(Ways, MakeTheSameSurfacesOfAGeneratedScene) {
 
 TEST(Ways, MakeTheSameSurfacesOfLoadedScenes) {
     const auto folder = std::filesystem::path(source_root()) / ".." / "shared/scenes";
-    for (const char* file : {"sponza/Sponza.gltf", "helmet/DamagedHelmet.glb"}) {
+    const std::pair<const char*, Camera> views[] = {
+        {"sponza/Sponza.gltf", look_at({-8, 2, 0.5}, {4, 4, -2}, {0, 1, 0}, glm::radians(60.0))},
+        {"helmet/DamagedHelmet.glb",
+         look_at({0.3, 0.2, 1.7}, {0, 0, 0}, {0, 1, 0}, glm::radians(45.0))},
+    };
+    for (const auto& [file, camera] : views) {
         SCOPED_TRACE(file);
         if (!std::filesystem::exists(folder / file)) continue;
-        const Scene scene = load_scene(folder / file);
-        expect_one_surface(scene, first_camera(scene), way_settings());
+        expect_one_surface(load_scene(folder / file), camera, way_settings());
     }
 }
 

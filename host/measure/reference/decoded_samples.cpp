@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/measure/reference/decoded_samples.h"
 
+#include "kernels/shared/gbuffer.h"
+
 namespace kilolux {
 
 SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bool specular,
@@ -21,7 +23,8 @@ SurfaceSample surface_sample(const std::function<double(std::size_t)>& value, bo
         out.specular = vector(SURFACE_SPECULAR);
         out.specular_f90 = value(SURFACE_SPECULAR_F90);
     }
-    out.kind = unlit && out.roughness == 0.0 ? SurfaceKind::unlit : SurfaceKind::lit;
+    out.kind =
+        unlit && out.roughness == double{UNLIT_ROUGHNESS} ? SurfaceKind::unlit : SurfaceKind::lit;
     return out;
 }
 

@@ -69,7 +69,7 @@ WorldLight world_light(const SceneLight& light) {
 
 AimedProfile aimed_profile(const SceneLight& light, const Scene& scene,
                            std::span<const float> starts) {
-    if (light.profile < 0) return {{0.0f, 0.0f, 0.0f, -1.0f}, {0.0f, 0.0f, 0.0f, 1.0f}};
+    if (light.profile < 0) return {{0.0f, 0.0f, 0.0f, NO_WEB}, {0.0f, 0.0f, 0.0f, 1.0f}};
     const SceneProfile& profile = scene.aimed_profiles[static_cast<std::size_t>(light.profile)];
     const glm::vec3 down(glm::normalize(light.direction));
     const glm::vec3 side(profile.side);

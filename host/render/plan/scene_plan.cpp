@@ -16,8 +16,7 @@ namespace {
 std::vector<Material> materials_in_use(const Scene& scene) {
     std::vector<bool> used(scene.materials.size() + 1, false);
     for (const Instance& instance : scene.instances) {
-        const int material = scene.meshes[static_cast<std::size_t>(instance.mesh)].material;
-        used[material < 0 ? scene.materials.size() : static_cast<std::size_t>(material)] = true;
+        used[material_row(scene, scene.meshes[static_cast<std::size_t>(instance.mesh)])] = true;
     }
     std::vector<Material> materials;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {

@@ -37,7 +37,7 @@ Json mesh_json(const Mesh& mesh, ExportBuffer& buffer) {
     add("COLOR_0", mesh.colors);
     Json primitive{{"attributes", std::move(attributes)},
                    {"indices", buffer.add_indices(mesh.indices)}};
-    if (mesh.material >= 0) primitive["material"] = mesh.material;
+    if (mesh.material != kDefaultMaterial) primitive["material"] = mesh.material;
     Json out{{"primitives", Json::array({std::move(primitive)})}};
     if (!mesh.name.empty()) out["name"] = mesh.name;
     return out;

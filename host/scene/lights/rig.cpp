@@ -52,8 +52,8 @@ glm::dvec3 texel_of(const Scene& scene, const TextureUse& use, const glm::vec2& 
 
 // A triangle's mirror reflectance: its metal, or the head-on reflectance of a dielectric.
 double metallic_at(const Scene& scene, const Mesh& mesh, std::size_t first) {
-    if (mesh.material < 0) return 1.0;  // of glTF's default material
-    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    const Material& material = material_of(scene, mesh);
+    if (material.unlit) return 0.0;
     const auto middle = [&](const TextureUse& use) {
         const auto& texcoords = mesh.texcoords[static_cast<std::size_t>(use.uv_set)];
         glm::vec2 sum(0.0f);

@@ -120,7 +120,7 @@ SurfaceFeatures surface_features(const Scene& scene, const SceneFeatures& needs,
     SurfaceFeatures out;
     out.anisotropy = anisotropy;
     for (const Mesh& mesh : scene.meshes) {
-        if (material_of(scene, mesh).alpha_mode == AlphaMode::blend) continue;
+        if (is_blended(scene, mesh)) continue;
         add_mesh(out, scene, mesh, kept_uses(needs));
     }
     return out;
@@ -138,8 +138,7 @@ SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
         MeshRow row = vertex_layout(mesh, read.value_or(SurfaceFeatures{}));
         row.first_float = checked_count(out.vertices.size(), scene);
         row.first_index = checked_count(out.indices.size(), scene);
-        row.material = static_cast<uint>(
-            mesh.material < 0 ? scene.materials.size() : static_cast<std::size_t>(mesh.material));
+        row.material = static_cast<uint>(material_row(scene, mesh));
         if (read) {
             append_vertices(mesh, row, out.vertices);
             out.indices.insert(out.indices.end(), mesh.indices.begin(), mesh.indices.end());

@@ -41,11 +41,6 @@ void place(const std::vector<Vector>& values, uint at, std::size_t row_floats, f
 
 }  // namespace
 
-const Material& material_of(const Scene& scene, const Mesh& mesh) {
-    static const Material kDefault;
-    return mesh.material < 0 ? kDefault : scene.materials[static_cast<std::size_t>(mesh.material)];
-}
-
 MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features) {
     MeshRow row{};
     uint floats = 3;

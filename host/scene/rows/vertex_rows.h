@@ -9,9 +9,6 @@
 
 namespace kilolux {
 
-/// The material that a mesh shows; the default one where it has none.
-const Material& material_of(const Scene& scene, const Mesh& mesh);
-
 /// The places of a mesh's attributes in its vertices' rows: of those that the features read. Its
 /// places in the buffers and its material are not set.
 MeshRow vertex_layout(const Mesh& mesh, const SurfaceFeatures& features);

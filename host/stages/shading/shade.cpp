@@ -8,9 +8,12 @@ namespace {
 
 // PoCL 3.1 loses values across the barriers of staged work-groups one item wide, which 16 lanes
 // make, and reads through a wild pointer (hard case 17). A CPU gains nothing by staging, and GPUs
-// are not built with that many lanes.
+// are not built with that many lanes. A staging group has a work-item for each vector of a tile.
 Tuning usable(Tuning tuning, const DeviceInfo& device) {
-    if (device.lane_width >= FINE_TILE) tuning.shade_stage = 0;
+    const int lanes = device.lane_width;
+    if (lanes >= FINE_TILE || FINE_TILE_PIXELS / lanes > device.max_work_group) {
+        tuning.shade_stage = 0;
+    }
     return tuning;
 }
 
@@ -79,8 +82,15 @@ BuildOptions ShadingResources::options() const {
 }
 
 WorkSize ShadingResources::work_size(const Kernel& kernel, const View& view) const {
-    // Staging needs all work-items of a tile.
-    return kernel.pixel_items(view, tuning_.shade_stage > 0 ? FINE_TILE : tuning_.shade_rows);
+    if (tuning_.shade_stage == 0) return kernel.pixel_items(view, tuning_.shade_rows);
+    const WorkSize size = kernel.pixel_items(view, FINE_TILE);
+    if (size.local.get()[1] < FINE_TILE) {
+        throw Error(std::string(kShadeStage) +
+                    ": staging lights needs a work-item for each vector of a tile in a group, more "
+                    "than the device allows this kernel: measure a tuning without (kilolux bench "
+                    "--tune)");
+    }
+    return size;
 }
 
 PreparedLights ShadingResources::stored_lights(const PreparedLights& lights, StageTimer& timer) {

@@ -57,6 +57,9 @@ inline FV operator/(FV a, FV b) {
 inline FV operator-(FV a) { return {-a.value, a.varies}; }
 inline MASK operator<(FV a, FV b) { return counted(a.value < b.value, a, b); }
 inline MASK operator>(FV a, FV b) { return counted(a.value > b.value, a, b); }
+// Of a light, the same in all lanes.
+inline bool operator<(FV a, float b) { return a.value < b; }
+inline bool operator>(FV a, float b) { return a.value > b; }
 inline UV operator-(UV a, uint b) { return counted(a.value - b, a); }
 inline UV operator-(uint a, UV b) { return counted(a - b.value, b); }
 inline UV operator&(UV a, uint b) { return counted(a.value & b, a); }

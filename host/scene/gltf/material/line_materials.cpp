@@ -34,7 +34,7 @@ void add_line_materials(const GltfDocument& document, GltfMaterials& materials) 
             if (corners_of(primitive) == 3) continue;
             const LineMaterial key = line_material_of(primitive);
             const auto index = static_cast<std::size_t>(std::max(primitive.material, 0));
-            const bool is_default = primitive.material < 0;
+            const bool is_default = primitive.material == kDefaultMaterial;
             const bool bumpy = !is_default && materials.materials[index].normal_texture.present();
             const bool as_it_is = key.normals && (key.tangents || !bumpy);
             if (as_it_is || materials.of_lines.contains(key)) continue;

@@ -130,7 +130,7 @@ MeshShading shading_of(const GltfMaterials& materials, const tinygltf::Primitive
     const auto made = materials.of_lines.find(line_material_of(primitive));
     const bool is_made = corners_of(primitive) < 3 && made != materials.of_lines.end();
     shading.material = is_made ? made->second : primitive.material;
-    if (shading.material < 0) return shading;
+    if (shading.material == kDefaultMaterial) return shading;
     const auto index = static_cast<std::size_t>(shading.material);
     shading.texcoord_sets = materials.texcoord_sets[index];
     shading.normal_texture = materials.materials[index].normal_texture;

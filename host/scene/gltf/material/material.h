@@ -16,7 +16,7 @@ struct RoughnessImage {
 
 /// Properties of points and lines that decide their material.
 struct LineMaterial {
-    int material = -1;
+    int material = kDefaultMaterial;
     bool normals = false;
     bool tangents = false;
     bool colors = false;

@@ -15,7 +15,7 @@ struct Deformation {
 
 /// What a primitive's material decides about its mesh.
 struct MeshShading {
-    int material = -1;
+    int material = kDefaultMaterial;
     std::array<int, 2> texcoord_sets{0, 1};  // TEXCOORD_n that become Mesh::texcoords
     TextureUse normal_texture;               // tangents are made where it is present
 };
