@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
+#include "host/render/environment_light.h"
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"
