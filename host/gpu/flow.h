@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "host/gpu/buffer.h"
@@ -181,6 +182,18 @@ struct Radiance {
     static constexpr std::size_t kPixelBytes = 3 * sizeof(float);
     DeviceArray<float> planes;  // [3][height][stride]; empty where shading wrote to a DisplayTarget
     View view{};
+};
+
+/// Light that the display shows as a code of its own, whatever the tone curve makes of it.
+struct Backdrop {
+    static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    float4 light{kNone, kNone, kNone, kNone};  // x, y, z: before exposure
+    uint code = 0;                             // R | G << 8 | B << 16 | 255 << 24
+
+    void each(auto&& set) const {
+        set("backdrop", light);
+        set("backdrop_code", code);
+    }
 };
 
 /// Where a display's sRGB codes go, and how radiance becomes codes.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/program.h"
 
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+
 #include "host/base/log.h"
 #include "host/base/source.h"
 #include "host/base/system/interrupt.h"
@@ -66,7 +71,15 @@ KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_vi
     return gpu.programs->find(all_options + "\n" + source, [&] {
         check_interrupt();
         detail("building " + name + " " + all_options);
-        return build(gpu, name, source, all_options);
+        const auto start = std::chrono::steady_clock::now();
+        KernelProgram program = build(gpu, name, source, all_options);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        // For who waits, not for logs.
+        if (gpu.programs->add_build_time(taken.count()) && isatty(STDERR_FILENO) == 1) {
+            note("building kernels for " + gpu.info.name +
+                 "; most drivers keep them for the next run ...");
+        }
+        return program;
     });
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/gpu/device.h"
@@ -53,6 +54,13 @@ class ProgramCache {
         if (found == programs_.end()) found = programs_.emplace(key, build()).first;
         return found->second;
     }
+    /// Adds the time of a build. Returns whether all together then are long for the first time: the
+    /// user waits.
+    bool add_build_time(double seconds) {
+        constexpr double kLongSeconds = 1.0;
+        const double before = std::exchange(build_seconds_, build_seconds_ + seconds);
+        return before < kLongSeconds && build_seconds_ >= kLongSeconds;
+    }
     /// The tables; made by `make` if there are none yet.
     template <typename Make>
     std::shared_ptr<const DeviceTables> tables(const Make& make) {
@@ -64,6 +72,7 @@ class ProgramCache {
  private:
     std::mutex mutex_;
     std::map<std::string, KernelProgram> programs_;
+    double build_seconds_ = 0.0;
     std::shared_ptr<const DeviceTables> tables_;
 };
 

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/environment_light.h"
 
+#include <cmath>
+#include <cstring>
+#include <span>
 #include <utility>
+
+#include "host/base/formats/srgb.h"
+#include "host/picture/shown_light.h"
 
 namespace kilolux {
 namespace {
 
-std::optional<FillBackground> make_background(const RenderContext& context) {
+std::optional<FillBackground> make_background(const RenderContext& context,
+                                              const Backdrop& backdrop) {
     if (!context.settings.background) return {};
     const Environment& image = *context.settings.background;
+    std::span<const float> rgb(&image.rows.data()->x, 3 * image.rows.size());
+    if (image.as_shown) rgb = {&backdrop.light.x, 3};
     FillBackground out(context.gpu, context.tuning);
-    out.set_image({&image.rows.data()->x, 3 * image.rows.size()}, static_cast<uint>(image.width),
-                  static_cast<uint>(image.height));
+    out.set_image(rgb, static_cast<uint>(image.width), static_cast<uint>(image.height));
     return out;
 }
 
@@ -25,15 +33,33 @@ std::optional<ReflectEnvironment> make_reflections(const RenderContext& context)
 
 }  // namespace
 
+Backdrop backdrop_of(const RenderSettings& settings) {
+    Backdrop out;
+    if (!settings.background || !settings.background->as_shown) return out;
+    const glm::dvec3 shown = settings.background->rows.front();
+    const int curve = static_cast<int>(settings.tone_curve);
+    const glm::vec3 light(light_shown_as(shown, curve) / std::exp2(double{settings.exposure}));
+    out.light = {light.x, light.y, light.z, 0.0f};
+    out.code = 0xff000000u;
+    for (int c = 0; c < 3; ++c) {
+        out.code |= static_cast<uint>(std::lround(255.0 * linear_to_srgb(shown[c]))) << (8 * c);
+    }
+    return out;
+}
+
 void EnvironmentLight::set(const RenderContext& context) {
     const RenderSettings& settings = context.settings;
     if (maps_ != settings.reflections) {
         reflections_ = make_reflections(context);
         maps_ = settings.reflections;
     }
-    if (image_ != settings.background) {
-        background_ = make_background(context);
+    const Backdrop backdrop = backdrop_of(settings);
+    const bool same_light =
+        std::memcmp(&backdrop.light, &backdrop_.light, sizeof backdrop.light) == 0;
+    if (image_ != settings.background || !same_light) {
+        background_ = make_background(context, backdrop);
         image_ = settings.background;
+        backdrop_ = backdrop;
     }
 }
 

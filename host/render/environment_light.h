@@ -11,6 +11,9 @@
 
 namespace kilolux {
 
+/// The light of a background that the display shows as it is; none for other backgrounds.
+Backdrop backdrop_of(const RenderSettings& settings);
+
 /// Adds an environment to lit surfaces: its reflections, and the environment behind them.
 class EnvironmentLight {
  public:
@@ -26,6 +29,7 @@ class EnvironmentLight {
 
  private:
     std::shared_ptr<const Environment> image_;  // that background_ has
+    Backdrop backdrop_;                         // of image_
     std::shared_ptr<const PrefilteredEnvironment> maps_;
     std::optional<FillBackground> background_;
     std::optional<ReflectEnvironment> reflections_;

@@ -21,6 +21,7 @@ void PictureOutput::set(const RenderSettings& settings) {
     const int tone_curve = static_cast<int>(settings.tone_curve);
     if (tone_curve != tone_curve_) tonemap_ = Tonemap(context_.gpu, context_.tuning, tone_curve);
     tone_curve_ = tone_curve;
+    backdrop_ = backdrop_of(settings);
 }
 
 void PictureOutput::begin(DisplayMemory memory, Frame& frame) {
@@ -79,7 +80,7 @@ Radiance PictureOutput::bloom(const Radiance& light, StageTimer& timer) {
 std::optional<DisplayTarget> PictureOutput::tonemap(const Radiance& light, StageTimer& timer) {
     if (memory_.empty() && display_.empty()) return {};
     const DisplayTarget display = target(light.view);
-    tonemap_.enqueue(light, display, timer);
+    tonemap_.enqueue(light, display, timer, backdrop_);
     return display;
 }
 

@@ -62,6 +62,7 @@ class PictureOutput {
     std::optional<Bloom> bloom_;  // none where bloom is 0
     int tone_curve_;
     Tonemap tonemap_;
+    Backdrop backdrop_;
     GrowingArray<float> whole_light_;  // of all bands, where bloom mixes them
     FrameReader reader_;
     PinnedMemory shown_;            // display_memory() of a device with memory of its own

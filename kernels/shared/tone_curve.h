@@ -99,6 +99,14 @@ SHARED_FN FV3 tone_curve_of(int curve, FV3 c) {
     return c;
 }
 
+// Whether light is that of a backdrop, but for the rounding of a mean of samples. NaN is not.
+SHARED_FN MASK is_backdrop(FV3 c, FV3 backdrop) {
+    FV3 d = fv3(c.x - backdrop.x, c.y - backdrop.y, c.z - backdrop.z);
+    FV distance2 = fma(d.x, d.x, fma(d.y, d.y, d.z * d.z));
+    FV length2 = fma(backdrop.x, backdrop.x, fma(backdrop.y, backdrop.y, backdrop.z * backdrop.z));
+    return distance2 <= fv(1e-10f) * length2;
+}
+
 #if defined(__cplusplus)
 }  // namespace kilolux
 #endif

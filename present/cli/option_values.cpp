@@ -153,7 +153,8 @@ BackgroundChoice parse_background(const std::string& option, std::string_view te
     const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), code, 16);
     if (hex.size() == 6 && error == std::errc() && end == hex.data() + hex.size()) {
         const auto table = srgb_to_linear_table();
-        return {Kind::color, {table[code >> 16], table[code >> 8 & 255u], table[code & 255u]}};
+        return {
+            Kind::color, {table[code >> 16], table[code >> 8 & 255u], table[code & 255u]}, true};
     }
     glm::vec3 color(-1.0f);
     const auto parts = split(text, ',');
@@ -164,7 +165,8 @@ BackgroundChoice parse_background(const std::string& option, std::string_view te
     }
     if (glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f)))) return {Kind::color, color};
     refuse(option, text,
-           "'auto', 'none', or a colour: R,G,B linear, each at least 0, or #RRGGBB in sRGB");
+           "'auto', 'none', or a colour: R,G,B as linear light, each at least 0, or #RRGGBB as "
+           "the display shows it");
 }
 
 std::pair<int, int> parse_resolution(const std::string& option, std::string_view text) {
@@ -268,7 +270,12 @@ std::string text_of(const glm::dvec3& v) { return fmt::format("{},{},{}", v.x, v
 std::string text_of(const BackgroundChoice& choice) {
     using Kind = BackgroundChoice::Kind;
     if (choice.kind == Kind::environment) return "auto";
-    return choice.kind == Kind::none ? "none" : text_of(glm::dvec3(choice.color));
+    if (choice.kind == Kind::none) return "none";
+    if (!choice.as_shown) return text_of(glm::dvec3(choice.color));
+    const auto code = [&choice](int channel) {
+        return std::lround(255.0 * linear_to_srgb(choice.color[channel]));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
 }
 std::string text_of(const Box& box) {
     return box.empty() ? "" : text_of(box.min) + "," + text_of(box.max);

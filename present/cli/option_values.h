@@ -22,6 +22,7 @@ namespace kilolux {
 struct BackgroundChoice {
     enum class Kind { environment, none, color } kind = Kind::environment;
     glm::vec3 color{0.0f};  // linear Rec. 709 radiance
+    bool as_shown = false;  // color is what the display shows, not light
     bool operator==(const BackgroundChoice&) const = default;
 };
 
@@ -85,7 +86,8 @@ std::uint64_t parse_bytes(const std::string& option, std::string_view text);
 std::vector<int> parse_counts(const std::string& option, std::string_view text,
                               std::string_view form, const CountRange& range);
 
-/// "auto": the environment; "none"; "R,G,B" linear, each at least 0; "#RRGGBB" or "RRGGBB" in sRGB.
+/// "auto": the environment; "none"; "R,G,B": light, each at least 0; "#RRGGBB" or "RRGGBB":
+/// what the display shows, in sRGB.
 BackgroundChoice parse_background(const std::string& option, std::string_view text);
 
 /// Width and height "W,H" or "WxH", each from 1 to 65536 [pixel].

@@ -52,6 +52,7 @@ struct SharedOptions {
 struct OutputOptions {
     std::filesystem::path output;
     bool half_colour = false;
+    bool uint_ids = false;
     int bits = 8;  // a channel, of PNG and TIFF
     OcioOptions ocio;
     std::optional<FrameRange> frames;

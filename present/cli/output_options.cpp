@@ -31,6 +31,9 @@ std::string output_file(const std::string&, const std::string& text) {
 }
 
 void add_encoding_options(CLI::App& command, OutputOptions& o) {
+    const auto take_ids = [](const std::string& name, const std::string& text) {
+        return parse_name(name, text, {"float", "uint"}) == 1;
+    };
     const auto bits = [](const std::string& name, const std::string& text) {
         return parse_name(name, text, {"8", "16"}) == 0 ? 8 : 16;
     };
@@ -43,6 +46,10 @@ void add_encoding_options(CLI::App& command, OutputOptions& o) {
         .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"}, o.stats)
         .rest()
         .flag("--exr-half", o.half_colour, "EXR colour in half precision")
+        .value({"--aov-ids", "float|uint", "float",
+                "How EXR holds layers of whole numbers; uint in any case above 16777216, where "
+                "floats are not exact"},
+               o.uint_ids, take_ids)
         .value({"--bits", "8|16", "8", "Bits a channel of PNG and TIFF"}, o.bits, bits)
         .text({"--ocio-view", "NAME|none", "the display's",
                "OpenColorIO view of pictures for the eye in place of --tonemap, where the "
@@ -127,6 +134,7 @@ void check_video(const SharedOptions& shared, const OutputOptions& options) {
     refuse(options.shard.count > 1, "--shard");
     refuse(!shared.settings.want.aovs.empty(), "--aov");
     refuse(options.half_colour, "--exr-half");
+    refuse(options.uint_ids, "--aov-ids");
     refuse(options.bits == 16, "--bits 16");
     if (file == "-" && options.stats == "-") {
         throw UsageError("--stats: standard output is the video's; name a file");
@@ -143,6 +151,9 @@ void check_format(const SharedOptions& shared, const OutputOptions& options) {
     }
     if (options.half_colour && !holds_layers(file)) {
         throw UsageError(fmt::format("--exr-half: '{}' is not an EXR file", file));
+    }
+    if (options.uint_ids && !holds_layers(file)) {
+        throw UsageError(fmt::format("--aov-ids: '{}' is not an EXR file", file));
     }
     if (options.bits == 16 && !holds_16_bits(file)) {
         throw UsageError(fmt::format(

@@ -156,13 +156,13 @@ void visit_display(const SettingVisitor& f, SharedOptions& o) {
         .choice({"--tonemap", "", "neutral; of an unlit scene none",
                  "Curve from scene light to the display's range", kPanelPicture},
                 tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
-        .value(
-            {"--background", "COLOUR|none|auto", "auto",
-             "What is behind the scene: R,G,B linear or #RRGGBB in sRGB, as light that exposure "
-             "and tone curve apply to; none: black, and clear in PNG and EXR without bloom; auto: "
-             "the environment, else black",
-             kPicture},
-            o.background, take_background)
+        .value({"--background", "COLOUR|none|auto", "auto",
+                "What is behind the scene: #RRGGBB, as the display shows it without bloom; R,G,B: "
+                "linear light that exposure and tone curve apply to; none: black, and clear in PNG "
+                "and "
+                "EXR without bloom; auto: the environment, else black",
+                kPicture},
+               o.background, take_background)
         .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1", kPanelPicture},
                 s.bloom, kBloomRange);
 }

@@ -193,8 +193,8 @@ std::string add_environment(SharedOptions& options, AnimatedScene& scene) {
     using Kind = BackgroundChoice::Kind;
     const BackgroundChoice& background = options.background;
     if (background.kind == Kind::color) {
-        options.shown_background =
-            std::make_shared<const Environment>(Environment{1, 1, {background.color}});
+        options.shown_background = std::make_shared<const Environment>(
+            Environment{1, 1, {background.color}, background.as_shown});
     }
     if (options.environment.empty()) return "";
     Environment environment = opened_environment(options.environment);

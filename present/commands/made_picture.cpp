@@ -33,6 +33,7 @@ std::string note_of(const ImageLayout& layout, const std::string& name) {
 std::string picture_command(const SharedOptions& shared, const OutputOptions& output) {
     std::string out = "kilolux render " + shell_word(shared.scene) + option_words(shared);
     if (output.half_colour) out += " --exr-half";
+    if (output.uint_ids) out += " --aov-ids uint";
     if (output.bits != 8) out += fmt::format(" --bits {}", output.bits);
     if (output.turntable) out += fmt::format(" --turntable {}", *output.turntable);
     if (!output.camera_keys.empty()) {

@@ -117,11 +117,18 @@ ImageOptions image_options(const RenderOptions& options, const Frame& frame, con
     const OutputOptions& out = options.output;
     ImageOptions image;
     image.half_colour = out.half_colour;
+    image.uint_ids = out.uint_ids;
+    for (const Layer& layer : frame.aovs) {
+        if (out.uint_ids || float_holds(layer)) continue;
+        note(fmt::format("{}: layer {} is UINT: a float does not hold its largest numbers",
+                         task.file.string(), layer.name));
+    }
     image.bits = out.bits;
     if (is_for_the_eye(task.file) && wants_own_display(options)) {
-        image.display = options.shared.show_error
-                            ? display_codes(frame)
-                            : display_colours(frame, options.shared.settings, out.ocio);
+        RenderSettings settings = options.shared.settings;
+        settings.background = options.shared.shown_background;
+        image.display = options.shared.show_error ? display_codes(frame)
+                                                  : display_colours(frame, settings, out.ocio);
     }
     return image;
 }

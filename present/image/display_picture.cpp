@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/base/formats/srgb.h"
 #include "host/base/suggest.h"
+#include "host/render/environment_light.h"
 #include "kernels/shared/tone_curve.h"
 
 namespace kilolux {
@@ -24,6 +25,18 @@ float srgb_of_linear(float linear) {
 
 // As kernels/picture/tonemap.cl: NaN and negative light become black, infinite light white.
 float displayable(float v) { return std::fmin(std::fmax(v, 0.0f), 1e9f); }
+
+// Gives the pixels of the backdrop's light its code.
+void show_backdrop(const Backdrop& backdrop, const std::vector<float>& light,
+                   std::vector<float>& rgb) {
+    const FV3 wanted = fv3(backdrop.light.x, backdrop.light.y, backdrop.light.z);
+    for (std::size_t i = 0; i < rgb.size(); i += 3) {
+        if (!is_backdrop(fv3(light[i], light[i + 1], light[i + 2]), wanted)) continue;
+        for (uint c = 0; c < 3; ++c) {
+            rgb[i + c] = static_cast<float>(backdrop.code >> (8 * c) & 255u) / 255.0f;
+        }
+    }
+}
 
 FV3 tone_mapped(FV3 c, ToneCurve curve) {
     c = fv3(displayable(c.x), displayable(c.y), displayable(c.z));
@@ -64,21 +77,23 @@ void set_display(Frame& frame, const std::vector<float>& rgb) {
 std::vector<float> display_colours(const Frame& frame, const RenderSettings& settings,
                                    const OcioOptions& ocio) {
     if (settings.want.view != ViewKind::lit) return display_codes(frame);
-    std::vector<float> rgb = frame.bloomed.empty() ? frame.radiance : frame.bloomed;
+    const std::vector<float>& light = frame.bloomed.empty() ? frame.radiance : frame.bloomed;
+    std::vector<float> rgb = light;
     const float gain = std::exp2(settings.exposure);
     for (float& v : rgb) v *= gain;
     if (uses_ocio(ocio)) {
         for (float& v : rgb) v = displayable(v);
         apply_ocio(rgb, frame.width, ocio_config(), ocio);
         for (float& v : rgb) v = std::fmin(std::fmax(v, 0.0f), 1.0f);
-        return rgb;
+    } else {
+        for (std::size_t i = 0; i < rgb.size(); i += 3) {
+            const FV3 c = tone_mapped(fv3(rgb[i], rgb[i + 1], rgb[i + 2]), settings.tone_curve);
+            rgb[i] = srgb_of_linear(c.x);
+            rgb[i + 1] = srgb_of_linear(c.y);
+            rgb[i + 2] = srgb_of_linear(c.z);
+        }
     }
-    for (std::size_t i = 0; i < rgb.size(); i += 3) {
-        const FV3 c = tone_mapped(fv3(rgb[i], rgb[i + 1], rgb[i + 2]), settings.tone_curve);
-        rgb[i] = srgb_of_linear(c.x);
-        rgb[i + 1] = srgb_of_linear(c.y);
-        rgb[i + 2] = srgb_of_linear(c.z);
-    }
+    show_backdrop(backdrop_of(settings), light, rgb);
     return rgb;
 }
 

@@ -139,6 +139,10 @@ std::vector<std::uint16_t> half_of(const std::vector<float>& values) {
     return out;
 }
 
+bool is_uint(const Layer& layer, const ImageOptions& options) {
+    return layer.is_id() && (options.uint_ids || !float_holds(layer));
+}
+
 // The metadata and the channels of an EXR file: colour, then every layer's, in order.
 ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageOptions& options) {
     ImageLayout layout{frame.width, frame.height, {}};
@@ -147,7 +151,8 @@ ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageO
     if (!options.alpha.empty()) add_channels(layout, {"A"}, colour);
     for (const Layer& layer : frame.aovs) {
         for (const std::string& channel : layer.channels) {
-            add_channel(layout, channel, layer.is_id() ? SampleType::uint32 : SampleType::float32);
+            add_channel(layout, channel,
+                        is_uint(layer, options) ? SampleType::uint32 : SampleType::float32);
         }
     }
     layout.attributes = {{"compression", "zip"},
@@ -162,7 +167,7 @@ ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageO
 
 // Pixels in that layout: interleaved, each channel in its own format.
 std::vector<unsigned char> exr_pixels(const Frame& frame, const ImageLayout& layout,
-                                      const std::vector<float>& alpha) {
+                                      const ImageOptions& options) {
     const std::size_t pixel_bytes = layout.pixel_bytes();
     std::vector<unsigned char> pixels(pixel_bytes * layout.pixels());
     std::size_t channel = 0;
@@ -186,10 +191,12 @@ std::vector<unsigned char> exr_pixels(const Frame& frame, const ImageLayout& lay
         }
     };
     add_colour(frame.radiance, 3);
-    if (!alpha.empty()) add_colour(alpha, 1);
+    if (!options.alpha.empty()) add_colour(options.alpha, 1);
     for (const Layer& layer : frame.aovs) {
-        if (layer.is_id()) {
+        if (is_uint(layer, options)) {
             add(layer.ids, layer.channels.size());
+        } else if (layer.is_id()) {
+            add(std::vector<float>(layer.ids.begin(), layer.ids.end()), layer.channels.size());
         } else {
             add(layer.values, layer.channels.size());
         }
@@ -198,6 +205,11 @@ std::vector<unsigned char> exr_pixels(const Frame& frame, const ImageLayout& lay
 }
 
 }  // namespace
+
+bool float_holds(const Layer& layer) {
+    constexpr std::uint32_t kMost = 1u << std::numeric_limits<float>::digits;
+    return std::ranges::all_of(layer.ids, [](std::uint32_t id) { return id <= kMost; });
+}
 
 std::vector<std::string> image_extensions() {
     std::vector<std::string> out;
@@ -239,7 +251,7 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
     }
     if (display) return encode_display(file, layout, frame, options);
     if (holds_layers(file)) {
-        return encode(file, layout, exr_pixels(frame, layout, options.alpha), layout.pixel_bytes());
+        return encode(file, layout, exr_pixels(frame, layout, options), layout.pixel_bytes());
     }
     const auto* bytes = reinterpret_cast<const unsigned char*>(frame.radiance.data());
     return encode(file, layout, {bytes, frame.radiance.size() * sizeof(float)}, 3 * sizeof(float));

@@ -44,6 +44,7 @@ struct ImageNotes {
 
 struct ImageOptions {
     bool half_colour = false;  // EXR: R, G, B in half
+    bool uint_ids = false;     // EXR: layers of ids in UINT, also where floats hold them
     int jpeg_quality = 95;     // 1..100
     int bits = 8;              // PNG, TIFF: a channel, 8 or 16
     // PNG, EXR: the covered share of each pixel, 0 to 1; empty: all are covered, and there is no
@@ -52,9 +53,13 @@ struct ImageOptions {
     std::vector<float> display;  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
 };
 
+/// Whether floats hold a layer's ids exactly.
+bool float_holds(const Layer& layer);
+
 /// A frame as file bytes in the format of the extension. The same frame gives the same bytes. PNG,
 /// JPEG and TIFF hold Frame::display, or the options'; HDR Frame::radiance; EXR Frame::radiance and
-/// every layer as channels of one part, ids as UINT. Throws Error with OpenImageIO's reason.
+/// every layer as channels of one part, ids as UINT where floats cannot hold them. Throws Error
+/// with OpenImageIO's reason.
 std::vector<unsigned char> encode_image(const std::filesystem::path& file, const Frame& frame,
                                         const ImageNotes& notes, const ImageOptions& options);
 

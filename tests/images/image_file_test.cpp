@@ -141,6 +141,30 @@ TEST(ImageFile, ExrFormatsOfChannels) {
     EXPECT_EQ(spec.get_string_attribute("compression"), "zip");
 }
 
+TEST(ImageFile, IdsAreFloatsWhereTheseAreExact) {
+    const TemporaryFolder folder;
+    const auto type_of = [&](std::uint32_t id, bool uint_ids) {
+        Frame frame = make_frame();
+        const auto pixels = static_cast<std::size_t>(frame.width * frame.height);
+        frame.aovs = {{"cluster", {"cluster"}, {}, std::vector<std::uint32_t>(pixels, id)}};
+        ImageOptions options;
+        options.uint_ids = uint_ids;
+        write_image(folder / "a.exr", frame, {}, options);
+        const FloatImage image = read_image(folder / "a.exr");
+        if (!image.ids.empty()) {
+            EXPECT_EQ(image.ids[0].ids[0], id);
+            return OIIO::TypeDesc::UINT32;
+        }
+        const auto at = std::ranges::find(image.channels, "cluster") - image.channels.begin();
+        EXPECT_EQ(image.values.at(static_cast<std::size_t>(at)), static_cast<float>(id));
+        return OIIO::TypeDesc::FLOAT;
+    };
+    EXPECT_EQ(type_of(5, false), OIIO::TypeDesc::FLOAT);
+    EXPECT_EQ(type_of(1u << 24, false), OIIO::TypeDesc::FLOAT);
+    EXPECT_EQ(type_of((1u << 24) + 1, false), OIIO::TypeDesc::UINT32);
+    EXPECT_EQ(type_of(5, true), OIIO::TypeDesc::UINT32);
+}
+
 TEST(ImageFile, HalfColourIsRoundedAndFinite) {
     const TemporaryFolder folder;
     Frame frame = make_frame();

@@ -223,5 +223,13 @@ TEST(StageTimer, SumsEventsByStageInOrderOfFirstUse) {
     EXPECT_TRUE(timer.take().empty());
 }
 
+TEST(ProgramCache, SaysOnceThatBuildsTakeLong) {
+    ProgramCache cache;
+    EXPECT_FALSE(cache.add_build_time(0.4));
+    EXPECT_FALSE(cache.add_build_time(0.4));
+    EXPECT_TRUE(cache.add_build_time(0.4));
+    EXPECT_FALSE(cache.add_build_time(5.0));
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
+#include "host/render/environment_light.h"
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
 #include "tests/support/environment_variable.h"
@@ -67,6 +68,31 @@ TEST(DisplayPicture, IsSrgbOfTheToneCurve) {
     EXPECT_NEAR(rgb[30], 1.055 * std::pow(linear, 1 / 2.4) - 0.055, 1e-6);
     settings.want.view = ViewKind::normal;
     EXPECT_FLOAT_EQ(display_colours(ramp(), settings, {})[3 * 20], 20.0f / 255.0f);
+}
+
+// A background of #RRGGBB has its code in pictures of 16 bits, and under OpenColorIO.
+TEST(DisplayPicture, ShowsABackgroundOfTheDisplayAsItIs) {
+    RenderSettings settings;
+    settings.tone_curve = ToneCurve::agx;
+    settings.background =
+        std::make_shared<const Environment>(Environment{1, 1, {{1.0f, 0.0f, 0.0f}}, true});
+    Frame frame = ramp();
+    const float4 light = backdrop_of(settings).light;
+    frame.radiance[90] = light.x;
+    frame.radiance[91] = light.y;
+    frame.radiance[92] = light.z;
+    const auto expect_red = [&] {
+        const std::vector<float> rgb = display_colours(frame, settings, {});
+        EXPECT_EQ(rgb[90], 1.0f);
+        EXPECT_EQ(rgb[91], 0.0f);
+        EXPECT_EQ(rgb[92], 0.0f);
+        EXPECT_NE(rgb[93], 1.0f);
+    };
+    expect_red();
+    const TemporaryFolder folder;
+    write_text(folder / "config.ocio", kConfig);
+    const EnvironmentVariable set("OCIO", (folder / "config.ocio").string());
+    expect_red();
 }
 
 TEST(DisplayPicture, GoesThroughTheViewThatOcioNames) {

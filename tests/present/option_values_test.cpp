@@ -129,12 +129,15 @@ TEST(OptionValues, BackgroundsAreColoursOrNone) {
     EXPECT_EQ(parsed("#ff0080").kind, Kind::color);
     EXPECT_EQ(parsed("#ff0080").color.x, 1.0f);
     EXPECT_NEAR(parsed("ff0080").color.z, 0.2158605f, 1e-6f) << "sRGB code 128";
-    for (const char* text : {"auto", "none", "0,0.5,8"}) EXPECT_EQ(text_of(parsed(text)), text);
+    EXPECT_TRUE(parsed("#ff0080").as_shown);
+    EXPECT_FALSE(parsed("1,0,0.5").as_shown);
+    for (const char* text : {"auto", "none", "0,0.5,8", "#ff0080", "#0102fe"})
+        EXPECT_EQ(text_of(parsed(text)), text);
     for (const char* bad : {"", "#ff00", "#ff00zz", "1,2", "1,2,-3", "1,2,nan", "1,2,3,4", "red"}) {
         EXPECT_EQ(message_of<UsageError>([&] { parsed(bad); }),
                   "--background: '" + std::string(bad) +
-                      "' is not 'auto', 'none', or a colour: R,G,B linear, each at least 0, or "
-                      "#RRGGBB in sRGB");
+                      "' is not 'auto', 'none', or a colour: R,G,B as linear light, each at least "
+                      "0, or #RRGGBB as the display shows it");
     }
 }
 

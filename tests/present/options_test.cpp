@@ -291,6 +291,7 @@ TEST(Options, WhatNeedsOrExcludesEachOther) {
         {"-o a.png --frames 1:2", "--output: 'a.png' has no ####"},
         {"-o a.##.png", "no --frames"},
         {"-o a.png --aov depth", "--aov: 'a.png' cannot hold layers"},
+        {"-o a.png --aov-ids uint", "--aov-ids: 'a.png' is not an EXR file"},
         {"-o a.png --exr-half", "--exr-half: 'a.png' is not an EXR file"},
         {"-o a.png --quiet --verbose", "exclude each other"},
         {"-o a.png --show error", "--show error: needs --reference FILE"},

@@ -29,8 +29,9 @@ std::vector<std::string> small_render(const fs::path& output, std::vector<std::s
 TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     const TemporaryFolder folder;
     const fs::path file = folder / "a.exr";
-    const ChildResult result = run_kilolux(small_render(
-        file, {"--aov", "depth,position,normal,light-count", "--stats", "-", "--light-seed", "9"}));
+    const ChildResult result =
+        run_kilolux(small_render(file, {"--aov", "depth,position,normal,light-count", "--aov-ids",
+                                        "uint", "--stats", "-", "--light-seed", "9"}));
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_TRUE(contains(result.err, "lights ")) << result.err;
     const FloatImage image = read_image(file);
@@ -62,9 +63,9 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
 TEST(Render, AutomaticSamplesAreTold) {
     const TemporaryFolder folder;
     const fs::path file = folder / "a.exr";
-    const std::vector<std::string> options = {"--samples", "auto",  "--max-samples",
-                                              "16",        "--aov", "sample-count,error-standard",
-                                              "--stats",   "-"};
+    const std::vector<std::string> options = {
+        "--samples", "auto", "--max-samples", "16", "--aov", "sample-count,error-standard",
+        "--aov-ids", "uint", "--stats",       "-"};
     const ChildResult result = run_kilolux(small_render(file, options));
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_TRUE(contains(result.err, "\nsamples ")) << result.err;

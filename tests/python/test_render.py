@@ -20,11 +20,8 @@ def test_arrays_hold_the_bits_of_the_files(tmp_path):
     np.testing.assert_array_equal(frame.aovs["depth"], exr[..., at("Z")])
     np.testing.assert_array_equal(frame.aovs["normal"], exr[..., [at("N.X"), at("N.Y"), at("N.Z")]])
     assert frame.aovs["light-count"].dtype == np.uint32
-    # OpenImageIO scales whole numbers of 32 bits to 0..1.
-    ids = np.rint(exr[..., at("light-count")].astype(np.float64) * (2**32 - 1))
-    small = ids < 2**16
-    assert 0 < small.sum()
-    np.testing.assert_array_equal(frame.aovs["light-count"][small], ids[small])
+    assert frame.aovs["light-count"].max() > 0
+    np.testing.assert_array_equal(frame.aovs["light-count"], exr[..., at("light-count")])
     _, png = read_image(tmp_path / "a.png", "uint8")
     assert frame.display.dtype == np.uint8 and frame.display.shape == (48, 64, 4)
     np.testing.assert_array_equal(frame.display[..., :3], png)

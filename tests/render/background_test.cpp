@@ -2,6 +2,7 @@
 // The background of a scene: in every renderer, behind blended surfaces, in bands and samples;
 // nothing else changes.
 #include "host/base/error.h"
+#include "host/base/formats/srgb.h"
 #include "host/scene/lights/prefiltered_environment.h"
 #include "tests/support/box_scene.h"
 #include "tests/support/render_fixture.h"
@@ -111,6 +112,66 @@ TEST(Background, IsSeenThroughWhatBlends) {
         EXPECT_NEAR(frame.radiance[middle], 1.5f, 0.01f) << static_cast<int>(kind);
         EXPECT_NEAR(frame.radiance[middle + 2], 0.375f, 0.01f);
         EXPECT_FLOAT_EQ(frame.radiance[0], 2.0f);
+    }
+}
+
+std::shared_ptr<const Environment> shown_color(const glm::u8vec3& code) {
+    const auto table = srgb_to_linear_table();
+    return std::make_shared<const Environment>(
+        Environment{1, 1, {{table[code.x], table[code.y], table[code.z]}}, true});
+}
+
+// At the corner, where no surface is.
+glm::u8vec3 corner_code(const Frame& frame) {
+    return {frame.display[0], frame.display[1], frame.display[2]};
+}
+
+TEST(Background, AColourOfTheDisplayIsShownAsItIs) {
+    const Scene scene = lonely_box();
+    RenderSettings settings = small_settings(48, 27, 0);
+    settings.background = color(glm::vec3(0.25f));
+    Renderer renderer(scene, settings);
+    const Frame lit = renderer.render(first_camera(scene), 0.0);
+    const std::size_t middle = 4 * (13 * 48 + 24);
+    for (const glm::u8vec3 code : {glm::u8vec3(0x33, 0x44, 0x55), glm::u8vec3(0xff, 0, 0),
+                                   glm::u8vec3(255), glm::u8vec3(0), glm::u8vec3(1, 200, 254)}) {
+        settings.background = shown_color(code);
+        for (const ToneCurve curve :
+             {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces, ToneCurve::agx}) {
+            settings.tone_curve = curve;
+            for (const float exposure : {0.0f, -2.5f, 4.0f}) {
+                for (const int samples : {1, 7}) {
+                    settings.exposure = exposure;
+                    settings.samples = samples;
+                    renderer.change(settings);
+                    const Frame frame = renderer.render(first_camera(scene), 0.0);
+                    ASSERT_EQ(corner_code(frame), code)
+                        << static_cast<int>(curve) << " " << exposure << " EV " << samples;
+                    if (curve != ToneCurve::neutral || exposure != 0.0f || samples != 1) continue;
+                    EXPECT_EQ(frame.display[middle], lit.display[middle]) << "of the box";
+                }
+            }
+        }
+    }
+    settings.renderer = RendererKind::forward;
+    renderer.change(settings);
+    EXPECT_EQ(corner_code(renderer.render(first_camera(scene), 0.0)), glm::u8vec3(1, 200, 254));
+}
+
+TEST(Background, ItsLightIsWhatTheCurveShowsNearest) {
+    const Scene scene = lonely_box();
+    RenderSettings settings = small_settings(48, 27, 0);
+    for (const ToneCurve curve :
+         {ToneCurve::none, ToneCurve::neutral, ToneCurve::aces, ToneCurve::agx}) {
+        settings.tone_curve = curve;
+        settings.background = shown_color({0x33, 0x44, 0x55});
+        const Frame shown = render_once(scene, settings);
+        settings.background =
+            color({shown.radiance[0], shown.radiance[1], shown.radiance[2]});  // as light
+        const glm::ivec3 code = corner_code(render_once(scene, settings));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(code[c], (glm::ivec3(0x33, 0x44, 0x55))[c], 1) << static_cast<int>(curve);
+        }
     }
 }
 

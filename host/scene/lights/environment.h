@@ -17,6 +17,7 @@ struct Environment {
     int width = 0;                // [pixel]
     int height = 0;               // [pixel]
     std::vector<glm::vec3> rows;  // width * height, finite and >= 0
+    bool as_shown = false;        // of one pixel: the display's linear colour, whatever the curve
 
     /// Where a pixel is in `rows`.
     std::size_t place(int x, int y) const {

@@ -19,10 +19,11 @@ DeviceArray<uint> Tonemap::enqueue(const Radiance& radiance, float exposure_ev, 
     return to.pixels;
 }
 
-void Tonemap::enqueue(const Radiance& radiance, const DisplayTarget& to, StageTimer& timer) {
+void Tonemap::enqueue(const Radiance& radiance, const DisplayTarget& to, StageTimer& timer,
+                      const Backdrop& backdrop) {
     const uint pixels = radiance.view.stride * radiance.view.height;
     kernel_.enqueue(kernel_.vector_items(pixels, tuning_.light_group), timer, radiance.planes,
-                    pixels, to);
+                    pixels, backdrop, to);
 }
 
 DisplayTarget Tonemap::target(const View& view, float exposure_ev) {

@@ -21,7 +21,8 @@ class Tonemap {
     DeviceArray<uint> enqueue(const Radiance& radiance, float exposure_ev, StageTimer& timer);
 
     /// The same to a target that this stage has made. Enqueues only.
-    void enqueue(const Radiance& radiance, const DisplayTarget& to, StageTimer& timer);
+    void enqueue(const Radiance& radiance, const DisplayTarget& to, StageTimer& timer,
+                 const Backdrop& backdrop = {});
 
     /// A target in this stage's own memory, or in the caller's, which has room for all pixels.
     DisplayTarget target(const View& view, float exposure_ev);
