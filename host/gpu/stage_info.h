@@ -69,7 +69,7 @@ struct StageWork {
     InstructionCounts instructions{};
     double texels = 0.0;  // read at places of their own
     int launches = 0;
-    double evaluations = 0.0;  // lights at pixels, lights against boxes, rays: for rates
+    double evaluations = 0.0;  // lights evaluated or tested, or rays; used for rates
 
     double bytes() const { return bytes_read + bytes_written; }  // in the device's memory
 };
@@ -82,7 +82,7 @@ struct StageInfo {
     std::string_view name;
     StageGroup group = StageGroup::picture;
     StageWork (*work)(const StageCounts& counts) = nullptr;  // null: it has no limit
-    bool opengl_copies = false;  // OpenGL copies, on ways that the measured limits do not bound
+    bool opengl_copies = false;  // OpenGL copies data; the measured limits do not apply
 
     constexpr operator std::string_view() const { return name; }
 };

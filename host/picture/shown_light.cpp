@@ -62,7 +62,8 @@ glm::dvec3 nearest_stops(glm::dvec3 stops, const glm::dvec3& shown, int curve) {
 
 }  // namespace
 
-// Curves that compress highlights reach light colours from bright light only.
+// For light colours the search starts from bright light, too: curves that compress highlights
+// reach them only from there.
 glm::dvec3 light_shown_as(const glm::dvec3& shown, int curve) {
     const glm::dvec3 near = glm::log2(glm::clamp(shown, glm::dvec3(1e-4), glm::dvec3(1.0)));
     const glm::dvec3 low = nearest_stops(near, shown, curve);

@@ -60,7 +60,7 @@ void develop(Pipeline& p, const Radiance& light, Frame& frame) {
     if (display) p.picture.read_display(*display, p.timer);
 }
 
-// Tone maps a band, unless bloom mixes the light of several bands: it waits for all of them.
+// Tone maps a band. Bloom over several bands waits for the last one.
 void develop_band(Pipeline& p, const std::optional<DisplayTarget>& shaded, const Radiance& light,
                   Frame& frame) {
     if (shaded) return p.picture.read_display(*shaded, p.timer);

@@ -10,7 +10,7 @@ struct Shot {
     Camera camera;
     double time = 0.0;        // [s]
     DisplayMemory display{};  // see Renderer::render_to()
-    int samples = 0;          // likewise
+    int samples = 0;          // the first ones, whose mean it is; 0: all
 };
 
 /// Renders a frame: see Renderer::render().

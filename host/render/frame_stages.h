@@ -30,7 +30,8 @@ class FrameStages {
     /// The stages of context.settings.renderer.
     explicit FrameStages(RenderContext& context);
 
-    /// A new band: the G-buffer, what casts shadows onto it, and the coarse grid.
+    /// Starts a sample of a band: draws the G-buffer, what casts shadows onto it, and the coarse
+    /// grid.
     void draw_surfaces(const Sample& sample, LitBand& band, Measured out);
 
     /// The lists of lights of its pixels.

@@ -31,7 +31,7 @@ class SurfacePass {
     /// has it. Waits for the device, so it is called when the caller has nothing more to enqueue.
     bool fits(FrameStats& stats);
 
-    /// Repeats both until the surfaces are complete.
+    /// Repeats enqueue() until fits().
     GBuffer draw(const Sample& sample, Measured out);
 
     /// The shadow casters of the last enqueue()'s surfaces, and where their rays end; empty without
@@ -63,8 +63,8 @@ class SurfacePass {
 
     RenderContext& context_;
     std::optional<GeometryPass> planes_;
-    std::optional<IdsPass> ids_;              // else
-    std::optional<TriangleIds> triangles_;    // else
+    std::optional<IdsPass> ids_;              // with Geometry::ids
+    std::optional<TriangleIds> triangles_;    // with Geometry::compute
     std::optional<ResolveSurfaces> resolve_;  // of ids_ or triangles_
     std::optional<CountTexels> texels_;       // of the same, made when first asked for
     std::optional<ShadowOrigins> origins_;    // with shadows

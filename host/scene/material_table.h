@@ -18,7 +18,7 @@ struct MaterialMap {
     int use;                // its number on devices, USE_*
     std::string_view path;  // in a glTF material
     TextureUse Material::*member;
-    bool srgb;                  // its colours are encoded
+    bool srgb;                  // its colours are stored as sRGB
     std::string_view channels;  // that are read
 };
 
@@ -53,7 +53,7 @@ struct MaterialFactor {
     FactorRange range = FactorRange::unit;
 };
 
-/// Ahead of KHR_materials_emissive_strength, which multiplies emissiveFactor.
+/// Read before KHR_materials_emissive_strength, which multiplies emissiveFactor.
 inline constexpr std::array kMaterialFactors = {
     MaterialFactor{"pbrMetallicRoughness.baseColorFactor", &Material::base_color},
     MaterialFactor{"pbrMetallicRoughness.metallicFactor", &Material::metallic},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters that kernels take together. The host's bundles of the same names set them in this
-// order: host/gpu/flow.h and surface_flow.h. Pointers to what a scene lacks are null. `access`:
-// const, or nothing where the kernel writes.
+// Parameters that kernels take together. The host's struct that stands above each macro sets them
+// in this order; most are in host/gpu/flow.h and surface_flow.h. Pointers to what a scene lacks are
+// null. `access`: const, or nothing where the kernel writes.
 #ifndef KILOLUX_DEVICE_ARGUMENTS_H
 #define KILOLUX_DEVICE_ARGUMENTS_H
 #include "kernels/device/light_index.h"
@@ -52,8 +52,8 @@
 // LitPixels.
 #define LIT_ARGS GBUFFER_ARGS, LIGHT_ARGS(const), CLUSTER_ARGS(const), LIST_ARGS(const)
 
-// SurfaceBuffers. instances: ascending first_triangle, and an end; instance_blocks: by
-// INSTANCE_BLOCK triangles.
+// SurfaceBuffers. instances: sorted by first_triangle, with an end row; instance_blocks: one for
+// each INSTANCE_BLOCK triangles.
 #define SCENE_ARGS                                                                             \
     global const InstanceRow *restrict instances, global const uint *restrict instance_blocks, \
         global const MeshRow *restrict meshes, global const float *restrict vertices,          \
@@ -92,7 +92,8 @@
 #define OUTPUT_ARGS \
     float ambient, global float *restrict radiance, global float *restrict variance, DISPLAY_ARGS
 
-// TriangleLists. triangles: by number, listed ones; offsets: [tiles + 1]; lists: [capacity].
+// TriangleLists. triangles: indexed by number, listed ones; offsets: [tiles + 1]; lists:
+// [capacity].
 #define TRIANGLE_LIST_ARGS(access)                                                   \
     global const RasterRow *restrict triangles, global const uint *restrict offsets, \
         global access uint *restrict lists, uint capacity

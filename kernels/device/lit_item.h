@@ -63,7 +63,7 @@ static inline ItemPlace place_in_planes(View view) {
     return at;
 }
 
-// The same with the fine slices by which clusters are found.
+// lit_item() with the fine slices by which clusters are found.
 static inline LitItem clustered_item(GBuffer g, Clusters from, Pixels pixels) {
     LitItem item = lit_item(g, pixels);
     item.slice = fine_slice_of_depth(from.grid, item.z);

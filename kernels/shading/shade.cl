@@ -8,14 +8,6 @@
 #include "kernels/shading/light_target.h"
 #include "kernels/shading/sum_lights.h"
 
-#if !SHADOWS
-static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
-    a.diffuse = select3(mask, a.diffuse, b.diffuse);
-    a.specular = select3(mask, a.specular, b.specular);
-    return a;
-}
-#endif
-
 // The inputs of lighting a tile by its clusters' lists.
 typedef struct ClusterLists {
     Clusters clusters;
@@ -33,12 +25,11 @@ typedef struct ClusterLists {
 static inline LightSum sum_clusters(ClusterLists from, uint tile, LitItem item, bool any_shown,
                                     ShadingPoint p, LightSet set) {
 #if !SHADOWS
-    LightSum unlit = sum_directional(p, set, from.directional, from.directional_count);
-    LightSum sum = unlit;
+    LightSum parallel = sum_directional(p, set, from.directional, from.directional_count);
 #else
-    LightSum unlit = zero_sum();
-    LightSum sum = unlit;
+    LightSum parallel = zero_sum();  // each cluster has bits of its own
 #endif
+    LightSum sum = parallel;
     FOR_EACH_CLUSTER(i, from.clusters, tile) {
         global const ActiveCluster* cluster = from.clusters.clusters + i;
         MASK mine = lanes_in_cluster(item, from.clusters, i);
@@ -46,10 +37,10 @@ static inline LightSum sum_clusters(ClusterLists from, uint tile, LitItem item, 
 #if SHADOWS
         if (wanted) {
             set.shadows = bits_of_cluster(from.shadows, cluster, from.place);
-            unlit = sum_directional(p, set, from.directional, from.directional_count);
+            parallel = sum_directional(p, set, from.directional, from.directional_count);
         }
 #endif
-        LightSum lit = sum_lights(unlit, wanted, p, set, from.lists + cluster->list_begin,
+        LightSum lit = sum_lights(parallel, wanted, p, set, from.lists + cluster->list_begin,
                                   cluster->list_count);
         if (wanted) sum = select_sum(mine, lit, sum);
     }

@@ -71,13 +71,13 @@ static inline LightSet light_set(global const StoredLight* lights,
     return set;
 }
 
-#if SHADOWS
 static inline LightSum select_sum(MASK mask, LightSum a, LightSum b) {
     a.diffuse = select3(mask, a.diffuse, b.diffuse);
     a.specular = select3(mask, a.specular, b.specular);
     return a;
 }
 
+#if SHADOWS
 // The lanes that see the light of a list's entry.
 static inline MASK sees_entry(LightSet set, uint entry, uint light) {
 #if SHADOWS == SHADOWS_BITS

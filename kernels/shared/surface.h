@@ -3,7 +3,7 @@
 //
 // Compile-time switches: SHADING, HAS_METALLIC, HAS_SPECULAR (KHR_materials_ior and
 // KHR_materials_specular), HAS_UNLIT, HAS_SPOT_LIGHTS. Features that the scene lacks are not
-// compiled in; compiling them in changes no bit.
+// compiled in; compiling them in changes no bit of the radiance.
 #ifndef KILOLUX_SHARED_SURFACE_H
 #define KILOLUX_SHARED_SURFACE_H
 #include "kernels/shared/evaluate_modes.h"

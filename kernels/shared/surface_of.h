@@ -3,7 +3,7 @@
 //
 // Each language defines before, beside what texture.h and triangle.h need:
 //   MaterialRef, MATERIAL(material)         a material and its row
-//   textures_of_scene(scene)                where the maps are, and
+//   TextureBuffers, textures_of_scene(scene)  where the maps are, and
 //   make_map(textures, texture, use)        one of them by its TextureRow's number
 //   prefetch_map(map, at)                   asks the caches for what a Lookup reads
 //
@@ -45,13 +45,14 @@ SHARED_FN Footprint footprint_of(MaterialRef material, IN(Fragment) f, uint use)
 #endif
 }
 
-SHARED_FN Map map_of(SurfaceScene scene, MaterialRef material, uint use) {
-    return make_map(textures_of_scene(scene), MATERIAL(material).textures[use], use);
+SHARED_FN Map map_of(TextureBuffers from, MaterialRef material, uint use) {
+    return make_map(from, MATERIAL(material).textures[use], use);
 }
 #endif
 
 // A material's textures at the fragments.
 SHARED_PLAIN_STRUCT(Textures) {
+    TextureBuffers from;
     MaterialRef material;
 #if MAX_ANISOTROPY == 1 && HAS_TEXCOORDS
     Lookup lookup;  // that of the material's lookup_use
@@ -60,15 +61,16 @@ SHARED_PLAIN_STRUCT(Textures) {
 
 SHARED_FN Textures textures_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) {
     Textures textures;
+    textures.from = textures_of_scene(scene);
     textures.material = material;
 #if MAX_ANISOTROPY == 1 && HAS_TEXCOORDS
     uint first = MATERIAL(material).lookup_use;
     if (first != SURFACE_ABSENT) {
-        textures.lookup =
-            lookup_isotropic(map_of(scene, material, first), footprint_of(material, f, first));
+        textures.lookup = lookup_isotropic(map_of(textures.from, material, first),
+                                           footprint_of(material, f, first));
         for (uint use = 0u; use < USE_COUNT; ++use) {
             if ((MATERIAL(material).flags & (MATERIAL_SHARES_LOOKUP << use)) != 0u) {
-                prefetch_map(map_of(scene, material, use), REF(textures.lookup));
+                prefetch_map(map_of(textures.from, material, use), REF(textures.lookup));
             }
         }
     }
@@ -77,13 +79,13 @@ SHARED_FN Textures textures_of(SurfaceScene scene, MaterialRef material, IN(Frag
 }
 
 // The texel of the texture use `use` at the fragments; 1 without a texture.
-SHARED_FN FV4 sample_use(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f, uint use) {
+SHARED_FN FV4 sample_use(IN(Textures) textures, IN(Fragment) f, uint use) {
     FV4 texel;
     texel.x = texel.y = texel.z = texel.w = fv(1.0f);
 #if HAS_TEXCOORDS
     MaterialRef material = AT(textures).material;
     if (MATERIAL(material).textures[use] == SURFACE_ABSENT) return texel;
-    Map map = map_of(scene, material, use);
+    Map map = map_of(AT(textures).from, material, use);
 #if MAX_ANISOTROPY > 1
     if (is_anisotropic(map)) {
         return sample_anisotropic(map, footprint_of(material, f, use));
@@ -105,7 +107,7 @@ SHARED_FN FV alpha_of(SurfaceScene scene, MaterialRef material, IN(Fragment) f) 
     FV alpha = fv(MATERIAL(material).row.base_color.w);
 #if HAS_USE(USE_BASE_COLOR)
     if (MATERIAL(material).textures[USE_BASE_COLOR] != SURFACE_ABSENT) {
-        Map map = map_of(scene, material, USE_BASE_COLOR);
+        Map map = map_of(textures_of_scene(scene), material, USE_BASE_COLOR);
         Lookup at = lookup_isotropic(map, footprint_of(material, f, USE_BASE_COLOR));
         alpha *= fetch_alpha(map, REF(at));
     }
@@ -131,13 +133,13 @@ SHARED_FN FV3 unit_or_z(FV3 v) {
                lane_select(has_length, v.z * inv, fv(1.0f)));
 }
 
-SHARED_FN FV3 shading_normal(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f) {
+SHARED_FN FV3 shading_normal(IN(Textures) textures, IN(Fragment) f) {
     MaterialRef material = AT(textures).material;
     FV3 n = AT(f).normal;
 #if HAS_USE(USE_NORMAL)
     if (MATERIAL(material).textures[USE_NORMAL] != SURFACE_ABSENT) {
         // MikkTSpace: the basis as interpolated, unnormalised, and the sum normalised.
-        FV4 texel = sample_use(scene, textures, f, USE_NORMAL);
+        FV4 texel = sample_use(textures, f, USE_NORMAL);
         float scale = MATERIAL(material).row.factors.z;
         FV x = fma(texel.x, fv(2.0f), fv(-1.0f)) * scale;
         FV y = fma(texel.y, fv(2.0f), fv(-1.0f)) * scale;
@@ -161,16 +163,15 @@ SHARED_FN FV3 color_of(float4 c) { return fv3(fv(c.x), fv(c.y), fv(c.z)); }
 
 #if HAS_SPECULAR
 // KHR_materials_specular: min(f0 * colour, 1) * weight, and the weight.
-SHARED_FN Surface with_specular(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f,
-                                Surface s) {
+SHARED_FN Surface with_specular(IN(Textures) textures, IN(Fragment) f, Surface s) {
     MaterialRef material = AT(textures).material;
     FV3 f0 = color_of(MATERIAL(material).row.specular);
     FV weight = fv(MATERIAL(material).row.specular.w);
 #if HAS_USE(USE_SPECULAR_COLOR)
-    f0 = times_color(f0, sample_use(scene, textures, f, USE_SPECULAR_COLOR));
+    f0 = times_color(f0, sample_use(textures, f, USE_SPECULAR_COLOR));
 #endif
 #if HAS_USE(USE_SPECULAR)
-    weight *= sample_use(scene, textures, f, USE_SPECULAR).w;
+    weight *= sample_use(textures, f, USE_SPECULAR).w;
 #endif
     FV one = fv(1.0f);
     s.specular = scale3(fv3(min(f0.x, one), min(f0.y, one), min(f0.z, one)), weight);
@@ -209,14 +210,14 @@ SHARED_FN Surface background_surface() {
 }
 
 // The surface of the textures' material at the fragments; its position is not set.
-SHARED_FN Surface surface_of_material(SurfaceScene scene, IN(Textures) textures, IN(Fragment) f) {
+SHARED_FN Surface surface_of_material(IN(Textures) textures, IN(Fragment) f) {
     MaterialRef material = AT(textures).material;
     Surface s;
     s.position = zero3();
-    s.normal = shading_normal(scene, textures, f);
+    s.normal = shading_normal(textures, f);
     s.albedo = color_of(MATERIAL(material).row.base_color);
 #if HAS_USE(USE_BASE_COLOR)
-    s.albedo = times_color(s.albedo, sample_use(scene, textures, f, USE_BASE_COLOR));
+    s.albedo = times_color(s.albedo, sample_use(textures, f, USE_BASE_COLOR));
 #endif
 #if HAS_VERTEX_COLOR
     s.albedo =
@@ -227,19 +228,19 @@ SHARED_FN Surface surface_of_material(SurfaceScene scene, IN(Textures) textures,
     s.roughness = fv(MATERIAL(material).row.factors.y);
     s.occlusion = fv(1.0f);
 #if HAS_USE(USE_METALLIC_ROUGHNESS)
-    FV4 maps = sample_use(scene, textures, f, USE_METALLIC_ROUGHNESS);
+    FV4 maps = sample_use(textures, f, USE_METALLIC_ROUGHNESS);
     s.metallic *= maps.z;
     s.roughness *= maps.y;
 #endif
 #if HAS_USE(USE_OCCLUSION)
-    FV occlusion = sample_use(scene, textures, f, USE_OCCLUSION).x;
+    FV occlusion = sample_use(textures, f, USE_OCCLUSION).x;
     s.occlusion = fma(fv(MATERIAL(material).row.factors.w), occlusion - 1.0f, fv(1.0f));
 #endif
 #if HAS_USE(USE_EMISSIVE)
-    s.emissive = times_color(s.emissive, sample_use(scene, textures, f, USE_EMISSIVE));
+    s.emissive = times_color(s.emissive, sample_use(textures, f, USE_EMISSIVE));
 #endif
 #if HAS_SPECULAR
-    s = with_specular(scene, textures, f, s);
+    s = with_specular(textures, f, s);
 #endif
 #if HAS_UNLIT || HAS_UNLIT_MATERIALS
     s = with_unlit(material, s);

@@ -51,8 +51,9 @@ SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 #define MATERIAL_DOUBLE_SIDED (1u << 8)
 #define MATERIAL_UNLIT (1u << 9)
 #define MATERIAL_MASKED (1u << 10)  // cut by its alpha
-// << USE_*: the use's texels are where those of the lookup's texture are.
+// << USE_*: the use reads the texels of the shared lookup.
 #define MATERIAL_SHARES_LOOKUP (1u << 16)
+SHARED_ASSERT(uses_have_bits, USE_COUNT <= 8);
 
 SHARED_STRUCT(SurfaceMaterial) {
     MaterialRow row;

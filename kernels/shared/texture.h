@@ -163,7 +163,7 @@ SHARED_FN FV mix_corners(UV a, UV b, UV c, UV d, IN(LevelLookup) at) {
     return lane_mix(top, bottom, AT(at).t);
 }
 
-// In 65535ths.
+// RGBA of a mip level, times 65535.
 SHARED_FN FV4 fetch_level(Map map, IN(LevelLookup) at) {
     Texels a = fetch_texels(map, AT(at).upper_left);
     Texels b = fetch_texels(map, AT(at).upper_right);
@@ -234,7 +234,7 @@ SHARED_FN Sides sides_of(Map map, Footprint at) {
     return result;
 }
 
-// Half of log2, of a length's square.
+// log2 of a length, from its square.
 SHARED_FN FV lambda_of(FV length2) { return 0.5f * lane_log2(max(length2, fv(1e-30f))); }
 
 SHARED_FN Lookup lookup_isotropic(Map map, Footprint at) {

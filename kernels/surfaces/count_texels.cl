@@ -36,7 +36,8 @@ static inline UV texels_of_material(SurfaceScene scene, uint number, const Fragm
     for (uint use = 0; use < USE_COUNT; ++use) {
         if (!HAS_USE(use) || material->textures[use] == SURFACE_ABSENT) continue;
         if (is_read(material, use)) continue;
-        texels += texels_of_use(map_of(scene, material, use), footprint_of(material, f, use));
+        texels += texels_of_use(map_of(textures_of_scene(scene), material, use),
+                                footprint_of(material, f, use));
     }
     return texels;
 }

@@ -11,7 +11,7 @@ static inline Surface resolve_materials(SurfaceScene scene, const Fragment* f, M
         uint material = first_of(f->material, left);
         MASK mask = lane_mask(f->material == (UV)(material)) & left;
         Textures textures = textures_of(scene, scene.materials + material, f);
-        s = take_surface(mask, surface_of_material(scene, &textures, f), s);
+        s = take_surface(mask, surface_of_material(&textures, f), s);
         left &= ~mask;
     }
     return s;

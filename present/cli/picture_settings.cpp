@@ -90,13 +90,14 @@ void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
             },
             [&s] { return s.anisotropy == 0 ? "" : text_of(s.anisotropy); })
         .number({"--sample-error", "E", "0.05",
-                 "Of --samples auto: the standard error of a tile's luminance, relative to it, "
-                 "that ends its samples; dark light counts as 0.1 of white at least",
+                 "With --samples auto: a tile stops at this relative standard error of its "
+                 "luminance; dark light counts as 0.1 of white at least",
                  kPicture},
                 s.auto_samples.error, kAboveZeroRange)
-        .count({"--max-samples", "N", "256", "Of --samples auto: a pixel takes no more", kPicture},
+        .count({"--max-samples", "N", "256", "With --samples auto: most samples a pixel", kPicture},
                s.auto_samples.most, kAutoSamplesRange)
-        .flag("--no-reuse", s.no_reuse, "Make what did not change anew every frame", kTime)
+        .flag("--no-reuse", s.no_reuse, "Compute every frame anew, also what has not changed",
+              kTime)
         .choice({"--shading", "", "auto", "How surfaces reflect light", kPanelPicture}, s.shading)
         .choice({"--shadows", "", "off", "Which lights a surface sees", kPanelPicture}, s.shadows)
         .value(SettingKind::count,

@@ -104,8 +104,9 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
     OptionBuilder(f, "Lights, added to the file's own")
         .rest()
         .flag("--reflections", o.reflections,
-              "The environment lights by prefiltered maps (split sum) in place of lights, so that "
-              "shiny metals reflect it; render and view; not what blends, no forward renderers",
+              "Light surfaces by prefiltered maps of the environment (split sum) in place of "
+              "lights, so that shiny metals reflect it; render and view; not blended surfaces, no "
+              "forward renderers",
               kPicture)
         .count(
             {"--environment-lights", "N", "128", "Directional lights that stand for it", kPicture},
@@ -116,8 +117,8 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
         .choice(
             {"--tails", "", "auto", "Where the file's lights without a range end", kPanelPicture},
             s.tails)
-        .number({"--range-budget", "E", "0.00390625",
-                 "Decides the range of a bounded one: where it adds this radiance", kPicture},
+        .number({"--range-budget", "E", "0.00390625", "Radiance at which a bounded light ends",
+                 kPicture},
                 s.range_budget, kAboveZeroRange)
         .number({"--tree-share", "S", "0.3",
                  "Largest error of a group of a tree, as a share of the light that it sends",

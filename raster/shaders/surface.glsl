@@ -23,6 +23,7 @@ struct Map {
 #define MESH(scene, i) scene_meshes[i]
 #define TEXTURE_ROW(map) scene_textures[(map).texture_row]
 #define level_offsets(map, level) scene_textures[(map).texture_row].level_offset[level]
+#define TextureBuffers uint  // nothing: the maps are storage buffers of the shader
 #define textures_of_scene(scene) 0u
 #define make_map(textures, number, use) Map(number, use)
 #define prefetch_map(map, at)
@@ -68,7 +69,7 @@ Fragment drawn_fragment(SurfaceScene scene) {
 }
 
 Surface drawn_surface(SurfaceScene scene, Fragment f) {
-    Surface s = surface_of_material(scene, textures_of(scene, f.material, f), f);
+    Surface s = surface_of_material(textures_of(scene, f.material, f), f);
     Pixels pixels = fragment_pixels();
     s.position = view_position(camera.view, pixels.x, pixels.y, f.z);
     return s;

@@ -180,7 +180,7 @@ TEST(FeatureCosts, AreMeasurableAboveTheirNoiseOnly) {
     const CostEstimate cost = estimate_cost({3.0, 3.2, 2.9, 3.1, 9.0, -1.0, 3.3, 3.4, 3.05});
     EXPECT_TRUE(cost.measurable()) << "one outlier on each side";
     EXPECT_DOUBLE_EQ(cost.ms, 3.1);
-    EXPECT_DOUBLE_EQ(cost.noise_ms(), 0.25);
+    EXPECT_NEAR(cost.noise_ms(), 0.2, 1e-12);
 }
 
 // Differences of equal times: about 2 % of the estimates may find a measurable cost.

@@ -14,7 +14,7 @@ struct FeatureCost {
     bool measured = false;    // false: there is no time, for the reason in `why`
     bool measurable = false;  // whether `ms` is above the noise
     double ms = 0.0;          // additional time of a frame with it
-    double noise_ms = 0.0;    // half the width of the interval that holds `ms` in 96 % of cases
+    double noise_ms = 0.0;    // `ms` less the low end of its interval of 96 %
     double percent = 0.0;     // of the frame's kernels (and geometry, where the G-buffer grows)
     int bytes_per_pixel = 0;  // additional G-buffer
     std::string why;
@@ -29,7 +29,7 @@ inline constexpr std::size_t kCostTurns = 9;
 struct CostEstimate {
     double ms = 0.0, low = 0.0, high = 0.0;
     bool measurable() const { return low > 0.0; }
-    double noise_ms() const { return 0.5 * (high - low); }
+    double noise_ms() const { return ms - low; }
 };
 CostEstimate estimate_cost(std::vector<double> differences_ms);
 

@@ -21,8 +21,8 @@ struct PictureErrors {
 /// The part of PictureErrors that holds a metric. `flip` is slow.
 enum class MetricPart { hdr, display, flip };
 
-/// A metric. The tables of reports, `render --metric`, `--error-metric` and Python's compare() are
-/// loops over error_metrics().
+/// A metric. The tables of reports and `--error-metric` are loops over error_metrics(); `render
+/// --metric` takes those of hdr and flip, Python's compare() those of hdr.
 struct ErrorMetric {
     std::string_view name;     // of options
     std::string_view column;   // of tables, with its unit
