@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 
@@ -85,6 +86,24 @@ SceneOwner mesh_scene(RTCDevice device, const Mesh& mesh) {
     return scene;
 }
 
+// Whether a mesh has a size where `moved` puts it: Embree asserts it of what it divides.
+bool has_size(RTCScene mesh, const glm::mat4& moved) {
+    RTCBounds b;
+    rtcGetSceneBounds(mesh, &b);
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+    for (int i = 0; i < 8; ++i) {
+        const glm::vec4 corner((i & 1) != 0 ? b.upper_x : b.lower_x,
+                               (i & 2) != 0 ? b.upper_y : b.lower_y,
+                               (i & 4) != 0 ? b.upper_z : b.lower_z, 1.0f);
+        const glm::vec3 p(moved * corner);
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    constexpr float kRounding = 1e-6f;  // of Embree's own product, sixteen times
+    const glm::vec3 size = high - low, place = glm::max(glm::abs(low), glm::abs(high));
+    return std::max({size.x, size.y, size.z}) > kRounding * std::max({place.x, place.y, place.z});
+}
+
 // The middle of a box, and points beside it, since an object may stand in the middle of a room.
 std::vector<glm::dvec3> inner_points(const Box& box) {
     const glm::dvec3 step = 0.25 * box.size();
@@ -142,10 +161,11 @@ struct LookAround::Rays {
         const double volume = std::abs(glm::determinant(glm::dmat3(placed)));
         if (!(volume > 0.0 && std::isfinite(volume))) return;  // Embree inverts it
         if (!meshes[shape]) meshes[shape] = mesh_scene(device.get(), mesh);
-        RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, meshes[shape].get());
         placed[3] -= glm::dvec4(middle, 0.0);
         const glm::mat4 moved(placed);
+        if (!has_size(meshes[shape].get(), moved)) return;
+        RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, meshes[shape].get());
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &moved);
         attach(instances.get(), geometry, number);
     }

@@ -255,6 +255,20 @@ TEST(Enclosure, FurnitureAndVehiclesAreObjects) {
     expect_interior(furniture_and_vehicles(), false);
 }
 TEST(Enclosure, GroupsAndGroundAreObjects) { expect_interior(groups_and_ground(), false); }
+// Embree ends a program that gives it instances without a size.
+TEST(Enclosure, OfTrianglesThatArePointsIsNone) {
+    for (const double scale : {1.0, 1e-30}) {
+        Mesh mesh;
+        mesh.positions.assign(3, {1.0f, 2.0f, 3.0f});
+        mesh.normals.assign(3, {0.0f, 0.0f, 1.0f});
+        mesh.indices = {0, 1, 2};
+        Scene scene = scene_of(std::move(mesh));
+        scene.instances[0].world_from_object = glm::dmat4(glm::dmat3(scale));
+        scene.instances.push_back(scene.instances[0]);
+        EXPECT_EQ(enclosure_of(scene, bounds(scene)).kind, SceneKind::open);
+    }
+}
+
 TEST(Enclosure, WallsWithoutOuterSidesAreInteriors) { expect_interior(interiors(), true); }
 
 }  // namespace
