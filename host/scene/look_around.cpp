@@ -22,8 +22,9 @@ constexpr std::size_t kInnerRays = 1024;  // from a point
 constexpr std::size_t kLineWays = 64;     // directions of lines through the scene
 constexpr int kLines = 10;                // of each direction, along the edge of a square
 constexpr int kMostHits = 100;            // of a line
-constexpr float kLargest = 1e18f;         // largest coordinate of a ray that Embree accepts
-constexpr float kApart = 1e-6f;           // of the box's diagonal: surfaces on a line
+constexpr double kApart = 1e-6f;          // of the box's diagonal: surfaces on a line
+constexpr double kFarthest = 1e7;         // of the box's diagonal: where a ray may start
+constexpr double kMostGrowth = 1e9;       // of a ray in an instance: Embree asserts below 1.8e18
 constexpr int kCells = 16;                // of a cube's face, along an edge: see level()
 
 // The axes of a cube's level faces: across, through.
@@ -70,20 +71,46 @@ void attach(RTCScene scene, RTCGeometry geometry, std::size_t number) {
     rtcReleaseGeometry(geometry);
 }
 
-SceneOwner mesh_scene(RTCDevice device, const Mesh& mesh) {
+// A power of two, so that products with it are exact, that takes the value into [1, 2); 1 for 0.
+double unit_scale(double value) { return value > 0.0 ? std::ldexp(1.0, -std::ilogb(value)) : 1.0; }
+
+// Of the triangles' corners: positions that no triangle uses may lie anywhere.
+double largest_coordinate(const Mesh& mesh) {
+    double largest = 0.0;
+    for (const std::uint32_t corner : mesh.indices) {
+        const glm::vec3& p = mesh.positions[corner];
+        for (int i = 0; i < 3; ++i) largest = std::max(largest, std::abs(double{p[i]}));
+    }
+    return largest;
+}
+
+// Of the mesh's positions times `scale`.
+SceneOwner mesh_scene(RTCDevice device, const Mesh& mesh, double scale) {
     SceneOwner scene = new_scene(device);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree's own copy: it may read 16 bytes at the last vertex.
     void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                              sizeof(glm::vec3), mesh.positions.size());
     if (vertices == nullptr) throw Error("looking around the scene: out of memory");
-    std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices));
+    std::transform(mesh.positions.begin(), mesh.positions.end(), static_cast<glm::vec3*>(vertices),
+                   [&](const glm::vec3& p) { return glm::vec3(glm::dvec3(p) * scale); });
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                mesh.indices.data(), 0, 3 * sizeof(std::uint32_t),
                                mesh.indices.size() / 3);
     attach(scene.get(), geometry, 0);
     rtcCommitScene(scene.get());
     return scene;
+}
+
+// Whether a ray stays in Embree's range where it meets an instance.
+bool can_invert(const glm::mat4& moved) {
+    const glm::dmat4 inverse = glm::inverse(glm::dmat4(moved));
+    for (int i = 0; i < 16; ++i) {
+        for (const double value : {inverse[i / 4][i % 4], double{moved[i / 4][i % 4]}}) {
+            if (!(std::abs(value) < kMostGrowth)) return false;
+        }
+    }
+    return true;
 }
 
 // Whether a mesh has a size where `moved` puts it: Embree asserts it of what it divides.
@@ -144,28 +171,44 @@ double open_share(const LookAround& around, const Box& box) {
 
 }  // namespace
 
-// Embree's scene of the instances, relative to the middle of their box, as its numbers are floats.
+// Embree's scene of the instances. Its numbers are floats, and it ends the program where they leave
+// its range: places are relative to the middle of the scene's box in units of about its diagonal,
+// and a mesh is in units of about its own extent.
 struct LookAround::Rays {
+    struct ScaledMesh {
+        double scale = 0.0;  // of its positions; 0: not built yet
+        SceneOwner scene{};
+    };
+
     const Scene& scene;
     glm::dvec3 middle;
-    float apart;  // [m]
+    double scale;  // of the scene's places
+    double apart;  // surfaces on a line, in those units
     DeviceOwner device{rtcNewDevice(nullptr)};
-    std::vector<SceneOwner> meshes{};
+    std::vector<ScaledMesh> meshes{};
     SceneOwner instances{};
 
     void add(std::size_t number, const Instance& instance) {
         const auto shape = static_cast<std::size_t>(instance.mesh);
         const Mesh& mesh = scene.meshes[shape];
         if (mesh.indices.empty() || is_blended(scene, mesh)) return;
+        ScaledMesh& scaled = meshes[shape];
+        if (scaled.scale == 0.0) {
+            const double largest = largest_coordinate(mesh);
+            if (largest == 0.0) return;  // all corners are the origin
+            scaled.scale = unit_scale(largest);
+            scaled.scene = mesh_scene(device.get(), mesh, scaled.scale);
+        }
         glm::dmat4 placed = instance.world_from_object;
-        const double volume = std::abs(glm::determinant(glm::dmat3(placed)));
-        if (!(volume > 0.0 && std::isfinite(volume))) return;  // Embree inverts it
-        if (!meshes[shape]) meshes[shape] = mesh_scene(device.get(), mesh);
         placed[3] -= glm::dvec4(middle, 0.0);
+        for (int i = 0; i < 4; ++i) {
+            const double of_column = i < 3 ? scale / scaled.scale : scale;
+            placed[i] = glm::dvec4(of_column * glm::dvec3(placed[i]), placed[i].w);
+        }
         const glm::mat4 moved(placed);
-        if (!has_size(meshes[shape].get(), moved)) return;
+        if (!can_invert(moved) || !has_size(scaled.scene.get(), moved)) return;
         RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(geometry, meshes[shape].get());
+        rtcSetGeometryInstancedScene(geometry, scaled.scene.get());
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &moved);
         attach(instances.get(), geometry, number);
     }
@@ -188,7 +231,8 @@ struct LookAround::Rays {
 };
 
 LookAround::LookAround(const Scene& scene, const Box& box)
-    : rays_(new Rays{scene, box.center(), kApart * static_cast<float>(glm::length(box.size()))}) {
+    : rays_(new Rays{scene, box.center(), unit_scale(glm::length(box.size())), 0.0}) {
+    rays_->apart = kApart * rays_->scale * glm::length(box.size());
     RTCDevice device = rays_->device.get();
     if (device == nullptr) throw Error("looking around the scene: Embree has no device");
     rays_->meshes.resize(scene.meshes.size());
@@ -206,11 +250,13 @@ LookAround::~LookAround() = default;
 
 LookAround::Hit LookAround::first_hit(const glm::dvec3& eye, const glm::dvec3& direction,
                                       float beyond) const {
-    const glm::vec3 from(eye - rays_->middle), along(direction);
-    const float nearest = beyond + rays_->apart;
-    for (const float value : {from.x, from.y, from.z, along.x, along.y, along.z, nearest}) {
-        if (!(std::abs(value) < kLargest)) return {};
+    const glm::dvec3 start = rays_->scale * (eye - rays_->middle);
+    const double nearest = rays_->scale * double{beyond} + rays_->apart;
+    for (const double value :
+         {start.x, start.y, start.z, direction.x, direction.y, direction.z, nearest}) {
+        if (!(std::abs(value) < kFarthest)) return {};
     }
+    const glm::vec3 from(start), along(direction);
     RTCRayHit query{};
     query.ray.org_x = from.x;
     query.ray.org_y = from.y;
@@ -218,7 +264,7 @@ LookAround::Hit LookAround::first_hit(const glm::dvec3& eye, const glm::dvec3& d
     query.ray.dir_x = along.x;
     query.ray.dir_y = along.y;
     query.ray.dir_z = along.z;
-    query.ray.tnear = nearest;
+    query.ray.tnear = static_cast<float>(nearest);
     query.ray.tfar = std::numeric_limits<float>::infinity();
     query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;

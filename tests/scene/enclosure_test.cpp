@@ -269,6 +269,32 @@ TEST(Enclosure, OfTrianglesThatArePointsIsNone) {
     }
 }
 
+// Embree ends a program whose rays leave its range: those that meet an instance are made longer by
+// the inverse of its scale.
+TEST(Enclosure, OfShapesOfAnySizeIsFound) {
+    for (const double scale : {1e-30, 1e-12, 1.0, 1e12, 1e30}) {
+        for (const double vertices : {1e-30, 1.0, 1e30}) {
+            Mesh mesh;
+            const auto far = static_cast<float>(vertices);
+            mesh.positions = {{0.0f, 0.0f, 0.0f}, {far, 0.0f, 0.0f}, {0.0f, far, 0.0f}};
+            mesh.normals.assign(3, {0.0f, 0.0f, 1.0f});
+            mesh.indices = {0, 1, 2};
+            mesh.positions.push_back({3e38f, 0.0f, 0.0f});  // of no triangle
+            mesh.normals.push_back({0.0f, 0.0f, 1.0f});
+            Scene scene = scene_of(std::move(mesh));
+            for (const glm::dvec3& factors : {glm::dvec3(1.0), glm::dvec3(1.0, 1.0, 1e-20)}) {
+                glm::dmat3 size(scale);
+                for (int i = 0; i < 3; ++i) size[i] *= factors[i];
+                scene.instances[0].world_from_object = glm::dmat4(size);
+                scene.instances.resize(1);
+                scene.instances.push_back(scene.instances[0]);
+                scene.instances[1].world_from_object = glm::dmat4(glm::dmat3(1.0));
+                EXPECT_EQ(enclosure_of(scene, bounds(scene)).kind, SceneKind::open);
+            }
+        }
+    }
+}
+
 TEST(Enclosure, WallsWithoutOuterSidesAreInteriors) { expect_interior(interiors(), true); }
 
 }  // namespace
