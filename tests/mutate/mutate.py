@@ -96,7 +96,8 @@ class Tests:
             return ""
         if NO_BUILD.search(output):
             return "no build"
-        case = re.findall(r"^\[ RUN      \] (\S+)", output, re.M)[-1:]
+        case = (re.findall(r"^\[  FAILED  \] (\S+?),? ", output, re.M)[:1] or
+                re.findall(r"^\[ RUN      \] (\S+)", output, re.M)[-1:])
         if not case:
             sys.exit(f"mutate: {program} --gtest_filter={cases} does not run:\n{output}")
         if not self.unchanged_passes(program, case[0]):
