@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The changes that mutate.py makes to a text of OpenCL C: one place of one line."""
 import re
+import zlib
 from collections import namedtuple
 
 # `before` and `after`: the line, without its indentation; `text`: the whole file after the change.
@@ -18,7 +19,7 @@ CALLS = {"min": "max", "max": "min", "fmin": "fmax", "fmax": "fmin", "floor": "c
 CLAMPS = ("min", "max", "fmin", "fmax", "clamp")
 SWAPPED = {"lane_select": (1, 2), "lane_select_uint": (1, 2), "select3": (1, 2), "select": (0, 1), "sub3": (0, 1),
            "cross3": (0, 1), "lane_divide": (0, 1)}
-# Components, indices and constants are so many that they would be most mutants: every fourth.
+# Components, indices and constants are so many that they would be most mutants: a fourth of them, the same ones in the same line.
 RARE = 4
 COMPONENTS = {"x": "y", "y": "x", "z": "y"}
 # Layouts are checked where they are compiled; an array may be longer.
@@ -88,7 +89,9 @@ def call_changes(code):
 
 def constant_changes(code):
     for match in re.finditer(r"\[(\w+)\]", code):
-        yield "index", match.span(1), match.group(1) + " + 1"
+        declared = re.match(r"\s*((local|const|__constant) )*(?!return)[a-zA-Z]\w* \w+$", code[:match.start()])
+        if not declared:
+            yield "index", match.span(1), match.group(1) + " + 1"
     for match in re.finditer(r"(?<![\w.])(\d+)(u?)(?![\w.])", code):
         yield "integer", match.span(), str(int(match.group(1)) + 1) + match.group(2)
     for match in re.finditer(r"(?<![\w.])(\d+\.?\d*(?:e[-+]?\d+)?)f\b", code):
@@ -102,12 +105,11 @@ def constant_changes(code):
 
 def mutants_of(file, text):
     lines = text.split("\n")
-    found, rare = [], 0
+    found = []
     for number, code in device_lines(text):
         for kind, (begin, end), new in (*operator_changes(code), *call_changes(code), *constant_changes(code)):
             if kind in ("component", "index", "integer", "float"):
-                rare += 1
-                if rare % RARE:
+                if zlib.crc32(f"{begin} {lines[number]}".encode()) % RARE:
                     continue
             after = lines[number][:begin] + new + lines[number][end:]
             whole = "\n".join(lines[:number] + [after] + lines[number + 1:])
