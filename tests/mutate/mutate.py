@@ -160,6 +160,9 @@ def selftest(tests):
 
 
 def main(build, *words):
+    if not (words in ((), ("--selftest",)) or words[0] == "--only" and len(words) == 2 or
+            len(words) <= 2 and all(word.isdecimal() for word in words)):
+        sys.exit(__doc__)
     with tempfile.TemporaryDirectory() as work:
         tests = Tests(build, work)
         if words[:1] == ("--selftest",):
