@@ -7,11 +7,7 @@
 namespace kilolux {
 
 RenderScene::RenderScene(const Scene& scene, bool own_context)
-    : scene_(scene),
-      revisions_(scene.revisions),
-      box_(bounds(scene)),
-      zero_normals_(zero_normal_count(scene)),
-      own_context_(own_context) {}
+    : scene_(scene), revisions_(scene.revisions), own_context_(own_context) {}
 
 RenderScene::~RenderScene() { make_current_or_lost(); }
 
@@ -32,6 +28,16 @@ void RenderScene::take_up_changes() {
     if (before.surfaces() != revisions_.surfaces()) box_ = bounds(scene_);
     if (before.geometry == revisions_.geometry) return;
     for (auto& [use, meshes] : meshes_) meshes.refresh();
+}
+
+const Box& RenderScene::box() const {
+    if (!box_) box_ = bounds(scene_);
+    return *box_;
+}
+
+std::size_t RenderScene::zero_normals() const {
+    if (!zero_normals_) zero_normals_ = zero_normal_count(scene_);
+    return *zero_normals_;
 }
 
 bool RenderScene::has_opengl() const {

@@ -33,20 +33,21 @@ class RenderScene {
     void take_up_changes();
 
     const Scene& scene() const { return scene_; }
-    const Box& box() const { return box_; }  // world space [m]
+    const Box& box() const;  // world space [m]
     /// The meshes for this use, uploaded when first asked for. `anisotropy`: see GpuScene. Throws
     /// Error where there is no OpenGL.
     const GpuScene& meshes(GpuSceneUse use, int anisotropy) const;
     /// Whether OpenGL can be used. Makes the context; a warning says why there is none.
     bool has_opengl() const;
-    std::size_t zero_normals() const { return zero_normals_; }  // vertices
+    std::size_t zero_normals() const;  // vertices
 
  private:
     const Scene& scene_;
     SceneRevisions revisions_;  // of the scene as it was uploaded
-    Box box_;
-    std::size_t zero_normals_;
     bool own_context_;
+    // Found when first asked for: not every RenderScene draws.
+    mutable std::optional<Box> box_;
+    mutable std::optional<std::size_t> zero_normals_;
     mutable bool lacks_opengl_ = false;
     mutable std::optional<GlContext> context_;
     // Destroyed before the context.

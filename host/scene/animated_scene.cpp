@@ -19,8 +19,8 @@ struct AnimatedScene::File {
     std::vector<PrimitiveJob> jobs;
     std::vector<int> mesh_of_job;   // index into Scene::meshes; -1: has no triangles
     std::vector<MeshShape> shapes;  // of the scene's time
-    // Arrays by job, of shapes that move: decoded and listed once.
-    std::vector<std::optional<PrimitiveArrays>> arrays;
+    // By job, of shapes that move: decoded and listed once.
+    std::vector<std::optional<MeshPlan>> plans;
     double line_width_m = 0.0;  // of points and lines
     double time = 0.0;          // [s] of the scene
 };
@@ -67,8 +67,8 @@ std::vector<Mesh> AnimatedScene::build_moved(File& file, const ShapePlan& plan, 
         const PrimitiveJob& job = file.jobs[j];
         const MeshShape& shape = plan.shapes[job.shape];
         if (!first && (!shape.moves || shape == file.shapes[job.shape])) return;
-        std::optional<PrimitiveArrays>& kept = file.arrays[j];
-        if (!kept) kept = open_job(file.document, shape, job.primitive);
+        std::optional<MeshPlan>& kept = file.plans[j];
+        if (!kept) kept = plan_primitive(file.document, file.materials, shape, job.primitive);
         meshes[j] = build_primitive(file.document, file.materials, shape, job.primitive, *kept);
         if (!shape.moves) kept.reset();
     });
@@ -172,7 +172,7 @@ void AnimatedScene::place() {
     ShapePlan plan = plan_shapes(file.document, nodes);
     if (first) {
         file.jobs = list_primitives(file.document, plan);
-        file.arrays.resize(file.jobs.size());
+        file.plans.resize(file.jobs.size());
     }
     std::vector<Mesh> meshes = build_moved(file, plan, first);
     make_solids_of_lines(file, plan, meshes, first);

@@ -157,16 +157,17 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
 }
 
 // Chooses a tree for many lights without a range where bounded ranges would lose much of their
-// light.
+// light. What measures keeps its setting.
 void choose_tails(SharedOptions& options, const Scene& scene) {
     constexpr double kMostLost = 0.1;
     RenderSettings& s = options.settings;
     const Tails tails = tails_for(scene.lights, s.tails, s.range_budget);
     if (s.tails != Tails::automatic || tails != Tails::bounded) return;
-    if (!options.shows_environment || s.range_budget != kDefaultRangeBudget) return;
+    if (s.range_budget != kDefaultRangeBudget) return;
     const double lost = bounded_loss(scene, s.range_budget);
     if (lost <= kMostLost) return;
-    if (s.renderer == RendererKind::deferred && s.shadows == Shadows::off) {
+    if (options.shows_environment && s.renderer == RendererKind::deferred &&
+        s.shadows == Shadows::off) {
         s.tails = Tails::tree;
         return;
     }

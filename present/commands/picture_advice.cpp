@@ -83,9 +83,11 @@ std::string picture_advice(const Scene& scene, const Camera& camera, const Rende
     // Surfaces that blend are in no cluster.
     const bool counted =
         settings.renderer == RendererKind::deferred && !has_blended_surfaces(scene);
-    const Box box = bounds(scene);
-    const bool in_view = !box.empty() && place_in_view(box, camera, aspect).empty();
-    if (counted ? stats.active_clusters == 0 : !in_view) {
+    const auto in_view = [&] {
+        const Box box = bounds(scene);
+        return !box.empty() && place_in_view(box, camera, aspect).empty();
+    };
+    if (counted ? stats.active_clusters == 0 : !in_view()) {
         return "picture is empty: " + why_no_surface(scene, camera, aspect, framed);
     }
     if (settings.reflections) return "";

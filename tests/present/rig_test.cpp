@@ -126,19 +126,27 @@ TEST_F(RigTest, ManyFarLightsWithoutARangeTakeATree) {
         scene.lights.push_back(light);
     }
     write("many.glb", scene);
-    const auto chosen = [&](const std::string& more) {
+    std::string warning;
+    const auto chosen = [&](const std::string& more, const char* file = "many.glb") {
         CLI::App app;
         SharedOptions options;
-        options.shows_environment = true;
+        options.shows_environment = file == std::string("many.glb");
         add_shared_options(app, options);
-        app.parse((folder_ / "many.glb").string() + " -q " + more);
+        app.parse((folder_ / file).string() + " -q " + more);
+        testing::internal::CaptureStderr();
         open_scene(options);
+        warning = testing::internal::GetCapturedStderr();
         return options.settings.tails;
     };
     EXPECT_EQ(chosen(""), Tails::tree);
     EXPECT_EQ(chosen("--tails bounded"), Tails::bounded);
-    EXPECT_EQ(chosen("--shadows exact"), Tails::automatic) << "a tree casts no shadows";
     EXPECT_EQ(chosen("--range-budget 1e-9"), Tails::automatic);
+    EXPECT_EQ(warning, "");
+    EXPECT_EQ(chosen("--shadows exact"), Tails::automatic) << "a tree casts no shadows";
+    EXPECT_TRUE(contains(warning, "many.glb: the ranges that lights")) << "with -q: " << warning;
+    write("measured.glb", scene);
+    EXPECT_EQ(chosen("", "measured.glb"), Tails::automatic);
+    EXPECT_TRUE(contains(warning, "measured.glb: the ranges that lights")) << warning;
 }
 
 TEST_F(RigTest, TheViewDecidesCameraAndRig) {

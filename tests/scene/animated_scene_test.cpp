@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "host/base/error.h"
@@ -70,6 +71,51 @@ TEST(AnimatedScene, IsWhatLoadingAtEachTimeGives) {
         EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {time})), "") << time;
     }
     EXPECT_NE(scene_difference(load_scene(path, {0.5}), load_scene(path, {1.0})), "");
+}
+
+// Two quads with a normal map, whose u runs along +x and along +y. Vertex 0 of the second is equal
+// to vertex 0 of the first, but for `offset` along z. A morph target moves the second quad by
+// `way` along z from second 0 to 1.
+GltfBuilder two_quads_with_normal_map(float offset, float way) {
+    GltfBuilder file = quad_with_normal_map();
+    const float o = offset;
+    json& primitive = file.primitive();
+    primitive["attributes"] = {
+        {"POSITION", file.add_floats("VEC3", {0, 0, 0, 1, 0, 0, 1,  1, 0, 0,  1, 0,
+                                              0, 0, o, 0, 1, o, -1, 1, o, -1, 0, o})},
+        {"NORMAL", file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1,
+                                            0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})},
+        {"TEXCOORD_0", file.add_floats("VEC2", {0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0})}};
+    primitive["indices"] = file.add_indices({0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7});
+    primitive["targets"] = {
+        {{"POSITION", file.add_floats("VEC3", {0, 0, 0,   0, 0, 0,   0, 0, 0,   0, 0, 0,
+                                               0, 0, way, 0, 0, way, 0, 0, way, 0, 0, way})}}};
+    const int input = file.add_floats("SCALAR", {0, 1});
+    const int output = file.add_floats("SCALAR", {0, 1});
+    file.add("animations", {{"samplers", {{{"input", input}, {"output", output}}}},
+                            {"channels", {channel(0, 0, "weights")}}});
+    return file;
+}
+
+// Vertices share a tangent where they are equal in the file and stay equal.
+TEST(AnimatedScene, VerticesShareATangentAtAllTimesOrAtNone) {
+    const struct {
+        float offset, way;
+        bool shared;
+    } cases[] = {{0, 0, true}, {0, 2, false}, {2, -2, false}};
+    const TempFolder folder;
+    const auto path = folder.path() / "q.glb";
+    for (const auto& c : cases) {
+        write_file(path, two_quads_with_normal_map(c.offset, c.way).glb());
+        AnimatedScene scene(path, {});
+        for (const double time : {0.0, 1.0, 0.5, 0.0}) {
+            scene.set_time(time);
+            const std::vector<glm::vec4>& tangents = scene.scene().meshes.at(0).tangents;
+            EXPECT_EQ(tangents.at(0) == tangents.at(4), c.shared) << c.offset << " at " << time;
+            EXPECT_NEAR(tangents[0].x, c.shared ? std::sqrt(0.5f) : 1.0f, 1e-6f);
+            EXPECT_EQ(scene_difference(scene.scene(), load_scene(path, {time})), "") << time;
+        }
+    }
 }
 
 TEST(AnimatedScene, RevisionsSayWhatChanged) {

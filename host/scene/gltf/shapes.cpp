@@ -119,19 +119,20 @@ double line_width_m(const GltfDocument& document, const ShapePlan& plan,
     return width.value * (diagonal > 0.0 ? diagonal : 1.0);
 }
 
-PrimitiveArrays open_job(const GltfDocument& document, const MeshShape& shape,
-                         std::size_t primitive) {
+MeshPlan plan_primitive(const GltfDocument& document, const GltfMaterials& materials,
+                        const MeshShape& shape, std::size_t primitive_index) {
     const std::string where = document.base.file + ": " + element_name("meshes", shape.mesh) + "." +
-                              element_name("primitives", primitive);
-    return open_primitive(document, document.model.meshes[shape.mesh].primitives[primitive], where);
+                              element_name("primitives", primitive_index);
+    const auto& primitive = document.model.meshes[shape.mesh].primitives[primitive_index];
+    return plan_mesh(document, open_primitive(document, primitive, where),
+                     shading_of(materials, primitive), shape.moves);
 }
 
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,
-                     const MeshShape& shape, std::size_t primitive_index,
-                     const PrimitiveArrays& arrays) {
+                     const MeshShape& shape, std::size_t primitive, const MeshPlan& plan) {
     const tinygltf::Mesh& mesh = document.model.meshes[shape.mesh];
-    const tinygltf::Primitive& primitive = mesh.primitives[primitive_index];
-    Mesh out = build_mesh(document, arrays, shading_of(materials, primitive), shape.deformation);
+    const MeshShading shading = shading_of(materials, mesh.primitives[primitive]);
+    Mesh out = build_mesh(plan, shading, shape.deformation);
     out.name = mesh.name;
     return out;
 }

@@ -46,12 +46,12 @@ std::vector<PrimitiveJob> list_primitives(const GltfDocument& document, const Sh
 double line_width_m(const GltfDocument& document, const ShapePlan& plan,
                     const std::vector<PrimitiveJob>& jobs, const std::vector<Mesh>& meshes);
 
-/// The arrays of one primitive of a shape, which do not depend on the time.
-PrimitiveArrays open_job(const GltfDocument& document, const MeshShape& shape,
-                         std::size_t primitive);
+/// What one primitive of a shape is made of, which does not depend on the time.
+MeshPlan plan_primitive(const GltfDocument& document, const GltfMaterials& materials,
+                        const MeshShape& shape, std::size_t primitive);
 
-/// The mesh that a primitive's arrays make in its shape; see build_mesh() for points and lines.
+/// The mesh that a primitive's plan makes in its shape; see build_mesh() for points and lines.
 Mesh build_primitive(const GltfDocument& document, const GltfMaterials& materials,
-                     const MeshShape& shape, std::size_t primitive, const PrimitiveArrays& arrays);
+                     const MeshShape& shape, std::size_t primitive, const MeshPlan& plan);
 
 }  // namespace kilolux

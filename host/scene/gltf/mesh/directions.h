@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "host/scene/scene.h"
 
@@ -27,15 +29,22 @@ glm::dvec3 triangle_cross(const Mesh& mesh, std::size_t triangle);
 
 /// Derives tangents for a normal map from positions, normals and the texture coordinates that the
 /// map uses. As in MikkTSpace, a triangle's direction of growing u is projected into each corner's
-/// tangent plane and summed, weighted by the corner's angle, over all vertices of equal position,
-/// normal and texture coordinate. Triangles with mirrored texture coordinates have sums of their
-/// own: vertices where both orientations meet are already split (split_mirrored()).
+/// tangent plane and summed, weighted by the corner's angle, over all vertices of a group.
+/// Triangles with mirrored texture coordinates have sums of their own: vertices where both
+/// orientations meet are already split (split_mirrored()). `groups`: see equal_vertices().
 ///
 /// Unlike in MikkTSpace, the triangles around a vertex need not be connected, so tangents may
 /// differ where surfaces touch at one vertex. w is +1 where the image's up is cross(normal,
 /// tangent). Where texture coordinates are degenerate, any perpendicular of the normal is taken:
 /// the result is always finite and unit.
-void derive_tangents(Mesh& mesh, const TextureUse& normal_texture);
+void derive_tangents(Mesh& mesh, const TextureUse& normal_texture,
+                     const std::vector<std::uint32_t>& groups);
+
+/// By vertex, the first one of equal position, normal and texture coordinate of the normal map.
+std::vector<std::uint32_t> equal_vertices(const Mesh& mesh, const TextureUse& normal_texture);
+
+/// Splits groups whose vertices have different values.
+void split_groups(std::vector<std::uint32_t>& groups, std::span<const glm::vec4> values);
 
 /// Where a texture is read: `texcoords` as its use transforms them, zeros where there are none.
 std::vector<glm::dvec2> map_coordinates(std::span<const glm::vec2> texcoords, const TextureUse& use,

@@ -12,21 +12,15 @@
 namespace kilolux {
 namespace {
 
-// The element of the attributes of each vertex of the mesh, and the triangles.
-struct VertexPlan {
-    std::vector<std::uint32_t> elements;
-    std::vector<std::uint32_t> indices;
-};
-
-VertexPlan plan_unshared(const PrimitiveArrays& arrays) {
-    VertexPlan plan{arrays.corners, std::vector<std::uint32_t>(arrays.corners.size())};
+void plan_unshared(MeshPlan& plan) {
+    plan.elements = plan.arrays.corners;
+    plan.indices.resize(plan.elements.size());
     std::iota(plan.indices.begin(), plan.indices.end(), 0u);
-    return plan;
 }
 
 // The used vertices in their order: some exporters share one accessor among many primitives.
-VertexPlan plan_used(const PrimitiveArrays& arrays) {
-    VertexPlan plan;
+void plan_used(MeshPlan& plan) {
+    const PrimitiveArrays& arrays = plan.arrays;
     std::vector<std::uint32_t> vertex_of(arrays.vertex_count, 0);
     for (const std::uint32_t corner : arrays.corners) vertex_of[corner] = 1;
     for (std::size_t element = 0; element < vertex_of.size(); ++element) {
@@ -36,13 +30,11 @@ VertexPlan plan_used(const PrimitiveArrays& arrays) {
     }
     plan.indices.reserve(arrays.corners.size());
     for (const std::uint32_t corner : arrays.corners) plan.indices.push_back(vertex_of[corner]);
-    return plan;
 }
 
 // Reads attributes for all vertices of a plan, with the morph targets that have a weight.
 struct AttributeReader {
-    const PrimitiveArrays& arrays;
-    const VertexPlan& plan;
+    const MeshPlan& plan;
     std::span<const double> weights;
 
     using Components = std::initializer_list<std::size_t>;
@@ -52,6 +44,7 @@ struct AttributeReader {
     template <typename Vector>
     std::vector<Vector> read(const std::string& name, Components allowed,
                              bool normalized = false) const {
+        const PrimitiveArrays& arrays = plan.arrays;
         const auto found = arrays.attributes.find(name);
         if (found == arrays.attributes.end()) return {};
         ElementArray base = found->second;
@@ -93,18 +86,16 @@ bool has_tangents(const AttributeArrays& attributes) {
 }
 
 // Splits vertices by the file's texture coordinates where tangents will be derived from them.
-void split_for_tangents(const PrimitiveArrays& arrays, const MeshShading& shading,
-                        VertexPlan& plan) {
+void split_for_tangents(const MeshShading& shading, MeshPlan& plan) {
     const TextureUse& map = shading.normal_texture;
-    if (!map.present() || has_tangents(arrays.attributes)) return;
-    const auto texcoords = AttributeReader{arrays, plan, {}}.read<glm::vec2>(
+    const auto texcoords = AttributeReader{plan, {}}.read<glm::vec2>(
         texcoord_name(shading, static_cast<std::size_t>(map.uv_set)), {2});
     split_mirrored(map_coordinates(texcoords, map, plan.elements.size()), plan.elements,
                    plan.indices);
 }
 
 void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShading& shading) {
-    const AttributeArrays& attributes = reader.arrays.attributes;
+    const AttributeArrays& attributes = reader.plan.arrays.attributes;
     mesh.positions = reader.read<glm::vec3>("POSITION", {3});
     mesh.normals = reader.read<glm::vec3>("NORMAL", {3});
     // Integers are normalized (glTF 2.0, section 3.7.2.1); some writers leave out the flag.
@@ -121,37 +112,81 @@ void read_attributes(Mesh& mesh, const AttributeReader& reader, const MeshShadin
     }
 }
 
-// Normals that are missing or broken, and tangents where a normal map needs them.
-void finish_directions(Mesh& mesh, const MeshShading& shading) {
+void finish_normals(Mesh& mesh) {
     mesh.normals.empty() ? derive_flat_normals(mesh) : mend_normals(mesh);
-    if (!shading.normal_texture.present()) return;
-    mesh.tangents.empty() ? derive_tangents(mesh, shading.normal_texture) : mend_tangents(mesh);
+}
+
+// Tangents where a normal map needs them.
+void finish_tangents(Mesh& mesh, const MeshShading& shading,
+                     const std::vector<std::uint32_t>& groups) {
+    const TextureUse& map = shading.normal_texture;
+    if (!map.present()) return;
+    if (!mesh.tangents.empty()) {
+        mend_tangents(mesh);
+        return;
+    }
+    derive_tangents(mesh, map, groups.empty() ? equal_vertices(mesh, map) : groups);
+}
+
+// Groups the vertices that are equal in the file and that weights and joints keep equal.
+std::vector<std::uint32_t> lasting_groups(const MeshPlan& plan, const MeshShading& shading) {
+    Mesh rest;
+    read_attributes(rest, {plan, {}}, shading);
+    rest.indices = plan.indices;
+    finish_normals(rest);
+    std::vector<std::uint32_t> groups = equal_vertices(rest, shading.normal_texture);
+    std::vector<glm::vec4> values(groups.size());
+    const auto split_by = [&](const ElementArray& array) {
+        for (std::size_t v = 0; v < values.size(); ++v) {
+            values[v] = read_vector(array, plan.elements[v]);
+        }
+        split_groups(groups, values);
+    };
+    for (const auto& [name, array] : plan.arrays.attributes) {
+        if (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_")) split_by(array);
+    }
+    for (const AttributeArrays& target : plan.arrays.targets) {
+        for (const auto& [name, array] : target) split_by(array);
+    }
+    return groups;
 }
 
 constexpr std::size_t kMaxSolids = std::numeric_limits<std::uint32_t>::max() / 6;  // 6 vertices
 
 }  // namespace
 
-Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
-                const MeshShading& shading, const Deformation& deformation) {
+MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const MeshShading& shading,
+                   bool moves) {
     constexpr std::uint64_t kVertexBytes = 2 * (sizeof(glm::vec3) * 2 + sizeof(glm::vec4) * 2 +
                                                 sizeof(glm::vec2) * 2);  // room to split
     const bool is_surface = arrays.corners_each == 3;
     const bool shares_vertices = !is_surface || arrays.attributes.contains("NORMAL");
     document.budget->charge(arrays.corners.size(), 4 * sizeof(std::uint32_t), arrays.where);
     if (shares_vertices) document.budget->charge(arrays.vertex_count, 4, arrays.where);
-    VertexPlan plan = shares_vertices ? plan_used(arrays) : plan_unshared(arrays);
-    document.budget->charge(plan.elements.size(), kVertexBytes, arrays.where);
-    if (is_surface && shares_vertices) split_for_tangents(arrays, shading, plan);
+    MeshPlan plan{std::move(arrays), {}, {}, {}};
+    shares_vertices ? plan_used(plan) : plan_unshared(plan);
+    plan.arrays.corners = {};
+    document.budget->charge(plan.elements.size(), kVertexBytes, plan.arrays.where);
+    const bool derives_tangents =
+        is_surface && shading.normal_texture.present() && !has_tangents(plan.arrays.attributes);
+    if (!derives_tangents) return plan;
+    if (shares_vertices) split_for_tangents(shading, plan);
+    if (moves) plan.tangent_groups = lasting_groups(plan, shading);
+    return plan;
+}
+
+Mesh build_mesh(const MeshPlan& plan, const MeshShading& shading, const Deformation& deformation) {
     Mesh mesh;
     mesh.material = shading.material;
-    read_attributes(mesh, {arrays, plan, deformation.weights}, shading);
-    mesh.indices = std::move(plan.indices);
+    read_attributes(mesh, {plan, deformation.weights}, shading);
+    mesh.indices = plan.indices;
     if (!deformation.object_from_bind.empty()) {
-        skin_mesh(mesh, arrays, plan.elements, deformation.object_from_bind);
+        skin_mesh(mesh, plan.arrays, plan.elements, deformation.object_from_bind);
     }
-    check_positions(arrays.where, mesh, "morph targets and skin are applied");
-    if (is_surface) finish_directions(mesh, shading);
+    check_positions(plan.arrays.where, mesh, "morph targets and skin are applied");
+    if (plan.arrays.corners_each != 3) return mesh;
+    finish_normals(mesh);
+    finish_tangents(mesh, shading, plan.tangent_groups);
     return mesh;
 }
 

@@ -20,12 +20,26 @@ struct MeshShading {
     TextureUse normal_texture;               // tangents are made where it is present
 };
 
+/// What a primitive's mesh is made of at any time: which vertices there are depends on the file
+/// alone.
+struct MeshPlan {
+    PrimitiveArrays arrays;               // without its corners
+    std::vector<std::uint32_t> elements;  // of the attributes, by vertex
+    std::vector<std::uint32_t> indices;   // of vertices
+    // By vertex, the first of those that share a tangent: equal in the file and deformed alike.
+    // Empty where the mesh is made once: those that are equal then.
+    std::vector<std::uint32_t> tangent_groups;
+};
+
+/// Charges the memory of the mesh, too. `moves`: build_mesh() makes it for many times.
+MeshPlan plan_mesh(const GltfDocument& document, PrimitiveArrays arrays, const MeshShading& shading,
+                   bool moves);
+
 /// Converts a primitive. Vertices that no triangle uses are left out; without normals every
 /// triangle gets its own vertices and its flat normal. Points and segments stay what they are:
 /// their indices name 1 or 2 vertices each, until make_solid_mesh(). Throws Error for values that
 /// are not finite.
-Mesh build_mesh(const GltfDocument& document, const PrimitiveArrays& arrays,
-                const MeshShading& shading, const Deformation& deformation);
+Mesh build_mesh(const MeshPlan& plan, const MeshShading& shading, const Deformation& deformation);
 
 /// The size of the solid that replaces a point (1 corner) or segment (2).
 struct SolidSize {

@@ -1,25 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/base/hash.h"
 #include "host/scene/gltf/mesh/directions.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <unordered_map>
+
+#include "host/base/hash.h"
 
 namespace kilolux {
 namespace {
 
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
-// Vertices with equal keys share a tangent. Compared by bits, with -0 made 0.
-using VertexKey = std::array<float, 8>;
+constexpr std::size_t kVerticesOfTask = 1024;
 
-struct VertexKeyHash {
-    std::size_t operator()(const VertexKey& key) const {
-        return hash64(std::as_bytes(std::span(key)));
+// By vertex, the first one with an equal key. Keys are arrays of floats with -0 made 0, or of
+// integers.
+template <typename KeyOf>
+std::vector<std::uint32_t> first_of_equal(std::size_t vertices, const KeyOf& key_of) {
+    using Key = decltype(key_of(std::size_t{}));
+    const auto hash = [](const Key& key) { return hash64(std::as_bytes(std::span(key))); };
+    std::unordered_map<Key, std::uint32_t, decltype(hash)> first(vertices, hash);
+    std::vector<std::uint32_t> group(vertices);
+    for (std::size_t v = 0; v < vertices; ++v) {
+        group[v] = first.try_emplace(key_of(v), static_cast<std::uint32_t>(v)).first->second;
     }
-};
+    return group;
+}
 
 enum Orientation : std::uint8_t { kPreserving = 0, kMirrored = 1, kUnknown = 2 };
 
@@ -30,22 +42,6 @@ struct TriangleFrame {
 
 // Sums of the tangents around a vertex, one per orientation.
 using TangentSums = std::array<glm::dvec3, 2>;
-
-std::vector<std::uint32_t> weld(const Mesh& mesh, const std::vector<glm::dvec2>& uvs) {
-    std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> first;
-    first.reserve(mesh.positions.size());
-    std::vector<std::uint32_t> group(mesh.positions.size());
-    for (std::size_t v = 0; v < group.size(); ++v) {
-        const glm::vec3 p = mesh.positions[v] + 0.0f;
-        const glm::vec3 n = mesh.normals[v] + 0.0f;
-        const glm::vec2 uv = glm::vec2(uvs[v]) + 0.0f;
-        group[v] = first
-                       .try_emplace({p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y},
-                                    static_cast<std::uint32_t>(v))
-                       .first->second;
-    }
-    return group;
-}
 
 // Twice the triangle's signed area in texture space.
 double uv_area(std::span<const glm::dvec2> uvs, const std::uint32_t* corner) {
@@ -85,9 +81,11 @@ glm::dvec3 in_plane(const glm::dvec3& v, const glm::dvec3& n) {
     return length > 1e-12 * glm::length(v) && length > 0.0 ? flat / length : glm::dvec3(0.0);
 }
 
-void add_triangle(const Mesh& mesh, const std::vector<std::uint32_t>& group, std::size_t triangle,
-                  const TriangleFrame& frame, std::vector<TangentSums>& sums) {
+// What a triangle adds to the sums of its corners.
+std::array<glm::dvec3, 3> corner_tangents(const Mesh& mesh, std::size_t triangle,
+                                          const glm::dvec3& tangent) {
     const std::uint32_t* corner = &mesh.indices[3 * triangle];
+    std::array<glm::dvec3, 3> out;
     for (std::size_t c = 0; c < 3; ++c) {
         const glm::dvec3 normal(mesh.normals[corner[c]]);
         const glm::dvec3 p(mesh.positions[corner[c]]);
@@ -96,8 +94,44 @@ void add_triangle(const Mesh& mesh, const std::vector<std::uint32_t>& group, std
         const glm::dvec3 to_last =
             in_plane(glm::dvec3(mesh.positions[corner[(c + 2) % 3]]) - p, normal);
         const double angle = std::acos(std::clamp(glm::dot(to_next, to_last), -1.0, 1.0));
-        sums[group[corner[c]]][frame.orientation] += angle * in_plane(frame.tangent, normal);
+        out[c] = angle * in_plane(tangent, normal);
     }
+    return out;
+}
+
+template <typename Work>
+void parallel_range(std::size_t first, std::size_t end, const Work& work) {
+    using Range = tbb::blocked_range<std::size_t>;
+    tbb::parallel_for(Range(first, end, kVerticesOfTask), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
+    });
+}
+
+// Adds triangles in their order, so that threads change no bit; parts bound the memory.
+std::vector<TangentSums> sum_tangents(const Mesh& mesh, const std::vector<glm::dvec2>& uvs,
+                                      const std::vector<std::uint32_t>& groups,
+                                      std::vector<Orientation>& orientations) {
+    constexpr std::size_t kPart = 16384;
+    const std::size_t triangles = orientations.size();
+    std::vector<TangentSums> sums(mesh.positions.size(), TangentSums{});
+    std::vector<std::array<glm::dvec3, 3>> part(std::min(kPart, triangles));
+    for (std::size_t begin = 0; begin < triangles; begin += kPart) {
+        const std::size_t end = std::min(begin + kPart, triangles);
+        parallel_range(begin, end, [&](std::size_t t) {
+            const TriangleFrame frame = triangle_frame(mesh, uvs, t);
+            orientations[t] = frame.orientation;
+            if (frame.orientation != kUnknown) {
+                part[t - begin] = corner_tangents(mesh, t, frame.tangent);
+            }
+        });
+        for (std::size_t t = begin; t < end; ++t) {
+            if (orientations[t] == kUnknown) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                sums[groups[mesh.indices[3 * t + c]]][orientations[t]] += part[t - begin][c];
+            }
+        }
+    }
+    return sums;
 }
 
 glm::vec4 tangent_of(const glm::vec3& normal, const TangentSums& sums, Orientation orientation) {
@@ -115,12 +149,17 @@ glm::vec4 tangent_of(const glm::vec3& normal, const TangentSums& sums, Orientati
 // The orientation of each vertex's first triangle that has an orientation.
 std::vector<Orientation> vertex_orientations(std::size_t vertices,
                                              std::span<const std::uint32_t> indices,
-                                             const std::vector<TriangleFrame>& frames) {
+                                             const std::vector<Orientation>& triangles) {
     std::vector<Orientation> first(vertices, kUnknown);
     for (std::size_t i = 0; i < indices.size(); ++i) {
-        if (first[indices[i]] == kUnknown) first[indices[i]] = frames[i / 3].orientation;
+        if (first[indices[i]] == kUnknown) first[indices[i]] = triangles[i / 3];
     }
     return first;
+}
+
+std::vector<glm::dvec2> coordinates_of(const Mesh& mesh, const TextureUse& use) {
+    return map_coordinates(mesh.texcoords[static_cast<std::size_t>(use.uv_set)], use,
+                           mesh.positions.size());
 }
 
 }  // namespace
@@ -137,15 +176,15 @@ std::vector<glm::dvec2> map_coordinates(std::span<const glm::vec2> texcoords, co
 
 void split_mirrored(std::span<const glm::dvec2> uvs, std::vector<std::uint32_t>& elements,
                     std::vector<std::uint32_t>& indices) {
-    std::vector<TriangleFrame> frames(indices.size() / 3);
-    for (std::size_t t = 0; t < frames.size(); ++t) {
-        frames[t].orientation = orientation_of(uvs, &indices[3 * t]);
+    std::vector<Orientation> triangles(indices.size() / 3);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        triangles[t] = orientation_of(uvs, &indices[3 * t]);
     }
-    const std::vector<Orientation> first = vertex_orientations(elements.size(), indices, frames);
+    const std::vector<Orientation> first = vertex_orientations(elements.size(), indices, triangles);
     std::vector<std::uint32_t> copy_of(elements.size(), kNoVertex);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const std::uint32_t v = indices[i];
-        const Orientation orientation = frames[i / 3].orientation;
+        const Orientation orientation = triangles[i / 3];
         if (orientation == kUnknown || orientation == first[v]) continue;
         if (copy_of[v] == kNoVertex) {
             copy_of[v] = static_cast<std::uint32_t>(elements.size());
@@ -155,22 +194,34 @@ void split_mirrored(std::span<const glm::dvec2> uvs, std::vector<std::uint32_t>&
     }
 }
 
-void derive_tangents(Mesh& mesh, const TextureUse& normal_texture) {
-    const std::size_t vertices = mesh.positions.size();
-    const std::vector<glm::dvec2> uvs = map_coordinates(
-        mesh.texcoords[static_cast<std::size_t>(normal_texture.uv_set)], normal_texture, vertices);
-    const std::vector<std::uint32_t> group = weld(mesh, uvs);
-    std::vector<TangentSums> sums(vertices, TangentSums{});
-    std::vector<TriangleFrame> frames(mesh.indices.size() / 3);
-    for (std::size_t t = 0; t < frames.size(); ++t) {
-        frames[t] = triangle_frame(mesh, uvs, t);
-        if (frames[t].orientation != kUnknown) add_triangle(mesh, group, t, frames[t], sums);
-    }
-    const std::vector<Orientation> first = vertex_orientations(vertices, mesh.indices, frames);
-    mesh.tangents.resize(vertices);
-    for (std::size_t v = 0; v < vertices; ++v) {
-        mesh.tangents[v] = tangent_of(mesh.normals[v], sums[group[v]], first[v]);
-    }
+std::vector<std::uint32_t> equal_vertices(const Mesh& mesh, const TextureUse& normal_texture) {
+    const std::vector<glm::dvec2> uvs = coordinates_of(mesh, normal_texture);
+    return first_of_equal(mesh.positions.size(), [&](std::size_t v) {
+        const glm::vec3 p = mesh.positions[v] + 0.0f;
+        const glm::vec3 n = mesh.normals[v] + 0.0f;
+        const glm::vec2 uv = glm::vec2(uvs[v]) + 0.0f;
+        return std::array{p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
+    });
+}
+
+void split_groups(std::vector<std::uint32_t>& groups, std::span<const glm::vec4> values) {
+    groups = first_of_equal(groups.size(), [&](std::size_t v) {
+        const auto bits = std::bit_cast<std::array<std::uint32_t, 4>>(values[v] + 0.0f);
+        return std::array{groups[v], bits[0], bits[1], bits[2], bits[3]};
+    });
+}
+
+void derive_tangents(Mesh& mesh, const TextureUse& normal_texture,
+                     const std::vector<std::uint32_t>& groups) {
+    const std::vector<glm::dvec2> uvs = coordinates_of(mesh, normal_texture);
+    std::vector<Orientation> triangles(mesh.indices.size() / 3);
+    const std::vector<TangentSums> sums = sum_tangents(mesh, uvs, groups, triangles);
+    const std::vector<Orientation> first =
+        vertex_orientations(mesh.positions.size(), mesh.indices, triangles);
+    mesh.tangents.resize(mesh.positions.size());
+    parallel_range(0, mesh.positions.size(), [&](std::size_t v) {
+        mesh.tangents[v] = tangent_of(mesh.normals[v], sums[groups[v]], first[v]);
+    });
 }
 
 void mend_tangents(Mesh& mesh) {
