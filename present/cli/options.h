@@ -17,6 +17,7 @@
 #include "present/cli/sequence.h"
 #include "present/cli/setting.h"
 #include "present/image/display_picture.h"
+#include "present/image/image_file.h"
 
 namespace kilolux {
 
@@ -54,6 +55,7 @@ struct OutputOptions {
     bool half_colour = false;
     bool uint_ids = false;
     int bits = 8;  // a channel, of PNG and TIFF
+    int png_level = kPngLevel;
     OcioOptions ocio;
     std::optional<FrameRange> frames;
     double frames_per_second = 24.0;

@@ -51,6 +51,9 @@ void add_encoding_options(CLI::App& command, OutputOptions& o) {
                 "floats are not exact"},
                o.uint_ids, take_ids)
         .value({"--bits", "8|16", "", "Bits a channel of PNG and TIFF"}, o.bits, bits)
+        .count({"--png-level", "N", "",
+                "zlib's level of PNG, 0 to 9: higher ones take longer and make files smaller"},
+               o.png_level, {0, 9})
         .text({"--ocio-view", "NAME|none", "the display's",
                "OpenColorIO view of pictures for the eye in place of --tonemap, where the "
                "environment's OCIO names a configuration; none: no OpenColorIO"},
@@ -136,6 +139,7 @@ void check_video(const SharedOptions& shared, const OutputOptions& options) {
     refuse(options.half_colour, "--exr-half");
     refuse(options.uint_ids, "--aov-ids");
     refuse(options.bits == 16, "--bits 16");
+    refuse(options.png_level != kPngLevel, "--png-level");
     if (file == "-" && options.stats == "-") {
         throw UsageError("--stats: standard output is the video's; name a file");
     }
@@ -159,6 +163,9 @@ void check_format(const SharedOptions& shared, const OutputOptions& options) {
         throw UsageError(fmt::format(
             "--bits: '{}' cannot hold 16 bits a channel; use .png or .tif, or .exr for light",
             file));
+    }
+    if (options.png_level != kPngLevel && !is_png(file)) {
+        throw UsageError(fmt::format("--png-level: '{}' is not a PNG file", file));
     }
     if (image_meaning(file) == ImageMeaning::display) {
         uses_ocio(options.ocio);

@@ -2,23 +2,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <optional>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
-#include "host/base/system/atomic_write.h"
 #include "host/base/system/interrupt.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
-#include "present/cli/progress.h"
 #include "present/commands/camera_motion.h"
 #include "present/commands/made_picture.h"
 #include "present/commands/picture_advice.h"
+#include "present/commands/picture_output.h"
 #include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
-#include "present/image/display_picture.h"
 #include "present/image/image_file.h"
 #include "present/program.h"
 #include "present/video/video_file.h"
@@ -27,23 +26,6 @@ namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct RenderOptions {
-    SharedOptions shared;
-    OutputOptions output;
-    BudgetOptions budget;
-    bool has_alpha = false;  // the picture: see wants_alpha()
-    std::string command{};   // picture_command() of what was asked for
-};
-
-// One picture to make: a frame of the sequence, or the only one.
-struct Task {
-    int frame = 0;
-    double time = 0.0;  // [s]
-    fs::path file;
-    fs::path reference;   // empty: none
-    fs::path difference;  // empty: none
-};
 
 std::string noted_time(double time) { return text_of(time) + " s"; }
 
@@ -56,7 +38,7 @@ class Tasks {
 
     std::size_t size() const { return frames_ ? frames_->size() : 1; }
 
-    Task operator[](std::size_t i) const {
+    PictureTask operator[](std::size_t i) const {
         const OutputOptions& out = options_.output;
         const double time = options_.shared.time;
         if (!frames_) return {0, time, out.output, out.reference, out.difference};
@@ -65,7 +47,7 @@ class Tasks {
                 frame_file(out.reference, frame), frame_file(out.difference, frame)};
     }
 
-    bool is_done(const Task& task) const {
+    bool is_done(const PictureTask& task) const {
         if (is_video(task.file)) return options_.output.skip_existing && fs::exists(task.file);
         const RenderSettings& s = options_.shared.settings;
         return options_.output.skip_existing &&
@@ -83,22 +65,6 @@ class Tasks {
     std::optional<ShardFrames> frames_;
 };
 
-// A summary of the pictures made so far.
-struct Made {
-    std::size_t count = 0;
-    FrameRecord last;
-    std::string first_failure;  // of a comparison; empty: none
-    std::optional<FrameLog> log;
-};
-
-bool is_for_the_eye(const fs::path& output) {
-    return is_video(output) || image_meaning(output) == ImageMeaning::display;
-}
-
-bool wants_own_display(const RenderOptions& options) {
-    return options.output.bits == 16 || uses_ocio(options.output.ocio);
-}
-
 ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
                     const FrameRecord& record) {
     ImageNotes notes = picture_notes(options.shared, pictures.renderer().device(), record.stats);
@@ -112,80 +78,38 @@ ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
     return notes;
 }
 
-// The renderer's display picture has 8 bits and our tone curves; other pictures are made here.
-ImageOptions image_options(const RenderOptions& options, const Frame& frame, const Task& task) {
-    const OutputOptions& out = options.output;
-    ImageOptions image;
-    image.half_colour = out.half_colour;
-    image.uint_ids = out.uint_ids;
+// Says where a layer is stored as the options did not ask for.
+void note_layers(const RenderOptions& options, const Frame& frame, const fs::path& file) {
     for (const Layer& layer : frame.aovs) {
-        if (out.uint_ids || float_holds(layer)) continue;
+        if (options.output.uint_ids || float_holds(layer)) continue;
         note(fmt::format("{}: layer {} is UINT: a float does not hold its largest numbers",
-                         task.file.string(), layer.name));
+                         file.string(), layer.name));
     }
-    image.bits = out.bits;
-    if (is_for_the_eye(task.file) && wants_own_display(options)) {
-        RenderSettings settings = options.shared.settings;
-        settings.background = options.shared.shown_background;
-        image.display = options.shared.show_error ? display_codes(frame)
-                                                  : display_colours(frame, settings, out.ocio);
-    }
-    return image;
 }
 
-// Writes a task's frame to its file, or appends it to the video.
-void write_picture(Frame& frame, const fs::path& file, const ImageNotes& notes,
-                   const ImageOptions& image, VideoFile* video) {
-    if (video == nullptr) return write_image(file, frame, notes, image);
-    if (!image.display.empty()) set_display(frame, image.display);
-    video->write(frame);
-}
-
-// The display colours of the covering surfaces alone, without the black background. Pixels that are
-// covered whole keep their codes.
-std::vector<float> covered_colours(const RenderOptions& options, const Frame& frame,
-                                   const std::vector<float>& alpha, std::vector<float> whole) {
-    Frame covered;
-    covered.width = frame.width;
-    covered.height = frame.height;
-    covered.radiance = frame.radiance;
-    for (std::size_t i = 0; i < covered.radiance.size(); ++i) {
-        if (alpha[i / 3] > 0.0f) covered.radiance[i] /= alpha[i / 3];
-    }
-    const std::vector<float> colours =
-        display_colours(covered, options.shared.settings, options.output.ocio);
-    if (whole.empty()) whole = display_codes(frame);
-    for (std::size_t i = 0; i < whole.size(); ++i) {
-        if (alpha[i / 3] < 1.0f) whole[i] = colours[i];
-    }
-    return whole;
-}
-
-FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures, const Task& task,
-                        VideoFile* video) {
+// Renders a task's picture; returns its record.
+FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
+                        RenderedPicture& picture) {
     const OutputOptions& out = options.output;
+    const PictureTask& task = picture.task;
     std::optional<Reference> reference;
     if (!task.reference.empty()) {
         const RenderSettings& settings = pictures.renderer().settings();
         require_reference_size(task.reference, settings.width, settings.height);
         reference.emplace(task.reference);
     }
-    Frame frame = pictures.render(task.time, task.frame);
+    Frame& frame = picture.frame;
+    frame = pictures.render(task.time, task.frame);
     check_interrupt();
     FrameRecord record{task.frame, task.time, output_name(task.file), frame.stats, std::nullopt};
     if (reference) {
         record.comparison = reference->compare(frame, out.metric, out.threshold.value_or(0.0));
     }
-    if (!task.difference.empty()) write_image(task.difference, reference->difference(frame));
+    if (!task.difference.empty()) picture.difference = reference->difference(frame);
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    ImageOptions image = image_options(options, frame, task);
-    if (options.has_alpha) {
-        image.alpha = pictures.coverage(frame, task.time, task.frame);
-        if (is_for_the_eye(task.file)) {
-            image.display = covered_colours(options, frame, image.alpha, std::move(image.display));
-        }
-    }
-    write_picture(frame, task.file, notes_of(options, pictures, record), image, video);
+    if (options.has_alpha) picture.alpha = pictures.coverage(frame, task.time, task.frame);
+    note_layers(options, frame, task.file);
+    picture.notes = notes_of(options, pictures, record);
     return record;
 }
 
@@ -196,44 +120,26 @@ void advise(SceneRenderer& pictures, const FrameRecord& record) {
     if (!advice.empty()) note(record.file + ": " + advice);
 }
 
-void add(Made& made, FrameRecord record) {
-    if (made.log) made.log->add(record);
-    const bool failed = record.comparison && !record.comparison->passed();
-    if (failed && made.first_failure.empty()) {
-        made.first_failure = record.file + ": " + comparison_text(*record.comparison);
-    }
-    ++made.count;
-    made.last = std::move(record);
-}
-
-// Null for pictures.
-std::unique_ptr<VideoFile> open_video(const OutputOptions& out, const RenderSettings& settings) {
-    if (!is_video(out.output)) return nullptr;
-    return std::make_unique<VideoFile>(
-        out.output, VideoFormat{settings.width, settings.height, out.frames_per_second});
-}
-
-Made render_tasks(const RenderOptions& options, const Tasks& tasks, SceneRenderer& pictures) {
-    Made made;
+WrittenPictures render_tasks(const RenderOptions& options, const Tasks& tasks,
+                             SceneRenderer& pictures) {
     const bool counted = !options.output.stats.empty();
-    if (counted && options.output.frames) made.log.emplace();
-    const std::unique_ptr<VideoFile> video =
-        open_video(options.output, pictures.renderer().settings());
     const std::size_t first = tasks.first_to_do();
-    Progress progress("rendering", tasks.size() - first, !options.shared.quiet);
+    PictureOutput output(options, tasks.size() - first, pictures.renderer());
+    bool is_first = true;
     for (std::size_t i = first; i < tasks.size(); ++i) {
         check_interrupt();
-        const Task task = tasks[i];
-        if (!tasks.is_done(task)) {
-            FrameRecord record = render_task(options, pictures, task, video.get());
-            if (made.count == 0) advise(pictures, record);
-            if (counted) pictures.fill_limits(record);
-            add(made, std::move(record));
+        RenderedPicture picture;
+        picture.task = tasks[i];
+        if (tasks.is_done(picture.task)) {
+            output.skip();
+            continue;
         }
-        progress.advance();
+        FrameRecord record = render_task(options, pictures, picture);
+        if (std::exchange(is_first, false)) advise(pictures, record);
+        if (counted) pictures.fill_limits(record);
+        output.add(std::move(picture), std::move(record));
     }
-    if (video) video->commit();
-    return made;
+    return output.finish();
 }
 
 // Exposes by the sequence's first frame, also in a shard that does not contain it.
@@ -247,7 +153,7 @@ void expose_automatically(const RenderOptions& options, SceneRenderer& pictures)
 }
 
 // Checks before rendering what would otherwise fail after it.
-void check_files(const RenderOptions& options, const Tasks& tasks, const Task& first) {
+void check_files(const RenderOptions& options, const Tasks& tasks, const PictureTask& first) {
     const OutputOptions& out = options.output;
     if (is_video(out.output)) {
         check_can_write_video(out.output);
@@ -312,7 +218,7 @@ void run_render(RenderOptions& options) {
     }
     const std::size_t begin = tasks.first_to_do();
     if (begin == tasks.size()) return note("nothing to render: every file is there");
-    const Task first = tasks[begin];
+    const PictureTask first = tasks[begin];
     check_files(options, tasks, first);
     check_light_memory(options.shared.settings);
     warn_of_exposure(options);
@@ -324,7 +230,7 @@ void run_render(RenderOptions& options) {
                            {request_of(options, options.shared.settings.want), first.time,
                             first.frame, camera, std::nullopt});
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
-    const Made made = render_tasks(options, tasks, pictures);
+    const WrittenPictures made = render_tasks(options, tasks, pictures);
     if (!out.stats.empty()) {
         write_json(out.stats, pictures.stats(made.last, false), made.log ? &*made.log : nullptr);
     }

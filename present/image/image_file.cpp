@@ -50,6 +50,8 @@ void add_channels(ImageLayout& layout, std::initializer_list<const char*> names,
     for (const char* name : names) layout.channels.push_back({name, type});
 }
 
+constexpr int kPaethFilter = 0x80;  // libpng's PNG_FILTER_PAETH: see kPngLevel
+
 // Display codes as RGB, or RGBA where the options have alpha.
 ImageLayout display_layout(const std::filesystem::path& file, const Frame& frame,
                            const ImageOptions& options) {
@@ -66,6 +68,8 @@ ImageLayout display_layout(const std::filesystem::path& file, const Frame& frame
     if (!options.alpha.empty()) add_channels(layout, {"A"}, type);
     layout.attributes = {{"oiio:ColorSpace", "sRGB"},
                          {"jpeg:subsampling", "4:4:4"},
+                         {"png:compressionLevel", options.png_level},
+                         {"png:filter", kPaethFilter},
                          {"CompressionQuality", options.jpeg_quality}};
     return layout;
 }
@@ -224,9 +228,11 @@ bool holds_16_bits(const std::filesystem::path& file) {
     return plugin == "png" || plugin == "tiff";
 }
 
-bool holds_alpha(const std::filesystem::path& file) {
-    return std::string_view(format_of(file).plugin) == "png" || holds_layers(file);
+bool is_png(const std::filesystem::path& file) {
+    return std::string_view(format_of(file).plugin) == "png";
 }
+
+bool holds_alpha(const std::filesystem::path& file) { return is_png(file) || holds_layers(file); }
 
 bool holds_notes(const std::filesystem::path& file) { return holds_alpha(file); }
 

@@ -26,6 +26,8 @@ ImageMeaning image_meaning(const std::filesystem::path& file);
 /// Whether the format can hold display pictures of 16 bits a channel: PNG and TIFF.
 bool holds_16_bits(const std::filesystem::path& file);
 
+bool is_png(const std::filesystem::path& file);
+
 /// Whether the format can hold the covered share of pixels: PNG and EXR.
 bool holds_alpha(const std::filesystem::path& file);
 
@@ -35,6 +37,11 @@ bool holds_notes(const std::filesystem::path& file);
 /// Whether the format keeps named channels beside the colour: EXR.
 bool holds_layers(const std::filesystem::path& file);
 
+/// Of zlib's levels 0 to 9. With Paeth's filter, level 2 takes a fifth of the time of zlib's usual
+/// 6 with a filter chosen row by row, and 7 to 9 % more bytes (190 and 210 ms for 900 and 920 ms;
+/// 2.81 and 3.57 MB for 2.58 and 3.35 MB; atrium and Sponza, 1920x1080).
+inline constexpr int kPngLevel = 2;
+
 /// A file's notes about its picture.
 struct ImageNotes {
     /// Written as "kilolux:<name>": scene, lights, renderer, ... in this order.
@@ -43,10 +50,11 @@ struct ImageNotes {
 };
 
 struct ImageOptions {
-    bool half_colour = false;  // EXR: R, G, B in half
-    bool uint_ids = false;     // EXR: layers of ids in UINT, also where floats hold them
-    int jpeg_quality = 95;     // 1..100
-    int bits = 8;              // PNG, TIFF: a channel, 8 or 16
+    bool half_colour = false;   // EXR: R, G, B in half
+    bool uint_ids = false;      // EXR: layers of ids in UINT, also where floats hold them
+    int jpeg_quality = 95;      // 1..100
+    int png_level = kPngLevel;  // of zlib's compression, 0..9
+    int bits = 8;               // PNG, TIFF: a channel, 8 or 16
     // PNG, EXR: the covered share of each pixel, 0 to 1; empty: all are covered, and there is no
     // channel. Display colours are those of the covering surfaces, EXR's are multiplied by alpha.
     std::vector<float> alpha{};

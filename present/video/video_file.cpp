@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/system/atomic_write.h"
@@ -199,14 +200,13 @@ void check_can_write_video(const fs::path& file) {
 }
 
 VideoFile::VideoFile(const fs::path& file, const VideoFormat& format)
-    : sink_(make_sink(file)), buffer_(y4m_header(format)) {}
+    : sink_(make_sink(file)), header_(y4m_header(format)) {}
 
 VideoFile::~VideoFile() = default;
 
-void VideoFile::write(const Frame& frame) {
-    append_y4m_frame(buffer_, frame.display);
-    sink_->write(buffer_);
-    buffer_.clear();
+void VideoFile::write(std::string_view frame) {
+    if (!header_.empty()) sink_->write(std::exchange(header_, {}));
+    sink_->write(frame);
 }
 
 void VideoFile::commit() { sink_->commit(); }

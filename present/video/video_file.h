@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "host/picture/frame.h"
 #include "present/video/y4m.h"
 
 namespace kilolux {
@@ -38,8 +38,8 @@ class VideoFile {
     VideoFile(const VideoFile&) = delete;
     VideoFile& operator=(const VideoFile&) = delete;
 
-    /// Appends Frame::display. Throws Error with the system's or ffmpeg's reason.
-    void write(const Frame& frame);
+    /// Appends a y4m_frame(). Throws Error with the system's or ffmpeg's reason.
+    void write(std::string_view frame);
 
     /// Ends the video and puts it in its place.
     void commit();
@@ -49,7 +49,7 @@ class VideoFile {
 
  private:
     std::unique_ptr<Sink> sink_;
-    std::string buffer_;  // the next bytes
+    std::string header_;  // until it is written
 };
 
 }  // namespace kilolux

@@ -46,10 +46,9 @@ std::string y4m_header(const VideoFormat& format) {
                        format.width, format.height, pace.numerator, pace.denominator);
 }
 
-void append_y4m_frame(std::string& out, std::span<const std::uint8_t> rgba) {
-    constexpr std::string_view kMark = "FRAME\n";
+std::string y4m_frame(std::span<const std::uint8_t> rgba) {
+    std::string out = "FRAME\n";
     const std::size_t pixels = rgba.size() / 4;
-    out += kMark;
     const std::size_t start = out.size();
     out.resize(start + 3 * pixels);
     char* const luma = &out[start];
@@ -62,6 +61,7 @@ void append_y4m_frame(std::string& out, std::span<const std::uint8_t> rgba) {
         blue[i] = nearest(128.0 + kBlueStep * (b - y));
         red[i] = nearest(128.0 + kRedStep * (r - y));
     }
+    return out;
 }
 
 }  // namespace kilolux

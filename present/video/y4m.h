@@ -30,8 +30,8 @@ Ratio ratio_of(double value);
 /// bytes, which is what ffmpeg reads.
 std::string y4m_header(const VideoFormat& format);
 
-/// Appends a frame, "FRAME\n" and the planes Y', Cb, Cr, of display codes R, G, B, A. Each code is
-/// the nearest to ITU-R BT.709-6, 3.2 to 3.5: Y' 16 to 235, Cb and Cr 16 to 240.
-void append_y4m_frame(std::string& out, std::span<const std::uint8_t> rgba);
+/// A frame, "FRAME\n" and the planes Y', Cb, Cr, of display codes R, G, B, A. Each code is the
+/// nearest to ITU-R BT.709-6, 3.2 to 3.5: Y' 16 to 235, Cb and Cr 16 to 240.
+std::string y4m_frame(std::span<const std::uint8_t> rgba);
 
 }  // namespace kilolux

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `kilolux render` and `info` as a whole: files, sequences, statistics, comparison, interruption.
 #include <gtest/gtest.h>
-#include <time.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -143,26 +142,6 @@ TEST(Render, WritesTheDifference) {
     for (std::size_t i = 0; i < before.values.size(); ++i) {
         ASSERT_EQ(difference.values[i], std::abs(after.values[i] - before.values[i])) << i;
     }
-}
-
-// Waits until the program has written its first frame, for two minutes at most.
-void wait_for(const fs::path& file) {
-    const timespec pause{0, 5'000'000};
-    for (int i = 0; i < 24'000 && !fs::exists(file); ++i) nanosleep(&pause, nullptr);
-}
-
-// The list of its frames would take 8 GiB.
-TEST(Render, ASequenceOfTwoThousandMillionFramesStarts) {
-    const TemporaryFolder folder;
-    std::vector<std::string> words = {"/usr/bin/prlimit", "--as=7000000000", program_file()};
-    const auto render = small_render(folder / "f.#.exr", {"--frames", "0:2147483647", "-q"});
-    words.insert(words.end(), render.begin(), render.end());
-    const ChildResult result = run_child(words, [&](pid_t child) {
-        wait_for(folder / "f.0.exr");
-        kill(child, SIGINT);
-    });
-    EXPECT_EQ(result.code, 130) << result.err;
-    EXPECT_TRUE(names_in(folder).contains("f.0.exr"));
 }
 
 TEST(Render, SequencesInShardsThatGoOnWhereTheyStopped) {
@@ -310,23 +289,6 @@ TEST(Render, ShowErrorNeedsAReferenceAndAPictureForTheEye) {
     EXPECT_TRUE(contains(light.err, "holds light")) << light.err;
     EXPECT_EQ(run_kilolux({"info", "grid", "--show", "error"}).code, 2);
     EXPECT_TRUE(names_in(folder).empty());
-}
-
-TEST(Render, ASignalEndsASequenceBetweenFrames) {
-    for (const int number : {SIGINT, SIGTERM}) {
-        const TemporaryFolder folder;
-        const auto words = small_render(folder / "f.#.exr", {"--frames", "0:1000000"});
-        const ChildResult result = run_kilolux(words, [&](pid_t child) {
-            wait_for(folder / "f.0.exr");
-            kill(child, number);
-        });
-        EXPECT_EQ(result.code, 130) << "signal " << result.signal << " " << result.err;
-        EXPECT_EQ(result.err, "kilolux: interrupted\n");
-        for (const std::string& name : names_in(folder)) {
-            EXPECT_TRUE(name.starts_with("f.")) << name;
-            EXPECT_EQ(read_image(folder / name).width, 48) << name;
-        }
-    }
 }
 
 TEST(Info, TellsDevicePlanAndScene) {

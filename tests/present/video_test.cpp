@@ -67,7 +67,7 @@ TEST(Video, CodesAreThoseOfBt709) {
                                                255, 0, 0,   255, 0,   255, 0,   255,
                                                0,   0, 255, 255, 128, 128, 128, 255};
     std::string out;
-    append_y4m_frame(out, colours);
+    out += y4m_frame(colours);
     // Table values: 16 + 219 Y', 128 + 224 Pb, 128 + 224 Pr.
     const std::vector<int> expected = {16,  235, 63,  173, 32,  126,   // Y'
                                        128, 128, 102, 42,  240, 128,   // Cb

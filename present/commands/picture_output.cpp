@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "present/commands/picture_output.h"
+
+#include <algorithm>
+
+#include "host/base/system/atomic_write.h"
+#include "present/cli/frame_summary.h"
+#include "present/image/display_picture.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The display colours of the covering surfaces alone, without the black background. Pixels that are
+// covered whole keep their codes.
+std::vector<float> covered_colours(const RenderOptions& options, const Frame& frame,
+                                   const std::vector<float>& alpha, std::vector<float> whole) {
+    Frame covered;
+    covered.width = frame.width;
+    covered.height = frame.height;
+    covered.radiance = frame.radiance;
+    for (std::size_t i = 0; i < covered.radiance.size(); ++i) {
+        if (alpha[i / 3] > 0.0f) covered.radiance[i] /= alpha[i / 3];
+    }
+    const std::vector<float> colours =
+        display_colours(covered, options.shared.settings, options.output.ocio);
+    if (whole.empty()) whole = display_codes(frame);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        if (alpha[i / 3] < 1.0f) whole[i] = colours[i];
+    }
+    return whole;
+}
+
+// The renderer's display picture has 8 bits and our tone curves; other pictures are made here.
+ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture) {
+    const OutputOptions& out = options.output;
+    const bool for_the_eye = is_for_the_eye(picture.task.file);
+    ImageOptions image;
+    image.half_colour = out.half_colour;
+    image.uint_ids = out.uint_ids;
+    image.bits = out.bits;
+    image.png_level = out.png_level;
+    image.alpha = picture.alpha;
+    if (for_the_eye && wants_own_display(options)) {
+        RenderSettings settings = options.shared.settings;
+        settings.background = options.shared.shown_background;
+        image.display = options.shared.show_error
+                            ? display_codes(picture.frame)
+                            : display_colours(picture.frame, settings, out.ocio);
+    }
+    if (for_the_eye && options.has_alpha) {
+        image.display =
+            covered_colours(options, picture.frame, picture.alpha, std::move(image.display));
+    }
+    return image;
+}
+
+// Codes a picture; the result writes it to its file, or appends it to the video.
+OrderedWriter::Write coded(const RenderOptions& options, RenderedPicture& picture,
+                           VideoFile* video) {
+    const ImageOptions image = image_options(options, picture);
+    if (video != nullptr) {
+        if (!image.display.empty()) set_display(picture.frame, image.display);
+        return [video, bytes = y4m_frame(picture.frame.display)] { video->write(bytes); };
+    }
+    const PictureTask& task = picture.task;
+    std::vector<unsigned char> difference;
+    if (picture.difference) {
+        difference = encode_image(task.difference, *picture.difference, {}, {});
+    }
+    return [file = task.file, beside = task.difference, difference = std::move(difference),
+            bytes = encode_image(task.file, picture.frame, picture.notes, image)] {
+        if (!beside.empty()) write_atomically(beside, difference);
+        write_atomically(file, bytes);
+    };
+}
+
+void append(WrittenPictures& made, FrameRecord record) {
+    if (made.log) made.log->add(record);
+    const bool failed = record.comparison && !record.comparison->passed();
+    if (failed && made.first_failure.empty()) {
+        made.first_failure = record.file + ": " + comparison_text(*record.comparison);
+    }
+    ++made.count;
+    made.last = std::move(record);
+}
+
+// Null for pictures.
+std::unique_ptr<VideoFile> open_video(const OutputOptions& out, const RenderSettings& settings) {
+    if (!is_video(out.output)) return nullptr;
+    return std::make_unique<VideoFile>(
+        out.output, VideoFormat{settings.width, settings.height, out.frames_per_second});
+}
+
+// Pictures that are worth holding while others are made, within the memory that is left.
+std::size_t most_held(std::size_t pictures, const MemoryPlan& memory) {
+    if (pictures < 2) return 0;
+    const std::uint64_t left = memory.limit > memory.bytes ? memory.limit - memory.bytes : 0;
+    return std::min<std::size_t>(2 * most_coding_threads(), left / 2 / memory.host_picture);
+}
+
+}  // namespace
+
+bool is_for_the_eye(const fs::path& output) {
+    return is_video(output) || image_meaning(output) == ImageMeaning::display;
+}
+
+bool wants_own_display(const RenderOptions& options) {
+    return options.output.bits == 16 || uses_ocio(options.output.ocio);
+}
+
+PictureOutput::PictureOutput(const RenderOptions& options, std::size_t count,
+                             const Renderer& renderer)
+    : options_(options),
+      video_(open_video(options.output, renderer.settings())),
+      progress_("rendering", count, !options.shared.quiet),
+      writer_(most_held(count, renderer.memory())) {
+    if (!options.output.stats.empty() && options.output.frames) written_.log.emplace();
+}
+
+void PictureOutput::add(RenderedPicture picture, FrameRecord record) {
+    records_.push_back(std::move(record));
+    const auto shared = std::make_shared<RenderedPicture>(std::move(picture));
+    writer_.add([this, shared] { return coded(options_, *shared, video_.get()); });
+    count_written();
+}
+
+WrittenPictures PictureOutput::finish() {
+    writer_.finish();
+    count_written();
+    if (video_) video_->commit();
+    return std::move(written_);
+}
+
+void PictureOutput::count_written() {
+    for (const std::size_t written = writer_.written(); written_.count < written;) {
+        append(written_, std::move(records_.front()));
+        records_.pop_front();
+        progress_.advance();
+    }
+}
+
+}  // namespace kilolux

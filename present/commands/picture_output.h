@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// From rendered pictures of `kilolux render` to their files.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/render/renderer.h"
+#include "present/cli/options.h"
+#include "present/cli/progress.h"
+#include "present/cli/stats_json.h"
+#include "present/commands/error_budget_options.h"
+#include "present/image/image_file.h"
+#include "present/image/ordered_writer.h"
+#include "present/video/video_file.h"
+
+namespace kilolux {
+
+struct RenderOptions {
+    SharedOptions shared;
+    OutputOptions output;
+    BudgetOptions budget;
+    bool has_alpha = false;  // the picture: see wants_alpha()
+    std::string command{};   // picture_command() of what was asked for
+};
+
+/// One picture to make: a frame of the sequence, or the only one.
+struct PictureTask {
+    int frame = 0;
+    double time = 0.0;  // [s]
+    std::filesystem::path file;
+    std::filesystem::path reference;   // empty: none
+    std::filesystem::path difference;  // empty: none
+};
+
+/// A picture that is rendered, until it is written.
+struct RenderedPicture {
+    PictureTask task;
+    Frame frame;
+    ImageNotes notes;
+    std::vector<float> alpha;         // empty: it has none
+    std::optional<Frame> difference;  // to the reference
+};
+
+/// A summary of the pictures written so far.
+struct WrittenPictures {
+    std::size_t count = 0;
+    FrameRecord last;
+    std::string first_failure;  // of a comparison; empty: none
+    std::optional<FrameLog> log;
+};
+
+/// Whether the output holds display colours.
+bool is_for_the_eye(const std::filesystem::path& output);
+
+/// Whether display colours are made on the host, of 16 bits or by OpenColorIO.
+bool wants_own_display(const RenderOptions& options);
+
+/// Pictures on their way to their files: they are coded in the pool of an OrderedWriter and written
+/// in order while the next ones are made.
+class PictureOutput {
+ public:
+    /// For `count` pictures, whose renderer's memory plan says how many are held at once. Throws
+    /// Error when a video cannot be made. The options must outlive this.
+    PictureOutput(const RenderOptions& options, std::size_t count, const Renderer& renderer);
+
+    /// Takes a picture. Throws Error where it or an earlier one cannot be coded or written.
+    void add(RenderedPicture picture, FrameRecord record);
+
+    /// A picture that was there already.
+    void skip() { progress_.advance(); }
+
+    /// Waits until all are written. Throws as add().
+    WrittenPictures finish();
+
+ private:
+    void count_written();
+
+    const RenderOptions& options_;
+    std::unique_ptr<VideoFile> video_;  // null for pictures
+    WrittenPictures written_;
+    std::deque<FrameRecord> records_;  // of pictures that are not written
+    Progress progress_;
+    OrderedWriter writer_;  // its threads use the members above
+};
+
+}  // namespace kilolux

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sequences of `kilolux render`, whose pictures are coded and written while the next are made.
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include "present/image/image_file.h"
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A sequence small enough for any machine.
+std::vector<std::string> small_sequence(const fs::path& output, std::vector<std::string> more) {
+    std::vector<std::string> words = {"render",   "grid", "--resolution", "48,32",
+                                      "--lights", "20",   "-o",           output.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+std::string numbered(int frame, const char* extension) {
+    return "f." + std::to_string(frame) + extension;
+}
+
+// A shard of one picture holds none while others are made.
+TEST(RenderSequence, HasTheBytesOfItsPicturesAlone) {
+    constexpr int kFrames = 4;
+    for (const char* extension : {".png", ".exr"}) {
+        const TemporaryFolder together, alone;
+        const std::string name = std::string("f.#") + extension;
+        const std::vector<std::string> frames = {"--frames", "0:" + std::to_string(kFrames - 1)};
+        const ChildResult result = run_kilolux(small_sequence(together / name, frames));
+        ASSERT_EQ(result.code, 0) << result.err;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            const std::string shard = std::to_string(frame) + "/" + std::to_string(kFrames);
+            std::vector<std::string> one = frames;
+            one.insert(one.end(), {"--shard", shard});
+            ASSERT_EQ(run_kilolux(small_sequence(alone / name, one)).code, 0);
+            const std::string file = numbered(frame, extension);
+            EXPECT_FALSE(text_of_file(alone / file).empty());
+            EXPECT_EQ(text_of_file(together / file), text_of_file(alone / file)) << file;
+        }
+        EXPECT_EQ(names_in(together), names_in(alone));
+    }
+}
+
+TEST(RenderSequence, APictureThatCannotBeWrittenIsNamedAndIsTheLast) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "f.3.png");
+    const ChildResult result = run_kilolux(small_sequence(folder / "f.#.png", {"--frames", "0:8"}));
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(contains(result.err, "f.3.png: cannot write: Is a directory")) << result.err;
+    EXPECT_EQ(names_in(folder),
+              (std::set<std::string>{"f.0.png", "f.1.png", "f.2.png", "f.3.png"}));
+    for (int frame = 0; frame < 3; ++frame) {
+        EXPECT_GT(fs::file_size(folder / numbered(frame, ".png")), 500u);
+    }
+}
+
+// Waits until the program has written its first frame, for two minutes at most.
+void wait_for(const fs::path& file) {
+    const timespec pause{0, 5'000'000};
+    for (int i = 0; i < 24'000 && !fs::exists(file); ++i) nanosleep(&pause, nullptr);
+}
+
+// The list of its frames would take 8 GiB.
+TEST(RenderSequence, ASequenceOfTwoThousandMillionFramesStarts) {
+    const TemporaryFolder folder;
+    std::vector<std::string> words = {"/usr/bin/prlimit", "--as=7000000000", program_file()};
+    const auto render = small_sequence(folder / "f.#.exr", {"--frames", "0:2147483647", "-q"});
+    words.insert(words.end(), render.begin(), render.end());
+    const ChildResult result = run_child(words, [&](pid_t child) {
+        wait_for(folder / "f.0.exr");
+        kill(child, SIGINT);
+    });
+    EXPECT_EQ(result.code, 130) << result.err;
+    EXPECT_TRUE(names_in(folder).contains("f.0.exr"));
+}
+
+TEST(RenderSequence, ASignalEndsASequenceBetweenFrames) {
+    for (const int number : {SIGINT, SIGTERM}) {
+        const TemporaryFolder folder;
+        const auto words = small_sequence(folder / "f.#.exr", {"--frames", "0:1000000"});
+        const ChildResult result = run_kilolux(words, [&](pid_t child) {
+            wait_for(folder / "f.0.exr");
+            kill(child, number);
+        });
+        EXPECT_EQ(result.code, 130) << "signal " << result.signal << " " << result.err;
+        EXPECT_EQ(result.err, "kilolux: interrupted\n");
+        for (const std::string& name : names_in(folder)) {
+            EXPECT_TRUE(name.starts_with("f.")) << name;
+            EXPECT_EQ(read_image(folder / name).width, 48) << name;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
