@@ -39,5 +39,18 @@ TEST(MemoryPlan, DeviceBuffersHoldTheWholePictureOfBloom) {
     EXPECT_GE(with.bytes, without.bytes);
 }
 
+// Without generated lights the message names none.
+TEST(MemoryPlan, TheProgramAloneMayBeTooLarge) {
+    RenderSettings settings = small_settings(64, 64, 5000);
+    settings.max_memory_bytes = 1 << 20;
+    const auto refused = [&](std::uint64_t lights) {
+        return message_of<Error>([&] { check_light_memory(lights, settings); });
+    };
+    EXPECT_TRUE(refused(0).starts_with("memory: the program needs at least 256 MiB")) << refused(0);
+    EXPECT_TRUE(refused(5000).starts_with("memory: 5000 lights need at least ")) << refused(5000);
+    settings.max_memory_bytes = 1 << 30;
+    EXPECT_NO_THROW(check_light_memory(5000, settings));
+}
+
 }  // namespace
 }  // namespace kilolux
