@@ -68,9 +68,9 @@ std::string option_head(const CLI::Option& option) {
 std::string option_entry(const CLI::Option& option) {
     std::string text = option.get_description();
     if (!option.get_default_str().empty()) {
-        const std::string standard =
+        const std::string default_text =
             fmt::format(" [default:{}{}]", kFixedSpace, option.get_default_str());
-        text.insert(std::min(text.find('\n'), text.size()), standard);
+        text.insert(std::min(text.find('\n'), text.size()), default_text);
     }
     return entry(option_head(option), text);
 }

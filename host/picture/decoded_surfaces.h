@@ -2,12 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "host/picture/frame.h"
 #include "host/picture/web_in_view.h"
-#include "host/scene/camera.h"
 #include "kernels/shared/cluster_grid.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/surface_planes.h"
@@ -68,11 +66,5 @@ std::optional<uint> coarse_cluster_at(const DecodedSurfaces& surfaces, std::size
 /// The share of the lights that pixel `i` of the planes faces within their range which something
 /// hides; 0 where there are none.
 double hidden_share(const DecodedSurfaces& surfaces, std::size_t i);
-
-/// The AOV layers' names, as `--aov` takes them.
-const std::vector<std::string>& aov_names();
-
-/// One AOV layer. Positions and normals are in world space. Throws UsageError for an unknown name.
-Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera);
 
 }  // namespace kilolux

@@ -41,7 +41,7 @@ struct FrameRequest {
     bool counts = false;            // also k*, by one more pass
     bool shadow_counts = false;     // also FrameStats::shadows, by casting the shadows once more
     ViewKind view = ViewKind::lit;  // what Frame::display shows
-    std::vector<std::string> aovs;  // Frame::aovs, see aov_names()
+    std::vector<std::string> aovs;  // Frame::aovs, see aov_kinds()
     bool probes = false;            // pixels will be probed: surfaces keep all attributes
     bool operator==(const FrameRequest&) const = default;
 

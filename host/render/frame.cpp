@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/base/system/interrupt.h"
+#include "host/picture/aovs.h"
 #include "host/picture/frame_bands.h"
 #include "host/picture/sample_pattern.h"
 #include "host/picture/views.h"

@@ -8,7 +8,7 @@
 #include "host/base/formats/gbuffer_layout.h"
 #include "host/measure/bench/sweep.h"
 #include "host/measure/metrics/error_metrics.h"
-#include "host/picture/decoded_surfaces.h"
+#include "host/picture/aovs.h"
 #include "host/picture/views.h"
 
 namespace kilolux {
@@ -152,23 +152,12 @@ Choices gbuffer_choices() {
 }
 
 Choices aov_choices() {
-    return ordered(
-        aov_names(),
-        {{"depth", "Z: distance along the view direction, in metres"},
-         {"position", "P.X, P.Y, P.Z: in the world, in metres"},
-         {"normal", "N.X, N.Y, N.Z: in the world"},
-         {"albedo", "albedo.R, .G, .B: linear"},
-         {"roughness", "0 to 1"},
-         {"metallic", "0 to 1"},
-         {"emissive", "emissive.R, .G, .B: radiance"},
-         {"light-count", "lights evaluated, integers"},
-         {"cluster", "coarse cluster + 1, integers; 0: background"},
-         {"visibility", "share of the lights in reach that are seen"},
-         {"error-standard",
-          "of the luminance: of one sample (--shadows sampled, --tails stochastic), or of the mean "
-          "(--samples auto)"},
-         {"error-bound", "most radiance that --tails bounded or tree errs by (deferred only)"},
-         {"sample-count", "samples of --samples auto, integers"}});
+    Choices out(std::vector<std::string>{});
+    for (const AovKind& kind : aov_kinds()) {
+        out.names.push_back(kind.name);
+        out.meanings.push_back(kind.meaning);
+    }
+    return out;
 }
 
 Choices metric_choices() {

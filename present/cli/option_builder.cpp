@@ -51,7 +51,8 @@ void add_option(CLI::App& command, const Setting& setting) {
                   ->check(flag_problem)
             : command.add_option_function<std::string>(text.name, setting.take, text.meaning)
                   ->type_name(text.form)
-                  ->default_str(text.standard);
+                  ->default_str(text.default_text.empty() && setting.show ? setting.show()
+                                                                          : text.default_text);
     option->group(setting.heading)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 

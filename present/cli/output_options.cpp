@@ -50,7 +50,7 @@ void add_encoding_options(CLI::App& command, OutputOptions& o) {
                 "How EXR holds layers of whole numbers; uint in any case above 16777216, where "
                 "floats are not exact"},
                o.uint_ids, take_ids)
-        .value({"--bits", "8|16", "8", "Bits a channel of PNG and TIFF"}, o.bits, bits)
+        .value({"--bits", "8|16", "", "Bits a channel of PNG and TIFF"}, o.bits, bits)
         .text({"--ocio-view", "NAME|none", "the display's",
                "OpenColorIO view of pictures for the eye in place of --tonemap, where the "
                "environment's OCIO names a configuration; none: no OpenColorIO"},
@@ -66,7 +66,7 @@ void add_sequence_options(CLI::App& command, OutputOptions& o) {
     OptionBuilder(command, "Sequences")
         .value({"--frames", "A:B", "", "Frames A to B; frame f is at --time + f / --fps"}, o.frames,
                parse_frames)
-        .number({"--fps", "F", "24", "Frames a second"}, o.frames_per_second, {0.0, 1e6, true})
+        .number({"--fps", "F", "", "Frames a second"}, o.frames_per_second, {0.0, 1e6, true})
         .value({"--shard", "I/N", "0/1", "Only every N-th frame, from the I-th on, counted from 0"},
                o.shard, parse_shard)
         .number({"--turntable", "DEGREES", "",
@@ -87,7 +87,7 @@ void add_comparison_options(CLI::App& command, OutputOptions& o) {
     OptionBuilder(command, "Comparison")
         .text({"--reference", "FILE", "", "Compare the picture with this one"}, o.reference)
         .number({"--threshold", "T", "0", "Exit with 3 if the metric is above"}, o.threshold, {0.0})
-        .choice({"--metric", "", "rmse", "What is compared with the threshold"}, o.metric,
+        .choice({"--metric", "", "", "What is compared with the threshold"}, o.metric,
                 metric_choices())
         .value({"--difference", "FILE", "",
                 "Write the difference: .exr holds |picture - reference| a channel, .png a heat "

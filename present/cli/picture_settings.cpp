@@ -37,13 +37,13 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
     };
     const bool automatic = o.takes_automatic_samples;
     OptionBuilder(f, "Picture")
-        .choice({"--renderer", "", "deferred", "How surfaces are lit", kPanelPicture}, s.renderer)
+        .choice({"--renderer", "", "", "How surfaces are lit", kPanelPicture}, s.renderer)
         .value(SettingKind::numbers,
-               {"--resolution", "W,H", "1920,1080", "Size in pixels; WxH is as good", kPicture},
-               resolution, [&s] { return fmt::format("{},{}", s.width, s.height); })
+               {"--resolution", "W,H", "", "Size in pixels; WxH is as good", kPicture}, resolution,
+               [&s] { return fmt::format("{},{}", s.width, s.height); })
         .value(
             SettingKind::count,
-            {"--samples", automatic ? "N|auto" : "N", "1",
+            {"--samples", automatic ? "N|auto" : "N", "",
              automatic ? "Jittered samples a pixel; auto: as many as each tile of 16x16 pixels "
                          "needs, see --sample-error"
                        : "Jittered samples a pixel",
@@ -51,10 +51,10 @@ void visit_picture(const SettingVisitor& f, SharedOptions& o) {
             [&o](const auto& name, const auto& text) { take_samples(o, name, text); },
             [&s] { return s.auto_samples.on ? "auto" : text_of(s.samples); })
         .number(
-            {"--time", "T", "0", "Seconds: moves the lights and the file's animations", kPicture},
+            {"--time", "T", "", "Seconds: moves the lights and the file's animations", kPicture},
             o.time)
         .choice(
-            {"--show", "", "lit", "What the picture shows", kPanelPicture}, show_choices(),
+            {"--show", "", "", "What the picture shows", kPanelPicture}, show_choices(),
             [&o](std::size_t place) {
                 o.show_error = place == view_names().size();
                 o.settings.want.view = o.show_error ? ViewKind::lit : static_cast<ViewKind>(place);
@@ -76,11 +76,9 @@ void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
     };
     OptionBuilder(f, "Picture")
         .rest()
-        .choice(
-            {"--gbuffer", "", "packed", "How a pixel is stored between the passes", kPanelPicture},
-            s.gbuffer, gbuffer_choices())
-        .choice({"--geometry", "", "auto", "How surfaces get into the G-buffer", kPicture},
-                s.geometry)
+        .choice({"--gbuffer", "", "", "How a pixel is stored between the passes", kPanelPicture},
+                s.gbuffer, gbuffer_choices())
+        .choice({"--geometry", "", "", "How surfaces get into the G-buffer", kPicture}, s.geometry)
         .value(
             {"--anisotropy", "N", "1 on CPUs, 8 on GPUs", "Texture samples along a footprint",
              kPicture},
@@ -89,26 +87,29 @@ void visit_surfaces(const SettingVisitor& f, SharedOptions& o) {
                 return parse_count(name, text, kAnisotropyRange);
             },
             [&s] { return s.anisotropy == 0 ? "" : text_of(s.anisotropy); })
-        .number({"--sample-error", "E", "0.05",
+        .number({"--sample-error", "E", "",
                  "With --samples auto: a tile stops at this relative standard error of its "
                  "luminance; dark light counts as 0.1 of white at least",
                  kPicture},
                 s.auto_samples.error, kAboveZeroRange)
-        .count({"--max-samples", "N", "256", "With --samples auto: most samples a pixel", kPicture},
+        .count({"--max-samples", "N", "", "With --samples auto: most samples a pixel", kPicture},
                s.auto_samples.most, kAutoSamplesRange)
         .flag("--no-reuse", s.no_reuse, "Compute every frame anew, also what has not changed",
               kTime)
-        .choice({"--shading", "", "auto", "How surfaces reflect light", kPanelPicture}, s.shading)
-        .choice({"--shadows", "", "off", "Which lights a surface sees", kPanelPicture}, s.shadows)
+        .choice({"--shading", "", "", "How surfaces reflect light", kPanelPicture}, s.shading)
+        .choice({"--shadows", "", "", "Which lights a surface sees", kPanelPicture}, s.shadows)
         .value(SettingKind::count,
-               {"--shadow-rays", "N", "4; with --max-error as many as it takes",
+               {"--shadow-rays", "N",
+                text_of(s.shadow_rays) + "; with --max-error as many as it takes",
                 "Rays a pixel of sampled shadows, at most on average", kPicture},
                take_rays, [&s] { return text_of(s.shadow_rays); })
-        .count({"--seed", "N", "1", "Random numbers of sampled shadows and stochastic tails",
-                kPicture},
-               s.seed, kSeedRange)
+        .count(
+            {"--seed", "N", "", "Random numbers of sampled shadows and stochastic tails", kPicture},
+            s.seed, kSeedRange)
         .value(SettingKind::number,
-               {"--ambient", "L", "0.02; with the rig studio 0.2",
+               {"--ambient", "L",
+                text_of(s.ambient) + "; with the rig studio " +
+                    text_of(rig_ambient(Rig::studio, s.ambient)),
                 "Radiance from everywhere, times the albedo", kPanelPicture},
                take_ambient, [&s] { return text_of(s.ambient); });
 }
@@ -146,7 +147,7 @@ void visit_display(const SettingVisitor& f, SharedOptions& o) {
     OptionBuilder(f, "Display (PNG, JPEG, TIFF; EXR and HDR stay linear and unclamped)")
         .value(
             SettingKind::number,
-            {"--exposure", automatic ? "EV|auto" : "EV", "0",
+            {"--exposure", automatic ? "EV|auto" : "EV", "",
              automatic ? "Each step doubles the brightness; auto: the log average of the picture's "
                          "luminance becomes 0.18, or less where more than 2 % would clip; a "
                          "sequence keeps that of its first frame"
@@ -154,17 +155,17 @@ void visit_display(const SettingVisitor& f, SharedOptions& o) {
              kPanelPicture},
             [&o](const auto& name, const auto& text) { take_exposure(o, name, text); },
             [&o] { return o.automatic_exposure ? "auto" : text_of(o.settings.exposure); })
-        .choice({"--tonemap", "", "neutral; of an unlit scene none",
+        .choice({"--tonemap", "", name_of(s.tone_curve) + "; of an unlit scene none",
                  "Curve from scene light to the display's range", kPanelPicture},
                 tone_curve_choices(), take_curve, [&s] { return name_of(s.tone_curve); })
-        .value({"--background", "COLOUR|none|auto", "auto",
+        .value({"--background", "COLOUR|none|auto", "",
                 "What is behind the scene: #RRGGBB, as the display shows it without bloom; R,G,B: "
                 "linear light that exposure and tone curve apply to; none: black, and clear in PNG "
                 "and "
                 "EXR without bloom; auto: the environment, else black",
                 kPicture},
                o.background, take_background)
-        .number({"--bloom", "K", "0", "Share of the light that blooms, 0 to 1", kPanelPicture},
+        .number({"--bloom", "K", "", "Share of the light that blooms, 0 to 1", kPanelPicture},
                 s.bloom, kBloomRange);
 }
 

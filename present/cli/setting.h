@@ -29,10 +29,10 @@ inline constexpr Effect kPanelPicture{Changes::picture, true};
 
 /// The text of an option in --help.
 struct OptionText {
-    std::string name;        // "--lights", or "--output,-o"
-    std::string form{};      // of the value: "N"; words in small letters between '|' are names
-    std::string standard{};  // default as text; empty: the meaning says what happens
-    std::string meaning{};   // with the unit
+    std::string name;            // "--lights", or "--output,-o"
+    std::string form{};          // of the value: "N"; words in small letters between '|' are names
+    std::string default_text{};  // where it says more than the default's own text; else empty
+    std::string meaning{};       // with the unit
     Effect effect = kNeither;
 };
 

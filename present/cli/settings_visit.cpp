@@ -41,7 +41,7 @@ void count_members(SharedOptions& options) {
 
 void visit_scene(const SettingVisitor& f, SharedOptions& o) {
     OptionBuilder(f, "Scene")
-        .text({"SCENE", "", "atrium",
+        .text({"SCENE", "", "",
                "A generated scene (" + joined(generated_scene_names()) +
                    ") or a glTF 2.0 file, .gltf or .glb",
                kPicture},
@@ -55,13 +55,13 @@ void visit_scene(const SettingVisitor& f, SharedOptions& o) {
         .flag("--strict", o.load.strict,
               "Refuse a file that has anything that the picture would lack; else a warning says "
               "so")
-        .choice({"--view", "", "auto",
+        .choice({"--view", "", "",
                  "From where the scene is seen and how it is lit; inside and outside mean the "
                  "automatic camera, unless there is --camera-index I",
                  kPicture},
                 o.camera.view)
         .rest()
-        .value({"--line-width", "METRES|PERCENT%", "0.2%",
+        .value({"--line-width", "METRES|PERCENT%", "",
                 "Width of points and lines: a share of the scene's diagonal, or metres", kPicture},
                o.load.line_width, parse_line_width)
         .flag("--allow-outside-paths", o.load.allow_outside_paths,
@@ -75,20 +75,20 @@ void visit_lights(const SettingVisitor& f, SharedOptions& o) {
         o.lights_given = true;
     };
     OptionBuilder(f, "Lights, added to the file's own")
-        .choice({"--rig", "", "auto", "What lights the scene", kPanelPicture}, o.rig)
+        .choice({"--rig", "", "", "What lights the scene", kPanelPicture}, o.rig)
         .value(SettingKind::count,
-               {"--lights", "N", "5000 with the rig swarm",
+               {"--lights", "N", text_of(l.count) + " with the rig swarm",
                 "Generated point lights, e.g. 20k or 1e6, beside any rig; without --rig they are "
                 "the rig, and 0 keeps only the file's own",
                 kPanelPicture},
                take_count, [&l] { return text_of(l.count); })
-        .count({"--light-seed", "S", "1", "Decides places, colours and motion", kPanelPicture},
+        .count({"--light-seed", "S", "", "Decides places, colours and motion", kPanelPicture},
                l.seed, kLightSeedRange)
-        .number_or_auto({"--light-radius", "R|auto", "auto",
+        .number_or_auto({"--light-radius", "R|auto", "",
                          "Range in metres; beyond it a light is exactly 0", kPanelPicture},
                         l.radius, kAboveZeroRange)
         .number_or_auto(
-            {"--light-intensity", "I|auto", "auto", "Brightest channel in candela", kPanelPicture},
+            {"--light-intensity", "I|auto", "", "Brightest channel in candela", kPanelPicture},
             l.intensity, kAboveZeroRange)
         .text(
             {"--environment", "FILE|studio|sky", "",
@@ -108,19 +108,16 @@ void visit_more_lights(const SettingVisitor& f, SharedOptions& o) {
               "lights, so that shiny metals reflect it; render and view; not blended surfaces, no "
               "forward renderers",
               kPicture)
-        .count(
-            {"--environment-lights", "N", "128", "Directional lights that stand for it", kPicture},
-            o.environment_lights, {1, 65536})
+        .count({"--environment-lights", "N", "", "Directional lights that stand for it", kPicture},
+               o.environment_lights, {1, 65536})
         .value({"--light-box", "X0,Y0,Z0,X1,Y1,Z1", "the scene's", "Where they are, in metres",
                 kPicture},
                s.lights.box, parse_box)
-        .choice(
-            {"--tails", "", "auto", "Where the file's lights without a range end", kPanelPicture},
-            s.tails)
-        .number({"--range-budget", "E", "0.00390625", "Radiance at which a bounded light ends",
-                 kPicture},
+        .choice({"--tails", "", "", "Where the file's lights without a range end", kPanelPicture},
+                s.tails)
+        .number({"--range-budget", "E", "", "Radiance at which a bounded light ends", kPicture},
                 s.range_budget, kAboveZeroRange)
-        .number({"--tree-share", "S", "0.3",
+        .number({"--tree-share", "S", "",
                  "Largest error of a group of a tree, as a share of the light that it sends",
                  kPanelPicture},
                 s.tree_share, kShareRange);
@@ -149,7 +146,7 @@ void visit_camera(const SettingVisitor& f, CameraChoice& c) {
         .number({"--camera-view-angle", "DEG", "the camera's, else 45",
                  "Vertical angle, in degrees", kPicture},
                 c.view_angle, {0.0, 180.0, true})
-        .choice({"--fit", "", "both",
+        .choice({"--fit", "", "",
                  "What a picture of another shape keeps of a file's camera that has an aspect",
                  kPicture},
                 c.fit)
@@ -167,7 +164,7 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
     OptionBuilder(f, "Device")
         .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, s.device)
         .rest()
-        .value({"--max-memory", "SIZE|auto", "auto",
+        .value({"--max-memory", "SIZE|auto", "",
                 "Bound for rendering, e.g. 512M or 4G: pictures that need more are made in bands, "
                 "with the same bits; a scene file's buffers, images and meshes have the "
                 "same bound; auto: most of what is available",
@@ -175,18 +172,17 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
                s.max_memory_bytes, parse_bytes,
                [&s] { return s.max_memory_bytes == 0 ? "auto" : text_of(s.max_memory_bytes); })
         .value(SettingKind::numbers,
-               {"--grid", "X,Y,SLICES_PER_OCTAVE", "16,9,4",
+               {"--grid", "X,Y,SLICES_PER_OCTAVE", "",
                 "Coarse clusters: tiles across and down, slices for each doubling of depth",
                 kPanelPicture},
                grid, grid_text)
-        .value({"--lanes", "auto|1|2|4|8|16", "auto",
+        .value({"--lanes", "auto|1|2|4|8|16", "",
                 "Pixels or lights a work-item treats at once; changes no bit on CPUs", kPanelTime},
                s.kernels.lanes, parse_lanes,
                [&s] { return s.kernels.lanes == 0 ? "auto" : text_of(s.kernels.lanes); })
-        .choice({"--math", "", "exact", "How shading kernels compute", kPicture}, s.kernels.math)
-        .choice(
-            {"--light-colors", "", "float", "How shading kernels store lights' colours", kPicture},
-            s.kernels.light_colors);
+        .choice({"--math", "", "", "How shading kernels compute", kPicture}, s.kernels.math)
+        .choice({"--light-colors", "", "", "How shading kernels store lights' colours", kPicture},
+                s.kernels.light_colors);
 }
 
 }  // namespace

@@ -101,10 +101,11 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
     add_sweep_options(command, options.axes);
     add_mode_options(command, options);
     OptionBuilder(command, "Measuring and output")
-        .count({"--warm-up", "N", "30", "Frames before those that count"}, options.warm_up,
-               {0, 1'000'000})
-        .count({"--frames", "N", "120", "Frames that count; runs with --tune"}, options.frames,
-               {1, 1'000'000})
+        .count({"--warm-up", "N", text_of(BenchFrames{}.warm_up), "Frames before those that count"},
+               options.warm_up, {0, 1'000'000})
+        .count({"--frames", "N", text_of(BenchFrames{}.measured),
+                "Frames that count; runs with --tune"},
+               options.frames, {1, 1'000'000})
         .choice({"--motion", "", "camera", "What moves from frame to frame"}, options.motion)
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON and plots"}, options.output)
         .flag("--resume", options.resume,

@@ -117,9 +117,9 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
     OptionBuilder(command, "Window")
         .flag("--fresh", options.fresh,
               "Begin with the defaults instead of the last window's settings; keep nothing")
-        .count(
-            {"--exit-after", "N", "", "Leave when N pictures have been made, also while minimised"},
-            options.exit_after, {1, 1'000'000'000})
+        .count({"--exit-after", "N", "never",
+                "Leave when N pictures have been made, also while minimised"},
+               options.exit_after, {1, 1'000'000'000})
         .text({"--screenshot", "FILE", "", "Write what the window shows at the end"},
               options.screenshot)
         .text({"--script", "FILE", "",

@@ -3,6 +3,8 @@
 
 #include <functional>
 
+#include "host/scene/material_table.h"
+
 namespace kilolux {
 namespace {
 
@@ -73,10 +75,15 @@ std::array<TextureFootprint, 2> footprints(const SurfaceHit& hit) {
 
 using Footprints = std::array<TextureFootprint, 2>;
 
+glm::dvec4 texel(const SurfaceHit& hit, int use, const Footprints& uv) {
+    const MaterialMap& map = kMaterialMaps[static_cast<std::size_t>(use)];
+    return hit.textures.sample(material_of(hit).*map.member,
+                               map.srgb ? TextureEncoding::srgb : TextureEncoding::linear, uv);
+}
+
 glm::dvec4 base_color(const SurfaceHit& hit, const Footprints& uv) {
     const Material& material = material_of(hit);
-    glm::dvec4 color = glm::dvec4(material.base_color) *
-                       hit.textures.sample(material.base_color_texture, TextureEncoding::srgb, uv);
+    glm::dvec4 color = glm::dvec4(material.base_color) * texel(hit, USE_BASE_COLOR, uv);
     const auto& colors = mesh_of(hit).colors;
     if (!colors.empty()) color *= interpolated<glm::dvec4>(hit, colors, hit.hit.weights);
     return color;
@@ -117,9 +124,7 @@ glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv) {
     const glm::dvec3 tangent = interpolated_direction(hit, tangents, world_from_object);
     const double w = interpolated<glm::dvec4>(hit, tangents, hit.hit.weights).w;
     const glm::dvec3 bitangent = glm::cross(normal, tangent) * (w * orientation(hit));
-    const glm::dvec4 texel =
-        hit.textures.sample(material.normal_texture, TextureEncoding::linear, uv);
-    const glm::dvec3 map = 2.0 * glm::dvec3(texel) - 1.0;
+    const glm::dvec3 map = 2.0 * glm::dvec3(texel(hit, USE_NORMAL, uv)) - 1.0;
     const double scale = material.normal_scale;
     return unit_or_zero(tangent * (map.x * scale) + bitangent * (map.y * scale) + normal * map.z);
 }
@@ -127,10 +132,8 @@ glm::dvec3 mapped_normal(const SurfaceHit& hit, const Footprints& uv) {
 void set_reflectance(const SurfaceHit& hit, const Footprints& uv, SurfaceSample& out) {
     const Material& m = material_of(hit);
     const double root = (double{m.ior} - 1.0) / (double{m.ior} + 1.0);
-    const glm::dvec4 color =
-        hit.textures.sample(m.specular_color_texture, TextureEncoding::srgb, uv);
-    out.specular_f90 =
-        double{m.specular} * hit.textures.sample(m.specular_texture, TextureEncoding::linear, uv).w;
+    const glm::dvec4 color = texel(hit, USE_SPECULAR_COLOR, uv);
+    out.specular_f90 = double{m.specular} * texel(hit, USE_SPECULAR, uv).w;
     const glm::dvec3 f0 = root * root * glm::dvec3(m.specular_color) * glm::dvec3(color);
     out.specular = glm::min(f0, glm::dvec3(1.0)) * out.specular_f90;
 }
@@ -162,16 +165,12 @@ SurfaceSample surface_at(const SurfaceHit& hit) {
     out.kind = SurfaceKind::lit;
     out.albedo = glm::dvec3(base_color(hit, uv));
     out.normal = mapped_normal(hit, uv) * (front_facing(hit) ? 1.0 : -1.0);
-    const glm::dvec4 metallic_roughness =
-        hit.textures.sample(material.metallic_roughness_texture, TextureEncoding::linear, uv);
+    const glm::dvec4 metallic_roughness = texel(hit, USE_METALLIC_ROUGHNESS, uv);
     out.roughness = material.roughness * metallic_roughness.y;
     out.metallic = material.metallic * metallic_roughness.z;
-    const double occlusion =
-        hit.textures.sample(material.occlusion_texture, TextureEncoding::linear, uv).x;
+    const double occlusion = texel(hit, USE_OCCLUSION, uv).x;
     out.occlusion = 1.0 + material.occlusion_strength * (occlusion - 1.0);
-    out.emissive =
-        glm::dvec3(material.emissive) *
-        glm::dvec3(hit.textures.sample(material.emissive_texture, TextureEncoding::srgb, uv));
+    out.emissive = glm::dvec3(material.emissive) * glm::dvec3(texel(hit, USE_EMISSIVE, uv));
     set_reflectance(hit, uv, out);
     if (material.unlit) apply_unlit(out);
     return out;

@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/base/system/memory.h"
+#include "host/picture/aovs.h"
 #include "host/picture/bands.h"
 #include "host/picture/decoded_surfaces.h"
 #include "host/render/forward_shading.h"
@@ -90,8 +91,7 @@ struct Need {
 };
 
 Bytes layer_bytes(const RenderSettings& settings) {
-    constexpr Bytes kMostChannels = 3;
-    return settings.want.aovs.size() * kMostChannels * sizeof(float);
+    return settings.want.aovs.size() * most_aov_channels() * sizeof(float);
 }
 
 // Bytes of a pixel of the whole picture on the host, and on the device where stages need all of it.

@@ -209,5 +209,20 @@ TEST(DecodeGBuffer, HalfLayoutTurnsWorldIntoViewSpace) {
     });
 }
 
+// Another program's normals may be zero; light must not become a NaN of them.
+TEST(DecodeGBuffer, HalfNormalsWithoutALengthStayZero) {
+    const Gpu gpu = test_gpu();
+    const KernelFeatures features = features_of(GBUFFER_HALF);
+    Synthetic image = make_synthetic(make_view({17, 5}), features, noise_depth(0.3, 60.0, 0.2, 3));
+    for (const uint i : {0u, 1u, 2u}) {
+        std::uint16_t* plane = image.plane<std::uint16_t>(PLANE_NORMAL_X + i);
+        std::fill(plane, plane + image.view.stride * image.view.height, std::uint16_t{0});
+    }
+    const Planes planes = decode(gpu, features, upload_gbuffer(gpu, image));
+    for_drawn(image, [&](uint x, uint y) {
+        EXPECT_EQ(planes.vector(SURFACE_NORMAL, x, y), glm::dvec3(0.0)) << x << ", " << y;
+    });
+}
+
 }  // namespace
 }  // namespace kilolux

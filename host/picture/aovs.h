@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layers beside a picture's colour (arbitrary output variables).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/picture/decoded_surfaces.h"
+#include "host/scene/camera.h"
+
+namespace kilolux {
+
+/// A row of the table of AOVs.
+struct AovKind {
+    std::string name;                   // as `--aov` takes it
+    std::vector<std::string> channels;  // of an EXR file
+    std::string meaning;                // for --help, with the unit
+    /// The layer's values or ids at every pixel. The surfaces have what it shows: check_settings()
+    /// refuses settings that do not make it.
+    void (*fill)(const DecodedSurfaces& surfaces, const Camera& camera, Layer& layer);
+};
+const std::vector<AovKind>& aov_kinds();
+
+/// Most channels of an AOV.
+std::size_t most_aov_channels();
+
+/// One AOV. Throws UsageError for an unknown name.
+Layer make_aov(std::string_view name, const DecodedSurfaces& surfaces, const Camera& camera);
+
+}  // namespace kilolux

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which tests may kill a mutant of a file: programs and cases, the quick ones first."""
+import re
+
+LIGHTING = [("opencl_tests", "Evaluate.*"), ("opencl_tests", "Shade.*"), ("raster_tests", "ForwardPassTest.*"),
+            ("measure_tests", "Reference.*:ReferenceLights.*"), ("render_tests", "Specular.*:Unlit.*:MathModes.*")]
+BACKGROUND = [("opencl_tests", "FillBackground.*"), ("measure_tests", "Reflections.*"),
+              ("render_tests", "Background.*:Reflections.*")]
+DISPLAY = [("opencl_tests", "Tonemap.*"), ("render_tests", "ShadedDisplay.*:Bloom.*")]
+GBUFFER = [("opencl_tests", "DecodeGBuffer.*:RepackGBuffer.*"), ("opencl_tests", "ResolveSurfaces.*"),
+           ("raster_tests", "GBufferLayoutsTest.*:GeometryPassTest.*")]
+SURFACES = [("opencl_tests", "ResolveSurfaces.*:CountTexels.*"),
+            ("measure_tests", "HitSurface.*:ResolvedSurfaces.*:TextureSampler.*"),
+            ("raster_tests", "MaterialTest.*:SamplerTest.*:AnisotropyTest.*:GeometryPassTest.*")]
+TRIANGLES = [("opencl_tests", "ExactSign.*:ResolveSurfaces.*"), ("certify_tests", "CoincidentTriangles.*:TriangleIds.*"),
+             ("render_tests", "TriangleRoom.*:DiscreteDevice.*")]
+LISTS = [("opencl_tests", "ClusterGrid.*:BuildClusters.*:Slice.*:MakeView.*:RefineLights.*:CountPairs.*:PrefixSum.*"),
+         ("opencl_tests", "LightLists.*:CountLights.*:MaskTiles.*:BinPixels.*"), ("opencl_tests", "CullLights.*")]
+LIGHTS = [("opencl_tests", "PrepareLights.*:MoveLights.*:DriftLights.*"), ("render_tests", "LightOrder.*:Samples.*")]
+PROFILES = [("render_tests", "LightProfiles.*")]
+TREE = [("opencl_tests", "LightTreeKernels.*"), ("render_tests", "LightTreePictures.*")]
+TAILS = [("render_tests", "Tails.*")]
+SHADOWS = [("opencl_tests", "CastShadows.*"), ("render_tests", "Shadows.*:SampledShadows.*:ShadowError.*")]
+PICTURES = [("certify_tests", "All/HardCases.*Lanes8"), ("render_tests", "Paths.*:Bands.*:Views.*")]
+
+# The first that fits a path below kernels/.
+STEPS = (
+    (r"shared/(evaluate|surface\.|light_sum|evaluate_modes|power)", LIGHTING + TAILS),
+    (r"shared/(gbuffer|store|surface_planes)", GBUFFER + PICTURES),
+    (r"shared/(texture|mips|surface_of|surface_scene|material|triangle)", SURFACES + PICTURES),
+    (r"shared/raster_row", TRIANGLES),
+    (r"shared/(hash|light_drift|light_order|light_transform|light\.)", LIGHTS + LIGHTING + TAILS),
+    (r"shared/light_profile", PROFILES),
+    (r"shared/light_tree", TREE),
+    (r"shared/shadow", SHADOWS),
+    (r"shared/tone_curve", DISPLAY + BACKGROUND),
+    (r"shared/(types|view|clusters|cluster_grid)", LISTS + LIGHTING + SURFACES + PICTURES),
+    (r"shading/(environment|reflect_environment|fill_background)", BACKGROUND),
+    (r"shading/sum_lights", LIGHTING + SHADOWS),
+    (r"shading/light_target", LIGHTING + DISPLAY),
+    (r"shading/", LIGHTING + PICTURES),
+    (r"lights/", LIGHTS + PROFILES + TAILS),
+    (r"lists/", LISTS + PICTURES),
+    (r"shadows/", SHADOWS),
+    (r"surfaces/(store_gbuffer|repack_gbuffer|decode_gbuffer)", GBUFFER + PICTURES),
+    (r"surfaces/(count_texels|build_mips|resolve)", SURFACES + PICTURES),
+    (r"surfaces/", TRIANGLES + PICTURES),
+    (r"device/(gbuffer|pixels)", GBUFFER + LIGHTING + PICTURES),
+    (r"device/(triangle|texture|longest_edge)", SURFACES + TRIANGLES + PICTURES),
+    (r"device/(display|srgb|luminance)", DISPLAY + GBUFFER),
+    (r"device/(radiance|stored_light|light_index)", LIGHTING + PICTURES),
+    (r"device/", LISTS + LIGHTING + GBUFFER + PICTURES),
+)
+
+
+def steps_of(file):
+    found = next(steps for pattern, steps in STEPS if re.match(pattern, file.removeprefix("kernels/")))
+    return list(dict.fromkeys(found))
