@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/messages.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
