@@ -126,6 +126,29 @@ TEST(LightProfile, ALightWithoutOneIsEvenAndItsOwnPlaceHasAShare) {
     }
 }
 
+// Angles that rounding puts before the table's first row have that row's share.
+TEST(LightProfile, ReadsNothingBeforeItsTable) {
+    IesText upward{.vertical = {90, 180}, .horizontal = angle_steps(0, 360, 24)};
+    upward.candela = [](double v, double) { return v == 90.0 ? 30.0 : 100.0; };
+    std::vector<float> tables(64, 1e30f);
+    const std::vector<float> table = web_of(upward).table;
+    tables.insert(tables.end(), table.begin(), table.end());
+    std::vector<glm::dvec3> level;
+    for (std::size_t k = 0; k < kCount; ++k) {
+        const double tilt = 2e-9 * (static_cast<double>(k) - kCount / 2.0);
+        const double around = 0.1 * static_cast<double>(k);
+        level.emplace_back(std::cos(around), tilt, std::sin(around));
+    }
+    const std::vector<AimedProfile> lights = {{{0, -1, 0, 64}, {1, 0, 0, 1}}};
+    std::size_t seen = 0;
+    for (const float share : shares_on_device(level, lights, 0, tables, 1)) {
+        if (share == 0.0f) continue;  // clearly below
+        ASSERT_NEAR(share, 0.3f, 1e-5f);
+        ++seen;
+    }
+    EXPECT_GT(seen, kCount / 2);
+}
+
 // C++'s half_turn_angle() on many directions: what light_profile.h states.
 TEST(LightProfile, AnglesAreWithinTheirBound) {
     double largest = 0.0;

@@ -12,15 +12,15 @@ GBUFFER = [("opencl_tests", "DecodeGBuffer.*:RepackGBuffer.*"), ("opencl_tests",
 SURFACES = [("opencl_tests", "ResolveSurfaces.*:CountTexels.*"),
             ("measure_tests", "HitSurface.*:ResolvedSurfaces.*:TextureSampler.*"),
             ("raster_tests", "MaterialTest.*:SamplerTest.*:AnisotropyTest.*:GeometryPassTest.*")]
-TRIANGLES = [("opencl_tests", "ExactSign.*:ResolveSurfaces.*"), ("certify_tests", "CoincidentTriangles.*:TriangleIds.*"),
+TRIANGLES = [("opencl_tests", "ExactSign.*:ResolveSurfaces.*"), ("certify_tests", "EdgeOnTriangles.*:ObliqueNearPlane.*:CoincidentTriangles.*:TriangleIds.*"),
              ("render_tests", "TriangleRoom.*:DiscreteDevice.*")]
 LISTS = [("opencl_tests", "ClusterGrid.*:BuildClusters.*:Slice.*:MakeView.*:RefineLights.*:CountPairs.*:PrefixSum.*"),
          ("opencl_tests", "LightLists.*:CountLights.*:MaskTiles.*:BinPixels.*"), ("opencl_tests", "CullLights.*")]
 LIGHTS = [("opencl_tests", "PrepareLights.*:MoveLights.*:DriftLights.*"), ("render_tests", "LightOrder.*:Samples.*")]
-PROFILES = [("render_tests", "LightProfiles.*")]
+PROFILES = [("measure_tests", "LightProfile.*"), ("render_tests", "LightProfiles.*")]
 TREE = [("opencl_tests", "LightTreeKernels.*"), ("render_tests", "LightTreePictures.*")]
 TAILS = [("render_tests", "Tails.*")]
-SHADOWS = [("opencl_tests", "CastShadows.*"), ("render_tests", "Shadows.*:SampledShadows.*:ShadowError.*")]
+SHADOWS = [("opencl_tests", "ShadowTriangle.*:CountSeen.*:CastShadows.*"), ("render_tests", "Shadows.*:SampledShadows.*:ShadowError.*")]
 PICTURES = [("certify_tests", "All/HardCases.*Lanes8"), ("render_tests", "Paths.*:Bands.*:Views.*")]
 
 # The first that fits a path below kernels/.

@@ -163,6 +163,29 @@ TEST_F(MaterialTest, VertexColoursMultiply) {
     EXPECT_EQ(draw_filled(scene).depth(8, 8), 0.0f) << "vertex alpha counts";
 }
 
+// Each channel is another mean of the texture coordinates; every vertex has its own value.
+TEST_F(MaterialTest, VertexColoursAreInterpolated) {
+    const auto color_at = [](double u, double v) {
+        return glm::vec4((u + 2 * v) / 3, (2 * u + v) / 3, (2 + u - 2 * v) / 3,
+                         (3 - u - 2 * v) / 3);
+    };
+    Mesh mesh = quad_mesh();
+    for (const glm::vec2& uv : mesh.texcoords[0]) mesh.colors.push_back(color_at(uv.x, uv.y));
+    Scene scene = one_object(mesh);
+    const HostGBuffer whole = draw_filled(scene);
+    scene.materials[0].alpha_mode = AlphaMode::mask;
+    const HostGBuffer cut = draw_filled(scene);
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            const glm::vec4 color = color_at((x + 0.5) / 16, (y + 0.5) / 16);
+            const glm::dvec3 albedo = whole.vector(PLANE_ALBEDO_R, x, y);
+            EXPECT_NEAR(glm::length(albedo - glm::dvec3(color)), 0.0, 1e-6) << x << ", " << y;
+            if (std::abs(color.w - 0.5f) < 1e-3f) continue;
+            EXPECT_EQ(cut.depth(x, y) > 0.0f, color.w > 0.5f) << x << ", " << y;
+        }
+    }
+}
+
 // A normal map's texel in a quad that is turned, scaled and mirrored: the tangent goes with the
 // surface, the bitangent is cross(n, t) * w in object space.
 TEST_F(MaterialTest, NormalMapsFollowTangentsAndMirrors) {

@@ -109,6 +109,32 @@ TEST(PrepareLights, ViewSpaceAndExtentsAgreeWithDouble) {
     }
 }
 
+// Spheres are wider by 1e-6 of each coordinate: rounding on the way to tiles loses no light. Here
+// they end that near to a slice, far out along each axis.
+TEST(PrepareLights, ExtentsAreWiderBySharesOfEveryCoordinate) {
+    const View view = make_view({});
+    const ClusterGrid grid =
+        make_cluster_grid({16, 9, 4, 0.5f, 50.0f, 0.0f}, view.width, view.height);
+    const double depth = depth_of_slice(grid, 17);
+    Random random(5);
+    std::vector<Light> lights;
+    for (const glm::dvec2 at : {glm::dvec2(0.0), glm::dvec2(1000, 0), glm::dvec2(0, -1000)}) {
+        for (int i = 0; i < 200; ++i) {
+            const double pad = 2e-6 * (std::abs(at.x) + std::abs(at.y) + depth);
+            const double end = (i % 2 == 0 ? 0.25 : -0.25) + pad * (2.0 * random.unit() - 1.0);
+            lights.push_back(
+                point_light(world_from_view(view, glm::dvec3(at, -depth - end)), 0.25));
+        }
+    }
+    const Prepared found = prepare(0, 16, upload_lights(test_gpu(), lights), view, grid);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const glm::dvec3 p = vec(found.bounds[i]);
+        const double radius = 0.25 + 0.9e-6 * (std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+        ASSERT_TRUE(within(found.extents[i].slices, slice_by_search(grid, -p.z - radius))) << i;
+        ASSERT_TRUE(within(found.extents[i].slices, slice_by_search(grid, -p.z + radius))) << i;
+    }
+}
+
 TEST(PrepareLights, AnyCountLaneWidthAndGroupGivesTheSame) {
     const View view = make_view({});
     const ClusterGrid grid = make_cluster_grid({}, view.width, view.height);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which rays pass a triangle's box, against double.
+#include <gtest/gtest.h>
+
+#include <glm/glm.hpp>
+#include <limits>
+#include <random>
+
+#include "host/certify/synthetic/probe.h"
+#include "host/gpu/buffer.h"
+#include "kernels/shared/shadow.h"
+#include "tests/support/test_gpu.h"
+
+namespace kilolux {
+namespace {
+
+constexpr std::string_view kHeaders[] = {"kernels/shadows/shadow_triangle.h"};
+constexpr std::string_view kProbe = R"(
+kernel void passes(global const float* in, uint is_direction, global int* out) {
+    size_t i = get_global_id(0);
+    ShadowLight light = {vload3(4 * i + 1, in), 0.0f, 2.0f, is_direction != 0u};
+    LaneBoxes box = {splat3(vload3(4 * i + 2, in)), splat3(vload3(4 * i + 3, in))};
+    out[i] = lane_any(passes_box(light, splat3(vload3(4 * i, in)), box)) ? 1 : 0;
+}
+)";
+
+struct Ray {
+    glm::vec3 point, light, middle, half_edge;
+};
+
+std::vector<int> passes_on_device(const std::vector<Ray>& rays, bool are_directions) {
+    Gpu gpu = test_gpu(1);
+    std::vector<float> in;
+    for (const Ray& ray : rays) {
+        for (const glm::vec3& v : {ray.point, ray.light, ray.middle, ray.half_edge}) {
+            in.insert(in.end(), {v.x, v.y, v.z});
+        }
+    }
+    const cl::Program program = build_probe(gpu, kHeaders, kProbe);
+    const cl::Buffer out = new_buffer(gpu, std::vector<int>(rays.size(), 7));
+    cl::KernelFunctor<cl::Buffer, uint, cl::Buffer>(program, "passes")(
+        cl::EnqueueArgs(gpu.queue, cl::NDRange(rays.size())), new_buffer(gpu, in),
+        are_directions ? 1u : 0u, out);
+    return download<int>(gpu, out, rays.size());
+}
+
+// By the box's slabs; the box is wider by `pad`.
+bool passes(const Ray& ray, bool is_direction, double pad) {
+    const glm::dvec3 p(ray.point), light(ray.light);
+    const glm::dvec3 d = is_direction ? light : light - p;
+    double first = 0.0, last = is_direction ? std::numeric_limits<double>::infinity() : 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double half = ray.half_edge[axis] + pad;
+        const double a = (ray.middle[axis] - half - p[axis]) / d[axis];
+        const double b = (ray.middle[axis] + half - p[axis]) / d[axis];
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+    return first <= last;
+}
+
+// Coordinates are at most 1, so the pad is the same for all.
+TEST(ShadowTriangle, RaysPassItsBoxAsInDouble) {
+    constexpr double kNear = 0.5 * SHADOW_PAD;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> place(-1.0f, 1.0f), size(0.0f, 0.8f);
+    const auto vector = [&](auto& of) { return glm::vec3(of(random), of(random), of(random)); };
+    std::vector<Ray> rays;
+    for (int i = 0; i < 20000; ++i) {
+        rays.push_back({vector(place), vector(place), vector(place), vector(size)});
+        rays.back().half_edge[i % 3] = 0.0f;  // of a triangle in a plane of the axes
+    }
+    for (const bool are_directions : {false, true}) {
+        const std::vector<int> found = passes_on_device(rays, are_directions);
+        int passing = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const bool does = passes(rays[i], are_directions, 0.0);
+            if (does != passes(rays[i], are_directions, 1.2 * kNear)) continue;
+            ASSERT_EQ(found[i], does ? 1 : 0) << "ray " << i;
+            passing += found[i];
+        }
+        EXPECT_GT(passing, 500);
+        EXPECT_LT(passing, 10000);
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
