@@ -18,11 +18,12 @@ struct HostSpan {
 
 /// How long a device idled between its commands, without the time of host spans [ns].
 struct IdleTime {
-    std::int64_t launch = 0;   // although the next command was enqueued
-    std::int64_t enqueue = 0;  // before the next command was enqueued
+    std::int64_t launch = 0;         // although the next command was enqueued
+    std::int64_t enqueue = 0;        // before the next command was enqueued
+    std::vector<std::int64_t> host;  // by host span: its part in which the device idled
 };
 
-/// Spans in any order.
-IdleTime idle_time(std::vector<CommandSpan> commands, std::vector<HostSpan> host);
+/// Spans in any order. Where host spans overlap, the time is that of the one that began first.
+IdleTime idle_time(std::vector<CommandSpan> commands, const std::vector<HostSpan>& host);
 
 }  // namespace kilolux

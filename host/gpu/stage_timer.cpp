@@ -33,14 +33,14 @@ void StageTimer::record(std::string_view stage, const cl::Event& event) {
     entry->events.push_back({event, Clock::now()});
 }
 
-void StageTimer::record_host(double ms) {
+void StageTimer::record_host(std::string_view stage, double ms) {
     const std::int64_t end = ticks(Clock::now().time_since_epoch());
-    host_.push_back({end - static_cast<std::int64_t>(ms / kMsPerTick), end});
+    host_.push_back({std::string(stage), {end - static_cast<std::int64_t>(ms / kMsPerTick), end}});
 }
 
 std::vector<StageTimer::Time> StageTimer::take() {
     idle_ = {};
-    if (entries_.empty()) return {};
+    if (entries_.empty() && host_.empty()) return {};
     for (const Entry& entry : entries_) {
         for (const Recorded& recorded : entry.events) recorded.event.wait();
     }
@@ -50,23 +50,39 @@ std::vector<StageTimer::Time> StageTimer::take() {
     // Offset from the device's clock to the host's: the least difference that a record() shows.
     std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
-        Time time{entry.stage, 0.0};
+        Time& time = times.emplace_back(entry.stage);
         for (const auto& [event, recorded] : entry.events) {
             const CommandSpan span = span_of(event);
             spans.push_back(span);
             time.ms += kMsPerTick * static_cast<double>(span.end - span.start);
             offset = std::min(offset, ticks(recorded.time_since_epoch()) - span.queued);
         }
-        times.push_back(std::move(time));
     }
-    entries_.clear();
-    for (HostSpan& span : host_) span = {span.start - offset, span.end - offset};
+    if (entries_.empty()) offset = 0;
+    std::vector<HostSpan> host;
+    for (const HostEntry& entry : host_) {
+        host.push_back({entry.span.start - offset, entry.span.end - offset});
+    }
     for (const Clock::time_point end : {std::exchange(since_, now), now}) {
         spans.push_back(moment(ticks(end.time_since_epoch()) - offset));
     }
-    idle_ = idle_time(std::move(spans), host_);
+    idle_ = idle_time(std::move(spans), host);
+    add_host_times(times);
+    entries_.clear();
     host_.clear();
     return times;
+}
+
+void StageTimer::add_host_times(std::vector<Time>& times) const {
+    std::size_t first = 0;  // the place of the next stage that only the host runs
+    for (std::size_t i = 0; i < host_.size(); ++i) {
+        auto found = std::ranges::find(times, host_[i].stage, &Time::stage);
+        if (found == times.end()) {
+            const auto place = times.begin() + static_cast<std::ptrdiff_t>(first++);
+            found = times.insert(place, Time{host_[i].stage});
+        }
+        found->ms += kMsPerTick * static_cast<double>(idle_.host[i]);
+    }
 }
 
 double StageTimer::launch_ms() const { return kMsPerTick * static_cast<double>(idle_.launch); }

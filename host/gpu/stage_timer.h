@@ -17,16 +17,18 @@ class StageTimer {
     /// Adds an event to a stage; a stage may have several. Call it when the command was enqueued.
     void record(std::string_view stage, const cl::Event& event);
 
-    /// Records the last `ms` of the host as time of its own, not idle time.
-    void record_host(double ms);
+    /// Adds the last `ms` of the host to a stage: they are not idle time.
+    void record_host(std::string_view stage, double ms);
 
     struct Time {
         std::string stage;
-        double ms = 0.0;  // sum of the events' execution times on the device
+        // Of the events' execution on the device, and of the host while the device idled: no
+        // moment counts twice.
+        double ms = 0.0;
     };
 
-    /// Times by stage in the order of first use, and forgets the events. Blocks until they are
-    /// done.
+    /// Times by stage, the host's first, then in the order of first use; forgets the events. Blocks
+    /// until they are done.
     std::vector<Time> take();
 
     /// Between the last two take(), or from this object's beginning to the first: for how long the
@@ -50,9 +52,15 @@ class StageTimer {
         std::string stage;
         std::vector<Recorded> events;
     };
+    struct HostEntry {
+        std::string stage;
+        HostSpan span;  // on Clock
+    };
+    void add_host_times(std::vector<Time>& times) const;
+
     std::vector<Entry> entries_;
     Clock::time_point since_ = Clock::now();  // start of the idle time that is not yet reported
-    std::vector<HostSpan> host_;              // on Clock
+    std::vector<HostEntry> host_;
     IdleTime idle_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "host/picture/decoded_surfaces.h"
 #include "host/picture/frame_request.h"
+#include "host/scene/camera.h"
 
 namespace kilolux {
 

@@ -50,8 +50,9 @@ Radiance ForwardShading::draw(const Sample& sample, const HostCoarseLists* lists
     }
     pass_.draw(sample.camera, settings.width, settings.height,
                forward_lights(sample, settings.ambient, lists), background);
-    upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
-    add_host_time(out, lists ? kForwardPlusStage : kForwardStage, pass_.last_ms());
+    const std::vector<float> drawn = pass_.read_radiance(view.stride);
+    out.timer.record_host(lists ? kForwardPlusStage : kForwardStage, pass_.last_ms());
+    upload<float>(context_.gpu, radiance.planes, drawn);
     return radiance;
 }
 
@@ -67,8 +68,9 @@ void BlendedPass::draw(const Sample& sample, const Radiance& radiance,
         download<float>(context_.gpu, radiance.planes, std::size_t{3} * view.stride * view.height);
     pass_.draw_blended(crop(sample.camera, settings.height, sample.band), view, targets, planes,
                        forward_lights(sample, settings.ambient, lists));
-    upload<float>(context_.gpu, radiance.planes, pass_.read_radiance(view.stride));
-    add_host_time(out, kBlendedStage, pass_.last_ms());
+    const std::vector<float> drawn = pass_.read_radiance(view.stride);
+    out.timer.record_host(kBlendedStage, pass_.last_ms());
+    upload<float>(context_.gpu, radiance.planes, drawn);
 }
 
 }  // namespace kilolux

@@ -24,16 +24,15 @@ double ms_since(Clock::time_point start) {
 // The lights at the frame's time, on the device and, for OpenGL's fragments, on the host.
 LightInput place_lights(Pipeline& p, const Shot& shot, FrameStats& stats) {
     const RenderContext& context = p.context;
-    const Measured out{p.timer, stats};
     const Clock::time_point start = Clock::now();
     p.lights.update(shot.time, shot.camera, stats);
-    add_host_time(out, kLightInputStage, ms_since(start));
+    p.timer.record_host(kLightInputStage, ms_since(start));
     const LightInput input =
         p.lights.input(shot.camera.position, !context.settings.no_reuse, p.timer);
     if (!context.lights_on_host()) return input;
     const Clock::time_point rows_start = Clock::now();
     p.last.rows = p.lights.rows(shot.camera.position);
-    add_host_time(out, kLightInputStage, ms_since(rows_start));
+    p.timer.record_host(kLightInputStage, ms_since(rows_start));
     return input;
 }
 

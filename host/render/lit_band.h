@@ -53,14 +53,8 @@ struct LitBand {
 
 /// The times and counts that stages add to.
 struct Measured {
-    StageTimer& timer;  // the device's stages
-    FrameStats& stats;  // counts, and the host's stages
+    StageTimer& timer;
+    FrameStats& stats;
 };
-
-/// Adds a stage that the host or OpenGL has just ended.
-inline void add_host_time(Measured out, std::string_view stage, double ms) {
-    out.timer.record_host(ms);
-    add_stage_time(out.stats.stages, stage, ms);
-}
 
 }  // namespace kilolux

@@ -125,13 +125,13 @@ GBuffer SurfacePass::draw_planes(const Sample& sample, Measured out) {
     const Band tile = raster_tile(settings.height, band.first_row);
     if (sample.redraw) {
         planes_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows);
-        add_host_time(out, kGeometryStage, planes_->last_ms());
+        out.timer.record_host(kGeometryStage, planes_->last_ms());
     }
     GBuffer gbuffer =
         bridge_.transfer(planes_->targets(), context_.plan.gbuffer,
                          view_of(sample.camera, settings.width, settings.height, band),
                          band.first_row - tile.first_row);
-    add_host_time(out, kGBufferBridgeStage, bridge_.last_ms());
+    out.timer.record_host(kGBufferBridgeStage, bridge_.last_ms());
     return gbuffer;
 }
 
@@ -143,12 +143,12 @@ GBuffer SurfacePass::draw_ids(const Sample& sample, Measured out) {
         const auto open = open_tiles(sample, tile.first_row);
         ids_->draw(crop(sample.camera, settings.height, tile), settings.width, tile.rows,
                    open ? &*open : nullptr);
-        add_host_time(out, kGeometryStage, ids_->last_ms());
+        out.timer.record_host(kGeometryStage, ids_->last_ms());
     }
     const View view = view_of(sample.camera, settings.width, settings.height, band);
     const DeviceArray<uint> ids =
         bridge_.transfer_ids(ids_->targets(), view, band.first_row - tile.first_row);
-    add_host_time(out, kGBufferBridgeStage, bridge_.last_ms());
+    out.timer.record_host(kGBufferBridgeStage, bridge_.last_ms());
     return resolve(ids, context_.surfaces->at(ids_->draws()), view, sample, out);
 }
 
@@ -201,7 +201,7 @@ void SurfacePass::place_origins(const DeviceArray<uint>& ids, const SurfaceBuffe
     out.stats.shadow_scenes_built += context_.shadows->built() - built;
     const std::chrono::duration<double, std::milli> spent =
         std::chrono::steady_clock::now() - start;
-    add_host_time(out, kShadowSceneStage, spent.count());
+    out.timer.record_host(kShadowSceneStage, spent.count());
     shadows_.casters.materials = scene.materials;
     shadows_.casters.textures = scene.textures;
     shadows_.casters.texels = scene.texels;

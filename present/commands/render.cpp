@@ -220,7 +220,8 @@ void run_render(RenderOptions& options) {
     if (begin == tasks.size()) return note("nothing to render: every file is there");
     const PictureTask first = tasks[begin];
     check_files(options, tasks, first);
-    check_light_memory(options.shared.settings);
+    check_light_memory(options.shared.lights_given ? options.shared.settings.lights.count : 0,
+                       options.shared.settings);
     warn_of_exposure(options);
     const CameraMotion motion(options.shared, out);
     const auto camera = [&motion](const Scene& scene, int frame, double time) {

@@ -329,6 +329,22 @@ TEST(ImageFile, AlphaDarkensNoEnvironment) {
     }
 }
 
+TEST(ImageFile, WebpKeepsTheColoursThatAlphaHides) {
+    // Lossless, 2x2 pixels, by libwebp.
+    const unsigned char webp[] = {0x52, 0x49, 0x46, 0x46, 0x3a, 0x00, 0x00, 0x00, 0x57, 0x45, 0x42,
+                                  0x50, 0x56, 0x50, 0x38, 0x4c, 0x2e, 0x00, 0x00, 0x00, 0x2f, 0x01,
+                                  0x40, 0x00, 0x10, 0x1f, 0x20, 0xa6, 0x21, 0xe6, 0xd2, 0x55, 0x7c,
+                                  0x69, 0x14, 0xb4, 0x6d, 0xc3, 0xf4, 0xed, 0xf0, 0x07, 0x34, 0x6a,
+                                  0x53, 0xd0, 0x36, 0x0a, 0x9c, 0xba, 0x17, 0x0c, 0xc0, 0x03, 0xff,
+                                  0x83, 0x57, 0x77, 0xed, 0xd7, 0x5d, 0xec, 0x42, 0x44, 0xff, 0x23};
+    const TemporaryFolder folder;
+    write_atomically(folder / "a.webp", webp);
+    std::vector<float> codes = read_image(folder / "a.webp").values;
+    for (float& code : codes) code = std::round(code * 255.0f);
+    EXPECT_EQ(codes, (std::vector<float>{200, 100, 50, 0, 10, 250, 30, 1,  //
+                                         7, 8, 9, 128, 255, 1, 2, 255}));
+}
+
 TEST(ImageFile, ColourOfGreyAndUnnamedChannels) {
     const FloatImage grey{2, 1, {"Y"}, {1.0f, 2.0f}};
     EXPECT_EQ(colour_of(grey), (std::vector<float>{1, 1, 1, 2, 2, 2}));

@@ -12,7 +12,8 @@ GBUFFER = [("opencl_tests", "DecodeGBuffer.*:RepackGBuffer.*"), ("opencl_tests",
 SURFACES = [("opencl_tests", "ResolveSurfaces.*:CountTexels.*"),
             ("measure_tests", "HitSurface.*:ResolvedSurfaces.*:TextureSampler.*"),
             ("raster_tests", "MaterialTest.*:SamplerTest.*:AnisotropyTest.*:GeometryPassTest.*")]
-TRIANGLES = [("opencl_tests", "ExactSign.*:ResolveSurfaces.*"), ("certify_tests", "EdgeOnTriangles.*:CoincidentTriangles.*:TriangleIds.*"),
+TRIANGLES = [("opencl_tests", "ExactSign.*:ResolveSurfaces.*"),
+             ("certify_tests", "EdgeOnTriangles.*:ObliqueNearPlane.*:CoincidentTriangles.*:TriangleIds.*"),
              ("render_tests", "TriangleRoom.*:DiscreteDevice.*")]
 LISTS = [("opencl_tests", "ClusterGrid.*:BuildClusters.*:Slice.*:MakeView.*:RefineLights.*:CountPairs.*:PrefixSum.*"),
          ("opencl_tests", "LightLists.*:CountLights.*:MaskTiles.*:BinPixels.*"), ("opencl_tests", "CullLights.*")]

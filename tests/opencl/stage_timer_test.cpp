@@ -48,6 +48,23 @@ TEST(IdleTime, LeavesOutWhatTheHostTellsOf) {
     EXPECT_EQ(times({{150, 180}, {120, 180}}), (Times{40, 50})) << "spans that overlap";
 }
 
+// No moment has two rows: host spans, commands and idle time add up to the whole.
+TEST(IdleTime, GivesTheHostWhatTheDeviceIdled) {
+    const std::vector<CommandSpan> commands = {{0, 0, 100}, {200, 250, 300}};
+    using Parts = std::vector<std::int64_t>;
+    const auto parts = [&](const std::vector<HostSpan>& host) {
+        const IdleTime found = idle_time(commands, host);
+        std::int64_t sum = found.enqueue + found.launch;
+        for (const std::int64_t part : found.host) sum += part;
+        EXPECT_EQ(sum, 150);
+        return found.host;
+    };
+    EXPECT_EQ(parts({{10, 90}, {260, 300}}), (Parts{0, 0})) << "beside the device";
+    EXPECT_EQ(parts({{190, 260}, {50, 120}}), (Parts{60, 20})) << "in the order given";
+    EXPECT_EQ(parts({{0, 400}}), (Parts{150}));
+    EXPECT_EQ(parts({{150, 180}, {120, 190}, {130, 240}}), (Parts{0, 70, 50}));
+}
+
 using Clock = std::chrono::steady_clock;
 
 double ms_since(Clock::time_point start) {
@@ -102,12 +119,15 @@ TEST_F(Timer, KeepsTheHostsTimeWhereCommandsAreDropped) {
     const StageTimer before = timer_;
     const Clock::time_point start = Clock::now();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    timer_.record_host(200.0);
+    timer_.record_host("host", 200.0);
     run_after(0.0);
     timer_.drop_commands_since(before);
     run_after(0.0);
     const double elapsed = ms_since(start);
-    ASSERT_EQ(timer_.take().size(), 1u);
+    const std::vector<StageTimer::Time> times = timer_.take();
+    ASSERT_EQ(times.size(), 2u);
+    EXPECT_EQ(times[0].stage, "host");
+    EXPECT_NEAR(times[0].ms, 200.0, 50.0);
     EXPECT_LE(timer_.enqueue_ms() + timer_.launch_ms(), elapsed - 200.0 + 50.0);
 }
 
@@ -117,7 +137,7 @@ TEST_F(Timer, LeavesOutTheHostsOwnRows) {
     run_after(0.0);
     timer_.take();
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    timer_.record_host(200.0);
+    timer_.record_host("host", 200.0);
     run_after(0.0);
     const double elapsed = ms_since(start);
     timer_.take();

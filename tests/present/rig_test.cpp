@@ -141,9 +141,9 @@ TEST_F(RigTest, ManyFarLightsWithoutARangeTakeATree) {
     EXPECT_EQ(chosen(""), Tails::tree);
     EXPECT_EQ(chosen("--tails bounded"), Tails::bounded);
     EXPECT_EQ(chosen("--range-budget 1e-9"), Tails::automatic);
-    EXPECT_EQ(warning, "");
+    EXPECT_FALSE(contains(warning, "cut about")) << warning;
     EXPECT_EQ(chosen("--shadows exact"), Tails::automatic) << "a tree casts no shadows";
-    EXPECT_TRUE(contains(warning, "many.glb: the ranges that lights")) << "with -q: " << warning;
+    EXPECT_TRUE(contains(warning, "many.glb: the ranges that lights")) << warning;
     write("measured.glb", scene);
     EXPECT_EQ(chosen("", "measured.glb"), Tails::automatic);
     EXPECT_TRUE(contains(warning, "measured.glb: the ranges that lights")) << warning;

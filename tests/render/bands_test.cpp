@@ -169,7 +169,7 @@ TEST(MemoryPlan, SaysWhatIsNeededAndWhatThereIs) {
     EXPECT_EQ(plan_error(settings), "");
     settings.lights.count = std::uint64_t{1} << 31;
     EXPECT_NE(plan_error(settings), "");
-    EXPECT_THROW(check_light_memory(settings), Error);
+    EXPECT_THROW(check_light_memory(settings.lights.count, settings), Error);
 }
 
 TEST(MemoryPlan, ListsThatDoNotFitAreRefusedByTheirStage) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/messages.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -37,6 +38,19 @@ TEST(MemoryPlan, DeviceBuffersHoldTheWholePictureOfBloom) {
     const MemoryPlan with = plan(scene, settings);
     EXPECT_EQ(with.device_bytes, without.device_bytes);
     EXPECT_GE(with.bytes, without.bytes);
+}
+
+// Without generated lights the message names none.
+TEST(MemoryPlan, TheProgramAloneMayBeTooLarge) {
+    RenderSettings settings = small_settings(64, 64, 5000);
+    settings.max_memory_bytes = 1 << 20;
+    const auto refused = [&](std::uint64_t lights) {
+        return message_of<Error>([&] { check_light_memory(lights, settings); });
+    };
+    EXPECT_TRUE(refused(0).starts_with("memory: the program needs at least 256 MiB")) << refused(0);
+    EXPECT_TRUE(refused(5000).starts_with("memory: 5000 lights need at least ")) << refused(5000);
+    settings.max_memory_bytes = 1 << 30;
+    EXPECT_NO_THROW(check_light_memory(5000, settings));
 }
 
 }  // namespace

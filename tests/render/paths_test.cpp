@@ -56,6 +56,19 @@ Scene with_glass() {
     return scene;
 }
 
+// OpenGL draws while the device still moves lights: a moment of both has one row.
+TEST(Paths, RowsOfStagesAreWithinTheFrame) {
+    constexpr double kClocksMs = 0.2;  // between the host's clock and the device's
+    const Scene scene = make_generated_scene("grid");
+    for (const RendererKind kind : {RendererKind::forward, RendererKind::deferred}) {
+        const FrameStats stats = render_as(scene, small_settings(16, 9, 30000), kind).stats;
+        double sum = 0.0;
+        for (const StageTime& stage : stats.stages) sum += stage.ms;
+        EXPECT_LE(sum, stats.frame_ms + kClocksMs) << static_cast<int>(kind);
+        EXPECT_GT(sum, 0.9 * stats.frame_ms) << static_cast<int>(kind);
+    }
+}
+
 TEST(Paths, RenderersThatShareASceneRenderInTurn) {
     const Scene scene = with_glass();
     const std::shared_ptr<RenderScene> shared = shared_scene(scene);

@@ -2,6 +2,8 @@
 #include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "host/base/error.h"
@@ -70,10 +72,11 @@ class Reader : public ImageReader {
           where_(std::move(where)),
           layout_(layout_of(input_->spec(), where_)) {}
 
-    // The first three channels are read from `bytes`, a file of the format.
-    void take_colors_from(const std::string& format, std::vector<unsigned char> bytes) {
-        bytes_ = std::move(bytes);
-        colors_ = open_encoded(format, bytes_);
+    // For a WebP file of these bytes: with alpha, its colors are read without it.
+    void keep_colors_of(std::span<const unsigned char> webp) {
+        bytes_ = without_alpha(webp);
+        if (bytes_.empty()) return;
+        colors_ = open_encoded("webp", bytes_);
         layout_.associated_alpha = false;
     }
 
@@ -103,7 +106,14 @@ std::unique_ptr<ImageReader> open_image(const std::filesystem::path& file) {
     const OIIO::ImageSpec wanted = as_stored();
     auto input = OIIO::ImageInput::open(file.string(), &wanted);
     if (!input) throw Error(where + OIIO::geterror());
-    return std::make_unique<Reader>(nullptr, std::move(input), where);
+    const bool is_webp = input->format_name() == std::string_view("webp");
+    auto reader = std::make_unique<Reader>(nullptr, std::move(input), where);
+    if (is_webp) {
+        std::ifstream bytes(file, std::ios::binary);
+        const std::vector<char> webp(std::istreambuf_iterator<char>(bytes), {});
+        reader->keep_colors_of({reinterpret_cast<const unsigned char*>(webp.data()), webp.size()});
+    }
+    return reader;
 }
 
 std::unique_ptr<ImageReader> open_encoded(const std::string& format,
@@ -120,10 +130,7 @@ std::unique_ptr<ImageReader> open_encoded(const std::string& format,
         throw Error(input->geterror());
     }
     auto reader = std::make_unique<Reader>(std::move(memory), std::move(input), "");
-    if (auto colors = format == "webp" ? without_alpha(bytes) : std::vector<unsigned char>();
-        !colors.empty()) {
-        reader->take_colors_from(format, std::move(colors));
-    }
+    if (format == "webp") reader->keep_colors_of(bytes);
     return reader;
 }
 

@@ -214,11 +214,13 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     return out;
 }
 
-void check_light_memory(const RenderSettings& settings) {
-    const Bytes need = kProgram + settings.lights.count * kLight;
+void check_light_memory(std::uint64_t lights, const RenderSettings& settings) {
+    const Bytes need = kProgram + lights * kLight;
     if (need <= limit_of(settings)) return;
-    throw Error(fmt::format("memory: {} lights need at least {}; {}", settings.lights.count,
-                            mebibytes(need), limit_text(settings)));
+    throw Error(
+        fmt::format("memory: {} at least {}; {}",
+                    lights == 0 ? "the program needs" : fmt::format("{} lights need", lights),
+                    mebibytes(need), limit_text(settings)));
 }
 
 }  // namespace kilolux

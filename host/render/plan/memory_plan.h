@@ -26,7 +26,8 @@ struct MemoryPlan {
 MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const ScenePlan& plan,
                        const DeviceInfo& device);
 
-/// Throws Error when the generated lights alone do not fit; called before a scene is loaded.
-void check_light_memory(const RenderSettings& settings);
+/// Throws Error when the program and so many generated lights do not fit; called before a scene is
+/// loaded.
+void check_light_memory(std::uint64_t lights, const RenderSettings& settings);
 
 }  // namespace kilolux

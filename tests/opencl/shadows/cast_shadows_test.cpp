@@ -242,6 +242,12 @@ void expect_deep_shadows(int group, uint levels, bool are_known) {
     EXPECT_GT(cast.counts().rays, 0u);
     EXPECT_EQ(cast.counts().seen, 0u);
     for (const uint word : download(gpu, words.words, cast.words())) EXPECT_EQ(word, 0u);
+    tuning.shadow_group = 1;
+    CastShadows by_item(gpu, tuning, features, {}, true);
+    const ShadowWords others = by_item.reserve(lists.lights, lists.clusters, timer);
+    by_item.enqueue(input, lists.at(gbuffer), others, timer);
+    EXPECT_EQ(cast.counts().rays, by_item.counts().rays)
+        << "of a cluster with more points than items";
 }
 
 TEST(EveryKernel, DeepShadowsByGroup) {

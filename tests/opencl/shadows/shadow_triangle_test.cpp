@@ -84,5 +84,50 @@ TEST(ShadowTriangle, RaysPassItsBoxAsInDouble) {
     }
 }
 
+constexpr std::string_view kPlaneProbe = R"(
+kernel void behind(global const float* in, global float* out) {
+    size_t i = get_global_id(0);
+    FV3 v[3];
+    for (uint k = 0; k < 3; ++k) v[k] = splat3(vload3(5 * i + k, in));
+    ShadowLight light = {vload3(5 * i + 3, in), 0.0f, 300.0f, false};
+    MASK sure;
+    ShadowTriangles t = set_up_shadow(v, light, 1200.0f, &sure);
+    out[i] = dot3(t.plane.g, splat3(vload3(5 * i + 4, in))) + t.plane.c;
+}
+)";
+
+// Legs along two axes, far out along the third: one product makes its normal. Its own points,
+// rounded to floats, lie in its plane by less than a unit, so that it does not hide them.
+TEST(ShadowTriangle, PlanesDoNotHideTheirOwnPoints) {
+    Gpu gpu = test_gpu(1);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    constexpr std::size_t kTriangles = 6000;
+    std::vector<float> in;
+    for (std::size_t i = 0; i < kTriangles; ++i) {
+        const int a = static_cast<int>(i % 3), b = (a + 1 + static_cast<int>(i / 3 % 2)) % 3;
+        const int across = 3 - a - b;
+        glm::dvec3 v0(0.0), leg_a(0.0), leg_b(0.0);
+        v0[across] = 900.0 + unit(random);
+        leg_a[a] = leg_b[b] = 100.0;
+        leg_a[across] = 1e-2 * unit(random);
+        leg_b[across] = 1e-2 * unit(random);
+        glm::dvec3 light = v0 + 30.0 * glm::dvec3(unit(random), unit(random), unit(random));
+        light[across] = v0[across] + 100.0;
+        const double u = 0.5 * unit(random), w = 0.5 * unit(random);
+        for (const glm::dvec3& v :
+             {v0, v0 + leg_a, v0 + leg_b, light, v0 + u * leg_a + w * leg_b}) {
+            for (int axis = 0; axis < 3; ++axis) in.push_back(static_cast<float>(v[axis]));
+        }
+    }
+    const cl::Program program = build_probe(gpu, kHeaders, kPlaneProbe);
+    const cl::Buffer out = new_buffer(gpu, std::vector<float>(kTriangles));
+    cl::KernelFunctor<cl::Buffer, cl::Buffer>(program, "behind")(
+        cl::EnqueueArgs(gpu.queue, cl::NDRange(kTriangles)), new_buffer(gpu, in), out);
+    for (const float behind : download<float>(gpu, out, kTriangles)) {
+        ASSERT_NEAR(behind, -2.0f, 1.0f);
+    }
+}
+
 }  // namespace
 }  // namespace kilolux
