@@ -44,8 +44,12 @@ std::string progress_line(const std::string& label, std::size_t done, std::size_
     return fmt::format("{}[{:=<{}}{: <{}}] {}", head, "", filled, "", empty, tail);
 }
 
-Progress::Progress(std::string label, std::size_t total, bool shown)
-    : label_(std::move(label)), total_(total), shown_(shown && isatty(STDERR_FILENO) == 1) {
+Progress::Progress(std::string label, std::size_t total, bool shown, double line_s)
+    : label_(std::move(label)),
+      total_(total),
+      shown_(shown),
+      line_s_(line_s),
+      terminal_(isatty(STDERR_FILENO) == 1) {
     draw();
 }
 
@@ -57,12 +61,20 @@ void Progress::advance() {
 }
 
 void Progress::erase() {
-    if (shown_) std::fputs("\r\x1b[K", stderr);
+    if (shown_ && terminal_) std::fputs("\r\x1b[K", stderr);
 }
 
 void Progress::draw() {
     if (!shown_) return;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    if (!terminal_) {
+        if (elapsed.count() < next_line_s_) return;
+        next_line_s_ = elapsed.count() + line_s_;
+        constexpr int kColumns = 79;
+        std::fprintf(stderr, "%s\n",
+                     progress_line(label_, done_, total_, elapsed.count(), kColumns).c_str());
+        return;
+    }
     // The last column stays free: writing it makes some terminals wrap.
     const std::string line =
         progress_line(label_, done_, total_, elapsed.count(), terminal_columns() - 1);

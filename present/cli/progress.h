@@ -12,12 +12,12 @@ namespace kilolux {
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width);
 
-/// A progress bar on stderr while stderr is a terminal; otherwise nothing at all. Erased when it
-/// ends.
+/// A progress bar on stderr while stderr is a terminal, erased when it ends; otherwise a line after
+/// every `line_s` seconds.
 class Progress {
  public:
     /// `shown` is false with --quiet.
-    Progress(std::string label, std::size_t total, bool shown);
+    Progress(std::string label, std::size_t total, bool shown, double line_s = 30.0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -35,6 +35,9 @@ class Progress {
     std::size_t done_ = 0;
     std::size_t total_;
     bool shown_;
+    double line_s_;
+    double next_line_s_ = line_s_;
+    bool terminal_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

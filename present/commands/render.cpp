@@ -230,13 +230,13 @@ void run_render(RenderOptions& options) {
     SceneRenderer pictures(options.shared, options.budget,
                            {request_of(options, options.shared.settings.want), first.time,
                             first.frame, camera, std::nullopt});
+    note(pictures.rig_lines());  // before the frames, which may take minutes
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
     const WrittenPictures made = render_tasks(options, tasks, pictures);
     if (!out.stats.empty()) {
         write_json(out.stats, pictures.stats(made.last, false), made.log ? &*made.log : nullptr);
     }
-    note(pictures.rig_lines() + "\n" +
-         frame_summary(pictures.scene().scene(), pictures.renderer().device(), made.last,
+    note(frame_summary(pictures.scene().scene(), pictures.renderer().device(), made.last,
                        made.count));
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }

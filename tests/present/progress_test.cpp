@@ -92,5 +92,23 @@ TEST(Progress, ATerminalSeesItUnlessQuiet) {
     EXPECT_EQ(seen_on_terminal(false), "");
 }
 
+// Tests run off a terminal.
+TEST(Progress, WritesALineNowAndThenOffATerminal) {
+    const auto written = [](bool shown, double line_s) {
+        testing::internal::CaptureStderr();
+        {
+            Progress progress("rendering", 3, shown, line_s);
+            progress.advance();
+        }
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(written(true, 30.0), "");
+    EXPECT_EQ(written(false, 0.0), "");
+    const std::string lines = written(true, 0.0);
+    EXPECT_NE(lines.find("rendering 1/3 ["), std::string::npos) << lines;
+    EXPECT_EQ(lines.find('\r'), std::string::npos) << lines;
+    EXPECT_EQ(lines.back(), '\n');
+}
+
 }  // namespace
 }  // namespace kilolux
