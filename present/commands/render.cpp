@@ -15,7 +15,7 @@
 #include "present/commands/camera_motion.h"
 #include "present/commands/made_picture.h"
 #include "present/commands/picture_advice.h"
-#include "present/commands/picture_output.h"
+#include "present/commands/picture_files.h"
 #include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
@@ -124,22 +124,22 @@ WrittenPictures render_tasks(const RenderOptions& options, const Tasks& tasks,
                              SceneRenderer& pictures) {
     const bool counted = !options.output.stats.empty();
     const std::size_t first = tasks.first_to_do();
-    PictureOutput output(options, tasks.size() - first, pictures.renderer());
+    PictureFiles files(options, tasks.size() - first, pictures.renderer());
     bool is_first = true;
     for (std::size_t i = first; i < tasks.size(); ++i) {
         check_interrupt();
         RenderedPicture picture;
         picture.task = tasks[i];
         if (tasks.is_done(picture.task)) {
-            output.skip();
+            files.skip();
             continue;
         }
         FrameRecord record = render_task(options, pictures, picture);
         if (std::exchange(is_first, false)) advise(pictures, record);
         if (counted) pictures.fill_limits(record);
-        output.add(std::move(picture), std::move(record));
+        files.add(std::move(picture), std::move(record));
     }
-    return output.finish();
+    return files.finish();
 }
 
 // Exposes by the sequence's first frame, also in a shard that does not contain it.

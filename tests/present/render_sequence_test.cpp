@@ -82,7 +82,7 @@ TEST(RenderSequence, ASequenceOfTwoThousandMillionFramesStarts) {
 TEST(RenderSequence, ASignalEndsASequenceBetweenFrames) {
     for (const int number : {SIGINT, SIGTERM}) {
         const TemporaryFolder folder;
-        const auto words = small_sequence(folder / "f.#.exr", {"--frames", "0:1000000"});
+        const auto words = small_sequence(folder / "f.#.exr", {"--frames", "0:1000000", "--quiet"});
         const ChildResult result = run_kilolux(words, [&](pid_t child) {
             wait_for(folder / "f.0.exr");
             kill(child, number);

@@ -62,11 +62,11 @@ bool wants_own_display(const RenderOptions& options);
 
 /// Pictures on their way to their files: they are coded in the pool of an OrderedWriter and written
 /// in order while the next ones are made.
-class PictureOutput {
+class PictureFiles {
  public:
     /// For `count` pictures, whose renderer's memory plan says how many are held at once. Throws
     /// Error when a video cannot be made. The options must outlive this.
-    PictureOutput(const RenderOptions& options, std::size_t count, const Renderer& renderer);
+    PictureFiles(const RenderOptions& options, std::size_t count, const Renderer& renderer);
 
     /// Takes a picture. Throws Error where it or an earlier one cannot be coded or written.
     void add(RenderedPicture picture, FrameRecord record);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/commands/picture_output.h"
+#include "present/commands/picture_files.h"
 
 #include <algorithm>
 
@@ -110,8 +110,8 @@ bool wants_own_display(const RenderOptions& options) {
     return options.output.bits == 16 || uses_ocio(options.output.ocio);
 }
 
-PictureOutput::PictureOutput(const RenderOptions& options, std::size_t count,
-                             const Renderer& renderer)
+PictureFiles::PictureFiles(const RenderOptions& options, std::size_t count,
+                           const Renderer& renderer)
     : options_(options),
       video_(open_video(options.output, renderer.settings())),
       progress_("rendering", count, !options.shared.quiet),
@@ -119,21 +119,21 @@ PictureOutput::PictureOutput(const RenderOptions& options, std::size_t count,
     if (!options.output.stats.empty() && options.output.frames) written_.log.emplace();
 }
 
-void PictureOutput::add(RenderedPicture picture, FrameRecord record) {
+void PictureFiles::add(RenderedPicture picture, FrameRecord record) {
     records_.push_back(std::move(record));
     const auto shared = std::make_shared<RenderedPicture>(std::move(picture));
     writer_.add([this, shared] { return coded(options_, *shared, video_.get()); });
     count_written();
 }
 
-WrittenPictures PictureOutput::finish() {
+WrittenPictures PictureFiles::finish() {
     writer_.finish();
     count_written();
     if (video_) video_->commit();
     return std::move(written_);
 }
 
-void PictureOutput::count_written() {
+void PictureFiles::count_written() {
     for (const std::size_t written = writer_.written(); written_.count < written;) {
         append(written_, std::move(records_.front()));
         records_.pop_front();
