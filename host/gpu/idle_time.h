@@ -16,7 +16,7 @@ struct HostSpan {
     std::int64_t start, end;
 };
 
-/// How long a device idled between its commands, without the time of host spans [ns].
+/// How long a device idled between its commands: outside host spans, and in each of them [ns].
 struct IdleTime {
     std::int64_t launch = 0;         // although the next command was enqueued
     std::int64_t enqueue = 0;        // before the next command was enqueued

@@ -50,7 +50,7 @@ std::vector<StageTimer::Time> StageTimer::take() {
     // Offset from the device's clock to the host's: the least difference that a record() shows.
     std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
-        Time& time = times.emplace_back(entry.stage);
+        Time& time = times.emplace_back(Time{entry.stage});
         for (const auto& [event, recorded] : entry.events) {
             const CommandSpan span = span_of(event);
             spans.push_back(span);

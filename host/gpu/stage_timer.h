@@ -17,7 +17,7 @@ class StageTimer {
     /// Adds an event to a stage; a stage may have several. Call it when the command was enqueued.
     void record(std::string_view stage, const cl::Event& event);
 
-    /// Adds the last `ms` of the host to a stage: they are not idle time.
+    /// Adds the last `ms` of the host to a stage, as far as the device idled in them.
     void record_host(std::string_view stage, double ms);
 
     struct Time {
@@ -27,8 +27,8 @@ class StageTimer {
         double ms = 0.0;
     };
 
-    /// Times by stage, the host's first, then in the order of first use; forgets the events. Blocks
-    /// until they are done.
+    /// Times by stage, those of the host alone first, then in the order of first use; forgets the
+    /// events. Blocks until they are done.
     std::vector<Time> take();
 
     /// Between the last two take(), or from this object's beginning to the first: for how long the

@@ -56,7 +56,6 @@ void fill_cluster(const DecodedSurfaces& s, const Camera&, Layer& layer) {
 }
 
 void fill_visibility(const DecodedSurfaces& s, const Camera&, Layer& layer) {
-    assert(!s.seen.empty());
     fill(layer, layer.values, s.view, [&](std::size_t pixel, float* out) {
         *out = s.shows_surface(pixel) ? static_cast<float>(1.0 - hidden_share(s, pixel)) : 0.0f;
     });

@@ -23,7 +23,7 @@ struct Layer {
     bool is_id() const { return !ids.empty(); }
 };
 
-/// Time of one stage of a frame, from its profiling events.
+/// Time of one stage of a frame: see StageTimer.
 struct StageTime {
     std::string name;
     double ms = 0.0;

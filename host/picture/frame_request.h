@@ -45,10 +45,10 @@ struct FrameRequest {
     bool probes = false;            // pixels will be probed: surfaces keep all attributes
     bool operator==(const FrameRequest&) const = default;
 
-    /// Whether surfaces or counts of single pixels are read.
     bool has_aov(std::string_view name) const {
         return std::ranges::find(aovs, name) != aovs.end();
     }
+    /// Whether surfaces or counts of single pixels are read.
     bool pixels() const { return !aovs.empty() || view != ViewKind::lit; }
 
     /// Whether attributes of surfaces are wanted that no light needs.

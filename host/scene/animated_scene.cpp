@@ -19,7 +19,7 @@ struct AnimatedScene::File {
     std::vector<PrimitiveJob> jobs;
     std::vector<int> mesh_of_job;   // index into Scene::meshes; -1: has no triangles
     std::vector<MeshShape> shapes;  // of the scene's time
-    // By job, of shapes that move: decoded and listed once.
+    // By job, of shapes that move: planned once.
     std::vector<std::optional<MeshPlan>> plans;
     double line_width_m = 0.0;  // of points and lines
     double time = 0.0;          // [s] of the scene

@@ -23,8 +23,9 @@ constexpr std::size_t kLineWays = 64;     // directions of lines through the sce
 constexpr int kLines = 10;                // of each direction, along the edge of a square
 constexpr int kMostHits = 100;            // of a line
 constexpr double kApart = 1e-6f;          // of the box's diagonal: surfaces on a line
-constexpr double kFarthest = 1e7;         // of the box's diagonal: where a ray may start
-constexpr double kMostGrowth = 1e9;       // of a ray in an instance: Embree asserts below 1.8e18
+constexpr double kFarthest = 1e7;         // coordinate of a ray, in units of the scene
+constexpr double kMostEntry = 1e9;        // of an instance's matrix and its inverse: Embree ends
+                                          // the program where a ray becomes 1.8e18 long
 constexpr int kCells = 16;                // of a cube's face, along an edge: see level()
 
 // The axes of a cube's level faces: across, through.
@@ -103,11 +104,11 @@ SceneOwner mesh_scene(RTCDevice device, const Mesh& mesh, double scale) {
 }
 
 // Whether a ray stays in Embree's range where it meets an instance.
-bool can_invert(const glm::mat4& moved) {
+bool keeps_rays_in_range(const glm::mat4& moved) {
     const glm::dmat4 inverse = glm::inverse(glm::dmat4(moved));
     for (int i = 0; i < 16; ++i) {
         for (const double value : {inverse[i / 4][i % 4], double{moved[i / 4][i % 4]}}) {
-            if (!(std::abs(value) < kMostGrowth)) return false;
+            if (!(std::abs(value) < kMostEntry)) return false;
         }
     }
     return true;
@@ -206,7 +207,7 @@ struct LookAround::Rays {
             placed[i] = glm::dvec4(of_column * glm::dvec3(placed[i]), placed[i].w);
         }
         const glm::mat4 moved(placed);
-        if (!can_invert(moved) || !has_size(scaled.scene.get(), moved)) return;
+        if (!keeps_rays_in_range(moved) || !has_size(scaled.scene.get(), moved)) return;
         RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, scaled.scene.get());
         rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &moved);

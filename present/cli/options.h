@@ -50,12 +50,8 @@ struct SharedOptions {
 };
 
 /// Options of commands that write pictures.
-struct OutputOptions {
+struct OutputOptions : Encoding {
     std::filesystem::path output;
-    bool half_colour = false;
-    bool uint_ids = false;
-    int bits = 8;  // a channel, of PNG and TIFF
-    int png_level = kPngLevel;
     OcioOptions ocio;
     std::optional<FrameRange> frames;
     double frames_per_second = 24.0;

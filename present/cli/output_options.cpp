@@ -127,6 +127,25 @@ void check_motion(const CameraChoice& camera, const OutputOptions& options) {
     }
 }
 
+// An option of what a picture's file holds.
+struct FormatOption {
+    const char* name;
+    bool is_given;
+    bool (*fits)(const std::filesystem::path& file);
+    const char* misfit;  // of other files
+};
+
+std::vector<FormatOption> format_options(const SharedOptions& shared,
+                                         const OutputOptions& options) {
+    const bool has_layers = !shared.settings.want.aovs.empty();
+    return {{"--aov", has_layers, holds_layers, "cannot hold layers; use .exr"},
+            {"--exr-half", options.half_colour, holds_layers, "is not an EXR file"},
+            {"--aov-ids", options.uint_ids, holds_layers, "is not an EXR file"},
+            {"--bits", options.bits == 16, holds_16_bits,
+             "cannot hold 16 bits a channel; use .png or .tif, or .exr for light"},
+            {"--png-level", options.png_level != kPngLevel, is_png, "is not a PNG file"}};
+}
+
 // A video is one file of display pictures, of all frames.
 void check_video(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
@@ -135,11 +154,9 @@ void check_video(const SharedOptions& shared, const OutputOptions& options) {
     };
     refuse(has_frame_pattern(file), "--output: #### for frame numbers");
     refuse(options.shard.count > 1, "--shard");
-    refuse(!shared.settings.want.aovs.empty(), "--aov");
-    refuse(options.half_colour, "--exr-half");
-    refuse(options.uint_ids, "--aov-ids");
-    refuse(options.bits == 16, "--bits 16");
-    refuse(options.png_level != kPngLevel, "--png-level");
+    for (const FormatOption& option : format_options(shared, options)) {
+        refuse(option.is_given, option.name);
+    }
     if (file == "-" && options.stats == "-") {
         throw UsageError("--stats: standard output is the video's; name a file");
     }
@@ -150,22 +167,9 @@ void check_video(const SharedOptions& shared, const OutputOptions& options) {
 void check_format(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
     if (is_video(file)) return check_video(shared, options);
-    if (!shared.settings.want.aovs.empty() && !holds_layers(file)) {
-        throw UsageError(fmt::format("--aov: '{}' cannot hold layers; use .exr", file));
-    }
-    if (options.half_colour && !holds_layers(file)) {
-        throw UsageError(fmt::format("--exr-half: '{}' is not an EXR file", file));
-    }
-    if (options.uint_ids && !holds_layers(file)) {
-        throw UsageError(fmt::format("--aov-ids: '{}' is not an EXR file", file));
-    }
-    if (options.bits == 16 && !holds_16_bits(file)) {
-        throw UsageError(fmt::format(
-            "--bits: '{}' cannot hold 16 bits a channel; use .png or .tif, or .exr for light",
-            file));
-    }
-    if (options.png_level != kPngLevel && !is_png(file)) {
-        throw UsageError(fmt::format("--png-level: '{}' is not a PNG file", file));
+    for (const FormatOption& option : format_options(shared, options)) {
+        if (!option.is_given || option.fits(file)) continue;
+        throw UsageError(fmt::format("{}: '{}' {}", option.name, file, option.misfit));
     }
     if (image_meaning(file) == ImageMeaning::display) {
         uses_ocio(options.ocio);

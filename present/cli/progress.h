@@ -12,8 +12,8 @@ namespace kilolux {
 std::string progress_line(const std::string& label, std::size_t done, std::size_t total,
                           double elapsed_s, int width);
 
-/// A progress bar on stderr while stderr is a terminal, erased when it ends; otherwise a line after
-/// every `line_s` seconds.
+/// A progress bar on stderr while stderr is a terminal, erased when it ends; otherwise a line
+/// at an advance() where the last line is `line_s` seconds old.
 class Progress {
  public:
     /// `shown` is false with --quiet.

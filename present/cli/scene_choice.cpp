@@ -157,7 +157,7 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
 }
 
 // Chooses a tree for many lights without a range where bounded ranges would lose much of their
-// light. What measures keeps its setting.
+// light. Commands that measure keep bounded ranges, with a warning.
 void choose_tails(SharedOptions& options, const Scene& scene) {
     constexpr double kMostLost = 0.1;
     RenderSettings& s = options.settings;

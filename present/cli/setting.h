@@ -31,7 +31,7 @@ inline constexpr Effect kPanelPicture{Changes::picture, true};
 struct OptionText {
     std::string name;            // "--lights", or "--output,-o"
     std::string form{};          // of the value: "N"; words in small letters between '|' are names
-    std::string default_text{};  // where it says more than the default's own text; else empty
+    std::string default_text{};  // in place of show()'s text; empty: that text
     std::string meaning{};       // with the unit
     Effect effect = kNeither;
 };

@@ -36,11 +36,7 @@ std::vector<float> covered_colours(const RenderOptions& options, const Frame& fr
 ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture) {
     const OutputOptions& out = options.output;
     const bool for_the_eye = is_for_the_eye(picture.task.file);
-    ImageOptions image;
-    image.half_colour = out.half_colour;
-    image.uint_ids = out.uint_ids;
-    image.bits = out.bits;
-    image.png_level = out.png_level;
+    ImageOptions image{out};
     image.alpha = picture.alpha;
     if (for_the_eye && wants_own_display(options)) {
         RenderSettings settings = options.shared.settings;
@@ -60,23 +56,30 @@ ImageOptions image_options(const RenderOptions& options, const RenderedPicture& 
 OrderedWriter::Write coded(const RenderOptions& options, RenderedPicture& picture,
                            VideoFile* video) {
     const ImageOptions image = image_options(options, picture);
+    const PictureTask& task = picture.task;
+    OrderedWriter::Write write_difference = [] {};
+    if (picture.difference) {
+        write_difference = [file = task.difference,
+                            bytes = encode_image(task.difference, *picture.difference, {},
+                                                 ImageOptions{options.output})] {
+            write_atomically(file, bytes);
+        };
+    }
     if (video != nullptr) {
         if (!image.display.empty()) set_display(picture.frame, image.display);
-        return [video, bytes = y4m_frame(picture.frame.display)] { video->write(bytes); };
+        return [video, write_difference, bytes = y4m_frame(picture.frame.display)] {
+            write_difference();
+            video->write(bytes);
+        };
     }
-    const PictureTask& task = picture.task;
-    std::vector<unsigned char> difference;
-    if (picture.difference) {
-        difference = encode_image(task.difference, *picture.difference, {}, {});
-    }
-    return [file = task.file, beside = task.difference, difference = std::move(difference),
+    return [file = task.file, write_difference,
             bytes = encode_image(task.file, picture.frame, picture.notes, image)] {
-        if (!beside.empty()) write_atomically(beside, difference);
+        write_difference();
         write_atomically(file, bytes);
     };
 }
 
-void append(WrittenPictures& made, FrameRecord record) {
+void count(WrittenPictures& made, FrameRecord record) {
     if (made.log) made.log->add(record);
     const bool failed = record.comparison && !record.comparison->passed();
     if (failed && made.first_failure.empty()) {
@@ -93,11 +96,23 @@ std::unique_ptr<VideoFile> open_video(const OutputOptions& out, const RenderSett
         out.output, VideoFormat{settings.width, settings.height, out.frames_per_second});
 }
 
-// Pictures that are worth holding while others are made, within the memory that is left.
-std::size_t most_held(std::size_t pictures, const MemoryPlan& memory) {
+std::size_t bytes_of(const Frame& frame) {
+    std::size_t bytes = (frame.radiance.size() + frame.bloomed.size()) * sizeof(float);
+    for (const Layer& layer : frame.aovs) {
+        bytes += layer.values.size() * sizeof(float) + layer.ids.size() * sizeof(std::uint32_t);
+    }
+    return bytes + frame.display.size();
+}
+
+// How many pictures like this one are held. Two a thread: while one is coded the next one waits, so
+// that no thread waits for the device.
+std::size_t most_held(const RenderedPicture& picture, std::size_t pictures,
+                      const MemoryPlan& memory) {
+    constexpr std::size_t kCopies = 3;  // of its pixels while it is coded
+    const std::size_t bytes = bytes_of(picture.frame) + picture.alpha.size() * sizeof(float) +
+                              (picture.difference ? bytes_of(*picture.difference) : 0);
     if (pictures < 2) return 0;
-    const std::uint64_t left = memory.limit > memory.bytes ? memory.limit - memory.bytes : 0;
-    return std::min<std::size_t>(2 * most_coding_threads(), left / 2 / memory.host_picture);
+    return std::min<std::size_t>(2 * coding_threads(), memory.held_bytes / (kCopies * bytes));
 }
 
 }  // namespace
@@ -115,27 +130,39 @@ PictureFiles::PictureFiles(const RenderOptions& options, std::size_t count,
     : options_(options),
       video_(open_video(options.output, renderer.settings())),
       progress_("rendering", count, !options.shared.quiet),
-      writer_(most_held(count, renderer.memory())) {
+      memory_(renderer.memory()),
+      count_(count) {
     if (!options.output.stats.empty() && options.output.frames) written_.log.emplace();
 }
 
+PictureFiles::~PictureFiles() {
+    if (video_ && writer_) writer_->give_up();
+}
+
 void PictureFiles::add(RenderedPicture picture, FrameRecord record) {
-    records_.push_back(std::move(record));
+    if (!writer_) writer_.emplace(most_held(picture, count_, memory_));
     const auto shared = std::make_shared<RenderedPicture>(std::move(picture));
-    writer_.add([this, shared] { return coded(options_, *shared, video_.get()); });
+    writer_->add([this, shared] { return coded(options_, *shared, video_.get()); });
+    records_.push_back(std::move(record));
+    count_written();
+}
+
+void PictureFiles::skip() {
+    progress_.advance();
     count_written();
 }
 
 WrittenPictures PictureFiles::finish() {
-    writer_.finish();
+    while (writer_ && writer_->wait_for_next()) count_written();
     count_written();
     if (video_) video_->commit();
     return std::move(written_);
 }
 
 void PictureFiles::count_written() {
-    for (const std::size_t written = writer_.written(); written_.count < written;) {
-        append(written_, std::move(records_.front()));
+    if (!writer_) return;
+    for (const std::size_t written = writer_->written(); written_.count < written;) {
+        count(written_, std::move(records_.front()));
         records_.pop_front();
         progress_.advance();
     }

@@ -60,19 +60,22 @@ bool is_for_the_eye(const std::filesystem::path& output);
 /// Whether display colours are made on the host, of 16 bits or by OpenColorIO.
 bool wants_own_display(const RenderOptions& options);
 
-/// Pictures on their way to their files: they are coded in the pool of an OrderedWriter and written
-/// in order while the next ones are made.
+/// Pictures on their way to their files: an OrderedWriter codes and writes them while the next ones
+/// are made.
 class PictureFiles {
  public:
-    /// For `count` pictures, whose renderer's memory plan says how many are held at once. Throws
-    /// Error when a video cannot be made. The options must outlive this.
+    /// `count`: pictures left, those that are there already included. Holds at most two pictures a
+    /// thread, and MemoryPlan::held_bytes. Throws Error when a video cannot be made. The options
+    /// and the renderer must outlive this.
     PictureFiles(const RenderOptions& options, std::size_t count, const Renderer& renderer);
+    /// Writes the pictures that it holds; of a video, which is of no use then, none.
+    ~PictureFiles();
 
     /// Takes a picture. Throws Error where it or an earlier one cannot be coded or written.
     void add(RenderedPicture picture, FrameRecord record);
 
-    /// A picture that was there already.
-    void skip() { progress_.advance(); }
+    /// Counts a picture that was there already.
+    void skip();
 
     /// Waits until all are written. Throws as add().
     WrittenPictures finish();
@@ -85,7 +88,9 @@ class PictureFiles {
     WrittenPictures written_;
     std::deque<FrameRecord> records_;  // of pictures that are not written
     Progress progress_;
-    OrderedWriter writer_;  // its threads use the members above
+    const MemoryPlan& memory_;
+    std::size_t count_;                    // of pictures
+    std::optional<OrderedWriter> writer_;  // from the first picture on; goes before the video
 };
 
 }  // namespace kilolux

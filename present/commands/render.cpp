@@ -2,9 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
-#include <memory>
 #include <optional>
+#include <utility>
 
 #include "host/base/error.h"
 #include "host/base/log.h"

@@ -38,8 +38,8 @@ bool holds_notes(const std::filesystem::path& file);
 bool holds_layers(const std::filesystem::path& file);
 
 /// Of zlib's levels 0 to 9. With Paeth's filter, level 2 takes a fifth of the time of zlib's usual
-/// 6 with a filter chosen row by row, and 7 to 9 % more bytes (190 and 210 ms for 900 and 920 ms;
-/// 2.81 and 3.57 MB for 2.58 and 3.35 MB; atrium and Sponza, 1920x1080).
+/// 6 with a filter chosen row by row, and 7 to 9 % more bytes. At 1920x1080: the atrium 190 ms in
+/// place of 900 and 2.81 MB in place of 2.58, Sponza 210 ms for 920 and 3.57 MB for 3.35.
 inline constexpr int kPngLevel = 2;
 
 /// A file's notes about its picture.
@@ -49,16 +49,21 @@ struct ImageNotes {
     std::optional<Camera> camera;  // becomes worldToCamera and worldToNDC
 };
 
-struct ImageOptions {
+/// How pixels are stored.
+struct Encoding {
     bool half_colour = false;   // EXR: R, G, B in half
     bool uint_ids = false;      // EXR: layers of ids in UINT, also where floats hold them
-    int jpeg_quality = 95;      // 1..100
-    int png_level = kPngLevel;  // of zlib's compression, 0..9
     int bits = 8;               // PNG, TIFF: a channel, 8 or 16
+    int png_level = kPngLevel;  // of zlib's compression, 0..9
+};
+
+/// The parts of a file beside its frame.
+struct ImageOptions : Encoding {
+    int jpeg_quality = 95;  // 1..100
     // PNG, EXR: the covered share of each pixel, 0 to 1; empty: all are covered, and there is no
     // channel. Display colours are those of the covering surfaces, EXR's are multiplied by alpha.
     std::vector<float> alpha{};
-    std::vector<float> display;  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
+    std::vector<float> display{};  // RGB from 0 to 1 in place of Frame::display; 16 bits need it
 };
 
 /// Whether floats hold a layer's ids exactly.

@@ -7,8 +7,9 @@
 
 namespace kilolux {
 
-/// Codes pictures in threads of their own while the next ones are made, and writes them in their
-/// order, one at a time. After a picture that fails no other is written.
+/// Codes pictures in oneTBB's threads while the next ones are made, and writes them in their order,
+/// one at a time. After a picture that fails no other is written. All functions are called by one
+/// thread.
 class OrderedWriter {
  public:
     /// Writes a picture that is coded.
@@ -16,30 +17,34 @@ class OrderedWriter {
     /// Codes a picture.
     using Code = std::function<Write()>;
 
-    /// `most`: pictures that are held at once; 0: add() codes and writes before it returns.
-    explicit OrderedWriter(std::size_t most);
+    /// `most_held`: pictures that are coded or wait at once; 0: add() codes and writes before it
+    /// returns.
+    explicit OrderedWriter(std::size_t most_held);
 
     /// Writes what is held, but no picture after one that failed.
     ~OrderedWriter();
     OrderedWriter(const OrderedWriter&) = delete;
     OrderedWriter& operator=(const OrderedWriter&) = delete;
 
-    /// Waits until fewer than `most` pictures are held, and takes one more. Throws what coding or
-    /// writing an earlier picture threw.
+    /// Waits until fewer than `most_held` pictures are held, and takes one more. Throws what coding
+    /// or writing an earlier picture threw.
     void add(Code code);
 
-    /// Pictures that are written, of those added: all up to one.
+    /// How many pictures are written: the first ones added.
     std::size_t written() const;
 
-    /// Waits until all are written. Throws as add().
-    void finish();
+    /// Waits until another picture is written, and returns true; false if all are. Throws as add().
+    bool wait_for_next();
+
+    /// From now on nothing is coded or written: what is held is of no use.
+    void give_up();
 
  private:
-    struct Pictures;
-    std::unique_ptr<Pictures> pictures_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
-/// Coding threads that are worth their cores: pictures held beyond those do not save time.
-std::size_t most_coding_threads();
+/// oneTBB's threads here.
+std::size_t coding_threads();
 
 }  // namespace kilolux

@@ -3,7 +3,7 @@
 # taken before others in PATH, since the package lists install for it; -DPython3_EXECUTABLE=... names another.
 option(KILOLUX_PYTHON "Build the Python module where Python's headers, numpy and pybind11 are" ON)
 add_custom_target(python)  # the module, or nothing
-if(NOT KILOLUX_PYTHON OR KILOLUX_SANITIZE)  # a plain interpreter loads nothing instrumented
+if(NOT KILOLUX_PYTHON OR (KILOLUX_SANITIZE AND NOT KILOLUX_SANITIZE STREQUAL "address,undefined"))  # no other sanitizer can be loaded later
   return()
 endif()
 if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
@@ -32,7 +32,14 @@ endforeach()
 
 # The types of the keywords, from the list of options that was built.
 set(make_options ${CMAKE_SOURCE_DIR}/present/python/make_options.py)
-add_custom_command(TARGET kilolux_python POST_BUILD COMMAND ${Python3_EXECUTABLE} -B ${make_options} ${python_folder}
+set(KILOLUX_PYTHON_ENVIRONMENT)
+# A plain interpreter loads an instrumented module where the sanitizer's library is loaded first. What the interpreter leaks is not ours.
+if(KILOLUX_SANITIZE)
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libasan.so OUTPUT_VARIABLE asan OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(KILOLUX_PYTHON_ENVIRONMENT LD_PRELOAD=${asan} ASAN_OPTIONS=detect_leaks=0 PYTHONMALLOC=malloc)
+endif()
+add_custom_command(TARGET kilolux_python POST_BUILD
+  COMMAND ${CMAKE_COMMAND} -E env ${KILOLUX_PYTHON_ENVIRONMENT} ${Python3_EXECUTABLE} -B ${make_options} ${python_folder}
   BYPRODUCTS ${python_folder}/options.py VERBATIM)
 
 # Where this Python looks below a prefix: lib/python3.11/dist-packages.

@@ -19,8 +19,8 @@ CALLS = {"min": "max", "max": "min", "fmin": "fmax", "fmax": "fmin", "floor": "c
 CLAMPS = ("min", "max", "fmin", "fmax", "clamp")
 SWAPPED = {"lane_select": (1, 2), "lane_select_uint": (1, 2), "select3": (1, 2), "select": (0, 1), "sub3": (0, 1),
            "cross3": (0, 1), "lane_divide": (0, 1)}
-# Components, indices and constants are so many that they would be most mutants: a fourth of them, the same ones in the same line.
-RARE = 4
+# Components, indices and constants are so many that they would be most mutants: a fourth of them, chosen by the line's text.
+KEPT_ONE_IN = 4
 COMPONENTS = {"x": "y", "y": "x", "z": "y"}
 # Layouts are checked where they are compiled; an array may be longer.
 NO_RESULT = re.compile(r"SHARED_ASSERT|__attribute__|^\s*((local|const) )*(?!return)[a-zA-Z]\w* \w+\[[^=]*;\s*$")
@@ -109,7 +109,7 @@ def mutants_of(file, text):
     for number, code in device_lines(text):
         for kind, (begin, end), new in (*operator_changes(code), *call_changes(code), *constant_changes(code)):
             if kind in ("component", "index", "integer", "float"):
-                if zlib.crc32(f"{begin} {lines[number]}".encode()) % RARE:
+                if zlib.crc32(f"{begin} {lines[number]}".encode()) % KEPT_ONE_IN:
                     continue
             after = lines[number][:begin] + new + lines[number][end:]
             whole = "\n".join(lines[:number] + [after] + lines[number + 1:])

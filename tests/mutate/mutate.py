@@ -8,8 +8,8 @@
 
 A mutant is a copy of kernels/ and raster/ with one change, which programs of BUILD read instead of their own text
 (KILOLUX_SOURCE_DIR). So only the device's side of kernels/shared is changed: the host keeps what it was built with.
-A line for each mutant says which test killed it. One that no kernel builds with counts as neither killed nor survived.
-Survivors that change no result are in equivalent.txt, each with its reason. Exit status 1: another mutant survived.
+A line for each mutant says which test killed it. One with which a kernel does not build counts as neither killed nor survived.
+Survivors that change no result are in equivalent.txt, each with its reason. Exit status 1: another mutant survived, or one of the file cannot be made any more.
 """
 import os
 import pathlib
@@ -82,11 +82,13 @@ class Tests:
         log = self.work / "log"
         with open(log, "wb") as out, subprocess.Popen(command, env=environment, stdout=out, stderr=subprocess.STDOUT,
                                                       start_new_session=True) as process:
-            while process.poll() is None and time.time() - log.stat().st_mtime < SECONDS:
-                time.sleep(0.05)
-            slow = process.poll() is None
-            if slow:
-                os.killpg(process.pid, signal.SIGKILL)
+            try:
+                while process.poll() is None and time.time() - log.stat().st_mtime < SECONDS:
+                    time.sleep(0.05)
+            finally:
+                slow = process.poll() is None
+                if slow:
+                    os.killpg(process.pid, signal.SIGKILL)
         return None if slow else process.returncode, log.read_text(errors="replace")
 
     def killed_by(self, program, cases):
@@ -121,6 +123,12 @@ class Tests:
             file.write_text(whole)
 
 
+def stale(mutants):
+    """Entries of equivalent.txt that no mutant makes."""
+    made = {(m.file, m.before, m.after) for m in mutants}
+    return [entry for entry in equivalents() if entry not in made]
+
+
 def report(mutants, tests):
     """Prints a line for each mutant; the number of survivors that are not known, and of known ones that are gone."""
     known = equivalents()
@@ -134,12 +142,11 @@ def report(mutants, tests):
         counts[kind] += 1
         by = f" by {by}" if kind == "killed" else ""
         print(f"{kind}{by}: {mutant.file}:{mutant.line}\n    {mutant.before}\n    {mutant.after}", flush=True)
-    makes = {(m.file, m.before, m.after) for m in all_mutants()}
-    stale = [entry for entry in known if entry not in makes]
-    for file, before, after in stale:
+    gone = stale(all_mutants())
+    for file, before, after in gone:
         print(f"equivalent.txt: no mutant of {file} is any more\n    {before}\n    {after}")
     print(f"{len(mutants)} mutants: " + ", ".join(f"{number} {kind}" for kind, number in counts.items()))
-    return counts["SURVIVED"] + len(stale)
+    return counts["SURVIVED"] + len(gone)
 
 
 def selftest(tests):
@@ -152,8 +159,10 @@ def selftest(tests):
         "a mutant of prefix_sum is killed": tests.verdict(one, steps).startswith("PrefixSum."),
         "a mutant that does not build is told apart": tests.verdict(broken, steps) == "no build",
         "the copy is whole again": (tests.copies["mutant"] / one.file).read_text() == (ROOT / one.file).read_text(),
-        "one seed gives one choice": chosen(mutants, 100, 1) == chosen(mutants, 100, 1),
-        "every file has tests": all(steps_of(m.file) for m in mutants),
+        "another seed gives another choice": chosen(mutants, 100, 1) != chosen(mutants, 100, 2),
+        "every file's tests are built": all((tests.build / "tests" / program).exists() for m in mutants
+                                            for program, _ in steps_of(m.file)),
+        "mutants of equivalent.txt can be made": not stale(mutants),
         "equivalent.txt has reasons": all(equivalents().values()),
     }
     for check, holds in checks.items():
@@ -163,7 +172,7 @@ def selftest(tests):
 
 def main(build, *words):
     if not (words in ((), ("--selftest",)) or words[0] == "--only" and len(words) == 2 or
-            len(words) <= 2 and all(word.isdecimal() for word in words)):
+            len(words) <= 2 and all(word.isdecimal() and int(word) > 0 for word in words)):
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory() as work:
         tests = Tests(build, work)

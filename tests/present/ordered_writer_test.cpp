@@ -31,6 +31,11 @@ std::vector<std::size_t> up_to(std::size_t count) {
     return out;
 }
 
+void finish(OrderedWriter& writer) {
+    while (writer.wait_for_next()) {
+    }
+}
+
 TEST(OrderedWriter, WritesInOrderWhateverCodingTakes) {
     for (const std::size_t most : {0, 1, 2, 8}) {
         std::vector<std::size_t> out;
@@ -39,7 +44,7 @@ TEST(OrderedWriter, WritesInOrderWhateverCodingTakes) {
             writer.add(coded_late(i, out));
             EXPECT_LE(i + 1 - writer.written(), most) << "held";
         }
-        writer.finish();
+        finish(writer);
         EXPECT_EQ(writer.written(), kPictures);
         EXPECT_EQ(out, up_to(kPictures)) << most;
     }
@@ -61,7 +66,7 @@ std::string failure_of(OrderedWriter& writer, std::size_t at, const OrderedWrite
         for (std::size_t i = 0; i < kPictures; ++i) {
             writer.add(i == at ? fail : coded_late(i, out));
         }
-        writer.finish();
+        finish(writer);
     } catch (const Error& error) {
         return error.what();
     }
@@ -91,16 +96,37 @@ TEST(OrderedWriter, AFailureIsThrownAndNothingLaterIsWritten) {
     }
 }
 
+TEST(OrderedWriter, WritesNothingAfterItGaveUp) {
+    std::vector<std::size_t> out;
+    std::atomic<bool> is_given_up = false;
+    {
+        OrderedWriter writer(8);
+        for (std::size_t i = 0; i < 2; ++i) writer.add(coded_late(i, out));
+        finish(writer);
+        writer.add([&]() -> OrderedWriter::Write {
+            while (!is_given_up) sleep_ms(1);
+            return [&out] { out.push_back(2); };
+        });
+        writer.add(coded_late(3, out));
+        writer.give_up();
+        is_given_up = true;
+    }
+    EXPECT_EQ(out, up_to(2));
+}
+
 // The next picture is made while one is coded: the caller does not wait for the coding.
 TEST(OrderedWriter, CodesWhileTheNextPictureIsMade) {
     std::atomic<bool> is_made = false;
     OrderedWriter writer(2);
-    writer.add([&is_made]() -> OrderedWriter::Write {
-        while (!is_made) sleep_ms(1);
+    std::atomic<bool> waited_in_vain = false;
+    writer.add([&]() -> OrderedWriter::Write {
+        for (int ms = 0; ms < 20'000 && !is_made; ++ms) sleep_ms(1);
+        waited_in_vain = !is_made;
         return [] {};
     });
     is_made = true;
-    writer.finish();
+    finish(writer);
+    EXPECT_FALSE(waited_in_vain);
     EXPECT_EQ(writer.written(), 1u);
 }
 

@@ -46,6 +46,24 @@ TEST(RenderSequence, HasTheBytesOfItsPicturesAlone) {
     }
 }
 
+TEST(RenderSequence, WritesTheDifferencesOfPicturesAndVideos) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> frames = {"--frames", "0:2"};
+    ASSERT_EQ(run_kilolux(small_sequence(folder / "r.#.exr", frames)).code, 0);
+    for (const char* output : {"f.#.exr", "f.y4m"}) {
+        const fs::path difference = folder / (std::string(output) + ".d.#.exr");
+        std::vector<std::string> words = frames;
+        words.insert(words.end(), {"--reference", (folder / "r.#.exr").string(), "--difference",
+                                   difference.string(), "--exposure", "1"});
+        const ChildResult result = run_kilolux(small_sequence(folder / output, words));
+        ASSERT_EQ(result.code, 0) << result.err;
+        for (int frame = 0; frame < 3; ++frame) {
+            const std::string name = std::string(output) + ".d." + std::to_string(frame) + ".exr";
+            EXPECT_EQ(read_image(folder / name).width, 48) << name;
+        }
+    }
+}
+
 TEST(RenderSequence, APictureThatCannotBeWrittenIsNamedAndIsTheLast) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "f.3.png");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `kilolux render` and `info` as a whole: files, sequences, statistics, comparison, interruption.
+// `kilolux render` and `info` as a whole: files, sequences, statistics, comparison.
 #include <gtest/gtest.h>
 
 #include <algorithm>

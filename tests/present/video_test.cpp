@@ -272,7 +272,7 @@ TEST(Video, RefusesWhatAVideoCannotHold) {
     EXPECT_TRUE(contains(refusal("a.mp4", {"--frames", "0:3", "--shard", "0/2"}), "--shard: "));
     EXPECT_TRUE(contains(refusal("a.y4m", {"--aov", "depth"}), "--aov: 'a.y4m' is a video"));
     EXPECT_TRUE(contains(refusal("a.y4m", {"--exr-half"}), "--exr-half: "));
-    EXPECT_TRUE(contains(refusal("a.y4m", {"--bits", "16"}), "--bits 16: "));
+    EXPECT_TRUE(contains(refusal("a.y4m", {"--bits", "16"}), "--bits: "));
     EXPECT_TRUE(contains(refusal("a.mkv", {"--resolution", "33,32"}), "33x32: H.264"));
     EXPECT_TRUE(contains(refusal("-", {"--stats", "-"}), "--stats: standard output"));
 }

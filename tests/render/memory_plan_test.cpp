@@ -36,8 +36,21 @@ TEST(MemoryPlan, DeviceBuffersHoldTheWholePictureOfBloom) {
     const MemoryPlan without = plan(scene, settings);
     settings.bloom = 0.5f;
     const MemoryPlan with = plan(scene, settings);
-    EXPECT_EQ(with.device_bytes, without.device_bytes);
+    EXPECT_EQ(with.device_bytes + with.held_bytes, without.device_bytes + without.held_bytes);
     EXPECT_GE(with.bytes, without.bytes);
+}
+
+// What lists may take and what finished pictures may take is not given twice.
+TEST(MemoryPlan, FinishedPicturesHaveAPartOfTheirOwn) {
+    const Scene scene = make_generated_scene("plain");
+    RenderSettings settings = small_settings(64, 64, 100);
+    const ScenePlan scene_plan = make_scene_plan(scene, settings, settings.lights.count);
+    settings.max_memory_bytes = std::uint64_t{1} << 30;
+    const MemoryPlan large = plan_memory(scene, settings, scene_plan, cpu());
+    EXPECT_GT(large.held_bytes, 64u * 64 * 16);
+    EXPECT_LE(large.device_bytes + large.held_bytes, settings.max_memory_bytes);
+    settings.max_memory_bytes = large.bytes;
+    EXPECT_EQ(plan_memory(scene, settings, scene_plan, cpu()).held_bytes, 0u);
 }
 
 // Without generated lights the message names none.

@@ -62,7 +62,7 @@ AtomicFile::AtomicFile(const fs::path& file, FileAccess access)
 AtomicFile::~AtomicFile() {
     if (temporary_.empty()) return;
     ::unlink(temporary_.c_str());
-    set_unfinished_file({});
+    forget_unfinished_file(temporary_);
 }
 
 void AtomicFile::open_beside(FileAccess access) {
@@ -74,7 +74,7 @@ void AtomicFile::open_beside(FileAccess access) {
         if (number < 0 && errno == EEXIST) continue;  // another thread or machine has this name
         out_.emplace(number, file_);
         temporary_ = name;
-        set_unfinished_file(name);
+        add_unfinished_file(name);
         break;
     }
     struct stat old = {};
@@ -86,8 +86,8 @@ void AtomicFile::commit() {
     out_->finish();
     if (temporary_.empty()) return;
     if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail_to_write(file_);
+    forget_unfinished_file(temporary_);
     temporary_.clear();
-    set_unfinished_file({});
 }
 
 void write_atomically(const fs::path& file, std::string_view text, FileAccess access) {

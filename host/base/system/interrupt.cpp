@@ -10,18 +10,23 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "host/base/error.h"
 
 namespace kilolux {
 namespace {
 
-struct SignalState {
-    std::atomic<bool> requested = false;
-    std::mutex mutex;  // guards what follows
-    std::string file;
+struct UnfinishedFile {
+    std::string name;
     dev_t device = 0;
     ino_t inode = 0;
+};
+
+struct SignalState {
+    std::atomic<bool> requested = false;
+    std::mutex mutex;  // guards `unfinished`
+    std::vector<UnfinishedFile> unfinished;
 };
 
 thread_local WorkWatch* watch_of_thread = nullptr;
@@ -39,13 +44,15 @@ sigset_t ending_signals() {
     return signals;
 }
 
-void remove_unfinished_file() {
+void remove_unfinished_files() {
     SignalState& signals = state();
     const std::lock_guard lock(signals.mutex);
-    struct stat now = {};
-    if (!signals.file.empty() && lstat(signals.file.c_str(), &now) == 0 &&
-        now.st_dev == signals.device && now.st_ino == signals.inode) {
-        unlink(signals.file.c_str());
+    for (const UnfinishedFile& file : signals.unfinished) {
+        struct stat now = {};
+        if (lstat(file.name.c_str(), &now) == 0 && now.st_dev == file.device &&
+            now.st_ino == file.inode) {
+            unlink(file.name.c_str());
+        }
     }
 }
 
@@ -54,7 +61,7 @@ void take_signals(const sigset_t& signals) {
     sigwait(&signals, &number);
     state().requested = true;
     sigwait(&signals, &number);
-    remove_unfinished_file();
+    remove_unfinished_files();
     signal(number, SIG_DFL);
     pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
     raise(number);
@@ -89,14 +96,19 @@ WorkWatch::WorkWatch(Call call)
 WorkWatch::~WorkWatch() { watch_of_thread = outer_; }
 bool WorkWatch::is_present() { return watch_of_thread != nullptr; }
 
-void set_unfinished_file(const std::filesystem::path& file) {
+void add_unfinished_file(const std::filesystem::path& file) {
+    struct stat status = {};
+    if (lstat(file.c_str(), &status) != 0) return;
     SignalState& signals = state();
     const std::lock_guard lock(signals.mutex);
-    struct stat status = {};
-    const bool exists = !file.empty() && lstat(file.c_str(), &status) == 0;
-    signals.file = exists ? file.string() : "";
-    signals.device = status.st_dev;
-    signals.inode = status.st_ino;
+    signals.unfinished.push_back({file.string(), status.st_dev, status.st_ino});
+}
+
+void forget_unfinished_file(const std::filesystem::path& file) {
+    SignalState& signals = state();
+    const std::lock_guard lock(signals.mutex);
+    std::erase_if(signals.unfinished,
+                  [&](const UnfinishedFile& one) { return one.name == file.string(); });
 }
 
 }  // namespace kilolux

@@ -41,8 +41,11 @@ class WorkWatch {
     WorkWatch* outer_;
 };
 
-/// Names the existing file that a killing signal must remove; an empty path names none. There is
-/// one such file at a time. The signal removes it only while the name still means the same file.
-void set_unfinished_file(const std::filesystem::path& file);
+/// Names an existing file that a killing signal must remove, as long as the name means the same
+/// file.
+void add_unfinished_file(const std::filesystem::path& file);
+
+/// The file is finished, or removed.
+void forget_unfinished_file(const std::filesystem::path& file);
 
 }  // namespace kilolux

@@ -206,11 +206,12 @@ MemoryPlan plan_memory(const Scene& scene, const RenderSettings& settings, const
     MemoryPlan out;
     out.band_rows = settings.band_rows > 0 ? std::clamp(settings.band_rows, lowest, rows) : rows;
     out.bytes = need.fixed + static_cast<Bytes>(rows) * row;
-    out.limit = limit;
-    out.host_picture = width * static_cast<Bytes>(settings.height) * picture_pixel_bytes(settings);
+    constexpr Bytes kHeldShare = 4;  // finished pictures get one part in four of what is left
+    out.held_bytes = (limit - out.bytes) / kHeldShare;
     // A CPU's buffers share the host's memory: lights and bands get what is planned, lists the
     // rest.
-    out.device_bytes = device.is_cpu ? limit - need.fixed + need.device_fixed : device.memory_bytes;
+    out.device_bytes = device.is_cpu ? limit - out.held_bytes - need.fixed + need.device_fixed
+                                     : device.memory_bytes;
     return out;
 }
 

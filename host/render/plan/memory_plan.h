@@ -14,8 +14,7 @@ namespace kilolux {
 struct MemoryPlan {
     int band_rows = 0;               // rows made at once: a multiple of FINE_TILE
     std::uint64_t bytes = 0;         // what that takes, light lists aside
-    std::uint64_t limit = 0;         // what may be taken in all
-    std::uint64_t host_picture = 0;  // bytes of a whole picture on the host while it is written
+    std::uint64_t held_bytes = 0;    // that finished pictures may take until they are written
     std::uint64_t device_bytes = 0;  // that device buffers may take: GrowingBuffer's budget
 };
 

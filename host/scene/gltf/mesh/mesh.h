@@ -27,7 +27,7 @@ struct MeshPlan {
     std::vector<std::uint32_t> elements;  // of the attributes, by vertex
     std::vector<std::uint32_t> indices;   // of vertices
     // By vertex, the first of those that share a tangent: equal in the file and deformed alike.
-    // Empty where the mesh is made once: those that are equal then.
+    // Empty where the mesh is made once; build_mesh() groups its vertices then.
     std::vector<std::uint32_t> tangent_groups;
 };
 
