@@ -39,7 +39,7 @@ bool has_any(const Words& words, const Words& wanted) {
 
 // A line a device, with the index that --device takes.
 std::string device_list(const std::vector<DeviceInfo>& devices) {
-    if (devices.empty()) return "no OpenCL devices\n";
+    if (devices.empty()) choose_device("");  // says why there is none
     std::string out;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const DeviceInfo& d = devices[i];

@@ -16,6 +16,7 @@ std::atomic<Verbosity>& verbosity() {
 }
 
 void print(const char* prefix, std::string_view message) {
+    std::fflush(stdout);  // what came before it, where both are one file
     std::fprintf(stderr, "%s%.*s\n", prefix, static_cast<int>(message.size()), message.data());
 }
 

@@ -149,6 +149,7 @@ void write_json(const std::string& file, const Json& document, const FrameLog* f
 void print_result(bool json, const Json& document, const std::string& text) {
     if (json) return write_json("-", document);
     std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);  // before what follows on stderr, where both are one file
 }
 
 }  // namespace kilolux

@@ -47,7 +47,11 @@ class Tasks {
     }
 
     bool is_done(const PictureTask& task) const {
-        if (is_video(task.file)) return options_.output.skip_existing && fs::exists(task.file);
+        if (is_video(task.file)) {
+            std::error_code none;
+            const std::uintmax_t bytes = fs::file_size(task.file, none);
+            return options_.output.skip_existing && !none && bytes > 0;
+        }
         const RenderSettings& s = options_.shared.settings;
         return options_.output.skip_existing &&
                is_made({task.file, s.width, s.height, options_.command, noted_time(task.time)});

@@ -59,15 +59,15 @@ void add_material(Scene& scene, const py::dict& made) {
     scene.materials.push_back(std::move(material));
 }
 
-void add_mesh(Scene& scene, const MeshArrays& arrays, std::optional<int> material,
+void add_mesh(Scene& scene, const MeshArrays& arrays, int material,
               const Array<double>& world_from_object) {
     Mesh mesh = mesh_of(arrays);
     const int known = static_cast<int>(scene.materials.size());
-    if (material && (*material < 0 || *material >= known)) {
+    if (material < 0 || material >= known) {
         throw Error(fmt::format("mesh '{}': material {} is none of the scene's {}", mesh.name,
-                                *material, known));
+                                material, known));
     }
-    mesh.material = material.value_or(-1);
+    mesh.material = material;
     scene.instances.push_back(
         {static_cast<int>(scene.meshes.size()), matrix_of(world_from_object)});
     scene.meshes.push_back(std::move(mesh));
@@ -96,7 +96,7 @@ void add_scenes(py::module_& module) {
         .def("add_mesh", [](Scene& scene, const std::string& name, const Array<float>& positions,
                             const Array<float>& normals, const Array<float>& texcoords,
                             const Array<float>& colors, const Array<std::int64_t>& indices,
-                            std::optional<int> material, const Array<double>& world_from_object) {
+                            int material, const Array<double>& world_from_object) {
             add_mesh(scene, {name, positions, normals, texcoords, colors, indices}, material,
                      world_from_object);
         });

@@ -71,6 +71,9 @@ TEST_F(Faults, NoPlatformNoDeviceNoOpenGl) {
     const std::string empty = elsewhere_.path().string();
     expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
     expect_refused(with_environment({"POCL_DEVICES=none"}), "OpenCL: no device found");
+    Words list = with_environment({"OCL_ICD_VENDORS=" + empty});
+    list.insert(list.end(), {program_file(), "--list-devices"});
+    expect_failure(run_child(list), "OpenCL: no device found");
     expect_refused(with_environment({"__EGL_VENDOR_LIBRARY_FILENAMES=" + empty + "/none.json"}),
                    "EGL: no headless OpenGL 4.5 context", {"--geometry", "ids"});
     write_text(elsewhere_ / "broken.icd", "libno-such-driver.so.1\n");

@@ -14,6 +14,8 @@
 #include "host/gpu/tuning/device_cache.h"
 #include "host/gpu/tuning/shipped_tunings.h"
 #include "tests/support/cache_sandbox.h"
+#include "tests/support/environment_variable.h"
+#include "tests/support/messages.h"
 #include "tests/support/paths.h"
 
 namespace kilolux {
@@ -326,6 +328,12 @@ TEST_F(ShippedTunings, AreThoseOfTheCertificates) {
                 << field.name;
     }
     EXPECT_EQ(shipped, shipped_tunings().size());
+}
+
+TEST(ForcedTuning, OfNoShippedDeviceIsNamed) {
+    const EnvironmentVariable forced("KILOLUX_SHIPPED_TUNING", "no such device");
+    EXPECT_EQ(message_of<Error>([] { known_tuning(DeviceInfo{}); }),
+              "KILOLUX_SHIPPED_TUNING=no such device: no tuning is shipped for it");
 }
 
 }  // namespace

@@ -34,6 +34,16 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
     EXPECT_LT(glm::length(a - b), 1e-12) << a.x << " " << a.y << " " << a.z;
 }
 
+// A camera for pictures of 4:3 keeps its width in a narrow picture, and its height in a wide one.
+TEST(CameraChoice, ByDefaultNothingOfAFilesCameraIsCutOff) {
+    Scene scene = make_scene(1);
+    scene.cameras[0].aspect = 4.0 / 3.0;
+    const double made_for = scene.cameras[0].y_fov;
+    EXPECT_NEAR(choose_camera({}, scene, 16.0 / 9.0).y_fov, made_for, 1e-12);
+    const double narrow = choose_camera({}, scene, 120.0 / 160.0).y_fov;
+    EXPECT_NEAR(std::tan(0.5 * narrow) * 0.75, std::tan(0.5 * made_for) * 4.0 / 3.0, 1e-12);
+}
+
 TEST(CameraChoice, TheFirstOfTheSceneElseTheFramingOne) {
     expect_near(choose_camera({}, make_scene(2)).position, {10, 0, 0});
     const Camera framed = choose_camera({}, make_scene(0));

@@ -10,6 +10,7 @@
 #include <new>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include "host/base/version.h"
 #include "present/exit_code.h"
@@ -264,17 +265,21 @@ ChildResult end_of(Act act) {
 }
 
 TEST(ExitCode, WhateverIsThrownIsOneLine) {
+    const std::string too_long = "kilolux: " + std::string(256, 'a') + ": File name too long\n";
+    const char* const name_too_long = too_long.c_str();
     const struct {
         std::function<void()> work;
         int code;
         const char* line;
-    } cases[] = {{[] {}, 0, ""},
-                 {[] { throw Error("a.glb: broken"); }, 1, "kilolux: a.glb: broken\n"},
-                 {[] { throw UsageError("--x"); }, 2, "kilolux: --x\n"},
-                 {[] { throw ComparisonFailed("a.png"); }, 3, "kilolux: a.png\n"},
-                 {[] { throw Interrupted(); }, 130, "kilolux: interrupted\n"},
-                 {[] { throw std::bad_alloc(); }, 1, "kilolux: out of memory\n"},
-                 {[] { throw 7; }, 1, "kilolux: internal error: an exception of unknown type\n"}};
+    } cases[] = {
+        {[] {}, 0, ""},
+        {[] { throw Error("a.glb: broken"); }, 1, "kilolux: a.glb: broken\n"},
+        {[] { throw UsageError("--x"); }, 2, "kilolux: --x\n"},
+        {[] { throw ComparisonFailed("a.png"); }, 3, "kilolux: a.png\n"},
+        {[] { throw Interrupted(); }, 130, "kilolux: interrupted\n"},
+        {[] { throw std::bad_alloc(); }, 1, "kilolux: out of memory\n"},
+        {[] { std::ignore = std::filesystem::file_size(std::string(256, 'a')); }, 1, name_too_long},
+        {[] { throw 7; }, 1, "kilolux: internal error: an exception of unknown type\n"}};
     for (const auto& c : cases) {
         const ChildResult result = end_of([&] { return exit_code_of(c.work); });
         EXPECT_EQ(result.code, c.code) << c.line;

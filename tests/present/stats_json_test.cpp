@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 
+#include "host/base/log.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -130,6 +134,25 @@ TEST(StatsJson, WrittenWholeOrNotAtAll) {
         message_of<Error>([&] { write_json((folder / "no/s.json").string(), Json::object()); });
     EXPECT_TRUE(contains(message, "no/s.json")) << message;
     EXPECT_EQ(names_in(folder), (std::set<std::string>{"s.json"}));
+}
+
+// A result is longer than the buffer of standard output.
+TEST(StatsJson, AResultStandsWholeBeforeWhatFollowsInTheSameFile) {
+    const TemporaryFolder folder;
+    const std::string table(6000, 'a');
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        const int file = open((folder / "both").c_str(), O_WRONLY | O_CREAT, 0600);
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
+        print_result(false, {}, table + "\n");
+        warn("written");
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(text_of_file(folder / "both"), table + "\nkilolux: warning: written\n");
 }
 
 }  // namespace

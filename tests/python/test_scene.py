@@ -29,6 +29,17 @@ def test_a_floor_is_lit_as_the_formula_says(floor, albedo):
     assert frame.stats["lights"]["given"] == 1
 
 
+def test_a_mesh_without_a_material_is_white_and_no_metal(floor):
+    positions, indices = floor
+    scene = kilolux.Scene([kilolux.Mesh(positions, indices)] * 2, LIGHT)
+    frame = kilolux.render(scene, aov=["depth", "albedo", "metallic", "roughness"], gbuffer="full",
+                           **(VIEW | {"shading": "pbr"}))
+    drawn = frame.aovs["depth"] > 0
+    assert drawn.sum() > 1000
+    for layer, value in (("albedo", 1.0), ("metallic", 0.0), ("roughness", 1.0)):
+        np.testing.assert_allclose(frame.aovs[layer][drawn], value, atol=1e-6, err_msg=layer)
+
+
 def test_normals_texcoords_colors_and_images(floor):
     positions, indices = floor
     image = np.zeros((8, 8, 3), np.uint8)

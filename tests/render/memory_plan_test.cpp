@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/stages/surfaces/bin_triangles.h"
 #include "tests/support/messages.h"
 #include "tests/support/render_fixture.h"
 
@@ -51,6 +52,30 @@ TEST(MemoryPlan, FinishedPicturesHaveAPartOfTheirOwn) {
     EXPECT_LE(large.device_bytes + large.held_bytes, settings.max_memory_bytes);
     settings.max_memory_bytes = large.bytes;
     EXPECT_EQ(plan_memory(scene, settings, scene_plan, cpu()).held_bytes, 0u);
+}
+
+// Automatic geometry may draw in OpenCL; a difference to deferred-all has the scene on the device
+// twice.
+TEST(MemoryPlan, CountsWhatAutomaticGeometryAndTheDifferenceTake) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings(64, 64, 100);
+    settings.geometry = Geometry::ids;
+    const MemoryPlan ids = plan(scene, settings);
+    settings.geometry = Geometry::automatic;
+    EXPECT_EQ(plan(scene, settings).bytes - ids.bytes,
+              BinTriangles::kTriangleBytes * triangle_count(scene));
+    settings.geometry = Geometry::ids;
+    settings.want.view = ViewKind::albedo;
+    const MemoryPlan view = plan(scene, settings);
+    settings.want.view = ViewKind::difference;
+    settings.lights.count = 100'100;
+    const MemoryPlan more = plan(scene, settings);
+    settings.lights.count = 100;
+    const MemoryPlan difference = plan(scene, settings);
+    settings.want.view = ViewKind::albedo;
+    settings.lights.count = 100'100;
+    EXPECT_GT(difference.bytes, view.bytes);
+    EXPECT_EQ(more.bytes - difference.bytes, 2 * (plan(scene, settings).bytes - view.bytes));
 }
 
 // Without generated lights the message names none.

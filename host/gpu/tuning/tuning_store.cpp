@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdlib>
 
+#include "host/base/error.h"
 #include "host/gpu/tuning/device_cache.h"
 #include "host/gpu/tuning/shipped_tunings.h"
 #include "kernels/shared/cluster_grid.h"
@@ -53,10 +54,15 @@ int int_of(const CacheValues& values, std::string_view key) {
 std::optional<StoredTuning> forced_tuning(const DeviceInfo& device) {
     const char* name = std::getenv("KILOLUX_SHIPPED_TUNING");
     if (name == nullptr) return std::nullopt;
+    bool is_known = false;
     for (const ShippedTuning& row : shipped_tunings()) {
-        if (row.is_cpu == device.is_cpu && row.device.find(name) != std::string_view::npos &&
-            is_valid(row.tuning, device))
-            return row.tuning;
+        if (row.device.find(name) == std::string_view::npos) continue;
+        is_known = true;
+        if (row.is_cpu == device.is_cpu && is_valid(row.tuning, device)) return row.tuning;
+    }
+    if (!is_known) {
+        throw Error(std::string("KILOLUX_SHIPPED_TUNING=") + name +
+                    ": no tuning is shipped for it");
     }
     return std::nullopt;
 }

@@ -191,12 +191,13 @@ class Scene:
         self.lights = lights
         self._native = _native.Scene(name)
         self._materials: dict[int, tuple[int, Material]] = {}
+        self._white = Material()
         for mesh in [meshes] if isinstance(meshes, Mesh) else meshes:
             self._add(mesh)
 
-    def _material(self, material: Material | None) -> int | None:
+    def _material(self, material: Material | None) -> int:
         if material is None:
-            return None
+            material = self._white
         if not isinstance(material, Material):
             raise _native.Error(f"mesh: material must be a Material, not {type(material).__name__}")
         if id(material) not in self._materials:
