@@ -6,9 +6,12 @@
 #include <numbers>
 #include <set>
 
+#include "host/gpu/tuning/tuning_store.h"
 #include "host/render/lights/light_source.h"
+#include "host/render/plan/kernel_choice.h"
 #include "host/render/plan/scene_plan.h"
 #include "host/scene/generated/scenes.h"
+#include "tests/support/cache_sandbox.h"
 
 namespace kilolux {
 namespace {
@@ -21,6 +24,8 @@ DeviceInfo device() {
     out.max_work_group = 4096;
     return out;
 }
+
+class ReportSettingsOfATuning : public CacheSandbox {};
 
 std::set<SettingAxis> axes(const std::vector<ReportSetting>& settings) {
     std::set<SettingAxis> out;
@@ -45,6 +50,22 @@ TEST(ReportSettings, CoverEveryAxisOnceEach) {
         }
         EXPECT_EQ(names.count("renderer forward"), quick ? 0u : 1u);
         EXPECT_FALSE(names.count("gbuffer packed")) << "that is the default";
+    }
+}
+
+// Whatever --geometry auto is on the device, the axis has the other ways.
+TEST_F(ReportSettingsOfATuning, HaveTheWaysThatAutomaticGeometryIsNot) {
+    const Scene scene = make_generated_scene("grid");
+    for (const int computes : {0, 1}) {
+        StoredTuning tuning = choose_tuning(device(), {});
+        tuning.tuning.geometry = computes;
+        store_tuning(device(), tuning);
+        std::set<std::string> names;
+        for (const ReportSetting& s : report_settings(scene, {}, device(), {})) {
+            if (s.axis == SettingAxis::geometry) names.insert(s.name);
+        }
+        const std::string other = computes == 1 ? "geometry ids" : "geometry compute";
+        EXPECT_EQ(names, (std::set<std::string>{other, "geometry planes"}));
     }
 }
 

@@ -53,10 +53,13 @@ void add_gbuffers(Variants& v) {
     }
 }
 
-void add_geometry(Variants& v) {
+void add_geometry(Variants& v, const DeviceInfo& device) {
     constexpr std::pair<Geometry, const char*> kWays[] = {
         {Geometry::ids, "ids"}, {Geometry::compute, "compute"}, {Geometry::planes, "planes"}};
-    const Geometry base = v.base.geometry == Geometry::automatic ? Geometry::ids : v.base.geometry;
+    const bool is_automatic = v.base.geometry == Geometry::automatic;
+    const bool computes = choose_tuning(device, v.base.kernels).tuning.geometry == 1;
+    const Geometry chosen = computes ? Geometry::compute : Geometry::ids;
+    const Geometry base = is_automatic ? chosen : v.base.geometry;
     for (const auto& [geometry, name] : kWays) {
         const bool lacks_shadows = has_shadows(v.base) && !resolves_ids(geometry);
         if (geometry == base || lacks_shadows) continue;
@@ -224,7 +227,7 @@ std::vector<ReportSetting> report_settings(const Scene& scene, const RenderSetti
     Variants variants{base, choice, {{SettingAxis::none, "default", "", base}}};
     if (!is_forward(base.renderer)) {
         add_gbuffers(variants);
-        add_geometry(variants);
+        add_geometry(variants, device);
         add_lanes(variants, device);
         add_math(variants);
     }
