@@ -6,6 +6,7 @@
 #include "host/base/error.h"
 #include "host/base/text.h"
 #include "host/render/plan/kernel_choice.h"
+#include "host/render/plan/scene_plan.h"
 #include "present/cli/conditions.h"
 #include "present/cli/names.h"
 #include "present/cli/stats_json.h"
@@ -45,6 +46,9 @@ Json bench_context(const SharedOptions& shared, const BenchFrames& frames, const
     Json out = conditions_json(shared, scene, camera);
     erase_swept(out["settings"]);
     out["device"] = device_json(device);
+    const std::uint64_t lights = scene.lights.size() + shared.settings.lights.count;
+    const int shading = make_scene_plan(scene, shared.settings, lights).kernels.shading;
+    out["shading"] = kShadingNames[shading];  // that --shading auto is
     out["tuning"] = tuning_json(choose_tuning(device, shared.settings.kernels));
     out["frames"] = {{"warm_up", frames.warm_up},
                      {"measured", frames.measured},

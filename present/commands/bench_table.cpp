@@ -44,6 +44,7 @@ std::string context_text(const Json& document, const std::string& fields) {
     if (context.contains("resolution"))
         size = fmt::format(", resolution {}x{}", word("/context/resolution/0"),
                            word("/context/resolution/1"));
+    if (context.contains("shading")) size += ", shading " + word("/context/shading");
     return fmt::format(
         "    {}\n\nDevice {} (driver {}), commit {}, scene {}{}{}; {} frames after {}.\n"
         "Tuning: {}.\n\n",
