@@ -7,8 +7,8 @@
 
 #include "host/base/error.h"
 #include "host/measure/bench/table.h"
-#include "present/commands/certificate.h"
-#include "present/commands/certify.h"
+#include "present/commands/certify/certificate.h"
+#include "present/commands/certify/certify.h"
 
 namespace kilolux {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `kilolux certify`: its exit codes, its table and its JSON.
-#include "present/commands/certify.h"
+#include "present/commands/certify/certify.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/commands/certify_isolated.h"
+#include "present/commands/certify/certify_isolated.h"
 
 #include <fmt/format.h>
 

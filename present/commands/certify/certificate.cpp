@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/commands/certificate.h"
+#include "present/commands/certify/certificate.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "present/commands/certificate.h"
-#include "present/commands/certify.h"
+#include "present/commands/certify/certificate.h"
+#include "present/commands/certify/certify.h"
 
 namespace kilolux {
 

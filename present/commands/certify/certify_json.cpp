@@ -6,7 +6,7 @@
 
 #include "host/base/error.h"
 #include "present/commands/bench.h"
-#include "present/commands/certify.h"
+#include "present/commands/certify/certify.h"
 
 namespace kilolux {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/commands/certify.h"
+#include "present/commands/certify/certify.h"
 
 #include <fmt/format.h>
 #include <cstdio>
@@ -16,8 +16,8 @@
 #include "present/cli/progress.h"
 #include "present/cli/stats_json.h"
 #include "present/commands/bench.h"
-#include "present/commands/certificate.h"
-#include "present/commands/certify_isolated.h"
+#include "present/commands/certify/certificate.h"
+#include "present/commands/certify/certify_isolated.h"
 #include "present/program.h"
 
 namespace kilolux {
