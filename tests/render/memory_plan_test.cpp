@@ -49,7 +49,11 @@ TEST(MemoryPlan, FinishedPicturesHaveAPartOfTheirOwn) {
     settings.max_memory_bytes = std::uint64_t{1} << 30;
     const MemoryPlan large = plan_memory(scene, settings, scene_plan, cpu());
     EXPECT_GT(large.held_bytes, 64u * 64 * 16);
-    EXPECT_LE(large.device_bytes + large.held_bytes, settings.max_memory_bytes);
+    constexpr std::uint64_t kMore = std::uint64_t{1} << 28;
+    settings.max_memory_bytes += kMore;
+    const MemoryPlan larger = plan_memory(scene, settings, scene_plan, cpu());
+    EXPECT_EQ(larger.device_bytes + larger.held_bytes,
+              large.device_bytes + large.held_bytes + kMore);
     settings.max_memory_bytes = large.bytes;
     EXPECT_EQ(plan_memory(scene, settings, scene_plan, cpu()).held_bytes, 0u);
 }
