@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "host/base/log.h"
+#include "host/base/system/temporary_folder.h"
 
 namespace kilolux {
 namespace {
@@ -50,25 +51,17 @@ bool has_linker(const std::string& path) {
     return false;
 }
 
-std::string private_folder;  // of this run
-
-void remove_private_folder() {
-    std::error_code ignored;
-    fs::remove_all(private_folder, ignored);
-}
-
-// Returns why there is none; empty: there is one.
-std::string use_private_folder() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "kilolux-pocl-XXXXXX").string();
-    if (error || ::mkdtemp(name.data()) == nullptr) return "no temporary folder can be made";
-    private_folder = name;
-    std::atexit(remove_private_folder);
+// Returns why there is none; empty: there is one, removed when the program exits.
+std::string use_private_folder() try {
+    static const TemporaryFolder folder;
+    const std::string name = folder.path().string();
     if (const std::string problem = cache_problem(name); !problem.empty()) {
         return name + ": " + problem;
     }
     ::setenv("POCL_CACHE_DIR", name.c_str(), 1);
     return "";
+} catch (const std::exception&) {
+    return "no temporary folder can be made";
 }
 
 std::string prepared() {

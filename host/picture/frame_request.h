@@ -28,6 +28,7 @@ enum class ViewKind {
 
 /// The words of the command line, in the enumeration's order.
 const std::vector<std::string>& view_names();
+const std::vector<std::string>& view_meanings();  // for --help
 const std::string& name_of(ViewKind view);
 
 /// Throws UsageError for an unknown name.

@@ -192,37 +192,49 @@ Canvas difference(const ViewInput& input) {
     return heat_map(input, scale, magnitude);
 }
 
-struct NamedView {
+struct ViewRow {
     ViewKind kind;
     std::string_view name;
     Canvas (*draw)(const ViewInput& input);
+    std::string_view meaning;
 };
 
 // In the enumeration's order.
-constexpr NamedView kViews[] = {{ViewKind::lit, "lit", nullptr},
-                                {ViewKind::albedo, "albedo", albedo},
-                                {ViewKind::normal, "normal", normal},
-                                {ViewKind::depth, "depth", depth},
-                                {ViewKind::position, "position", position},
-                                {ViewKind::roughness, "roughness", roughness},
-                                {ViewKind::lights, "lights", lights},
-                                {ViewKind::clusters, "clusters", clusters},
-                                {ViewKind::slices, "slices", slices},
-                                {ViewKind::active, "active", active},
-                                {ViewKind::overdraw, "overdraw", overdraw},
-                                {ViewKind::difference, "difference", difference},
-                                {ViewKind::false_positives, "false-positives", false_positives},
-                                {ViewKind::shadows, "shadows", shadows}};
+constexpr ViewRow kViews[] = {
+    {ViewKind::lit, "lit", nullptr, "the lit picture"},
+    {ViewKind::albedo, "albedo", albedo, "base colour"},
+    {ViewKind::normal, "normal", normal, "world normal as colour"},
+    {ViewKind::depth, "depth", depth, "heat map of the distance, in metres"},
+    {ViewKind::position, "position", position, "place in the scene's box as colour"},
+    {ViewKind::roughness, "roughness", roughness, "heat map from 0 to 1"},
+    {ViewKind::lights, "lights", lights, "heat map of lights evaluated a pixel"},
+    {ViewKind::clusters, "clusters", clusters, "coarse clusters in random colours"},
+    {ViewKind::slices, "slices", slices, "depth slices of the coarse grid in random colours"},
+    {ViewKind::active, "active", active, "active clusters in random colours"},
+    {ViewKind::overdraw, "overdraw", overdraw, "heat map of fragments drawn a pixel"},
+    {ViewKind::difference, "difference", difference, "heat map of the difference to deferred-all"},
+    {ViewKind::false_positives, "false-positives", false_positives,
+     "heat map of lights evaluated in vain (deferred only)"},
+    {ViewKind::shadows, "shadows", shadows,
+     "heat map of the share of lights hidden (deferred only)"}};
+
+// A text of each row.
+std::vector<std::string> texts(std::string_view ViewRow::*text) {
+    std::vector<std::string> out;
+    for (const ViewRow& view : kViews) out.emplace_back(view.*text);
+    return out;
+}
 
 }  // namespace
 
 const std::vector<std::string>& view_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> out;
-        for (const NamedView& view : kViews) out.emplace_back(view.name);
-        return out;
-    }();
+    static const std::vector<std::string> names = texts(&ViewRow::name);
     return names;
+}
+
+const std::vector<std::string>& view_meanings() {
+    static const std::vector<std::string> meanings = texts(&ViewRow::meaning);
+    return meanings;
 }
 
 const std::string& name_of(ViewKind view) {
@@ -230,7 +242,7 @@ const std::string& name_of(ViewKind view) {
 }
 
 ViewKind parse_view(std::string_view name) {
-    for (const NamedView& view : kViews) {
+    for (const ViewRow& view : kViews) {
         if (view.name == name) return view.kind;
     }
     throw UsageError("--show: '" + std::string(name) + "' is not a view");

@@ -26,7 +26,7 @@ std::vector<WebInView> webs_in_view(std::span<const AimedProfile> rows, const Sc
         view = {&scene.webs[static_cast<std::size_t>(web)],
                 {row.down.x, row.down.y, row.down.z},
                 {row.side.x, row.side.y, row.side.z},
-                row.side.w < 0.0f};
+                web_handedness(row) < 0.0f};
     }
     return out;
 }

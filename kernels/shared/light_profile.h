@@ -44,6 +44,9 @@ SHARED_ASSERT(aimed_profile_size, sizeof(AimedProfile) == 32);
 // Whether the light has a web; without one it sends its intensity all around.
 SHARED_FN bool has_web(AimedProfile aim) { return aim.down.w != NO_WEB; }
 
+// 1, or -1 if the light's node mirrors its web.
+SHARED_FN float web_handedness(AimedProfile aim) { return aim.side.w; }
+
 #if HAS_PROFILE_POINTER
 SHARED_PLAIN_STRUCT(LightProfiles) {
     PROFILE_POINTER(AimedProfile) lights;  // [light_count]
@@ -127,7 +130,7 @@ SHARED_FN FV profile_share(LightProfiles from, uint light, FV3 to_light) {
     FV3 side = fv3(fv(aim.side.x), fv(aim.side.y), fv(aim.side.z));
     FV along = -dot3(to_light, down);
     FV x = -dot3(to_light, side);
-    FV y = -dot3(to_light, cross3(side, down)) * fv(aim.side.w);
+    FV y = -dot3(to_light, cross3(side, down)) * fv(web_handedness(aim));
     uint head = uint_of(aim.down.w);
     float first = profile_head(from, head);
     float per_radian = profile_head(from, head + 1u);

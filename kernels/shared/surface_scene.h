@@ -33,7 +33,7 @@ SHARED_ASSERT(mesh_row_size, sizeof(MeshRow) == 48);
 // the eye is 0 and the offset the whole translation.
 SHARED_STRUCT(InstanceRow) {
     float4 view_from_object[3];    // xyz: a row of the linear part; w: of the offset [m]
-    float4 normal_from_object[3];  // xyz: a row, up to a positive scale; [0].w: -1 if mirrored
+    float4 normal_from_object[3];  // xyz: a row, up to a positive scale; [0].w: HANDEDNESS
     float4 eye_high;               // xyz: the camera in object space, rounded
     float4 eye_low;                // xyz: what rounding lost
     uint first_triangle;           // the id of the mesh's triangle 0 is this + 1
@@ -42,6 +42,8 @@ SHARED_STRUCT(InstanceRow) {
     uint first_caster;   // the mesh's triangle 0 among those that cast shadows
 };
 SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
+// Of an instance's row: 1, or -1 if it mirrors its mesh.
+#define HANDEDNESS(row) ((row).normal_from_object[0].w)
 
 // A table holds the instance of every INSTANCE_BLOCK-th triangle, and of the last one, so that the
 // search for a triangle's instance covers few.

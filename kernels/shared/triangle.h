@@ -253,7 +253,7 @@ SHARED_FN FV interpolate_handedness(Weights w, Triangle t) {
     uint place = t.mesh.tangent + 3u;
     return interpolate(w, vertex_float(t.vertex[0], place), vertex_float(t.vertex[1], place),
                        vertex_float(t.vertex[2], place)) *
-           INSTANCE(t.instance).normal_from_object[0].w;
+           HANDEDNESS(INSTANCE(t.instance));
 }
 #endif
 
@@ -285,7 +285,7 @@ SHARED_FN void interpolate_triangle(View view, Pixels pixels, Triangle t, MASK m
     TriangleEdges edges = triangle_edges(view, v[0], v[1], v[2]);
     MASK front = winds_forward(view, pixels, edges);
     Weights w = weights_of(view, pixels, edges);
-    if (INSTANCE(t.instance).normal_from_object[0].w < 0.0f) front = lane_not(front);
+    if (HANDEDNESS(INSTANCE(t.instance)) < 0.0f) front = lane_not(front);
     AT(f).front = lane_select_mask(mask, front, AT(f).front);
     AT(f).z = lane_select(mask, interpolate(w, -v[0].z, -v[1].z, -v[2].z), AT(f).z);
     AT(f).normal = select3(mask, interpolate_normal(w, t), AT(f).normal);

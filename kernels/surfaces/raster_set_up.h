@@ -61,7 +61,7 @@ static inline ViewTriangles view_triangles(SurfaceScene scene, UV numbers, MASK 
         }
         uint flags = scene.materials[mesh.material].flags;
         // Seen from the front, counter-clockwise triangles have a negative determinant.
-        int front = o->normal_from_object[0].w < 0.0f ? 1 : -1;
+        int front = HANDEDNESS(*o) < 0.0f ? 1 : -1;
         int winding = (flags & MATERIAL_DOUBLE_SIDED) != 0u ? 0 : front;
         out.winding = (mask & winding) | (~mask & out.winding);
         if ((flags & MATERIAL_MASKED) != 0u) out.masked |= mask;

@@ -47,7 +47,8 @@ const Choices& choices_of(RendererKind) {
 
 const Choices& choices_of(Geometry) {
     static const Choices choices = {
-        {"auto", "ids; compute where bench --tune found it faster, or without OpenGL"},
+        {"auto",
+         "compute where it was measured faster on such a device, or without OpenGL; else ids"},
         {"ids", "OpenGL draws triangle ids, OpenCL makes the surfaces"},
         {"compute", "OpenCL draws them, too: no OpenGL, the same ids on every device"},
         {"planes", "OpenGL's fragments write the surfaces"}};
@@ -171,21 +172,11 @@ Choices metric_choices() {
 }
 
 const Choices& choices_of(ViewKind) {
-    static const Choices choices = ordered(
-        view_names(), {{"lit", "the lit picture"},
-                       {"albedo", "base colour"},
-                       {"normal", "world normal as colour"},
-                       {"depth", "heat map of the distance, in metres"},
-                       {"position", "place in the scene's box as colour"},
-                       {"roughness", "heat map from 0 to 1"},
-                       {"lights", "heat map of lights evaluated a pixel"},
-                       {"clusters", "coarse clusters in random colours"},
-                       {"slices", "depth slices of the coarse grid in random colours"},
-                       {"active", "active clusters in random colours"},
-                       {"overdraw", "heat map of fragments drawn a pixel"},
-                       {"difference", "heat map of the difference to deferred-all"},
-                       {"false-positives", "heat map of lights evaluated in vain (deferred only)"},
-                       {"shadows", "heat map of the share of lights hidden (deferred only)"}});
+    static const Choices choices = [] {
+        Choices out(view_names());
+        out.meanings = view_meanings();
+        return out;
+    }();
     return choices;
 }
 

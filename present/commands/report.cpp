@@ -36,6 +36,7 @@ struct ReportOptions {
     std::vector<std::string> axes;  // by axis_name(); empty: all
     bool json = false;
     bool quick = false;
+    bool check_default = false;
     BudgetOptions budget;
 };
 
@@ -142,6 +143,19 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
     note("wrote   " + folder.string());
 }
 
+// Throws where another setting beats the default and --check-default is given, else warns.
+void check_default(const ReportOptions& options, const std::vector<ReportRow>& rows) {
+    const ReportRow* other = row_that_beats_default(rows);
+    if (other == nullptr) return;
+    const std::string text = fmt::format(
+        "the default is not in the Pareto set: {} takes {:.2f} of its time with {:.2f} of its R2 "
+        "RMSE",
+        other->setting.name, other->speed.relative,
+        other->surfaces.hdr.rmse / rows.front().surfaces.hdr.rmse);
+    if (options.check_default) throw ComparisonFailed(text);
+    warn(text);
+}
+
 // The values of --quick, unless the command line gives others.
 void apply_quick(const CLI::App& command, ReportOptions& options) {
     if (!options.quick) return;
@@ -189,6 +203,7 @@ void run_report(ReportOptions& options, const CLI::App& command) {
     print_result(options.json, report_json(report), report_text(report));
     if (!options.output.empty()) write_report(options, report, run);
     choose_from_rows(shared, options.budget, view, report.rows);
+    check_default(options, report.rows);
 }
 
 void add_report_options(CLI::App& command, ReportOptions& options) {
@@ -204,6 +219,8 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
                options.warm_up, {0, 1'000'000})
         .count({"--frames", "N", "20", "Measured frames; fewer of slow settings"}, options.frames,
                {1, 1'000'000})
+        .flag("--check-default", options.check_default,
+              "Exit with 3 where another setting is as good in time and error and better in one")
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
               options.output)
         .flag("--json", options.json, "JSON instead of a table on standard output");

@@ -116,6 +116,7 @@ void expect_default_on_front() {
     mark_fronts(rows);
     EXPECT_TRUE(rows.front().surfaces_front);
     EXPECT_TRUE(rows.front().unbounded_front);
+    EXPECT_EQ(row_that_beats_default(rows), nullptr);
     for (const ReportRow& row : rows) {
         const bool as_exact = row.surfaces.hdr.rmse <= rows.front().surfaces.hdr.rmse;
         if (row.setting.axis == SettingAxis::math || row.setting.axis == SettingAxis::cut_off)
@@ -124,6 +125,30 @@ void expect_default_on_front() {
             EXPECT_GE(row.speed.relative, 1.0) << row.setting.name;
         }
     }
+}
+
+// Three rows of one error: the default and two that are faster, as far as they are comparable.
+TEST(RowThatBeatsDefault, IsTheFastestThatIsAsExact) {
+    std::vector<ReportRow> rows(3);
+    const double times[] = {1.0, 0.5, 0.8};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].setting.axis = i == 0 ? SettingAxis::none : SettingAxis::geometry;
+        rows[i].speed.relative = times[i];
+        rows[i].surfaces.hdr.rmse = 0.1;
+    }
+    EXPECT_EQ(row_that_beats_default(rows), &rows[1]);
+    rows[1].surfaces.hdr.rmse = 0.2;
+    EXPECT_EQ(row_that_beats_default(rows), &rows[2]) << "the other errs more";
+    rows[2].speed.relative = 0.99;
+    EXPECT_EQ(row_that_beats_default(rows), nullptr) << "within the resolution of times";
+    rows[2].speed.noise = rows[1].speed.noise = 0.3;
+    rows[2].speed.relative = 0.8;
+    EXPECT_EQ(row_that_beats_default(rows), nullptr) << "within the noise";
+    rows[2].setting.axis = SettingAxis::cut_off;
+    rows[2].speed.noise = rows[1].speed.noise = 0.0;
+    rows[2].speed.relative = 0.1;
+    EXPECT_EQ(row_that_beats_default(rows), nullptr) << "it has other ranges";
+    EXPECT_EQ(row_that_beats_default({}), nullptr);
 }
 
 void expect_whole_tables() {

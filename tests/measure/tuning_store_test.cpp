@@ -240,9 +240,9 @@ class ShippedTunings : public CacheSandbox {};
 
 const std::vector<ShippedTuning>& some_table() {
     static const std::vector<ShippedTuning> table = {
-        {"Test", "b", "OpenCL 3.0", true, 2, {8, {.cull_chunks = 8}}},
+        {"Test", "b", "OpenCL 3.0", true, 2, {8, {.cull_chunks = 8, .geometry = 1}}},
         {"Test", "a", "OpenCL 3.0", true, 4, {4, {.cull_chunks = 24}}},
-        {"Test GPU", "c", "OpenCL 1.2", false, 10, {2, {.cull_chunks = 40}}}};
+        {"Test GPU", "c", "OpenCL 1.2", false, 10, {2, {.cull_chunks = 40, .geometry = 1}}}};
     return table;
 }
 
@@ -290,9 +290,11 @@ TEST_F(ShippedTunings, MeasuringHereCountsMore) {
         EXPECT_EQ(text_of(known.source), "shipped for this device");
         EXPECT_EQ(known.lanes, row.tuning.lanes);
         EXPECT_EQ(known.tuning.cull_chunks, row.tuning.tuning.cull_chunks);
-        EXPECT_EQ(known.tuning.geometry, 0) << "only measuring here changes edges";
+        EXPECT_EQ(known.tuning.geometry, row.tuning.tuning.geometry);
         device.name += " of another kind";
         EXPECT_EQ(text_of(known_tuning(device).source), "shipped for its class");
+        const int of_class = row.is_cpu ? row.tuning.tuning.geometry : 0;
+        EXPECT_EQ(known_tuning(device).tuning.geometry, of_class) << "measured on no such GPU";
         store_tuning(device, some_tuning());
         EXPECT_EQ(text_of(known_tuning(device).source), "measured here");
         EXPECT_EQ(known_tuning(device).tuning, some_tuning().tuning);

@@ -22,6 +22,7 @@ std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
     ShippedMatch match = {found->tuning, same_device};
     int& chunks = match.tuning.tuning.cull_chunks;
     chunks = std::clamp(chunks * device.compute_units / found->compute_units, 1, 65536);
+    if (!same_device && !device.is_cpu) match.tuning.tuning.geometry = 0;
     return match;
 }
 

@@ -29,9 +29,8 @@ struct ShippedMatch {
 
 /// The row of the device's platform, name and kind; else one of its class: of its platform, and on
 /// CPUs of its OpenCL version, which names the instructions that PoCL compiles for. The number of
-/// chunks of lights is scaled by compute units. None: no row matches. The geometry of another
-/// device's row is not taken: OpenGL's triangles and OpenCL's differ at edges, so only a
-/// measurement here changes them.
+/// chunks of lights is scaled by compute units. A GPU of another name draws with OpenGL, as where
+/// nothing was measured: how fast OpenGL's way is depends on its display. None: no row matches.
 std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
                                            std::span<const ShippedTuning> table);
 

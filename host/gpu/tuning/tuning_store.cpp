@@ -122,11 +122,9 @@ KnownTuning known_tuning(const DeviceInfo& device) {
     if (const auto stored = stored_tuning(device)) return {*stored, TuningSource::measured};
     const StoredTuning built_in = built_in_tuning(device);
     if (const auto shipped = shipped_tuning(device, shipped_tunings())) {
-        StoredTuning tuning = shipped->tuning;
-        tuning.tuning.geometry = built_in.tuning.geometry;
-        if (is_valid(tuning, device)) {
-            return {tuning, shipped->same_device ? TuningSource::shipped_for_device
-                                                 : TuningSource::shipped_for_class};
+        if (is_valid(shipped->tuning, device)) {
+            return {shipped->tuning, shipped->same_device ? TuningSource::shipped_for_device
+                                                          : TuningSource::shipped_for_class};
         }
     }
     return {built_in, TuningSource::built_in};

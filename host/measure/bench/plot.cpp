@@ -2,45 +2,20 @@
 #include "host/measure/bench/plot.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/atomic_write.h"
 #include "host/base/system/child_process.h"
+#include "host/base/system/temporary_folder.h"
 #include "host/measure/bench/plot_script.h"
 
 namespace kilolux {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A temporary folder beside the results.
-class WorkFolder {
- public:
-    explicit WorkFolder(const fs::path& parent) {
-        std::string name = (parent / ".kilolux-plot-XXXXXX").string();
-        if (!mkdtemp(name.data())) {
-            throw Error(fmt::format("plot: cannot write in '{}': {}", parent.string(),
-                                    std::strerror(errno)));
-        }
-        path_ = name;
-    }
-    ~WorkFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
- private:
-    fs::path path_;
-};
 
 // gnuplot first repeats the script's line and marks the place.
 std::string reason_of(const std::vector<std::string>& messages) {
@@ -89,7 +64,7 @@ void write_plot(const Plot& plot, const fs::path& stem) {
     }
     const fs::path parent = stem.has_parent_path() ? stem.parent_path() : fs::path(".");
     const std::string name = stem.filename().string();
-    const WorkFolder work(parent);
+    const TemporaryFolder work(parent);
     write_atomically(work.path() / (name + ".dat"), plot_data(ready));
     write_atomically(work.path() / (name + ".gnuplot"), plot_script(ready, name));
     run_gnuplot(work.path(), name + ".gnuplot", stem);

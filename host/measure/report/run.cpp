@@ -346,4 +346,16 @@ void mark_fronts(std::vector<ReportRow>& rows) {
     for (const std::size_t i : front_of(rows, tails_rmse)) rows[i].tails_front = true;
 }
 
+const ReportRow* row_that_beats_default(const std::vector<ReportRow>& rows) {
+    const std::optional<double> error = rows.empty() ? std::nullopt : surfaces_rmse(rows.front());
+    if (!error) return nullptr;
+    const std::vector<std::size_t> front = front_of(rows, surfaces_rmse);
+    if (std::ranges::count(front, std::size_t{0}) > 0) return nullptr;
+    const auto beats = [&](std::size_t i) {
+        return *surfaces_rmse(rows[i]) <= (1.0 + kErrorResolution) * *error;
+    };
+    const auto found = std::ranges::find_if(front, beats);  // ascending by time
+    return found == front.end() ? nullptr : &rows[*found];
+}
+
 }  // namespace kilolux

@@ -132,4 +132,8 @@ std::vector<std::size_t> front_of(const std::vector<ReportRow>& rows, const RowE
 /// Marks the rows of the Pareto sets.
 void mark_fronts(std::vector<ReportRow>& rows);
 
+/// The fastest row that is as good as the default (the first row) in time and R2's RMSE and better
+/// in one of them; none where the default is in the Pareto set of both, or has no such error.
+const ReportRow* row_that_beats_default(const std::vector<ReportRow>& rows);
+
 }  // namespace kilolux
