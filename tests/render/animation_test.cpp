@@ -72,7 +72,7 @@ TEST(Animation, TrianglesWithoutAreaAtFirstBecomeWhatAStillFileShows) {
         AnimatedScene moving(path, {});
         const Scene open = load(file_with_flap(by, 0.0f, false));
         const Scene folded = load(file_with_flap(by, 1.0f, false));
-        ASSERT_EQ(open.meshes[0].positions.size(), 6u) << "vertices split at mirrored halves";
+        EXPECT_EQ(open.meshes[0].positions.size(), 6u) << "vertices split at mirrored halves";
         const Camera camera = frame_box(bounds(open));
         for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {
             RenderSettings settings = small_settings(64, 48, 0);
