@@ -94,19 +94,23 @@ static void light_alone(kilolux_lighting* lighting, const kilolux_light* light, 
 static void expect_spots(kilolux_lighting* lighting, const kilolux_frame* frame, cl_command_queue queue) {
     static float point[PIXELS][4], spot[PIXELS][4], longer[PIXELS][4];
     const int corner = 1, middle = HEIGHT / 2 * WIDTH + WIDTH / 2;
-    kilolux_light light = {{1e6, 0.0, -1.0}, 10.0f, {1, 1, 1}, 0, {0, 0, 1}, -0.5f, -0.9f};
+    kilolux_light light = {{1e6, 0.0, 8.0}, 100.0f, {1, 1, 1}, 0, {0, 0, 1}, -0.97f, -0.98f};
     kilolux_directional_light directional = {{0, 0, 1.009f}, {0, 0, 1}};
     light_alone(lighting, &light, frame, queue, point);
-    light.is_spot = 1; /* aimed at the camera: the plane is 109 to 180 degrees off its axis */
+    light.is_spot = 1; /* aimed away: the plane is 165 to 180 degrees off its axis */
     light_alone(lighting, &light, frame, queue, spot);
     expect(spot[middle][0] == 0.0f, "behind a wide spot", spot[middle][0]);
     expect(fabs(spot[corner][0] - point[corner][0]) < 1e-6 * point[corner][0], "beside it",
            spot[corner][0] / point[corner][0]);
     light.cos_outer = -1.0f;
     expect(kilolux_set_lights(lighting, &light, 1, NULL, 0) == 1, "a spot without a rim", 0);
+    light.position[2] = -1.0;
     light.axis[2] = -1.0f;
     light.cos_inner = 1.0f;
     light.cos_outer = 0.0f;
+    light.is_spot = 0;
+    light_alone(lighting, &light, frame, queue, point);
+    light.is_spot = 1;
     light_alone(lighting, &light, frame, queue, spot);
     light.axis[2] = -1.009f;
     light_alone(lighting, &light, frame, queue, longer);
