@@ -172,10 +172,11 @@ std::vector<std::string> option_names(const CLI::App& command) {
 
 void refuse_extras(const CLI::App& command, const std::vector<std::string>& extras) {
     if (extras.empty()) return;
-    // CLI11 keeps the mark behind which arguments begin with no option.
-    if (extras[0] == "--") return refuse_extras(command, {extras.begin() + 1, extras.end()});
+    // CLI11 keeps the mark behind which no argument is an option.
+    const bool ended = extras[0] == "--";
+    if (ended && extras.size() == 1) return;
     const std::string name = extras[0].substr(0, extras[0].find('='));
-    if (name.size() > 1 && name[0] == '-') {
+    if (!ended && name.size() > 1 && name[0] == '-') {
         if (command.get_name() == "bench" && (name == "--turntable" || name == "--camera-keys")) {
             throw UsageError(name +
                              ": bench times one view, so that its rows compare; render --stats "
@@ -183,7 +184,7 @@ void refuse_extras(const CLI::App& command, const std::vector<std::string>& extr
         }
         throw UsageError("unknown option " + name + did_you_mean(name, option_names(command)));
     }
-    throw UsageError("unexpected argument '" + extras[0] + "'");
+    throw UsageError("unexpected argument '" + extras[ended ? 1 : 0] + "'");
 }
 
 }  // namespace kilolux

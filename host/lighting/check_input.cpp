@@ -21,7 +21,7 @@ void check_size(const char* name, const cl::Buffer& buffer, std::uint64_t needed
 
 }  // namespace
 
-void check_input(const GBuffer& gbuffer, const LightInput& lights) {
+void check_input(const GBuffer& gbuffer) {
     const View& view = gbuffer.view;
     if (view.width > view.stride || view.stride % FINE_TILE != 0) {
         throw Error("lighting: G-buffer: width " + std::to_string(view.width) + ", stride " +
@@ -30,6 +30,9 @@ void check_input(const GBuffer& gbuffer, const LightInput& lights) {
     }
     check_size("G-buffer", gbuffer.bytes, gbuffer_bytes(gbuffer.layout, view.stride, view.height),
                "planes of " + std::to_string(view.stride) + " x " + std::to_string(view.height));
+}
+
+void check_input(const LightInput& lights) {
     const std::uint64_t rows = std::uint64_t{lights.count} + lights.node_count;
     check_size("lights", lights.lights, rows * sizeof(Light), std::to_string(rows) + " rows");
     check_size("directional lights", lights.directional,

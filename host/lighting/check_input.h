@@ -5,8 +5,8 @@
 
 namespace kilolux {
 
-/// Throws Error where a buffer of the G-buffer or of lights is smaller than its counts say: kernels
-/// would read beyond its end.
-void check_input(const GBuffer& gbuffer, const LightInput& lights);
+/// Throw Error where a buffer is smaller than its counts say: kernels would read beyond its end.
+void check_input(const GBuffer& gbuffer);
+void check_input(const LightInput& lights);
 
 }  // namespace kilolux

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/lighting/coarse_light_lists.h"
 
+#include "host/lighting/check_input.h"
+
 namespace kilolux {
 
 CoarseLightLists::CoarseLightLists(const Gpu& gpu, const Tuning& tuning,
@@ -25,6 +27,7 @@ CoarseLighting CoarseLightLists::run(const LightInput& input, const View& view,
 CoarseLighting CoarseLightLists::enqueue(const LightInput& input, const View& view,
                                          const ClusterGrid& grid, StageTimer& timer,
                                          const DeviceArray<std::uint8_t>& occupied) {
+    check_input(input);
     CoarseLighting out;
     out.lights = prepare_.enqueue(input, view, grid, timer);
     out.boxes = build_.enqueue(view, grid, timer);

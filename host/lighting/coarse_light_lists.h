@@ -24,7 +24,7 @@ struct HostCoarseLists {
 };
 
 /// The stages from lights to the lists of the coarse grid: PrepareLights, BuildClusters,
-/// CullLights.
+/// CullLights. Throws Error where buffers of lights are smaller than their counts say.
 class CoarseLightLists {
  public:
     CoarseLightLists(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features);

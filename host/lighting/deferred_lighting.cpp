@@ -51,7 +51,8 @@ AllLightsLighting::AllLightsLighting(const Gpu& gpu, const Tuning& tuning,
 }
 
 Radiance AllLightsLighting::enqueue(const LightingInput& input, StageTimer& timer) {
-    check_input(input.gbuffer, input.lights);
+    check_input(input.gbuffer);
+    check_input(input.lights);
     lights_ = prepare_.enqueue(input.lights, input.gbuffer.view, input.grid, timer);
     ShadowSamples samples;
     if (unshadowed_) {

@@ -82,9 +82,10 @@ const Choices& choices_of(Shadows) {
 const Choices& choices_of(Tails) {
     static const Choices choices = {
         {"auto",
-         fmt::format("exact for at most {} such lights and no --range-budget, else bounded; "
-                     "of render and view tree where bounded would lose a tenth of the light",
-                     kExactTails)},
+         fmt::format(
+             "exact for at most {} such lights and no --range-budget, else bounded; "
+             "of render and view tree where bounded would lose a tenth of the light at a point",
+             kExactTails)},
         {"exact", "they reach every pixel"},
         {"bounded", "each ends where --range-budget says"},
         {"stochastic", "random ranges, at least that of bounded: right in the mean of --samples"},

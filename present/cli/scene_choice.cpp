@@ -146,9 +146,10 @@ std::string tails_line(const Scene& scene, const RenderSettings& settings, bool 
     }
     if (tails == Tails::bounded) {
         return line + fmt::format(
-                          "end where each adds {:.3g} of radiance; what that loses: --aov "
-                          "error-bound, what loses nothing: --tails exact",
-                          settings.range_budget);
+                          "end where each adds {:.3g} of radiance; their sum loses up to about "
+                          "{:.0f} % at a point (--aov error-bound), with --tails exact nothing",
+                          settings.range_budget,
+                          100.0 * bounded_loss(scene, settings.range_budget));
     }
     return line + fmt::format(
                       "have random ones, at least to where each adds {:.3g} of radiance: "
@@ -167,13 +168,13 @@ void choose_tails(SharedOptions& options, const Scene& scene) {
     const double lost = bounded_loss(scene, s.range_budget);
     if (lost <= kMostLost) return;
     if (options.shows_environment && s.renderer == RendererKind::deferred &&
-        s.shadows == Shadows::off) {
+        s.shadows == Shadows::off && !has_blended_surfaces(scene)) {
         s.tails = Tails::tree;
         return;
     }
     warn(fmt::format(
-        "{}: the ranges that lights without one get cut about {:.0f} % of their light; --tails "
-        "exact keeps it",
+        "{}: the ranges that lights without one get cut up to about {:.0f} % of their light; "
+        "--tails exact keeps it",
         options.scene, 100.0 * lost));
 }
 

@@ -67,8 +67,11 @@ std::string why_no_surface(const Scene& scene, const Camera& camera, double aspe
                                   : "try --camera-index auto");
     }
     if (!any_face_shows(scene, camera)) {
+        const bool inside = scene.kind == SceneKind::interior;
         return fmt::format("all faces are turned away from the camera; try {}",
-                           framed ? "--view inside" : "--camera-index auto");
+                           !framed  ? "--camera-index auto"
+                           : inside ? "--view outside"
+                                    : "--view inside");
     }
     return "no surface covers a pixel's centre: all that is in the view is cut by alpha, turned "
            "away, or smaller than a pixel";

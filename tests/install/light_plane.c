@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A C program against the installed library: a plane 2 m ahead under one light, whose radiance is
  * known, and errors. Prints nothing but what is wrong. */
+#ifndef CL_TARGET_OPENCL_VERSION /* CL/cl.h takes the newest, with a note for each file */
+#error Kilolux::c and kilolux-c.pc do not say the version of OpenCL
+#endif
 #include <kilolux/kilolux_c.h>
 #include <math.h>
 #include <stdio.h>
@@ -79,6 +82,49 @@ static void expect_refusals(kilolux_lighting* lighting, const kilolux_frame* goo
     expect(kilolux_light_frame(lighting, &frame) == 1, "zeros", 0);
 }
 
+/* The radiance of the frame's pixels under one light, which is set for it. */
+static void light_alone(kilolux_lighting* lighting, const kilolux_light* light, const kilolux_frame* frame,
+                        cl_command_queue queue, float pixels[PIXELS][4]) {
+    expect(kilolux_set_lights(lighting, light, 1, NULL, 0) == 0, "one light", 0);
+    expect(kilolux_light_frame(lighting, frame) == 0, "its light", 0);
+    clEnqueueReadBuffer(queue, frame->radiance, CL_TRUE, 0, PIXELS * 16, pixels, 0, NULL, NULL);
+}
+
+/* Cones wider than 90 degrees, and directions whose length is not quite 1. */
+static void expect_spots(kilolux_lighting* lighting, const kilolux_frame* frame, cl_command_queue queue) {
+    static float point[PIXELS][4], spot[PIXELS][4], longer[PIXELS][4];
+    const int corner = 1, middle = HEIGHT / 2 * WIDTH + WIDTH / 2;
+    kilolux_light light = {{1e6, 0.0, 8.0}, 100.0f, {1, 1, 1}, 0, {0, 0, 1}, -0.97f, -0.98f};
+    kilolux_directional_light directional = {{0, 0, 1.009f}, {0, 0, 1}};
+    light_alone(lighting, &light, frame, queue, point);
+    light.is_spot = 1; /* aimed away: the plane is 165 to 180 degrees off its axis */
+    light_alone(lighting, &light, frame, queue, spot);
+    expect(spot[middle][0] == 0.0f, "behind a wide spot", spot[middle][0]);
+    expect(fabs(spot[corner][0] - point[corner][0]) < 1e-6 * point[corner][0], "beside it",
+           spot[corner][0] / point[corner][0]);
+    light.cos_outer = -1.0f;
+    expect(kilolux_set_lights(lighting, &light, 1, NULL, 0) == 1, "a spot without a rim", 0);
+    light.position[2] = -1.0;
+    light.axis[2] = -1.0f;
+    light.cos_inner = 1.0f;
+    light.cos_outer = 0.0f;
+    light.is_spot = 0;
+    light_alone(lighting, &light, frame, queue, point);
+    light.is_spot = 1;
+    light_alone(lighting, &light, frame, queue, spot);
+    light.axis[2] = -1.009f;
+    light_alone(lighting, &light, frame, queue, longer);
+    expect(spot[corner][0] < 0.2f * point[corner][0], "towards a spot's rim", spot[corner][0]);
+    expect(fabs(longer[corner][0] - spot[corner][0]) < 1e-6 * spot[corner][0], "by a longer axis",
+           longer[corner][0] / spot[corner][0]);
+    light.axis[2] = -1.02f;
+    expect(kilolux_set_lights(lighting, &light, 1, NULL, 0) == 1, "an axis that is too long", 0);
+    expect(kilolux_set_lights(lighting, NULL, 0, &directional, 1) == 0, "a longer direction", 0);
+    expect(kilolux_light_frame(lighting, frame) == 0, "light by it", 0);
+    clEnqueueReadBuffer(queue, frame->radiance, CL_TRUE, 0, sizeof(longer), longer, 0, NULL, NULL);
+    expect(fabs(longer[middle][2] * 3.14159265358979 - 1.0) < 0.003, "its light", longer[middle][2]);
+}
+
 int main(void) {
     cl_platform_id platform;
     cl_device_id device;
@@ -132,6 +178,7 @@ int main(void) {
     expect(fabs(middle[2] * 3.14159265358979 - 1.0) < 0.003, "its light", middle[2]);
     expect(middle[0] == 0.0f, "no red", middle[0]);
 
+    expect_spots(lighting, &frame, queue);
     frame.nearest = 5.0f; /* behind all pixels: slower, but the same */
     frame.farthest = 1.0f;
     expect(kilolux_light_frame(lighting, &frame) == 0, "depths in disorder", 0);

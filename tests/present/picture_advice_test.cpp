@@ -100,5 +100,28 @@ TEST(PictureAdvice, NoSurface) {
     EXPECT_TRUE(contains(advice(Scene{}, from({0, 0, 9}, {0, 0, 0})), "has no triangles"));
 }
 
+// The automatic camera is no advice where it is the picture's, nor is a view that is in force.
+TEST(PictureAdvice, NamesNothingThatIsInForce) {
+    Scene scene = lit_box();
+    const RenderSettings settings = small_settings(48, 32, 0);
+    FrameStats stats;
+    stats.lights_given = stats.lights_used = stats.directional_lights = 5;
+    const auto said = [&](const Camera& camera, bool framed) {
+        return picture_advice(scene, camera, settings, stats, framed);
+    };
+    const std::string behind = "picture is empty: the scene is behind the camera; ";
+    EXPECT_EQ(said(from({0, 0, 9}, {0, 0, 20}), false), behind + "try --camera-index auto");
+    EXPECT_EQ(said(from({0, 0, 9}, {0, 0, 20}), true),
+              behind + "the automatic camera frames it as it is at --time");
+    scene = lit_box(Rig::studio, true);
+    scene.meshes[0].indices.resize(6);  // one wall, which faces +X
+    const std::string away = "picture is empty: all faces are turned away from the camera; try ";
+    EXPECT_EQ(said(from({-9, 0, 0}, {0, 0, 0}), false), away + "--camera-index auto");
+    scene.kind = SceneKind::closed;
+    EXPECT_EQ(said(from({-9, 0, 0}, {0, 0, 0}), true), away + "--view inside");
+    scene.kind = SceneKind::interior;
+    EXPECT_EQ(said(from({-9, 0, 0}, {0, 0, 0}), true), away + "--view outside");
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -67,6 +67,10 @@ TEST(Program, CommandLinesThatCannotBeObeyedExitWithTwo) {
         {{"render", "photo.jpg", "-o", "a.png"}, "scene 'photo.jpg' is a picture"},
         {{"render", "room.blend", "-o", "a.png"}, "is a .blend file; a scene is a .gltf or .glb"},
         {{"info", "cube.OBJ"}, "is a .OBJ file; a scene is a .gltf or .glb"},
+        // Behind the mark no word is an option.
+        {{"render", "-o", "a.png", "--", "-o"}, "scene '-o' is no file, and none of atrium"},
+        {{"render", "-o", "a.png", "--", "grid", "--lights"}, "unexpected argument '--lights'"},
+        {{"render", "--"}, "--output: needs a file"},
     };
     for (const auto& c : cases) {
         const ChildResult result = run_kilolux(c.arguments);
@@ -87,6 +91,7 @@ TEST(Program, RuntimeErrorsExitWithOne) {
     } cases[] = {
         {{"render", (folder / "none.glb").string(), "-o", picture}, "none.glb: no such scene file"},
         {{"render", (folder / "broken.glb").string(), "-o", picture}, "broken.glb: "},
+        {{"render", "-o", picture, "--", "--quiet.glb"}, "--quiet.glb: no such scene file"},
         {{"render", folder.path().string(), "-o", picture}, "is a folder, not a scene file"},
         {{"render", "-o", (folder / "no/a.png").string()}, "there is no folder"},
         {{"render", "-o", picture, "--stats", (folder / "no/s").string()}, "there is no folder"},

@@ -3,6 +3,8 @@
 // which are skipped where their folder is not there.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "present/image/image_file.h"
 #include "tests/support/child.h"
 #include "tests/support/gltf_seeds.h"
@@ -100,6 +102,108 @@ TEST(SharedScenes, HarmlessDefectsAndSmallOnesRender) {
         const bool empty = std::string(name) == "malformed/issue-492.glb";
         EXPECT_EQ(rendered_light((scenes() / name).string()) > 0.0, !empty) << name;
     }
+}
+
+// Files that people reported, rendered as the program does by default.
+class FoundScenes : public testing::Test {
+ protected:
+    void SetUp() override {
+        if (!fs::exists(scenes() / "found")) GTEST_SKIP() << scenes() << " is not there";
+    }
+
+    FloatImage picture(const char* name, std::vector<std::string> more = {},
+                       const char* format = "png") {
+        const TemporaryFolder output;
+        const std::string file = output / (std::string("a.") + format);
+        std::vector<std::string> words = {"render", (scenes() / "found" / name).string(), "-o",
+                                          file};
+        words.insert(words.end(), more.begin(), more.end());
+        if (std::ranges::find(more, "--resolution") == more.end()) {
+            words.insert(words.end(), {"--resolution", "64,36"});
+        }
+        const ChildResult result = run_kilolux(words);
+        EXPECT_EQ(result.code, 0) << result.err;
+        said = result.err;
+        return result.code == 0 ? read_image(file) : FloatImage{};
+    }
+
+    std::string said;  // of the last picture
+};
+
+// The columns of the middle row, and the rows of the middle column, that are not black.
+std::pair<int, int> lit_extent(const FloatImage& image) {
+    const std::vector<float> rgb = colour_of(image);
+    const auto lit = [&](int x, int y) {
+        return rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                        static_cast<std::size_t>(x))] > 0.0f;
+    };
+    std::pair<int, int> out = {0, 0};
+    for (int x = 0; x < image.width; ++x) out.first += lit(x, image.height / 2) ? 1 : 0;
+    for (int y = 0; y < image.height; ++y) out.second += lit(image.width / 2, y) ? 1 : 0;
+    return out;
+}
+
+TEST_F(FoundScenes, AMugIsSeenFromOutsideInAStudio) {
+    const FloatImage image = picture("j1_mug.glb");
+    EXPECT_TRUE(said.starts_with("view    outside (automatic)")) << said;
+    EXPECT_TRUE(contains(said, "rig     studio (automatic)")) << said;
+    const auto [width, height] = lit_extent(image);
+    EXPECT_LT(width, image.width) << "the mug fills the picture, as its inside would";
+    EXPECT_GT(height, image.height / 2);
+}
+
+TEST_F(FoundScenes, TheAutomaticCameraSeesTheTimeAskedForAndNothingHidden) {
+    for (const auto& [name, time] : {std::pair{"n7.glb", "1"}, std::pair{"n7.glb", "0"},
+                                     std::pair{"m7_hidden_by_zero_scale_far.glb", "0"}}) {
+        const auto [width, height] = lit_extent(picture(name, {"--time", time}));
+        EXPECT_GT(height, 18) << name << " at " << time << " is small or not there";
+        EXPECT_GT(width, 18) << name << " at " << time;
+        EXPECT_FALSE(contains(said, "picture is empty")) << said;
+    }
+}
+
+TEST_F(FoundScenes, ANarrowPictureShowsTheWidthThatTheFilesCameraHas) {
+    const FloatImage image = picture("d04.glb", {"--resolution", "120,160"});
+    const auto [width, height] = lit_extent(image);
+    EXPECT_NEAR(width, 120 * 1.2 / 4.0, 1.0) << "a camera of 90 degrees, a square at 4 m";
+    EXPECT_NEAR(height, width, 1.0);
+}
+
+TEST_F(FoundScenes, ColoursOfUnlitSurfacesStay) {
+    const FloatImage image = picture("n1.glb");
+    ASSERT_EQ(image.width, 64);
+    const std::vector<float> rgb = colour_of(image);
+    const float* middle = &rgb[3 * (18 * 64 + 32)];
+    EXPECT_EQ(middle[0], 1.0f);
+    EXPECT_EQ(middle[1], 0.0f);
+    EXPECT_EQ(middle[2], 0.0f);
+    EXPECT_TRUE(contains(said, "tonemap none (automatic)")) << said;
+}
+
+TEST_F(FoundScenes, MessagesHaveAPlaceAndACause) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"k2_gltf1.gltf", "asset.version is '1.0', must be 2.0"},
+        {"k2_gltf1_num.gltf", "asset.version is '1', must be 2.0"},
+        {"k2_skin_no_joints.gltf", "skins[0].joints is missing"},
+        {"k_KHR_meshopt_compression_True.glb",
+         "extensionsRequired: the file needs 'KHR_meshopt_compression'"}};
+    for (const auto& [name, message] : cases) {
+        expect_one_line((scenes() / "found" / name).string(), message);
+    }
+}
+
+TEST_F(FoundScenes, AHundredAndTwentyNineLightsWithoutARangeKeepTheirLight) {
+    const auto light = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--ambient", "0"});
+        double sum = 0.0;
+        for (const float value : picture("q_tails_129.glb", more, "exr").values) {
+            sum += double{value};
+        }
+        return sum;
+    };
+    const double exact = light({"--tails", "exact"});
+    ASSERT_GT(exact, 0.0);
+    EXPECT_NEAR(light({}) / exact, 1.0, 0.1);
 }
 
 }  // namespace

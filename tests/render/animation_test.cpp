@@ -1,9 +1,121 @@
 // SPDX-License-Identifier: Apache-2.0
 // A renderer shows what moved in its scene: the picture is that of a renderer made for it.
+#include "host/base/error.h"
+#include "host/scene/animated_scene.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
 namespace {
+
+using nlohmann::json;
+
+// How vertex 3 of file_with_flap() comes to vertex 1, which leaves the second triangle no area.
+enum class FoldedBy { morph_target, bone };
+
+// Two triangles with normals and a normal map, whose texture coordinates mirror each other and
+// which share two vertices; a larger triangle behind; a lamp. `folded`, 0 or 1, is what a clip
+// gives at second 0, where it goes to 0 until second 1; without the clip it stays.
+GltfBuilder file_with_flap(FoldedBy by, float folded, bool moves) {
+    GltfBuilder file = quad_with_normal_map();
+    json& primitive = file.primitive();
+    primitive["attributes"] = {
+        {"POSITION", file.add_floats("VEC3", {-1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0})},
+        {"NORMAL", file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})},
+        {"TEXCOORD_0", file.add_floats("VEC2", {1, 0, 0, 0, 0, 1, 1, 0})}};
+    primitive["indices"] = file.add_indices({0, 1, 2, 1, 3, 2});
+    json channel = {{"sampler", 0}};
+    std::vector<float> values = {folded, 0};
+    if (by == FoldedBy::morph_target) {
+        primitive["targets"] = {
+            {{"POSITION", file.add_floats("VEC3", {0, 0, 0, 0, 0, 0, 0, 0, 0, -1, 0, 0})}}};
+        file.root["meshes"][0]["weights"] = {folded};
+        channel["target"] = {{"node", 0}, {"path", "weights"}};
+    } else {
+        const Blob joints = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
+        json& attributes = primitive["attributes"];
+        attributes["JOINTS_0"] = file.add_accessor(joints, {kUnsignedByte, "VEC4", 4, false, 0});
+        attributes["WEIGHTS_0"] =
+            file.add_floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+        const float scale = 1.0f - folded;
+        const int still = file.add_node({{"name", "still"}});
+        const int bone = file.add_node({{"scale", {scale, scale, scale}}});
+        file.add("skins", {{"joints", {still, bone}}});
+        file.root["nodes"][0]["skin"] = 0;
+        channel["target"] = {{"node", bone}, {"path", "scale"}};
+        values = {scale, scale, scale, 1, 1, 1};
+    }
+    const int behind = file.add("meshes", triangle_file().root["meshes"][0]);
+    json& attributes = file.primitive(static_cast<std::size_t>(behind))["attributes"];
+    attributes = {{"POSITION", file.add_floats("VEC3", {-3, -2, -1, 3, -2, -1, 0, 4, -1})},
+                  {"NORMAL", file.add_floats("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1})}};
+    file.add_node({{"mesh", behind}});
+    file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 20}, {"range", 20}}};
+    file.add_node(
+        {{"translation", {1, 1, 2}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    if (!moves) return file;
+    const int times = file.add_floats("SCALAR", {0, 1});
+    const int output = file.add_floats(by == FoldedBy::bone ? "VEC3" : "SCALAR", values);
+    file.add("animations",
+             {{"samplers", {{{"input", times}, {"output", output}}}}, {"channels", {channel}}});
+    return file;
+}
+
+// A clip that takes a triangle's area away, and gives it back, shows what the poses show as files.
+TEST(Animation, TrianglesWithoutAreaAtFirstBecomeWhatAStillFileShows) {
+    const TempFolder folder;
+    const auto path = folder.path() / "flap.glb";
+    for (const FoldedBy by : {FoldedBy::morph_target, FoldedBy::bone}) {
+        write_file(path, file_with_flap(by, 1.0f, true).glb());
+        AnimatedScene moving(path, {});
+        const Scene open = load(file_with_flap(by, 0.0f, false));
+        const Scene folded = load(file_with_flap(by, 1.0f, false));
+        EXPECT_EQ(open.meshes[0].positions.size(), 6u) << "vertices split at mirrored halves";
+        const Camera camera = frame_box(bounds(open));
+        for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {
+            RenderSettings settings = small_settings(64, 48, 0);
+            settings.renderer = kind;
+            Renderer renderer(moving.scene(), settings);
+            const auto at_once = [&](const Scene& scene) {
+                return Renderer(scene, settings).render(camera, 0.0).radiance;
+            };
+            EXPECT_NE(at_once(open), at_once(folded));
+            for (const double time : {0.0, 1.0, 0.0}) {
+                moving.set_time(time);
+                EXPECT_EQ(renderer.render(camera, time).radiance,
+                          at_once(time == 1.0 ? open : folded))
+                    << static_cast<int>(by) << " at " << time;
+            }
+        }
+    }
+}
+
+// Rows of vertices have the room that they began with.
+TEST(Animation, RefusesAnotherNumberOfVertices) {
+    for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward}) {
+        Scene scene = make_generated_scene("grid");
+        RenderSettings settings = small_settings(32, 18, 10);
+        settings.renderer = kind;
+        const Camera camera = first_camera(scene);
+        Renderer renderer(scene, settings);
+        renderer.render(camera, 0.0);
+        Mesh& mesh = scene.meshes.front();
+        const std::size_t vertices = mesh.positions.size();
+        mesh.positions.push_back(mesh.positions.front());
+        ++mesh.revision;
+        ++scene.revisions.geometry;
+        try {
+            renderer.render(camera, 0.0);
+            ADD_FAILURE() << "renders vertices beyond their room";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.what(), "scene 'grid': mesh 0 has " + std::to_string(vertices + 1) +
+                                        " vertices now, " + std::to_string(vertices) +
+                                        " when it was set up");
+        }
+    }
+}
 
 TEST(Animation, ARendererFollowsItsScene) {
     for (const RendererKind kind : {RendererKind::deferred, RendererKind::forward_plus}) {

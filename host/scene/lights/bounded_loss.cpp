@@ -14,10 +14,10 @@ double bounded_loss(const Scene& scene, double error_budget) {
     std::ranges::copy_if(scene.lights, std::back_inserter(lights), lacks_range);
     if (box.empty() || lights.empty()) return 0.0;
     const std::size_t step = (lights.size() + kMostLights - 1) / kMostLights;
-    double lost = 0.0;
+    double most = 0.0;
     for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
         const glm::dvec3 cell(i % kPoints, i / kPoints % kPoints, i / (kPoints * kPoints));
-        const glm::dvec3 p = box.min + box.size() * (cell + 0.5) / double{kPoints};
+        const glm::dvec3 p = box.min + box.size() * cell / double{kPoints - 1};
         double all = 0.0, kept = 0.0;
         for (std::size_t l = 0; l < lights.size(); l += step) {
             const glm::vec3& c = lights[l].intensity;
@@ -29,9 +29,9 @@ double bounded_loss(const Scene& scene, double error_budget) {
             all += intensity / d2;
             if (part < 1.0) kept += intensity / d2 * (1.0 - part * part);
         }
-        if (all > 0.0) lost += 1.0 - kept / all;
+        if (all > 0.0) most = std::max(most, 1.0 - kept / all);
     }
-    return lost / (kPoints * kPoints * kPoints);
+    return most;
 }
 
 }  // namespace kilolux

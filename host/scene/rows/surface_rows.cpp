@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/rows/surface_rows.h"
 
+#include <fmt/format.h>
+
+#include "host/base/error.h"
 #include "host/scene/rows/material_row.h"
 #include "host/scene/rows/texture_table.h"
 #include "host/scene/rows/vertex_rows.h"
@@ -145,6 +148,7 @@ SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
         }
         out.meshes.push_back(row);
         out.revisions.push_back(mesh.revision);
+        out.vertex_counts.push_back(mesh.positions.size());
     }
     checked_count(out.vertices.size(), scene);
     checked_count(out.indices.size(), scene);
@@ -159,6 +163,11 @@ void rewrite_vertices(SurfaceRows& rows, const Scene& scene, const MeshFeatures&
         if (rows.revisions[i] == mesh.revision) continue;
         rows.revisions[i] = mesh.revision;
         if (!features(mesh)) continue;
+        if (mesh.positions.size() != rows.vertex_counts[i]) {
+            throw Error(
+                fmt::format("scene '{}': mesh {} has {} vertices now, {} when it was set up",
+                            scene.name, i, mesh.positions.size(), rows.vertex_counts[i]));
+        }
         vertices.clear();
         append_vertices(mesh, rows.meshes[i], vertices);
         write(rows.meshes[i].first_float, vertices);

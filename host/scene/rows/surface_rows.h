@@ -41,6 +41,7 @@ struct SurfaceRows {
     std::vector<uint> indices;
     std::vector<SurfaceMaterial> materials;  // the scene's, and the default one
     std::vector<std::uint32_t> revisions;    // of the meshes' vertices
+    std::vector<std::size_t> vertex_counts;  // of the meshes
 };
 
 /// Throws Error when there are more vertices than rows address.
@@ -48,7 +49,7 @@ SurfaceRows surface_rows(const Scene& scene, const MeshFeatures& features,
                          const TextureTable& textures);
 
 /// Calls write(first float, rows) for the meshes of `rows` whose vertices changed since the last
-/// call.
+/// call. Throws Error where their number changed: the next mesh's rows follow at once.
 void rewrite_vertices(SurfaceRows& rows, const Scene& scene, const MeshFeatures& features,
                       const std::function<void(std::size_t, std::span<const float>)>& write);
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tasks of LightLists beside running its stages: checks of sizes, kept lists, the lists of a
-// pixel.
+// The tasks of LightLists beside running its stages: kept lists, the lists of a pixel; and checks
+// of sizes, of all that lights a G-buffer.
 #include "host/lighting/light_lists.h"
 
 #include <gtest/gtest.h>
 
 #include "host/certify/synthetic/host_lists.h"
+#include "host/lighting/deferred_lighting.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -37,33 +38,76 @@ struct Band {
         mix.range_max = 4;
         return random_lights(view, mix);
     }
-    std::string error_of(const LightInput& input, const GBuffer& from) {
-        try {
-            stage.run(input, from, grid, timer);
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "";
-    }
 };
+
+template <typename Run>
+std::string error_of(const Run& run) {
+    try {
+        run();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+// `run` lights a G-buffer with lights and must refuse counts that their buffers have no room for.
+template <typename Run>
+void expect_lights_are_checked(const Band& band, const Run& run) {
+    const auto message = [&](const LightInput& input) {
+        return error_of([&] { run(input, band.gbuffer); });
+    };
+    LightInput wrong = band.lights;
+    wrong.count = 30000000;
+    EXPECT_EQ(message(wrong),
+              "lighting: lights: a buffer of 14400 bytes; 30000000 rows take 1440000000");
+    wrong = band.lights;
+    wrong.node_count = 1;  // a row more
+    EXPECT_EQ(message(wrong), "lighting: lights: a buffer of 14400 bytes; 301 rows take 14448");
+    wrong = band.lights;
+    wrong.directional = {};
+    wrong.directional_count = 1;
+    EXPECT_EQ(message(wrong), "lighting: directional lights: a buffer of 0 bytes; 1 rows take 32");
+    EXPECT_EQ(message(band.lights), "");
+}
+
+template <typename Run>
+void expect_planes_are_checked(const Band& band, const Run& run) {
+    GBuffer wrong = band.gbuffer;
+    wrong.bytes = cl::Buffer(band.gpu.context, CL_MEM_READ_WRITE, std::size_t{1000});
+    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+              "lighting: G-buffer: a buffer of 1000 bytes; planes of 64 x 16 take 12288");
+    wrong = band.gbuffer;
+    wrong.view.stride = 65;
+    EXPECT_EQ(error_of([&] { run(band.lights, wrong); }),
+              "lighting: G-buffer: width 64, stride 65; a stride is the width rounded up to 16");
+}
 
 TEST(LightLists, RefuseBuffersThatAreTooSmall) {
     Band band;
-    GBuffer small = band.gbuffer;
-    small.bytes = cl::Buffer(band.gpu.context, CL_MEM_READ_WRITE, std::size_t{1000});
-    EXPECT_EQ(band.error_of(band.lights, small),
-              "lighting: G-buffer: a buffer of 1000 bytes; planes of 64 x 16 take 12288");
-    LightInput many = band.lights;
-    many.count = 30000000;
-    EXPECT_NE(
-        band.error_of(many, band.gbuffer).find("lights: a buffer of 14400 bytes; 30000000 rows"),
-        std::string::npos)
-        << band.error_of(many, band.gbuffer);
-    many = band.lights;
-    many.directional_count = 1;
-    EXPECT_NE(band.error_of(many, band.gbuffer).find("directional lights: a buffer of"),
-              std::string::npos);
-    EXPECT_EQ(band.error_of(band.lights, band.gbuffer), "");
+    const auto run = [&](const LightInput& lights, const GBuffer& gbuffer) {
+        band.stage.run(lights, gbuffer, band.grid, band.timer);
+    };
+    expect_planes_are_checked(band, run);
+    expect_lights_are_checked(band, run);
+}
+
+TEST(CoarseLightLists, RefuseBuffersThatAreTooSmall) {
+    Band band;
+    CoarseLightLists lists(band.gpu, default_tuning(band.gpu.info), {});
+    expect_lights_are_checked(band, [&](const LightInput& lights, const GBuffer& gbuffer) {
+        lists.run(lights, gbuffer.view, band.grid, band.timer);
+    });
+}
+
+TEST(AllLightsLighting, RefusesBuffersThatAreTooSmall) {
+    Band band;
+    AllLightsLighting lighting(band.gpu, default_tuning(band.gpu.info), {});
+    const auto run = [&](const LightInput& lights, const GBuffer& gbuffer) {
+        lighting.enqueue({gbuffer, lights, band.grid}, band.timer);
+        band.gpu.queue.finish();
+    };
+    expect_planes_are_checked(band, run);
+    expect_lights_are_checked(band, run);
 }
 
 TEST(LightLists, APixelOfABandHasTheListsOfItsPlaceInThePicture) {

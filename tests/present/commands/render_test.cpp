@@ -59,6 +59,21 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     EXPECT_EQ(names_in(folder), (std::set<std::string>{"a.exr"}));
 }
 
+TEST(Render, SaysThatLinearLightIsNotExposed) {
+    const TemporaryFolder folder;
+    for (const char* exposure : {"0", "1", "auto"}) {
+        for (const char* name : {"a.exr", "a.png"}) {
+            const ChildResult result =
+                run_kilolux(small_render(folder / name, {"--exposure", exposure}));
+            ASSERT_EQ(result.code, 0) << result.err;
+            const bool said =
+                contains(result.err, "a.exr: holds linear light, which --exposure does not change");
+            EXPECT_EQ(said, name == std::string("a.exr") && exposure != std::string("0"))
+                << exposure << " " << result.err;
+        }
+    }
+}
+
 TEST(Render, AutomaticSamplesAreTold) {
     const TemporaryFolder folder;
     const fs::path file = folder / "a.exr";
