@@ -239,8 +239,8 @@ void run_render(RenderOptions& options) {
     if (!out.stats.empty()) {
         write_json(out.stats, pictures.stats(made.last, false), made.log ? &*made.log : nullptr);
     }
-    note(frame_summary(pictures.scene().scene(), pictures.renderer().device(), made.last,
-                       made.count));
+    note(frame_summary(pictures.scene().scene(), pictures.renderer().gpu(), made.last, made.count,
+                       options.shared.verbose));
     if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
 }
 
