@@ -45,6 +45,14 @@ void Kernel::compare_argument(cl_uint index, std::string_view name, std::string_
                 "; the kernel's parameter is '" + parameter.name + "' of type " + parameter.type);
 }
 
+bool Kernel::is_first_launch(const cl::NDRange& group) {
+    std::array<std::size_t, 3> size = {1, 1, 1};
+    std::copy_n(group.get(), group.dimensions(), size.begin());
+    if (std::ranges::find(launched_, size) != launched_.end()) return false;
+    launched_.push_back(size);
+    return true;
+}
+
 cl::Event Kernel::launch(const WorkSize& size) {
     cl::Event event;
     queue_.enqueueNDRangeKernel(kernel_, cl::NullRange, size.global, size.local, nullptr, &event);

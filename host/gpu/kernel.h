@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -67,7 +68,8 @@ class Kernel {
         in_stage(stage_, [&] {
             Setter set{*this};
             (set(arguments), ...);
-            timer.record(stage_, launch(size));
+            const bool is_first = is_first_launch(size.local);
+            timer.record(stage_, launch(size), is_first);
         });
     }
 
@@ -118,6 +120,7 @@ class Kernel {
     void compare_argument(cl_uint index, std::string_view name, std::string_view type,
                           bool is_memory) const;
     cl::Event launch(const WorkSize& size);
+    bool is_first_launch(const cl::NDRange& group);
 
     cl::CommandQueue queue_;
     cl::Kernel kernel_;
@@ -125,7 +128,8 @@ class Kernel {
     std::size_t lanes_;
     std::size_t largest_group_;  // work-items that the device allows in a group
     std::shared_ptr<const DeviceTables> tables_;
-    std::vector<KernelParameter> parameters_;  // with Gpu::checks_arguments
+    std::vector<KernelParameter> parameters_;           // with Gpu::checks_arguments
+    std::vector<std::array<std::size_t, 3>> launched_;  // sizes of groups
 };
 
 }  // namespace kilolux

@@ -71,7 +71,9 @@ KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_vi
         detail("building " + name + " " + all_options);
         const auto start = std::chrono::steady_clock::now();
         KernelProgram program = build(gpu, name, source, all_options);
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        const auto end = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> taken = end - start;
+        gpu.programs->add_build({start, end});
         if (gpu.programs->add_build_time(taken.count())) {
             note_wait("building kernels for " + gpu.info.name +
                       "; most drivers keep them for the next run ...");

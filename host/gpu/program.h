@@ -2,11 +2,13 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "host/base/error.h"
 #include "host/gpu/device.h"
@@ -42,6 +44,14 @@ struct KernelProgram : cl::Program {
     int lanes = 1;
 };
 
+/// When the host built a program.
+struct BuildSpan {
+    std::chrono::steady_clock::time_point start, end;
+};
+
+/// Building for longer is worth a word to the user.
+inline constexpr double kLongBuildSeconds = 1.0;
+
 /// What copies of a Gpu share: the programs of one context by options and text, and the tables that
 /// kernels read. They live as long as a Gpu that shares them.
 class ProgramCache {
@@ -54,12 +64,26 @@ class ProgramCache {
         if (found == programs_.end()) found = programs_.emplace(key, build()).first;
         return found->second;
     }
-    /// Adds the time of a build. Returns whether all together then are long for the first time: the
-    /// user waits.
+    /// Adds the time of a build, or of a first launch, before which drivers compile. Returns
+    /// whether all together then are long for the first time: the user waits.
     bool add_build_time(double seconds) {
-        constexpr double kLongSeconds = 1.0;
+        const std::scoped_lock lock(times_);
         const double before = std::exchange(build_seconds_, build_seconds_ + seconds);
-        return before < kLongSeconds && build_seconds_ >= kLongSeconds;
+        return before < kLongBuildSeconds && build_seconds_ >= kLongBuildSeconds;
+    }
+    double build_seconds() const {
+        const std::scoped_lock lock(times_);
+        return build_seconds_;
+    }
+    /// Adds the time in which a program was built.
+    void add_build(const BuildSpan& span) {
+        const std::scoped_lock lock(times_);
+        builds_.push_back(span);
+    }
+    /// The builds since the last call.
+    std::vector<BuildSpan> take_builds() {
+        const std::scoped_lock lock(times_);
+        return std::exchange(builds_, {});
     }
     /// The tables; made by `make` if there are none yet.
     template <typename Make>
@@ -72,7 +96,9 @@ class ProgramCache {
  private:
     std::mutex mutex_;
     std::map<std::string, KernelProgram> programs_;
+    mutable std::mutex times_;  // of those that follow
     double build_seconds_ = 0.0;
+    std::vector<BuildSpan> builds_;
     std::shared_ptr<const DeviceTables> tables_;
 };
 

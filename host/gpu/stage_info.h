@@ -76,6 +76,8 @@ struct StageWork {
 
 /// The part of a frame that a stage belongs to: tables sum by it.
 enum class StageGroup { lights, surfaces, lists, shadows, shading, picture, host };
+inline constexpr std::string_view kStageGroupNames[] = {"lights",  "surfaces", "lists", "shadows",
+                                                        "shading", "picture",  "host"};
 
 /// A stage of a frame, declared beside what runs it. Converts to its name.
 struct StageInfo {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace kilolux {
@@ -26,11 +27,15 @@ CommandSpan moment(std::int64_t time) { return {time, time, time}; }
 
 }  // namespace
 
-void StageTimer::record(std::string_view stage, const cl::Event& event) {
+void StageTimer::record(std::string_view stage, const cl::Event& event, bool is_first) {
     auto entry = std::find_if(entries_.begin(), entries_.end(),
                               [&](const Entry& e) { return e.stage == stage; });
     if (entry == entries_.end()) entry = entries_.insert(entry, Entry{std::string(stage), {}});
-    entry->events.push_back({event, Clock::now()});
+    entry->events.push_back({event, Clock::now(), is_first});
+}
+
+void StageTimer::record_build(Clock::time_point start, Clock::time_point end) {
+    builds_.push_back({ticks(start.time_since_epoch()), ticks(end.time_since_epoch())});
 }
 
 void StageTimer::record_host(std::string_view stage, double ms) {
@@ -40,6 +45,7 @@ void StageTimer::record_host(std::string_view stage, double ms) {
 
 std::vector<StageTimer::Time> StageTimer::take() {
     idle_ = {};
+    build_ = first_launch_ = 0;
     if (entries_.empty() && host_.empty()) return {};
     for (const Entry& entry : entries_) {
         for (const Recorded& recorded : entry.events) recorded.event.wait();
@@ -47,13 +53,15 @@ std::vector<StageTimer::Time> StageTimer::take() {
     const Clock::time_point now = Clock::now();
     std::vector<Time> times;
     std::vector<CommandSpan> spans;
+    std::vector<HostSpan> first_launches;
     // Offset from the device's clock to the host's: the least difference that a record() shows.
     std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
         Time& time = times.emplace_back(Time{entry.stage});
-        for (const auto& [event, recorded] : entry.events) {
+        for (const auto& [event, recorded, is_first] : entry.events) {
             const CommandSpan span = span_of(event);
             spans.push_back(span);
+            if (is_first) first_launches.push_back({span.queued, span.start});
             time.ms += kMsPerTick * static_cast<double>(span.end - span.start);
             offset = std::min(offset, ticks(recorded.time_since_epoch()) - span.queued);
         }
@@ -63,10 +71,22 @@ std::vector<StageTimer::Time> StageTimer::take() {
     for (const HostEntry& entry : host_) {
         host.push_back({entry.span.start - offset, entry.span.end - offset});
     }
+    for (const HostSpan& span : std::exchange(builds_, {})) {
+        host.push_back({span.start - offset, span.end - offset});
+    }
+    host.insert(host.end(), first_launches.begin(), first_launches.end());
     for (const Clock::time_point end : {std::exchange(since_, now), now}) {
         spans.push_back(moment(ticks(end.time_since_epoch()) - offset));
     }
     idle_ = idle_time(std::move(spans), host);
+    const auto sum = [this](std::size_t first, std::size_t last) {
+        const auto begin = idle_.host.begin();
+        return std::accumulate(begin + static_cast<std::ptrdiff_t>(first),
+                               begin + static_cast<std::ptrdiff_t>(last), std::int64_t{0});
+    };
+    const std::size_t launches = host.size() - first_launches.size();
+    build_ = sum(host_.size(), launches);
+    first_launch_ = sum(launches, host.size());
     add_host_times(times);
     entries_.clear();
     host_.clear();
@@ -88,5 +108,11 @@ void StageTimer::add_host_times(std::vector<Time>& times) const {
 double StageTimer::launch_ms() const { return kMsPerTick * static_cast<double>(idle_.launch); }
 
 double StageTimer::enqueue_ms() const { return kMsPerTick * static_cast<double>(idle_.enqueue); }
+
+double StageTimer::build_ms() const { return kMsPerTick * static_cast<double>(build_); }
+
+double StageTimer::first_launch_ms() const {
+    return kMsPerTick * static_cast<double>(first_launch_);
+}
 
 }  // namespace kilolux

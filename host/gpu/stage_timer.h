@@ -14,8 +14,15 @@ namespace kilolux {
 /// Collects the profiling events of a frame under their stages' names.
 class StageTimer {
  public:
+    using Clock = std::chrono::steady_clock;
+
     /// Adds an event to a stage; a stage may have several. Call it when the command was enqueued.
-    void record(std::string_view stage, const cl::Event& event);
+    /// `is_first`: the first launch of a kernel in this work-group size, before which drivers
+    /// compile.
+    void record(std::string_view stage, const cl::Event& event, bool is_first = false);
+
+    /// Adds a time in which the host built a program.
+    void record_build(Clock::time_point start, Clock::time_point end);
 
     /// Adds the last `ms` of the host to a stage, as far as the device idled in them.
     void record_host(std::string_view stage, double ms);
@@ -35,18 +42,20 @@ class StageTimer {
     /// device idled although the next command was enqueued [ms].
     double launch_ms() const;
     /// How long it idled because no command was enqueued [ms]. Both are without the time of
-    /// record_host().
+    /// record_host() and without build_ms().
     double enqueue_ms() const;
+    /// How long it idled while programs were built, and before first launches [ms].
+    double build_ms() const;
+    double first_launch_ms() const;
 
     /// Forgets the commands that were recorded after the copy `before`, but not the host's time.
     void drop_commands_since(const StageTimer& before) { entries_ = before.entries_; }
 
  private:
-    using Clock = std::chrono::steady_clock;
-
     struct Recorded {
         cl::Event event;
         Clock::time_point time;
+        bool is_first;
     };
     struct Entry {
         std::string stage;
@@ -61,7 +70,9 @@ class StageTimer {
     std::vector<Entry> entries_;
     Clock::time_point since_ = Clock::now();  // start of the idle time that is not yet reported
     std::vector<HostEntry> host_;
+    std::vector<HostSpan> builds_;  // on Clock
     IdleTime idle_;
+    std::int64_t build_ = 0, first_launch_ = 0;  // [ns]
 };
 
 }  // namespace kilolux

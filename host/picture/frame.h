@@ -79,7 +79,8 @@ struct FrameStats : PairCounts {
     SampleCounts samples;
     bool shaded_display = false;  // shading made the display picture: there is no tonemap stage
     std::vector<StageTime> stages;
-    double frame_ms = 0.0;
+    double frame_ms = 0.0;  // without build_ms
+    double build_ms = 0.0;  // in which the device waited for programs to be built
 };
 
 /// Lights evaluated at a pixel that shows a surface; 0 without any.

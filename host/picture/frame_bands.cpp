@@ -89,6 +89,7 @@ void add_band(FrameStats& whole, const FrameStats& band) {
     for (const auto count : {&S::triangles, &S::triangle_pairs, &S::seen_triangles, &S::texels}) {
         whole.*count += band.*count;
     }
+    whole.build_ms += band.build_ms;
     whole.shadow_scenes_built += band.shadow_scenes_built;
     whole.shadows = whole.shadows + band.shadows;
     add_samples(whole.samples, band.samples);

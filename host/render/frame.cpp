@@ -107,7 +107,9 @@ LightInput begin(Pipeline& p, const Shot& shot, Frame& frame) {
     p.last.camera = shot.camera;
     p.samples.begin({context.settings, shot.camera, shot.time, context.scene->scene().revisions},
                     context.is_whole() ? shot.samples : 0);
+    const Clock::time_point allocate_start = Clock::now();
     p.picture.begin(shot.display, frame);
+    p.timer.record_host(kAllocateStage, ms_since(allocate_start));
     frame.stats.zero_normals = context.scene->zero_normals();
     const LightInput lights = place_lights(p, shot, frame.stats);
     frame.stats.frame_ms = ms_since(start);
@@ -152,7 +154,7 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
         if (!is_one) develop_band(p, {}, p.samples.mean(lit.light, p.timer), frame);
         p.picture.finish(p.timer, stats);
         add_band(frame.stats, stats);
-        frame.stats.frame_ms += ms_since(start);
+        frame.stats.frame_ms += ms_since(start) - stats.build_ms;
         add_pixels(p, shot, surfaces, frame);
     }
 }
@@ -165,8 +167,9 @@ Frame make_frame(Pipeline& p, const Shot& shot) {
     if (const auto light = p.picture.gathered(shot.camera)) {
         const Clock::time_point start = Clock::now();
         develop(p, *light, frame);
+        const double built_ms = frame.stats.build_ms;
         p.picture.finish(p.timer, frame.stats);
-        frame.stats.frame_ms += ms_since(start);
+        frame.stats.frame_ms += ms_since(start) - (frame.stats.build_ms - built_ms);
     }
     show_view(p, shot, surfaces, frame);
     if (!p.context.settings.want.radiance) frame.radiance.clear();

@@ -23,6 +23,8 @@ inline StageWork forward_work(const StageCounts& c) {
             .evaluations = full_evaluations(c)};
 }
 
+/// Makes the host's memory of a frame.
+inline constexpr StageInfo kAllocateStage = {"allocate", StageGroup::host};
 inline constexpr StageInfo kLightInputStage = {"light_input", StageGroup::lights};
 inline constexpr StageInfo kGeometryStage = {"geometry", StageGroup::surfaces};
 inline constexpr StageInfo kGBufferBridgeStage = {"gbuffer_bridge", StageGroup::surfaces,

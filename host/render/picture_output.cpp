@@ -110,7 +110,7 @@ void PictureOutput::read_display(const DisplayTarget& display, StageTimer& timer
 void PictureOutput::finish(StageTimer& timer, FrameStats& stats) {
     const double placed_ms = reader_.finish();
     if (placed_ms > 0.0) timer.record_host(kReadBackStage, placed_ms);
-    add_times(timer, stats);
+    add_times(context_.gpu, timer, stats);
 }
 
 DisplayMemory PictureOutput::display_memory() {

@@ -37,12 +37,17 @@ SampleCounts counts_of(const AdaptiveSamples& samples) {
 
 }  // namespace
 
-void add_times(StageTimer& timer, FrameStats& stats) {
+void add_times(const Gpu& gpu, StageTimer& timer, FrameStats& stats) {
+    for (const BuildSpan& build : gpu.programs->take_builds()) {
+        timer.record_build(build.start, build.end);
+    }
     for (const StageTimer::Time& time : timer.take()) {
         add_stage_time(stats.stages, time.stage, time.ms);
     }
     add_stage_time(stats.stages, kLaunchStage, timer.launch_ms());
     add_stage_time(stats.stages, kEnqueueStage, timer.enqueue_ms());
+    stats.build_ms += timer.build_ms() + timer.first_launch_ms();
+    gpu.programs->add_build_time(1e-3 * timer.first_launch_ms());
 }
 
 void Samples::begin(const PictureKey& key, int refining) {
@@ -97,13 +102,13 @@ std::optional<Samples::Next> Samples::next() {
 void Samples::add(const Radiance& light, Measured out) {
     if (key_.settings.auto_samples.on) return add_until_error(light, out);
     sum_->add(light, out.timer);
-    add_times(out.timer, out.stats);  // lists of the next sample may be made twice
+    add_times(gpu_, out.timer, out.stats);  // lists of the next sample may be made twice
 }
 
 void Samples::add_until_error(const Radiance& light, Measured out) {
     if (is_enough_) return;  // sample 0 is made once more
     until_error_->add(half_, light, out.timer);
-    add_times(out.timer, out.stats);  // lists of the next sample may be made twice
+    add_times(gpu_, out.timer, out.stats);  // lists of the next sample may be made twice
     if (!centre_) centre_ = out.stats;
     if (++added_ < goal_ - taken_) return;
     added_ = 0;

@@ -13,7 +13,7 @@
 namespace kilolux {
 
 /// Adds what the timer measured to the frame's stages.
-void add_times(StageTimer& timer, FrameStats& stats);
+void add_times(const Gpu& gpu, StageTimer& timer, FrameStats& stats);
 
 /// The inputs that decide a picture.
 struct PictureKey {

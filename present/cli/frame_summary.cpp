@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "host/base/formats/gbuffer_layout.h"
 #include "host/base/version.h"
 #include "host/measure/roofline/stage_report.h"
+#include "host/measure/roofline/stages.h"
 #include "present/cli/names.h"
 #include "present/cli/option_values.h"
 #include "present/video/video_file.h"
@@ -19,6 +22,15 @@ std::string grid_text(const FrameStats& stats) {
 
 std::string time_line(std::string_view name, double ms) {
     return fmt::format("  {:<16} {:9.2f} ms", name, ms);
+}
+
+std::string group_lines(const FrameStats& stats) {
+    std::map<StageGroup, double> times = {{StageGroup::host, other_ms(stats)}};
+    for (const StageTime& stage : stats.stages) times[group_of(stage.name)] += stage.ms;
+    std::string out;
+    for (const auto& [group, ms] : times)
+        out += time_line(kStageGroupNames[static_cast<std::size_t>(group)], ms) + "\n";
+    return out;
 }
 
 std::string stage_lines(const FrameStats& stats) {
@@ -89,13 +101,20 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
     return notes;
 }
 
-std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
-                          std::size_t count) {
+std::string frame_summary(const Scene& scene, const Gpu& gpu, const FrameRecord& last,
+                          std::size_t count, bool by_stage) {
+    const DeviceInfo& device = gpu.info;
     std::string out =
         fmt::format("device  {} ({}), {} lanes\nscene   {}, {} triangles\n", device.name,
                     device.version, device.lane_width, scene.name, triangle_count(scene));
     out += light_line(last.stats) + sample_line(last.stats.samples) + cluster_line(last.stats) +
-           stage_lines(last.stats) + time_line(kFrameStage, last.stats.frame_ms) + "\n";
+           (by_stage ? stage_lines(last.stats) : group_lines(last.stats)) +
+           time_line(kFrameStage, last.stats.frame_ms) + "\n";
+    const double build_s = gpu.programs->build_seconds();
+    if (build_s >= kLongBuildSeconds) {
+        out +=
+            fmt::format("kernels built in {:.1f} s; drivers keep them for the next run\n", build_s);
+    }
     if (last.comparison) out += "error   " + comparison_text(*last.comparison) + "\n";
     out += "wrote   " + last.file;
     if (is_video(last.file) || last.file == output_name("-"))

@@ -18,9 +18,9 @@ std::string comparison_text(const Comparison& comparison);
 ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                          const FrameStats& stats);
 
-/// Device, scene, lights, times of the stages of the last of `count` frames, and the files; several
-/// lines.
-std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
-                          std::size_t count);
+/// Device, scene, lights, times of the last of `count` frames by groups of stages (`by_stage`: by
+/// stages), how long kernels took to build, and the files; several lines.
+std::string frame_summary(const Scene& scene, const Gpu& gpu, const FrameRecord& last,
+                          std::size_t count, bool by_stage);
 
 }  // namespace kilolux

@@ -30,6 +30,15 @@ std::string output_file(const std::string&, const std::string& text) {
                                  joined(known), did_you_mean(extension, known)));
 }
 
+std::vector<std::string> exr_compressions() {
+    return {std::begin(kExrCompressions), std::end(kExrCompressions)};
+}
+
+std::string exr_compression(const std::string& name, const std::string& text) {
+    const std::vector<std::string> known = exr_compressions();
+    return known[parse_name(name, text, known)];
+}
+
 void add_encoding_options(CLI::App& command, OutputOptions& o) {
     const auto take_ids = [](const std::string& name, const std::string& text) {
         return parse_name(name, text, {"float", "uint"}) == 1;
@@ -46,6 +55,9 @@ void add_encoding_options(CLI::App& command, OutputOptions& o) {
         .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"}, o.stats)
         .rest()
         .flag("--exr-half", o.half_colour, "EXR colour in half precision")
+        .value({"--exr-compression", joined(exr_compressions(), "|"), kExrCompression,
+                "How EXR is compressed, without loss; none is fastest"},
+               o.exr_compression, exr_compression)
         .value({"--aov-ids", "float|uint", "float",
                 "How EXR holds layers of whole numbers; uint in any case above 16777216, where "
                 "floats are not exact"},
@@ -140,6 +152,8 @@ std::vector<FormatOption> format_options(const SharedOptions& shared,
     const bool has_layers = !shared.settings.want.aovs.empty();
     return {{"--aov", has_layers, holds_layers, "cannot hold layers; use .exr"},
             {"--exr-half", options.half_colour, holds_layers, "is not an EXR file"},
+            {"--exr-compression", options.exr_compression != kExrCompression, holds_layers,
+             "is not an EXR file"},
             {"--aov-ids", options.uint_ids, holds_layers, "is not an EXR file"},
             {"--bits", options.bits == 16, holds_16_bits,
              "cannot hold 16 bits a channel; use .png or .tif, or .exr for light"},

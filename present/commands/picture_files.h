@@ -25,7 +25,8 @@ struct RenderOptions {
     OutputOptions output;
     BudgetOptions budget;
     bool has_alpha = false;  // the picture: see wants_alpha()
-    std::string command{};   // picture_command() of what was asked for
+    bool mixed_devices = false;
+    std::string command{};  // picture_command() of what was asked for
 };
 
 /// One picture to make: a frame of the sequence, or the only one.

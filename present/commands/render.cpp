@@ -9,6 +9,7 @@
 #include "host/base/log.h"
 #include "host/base/system/interrupt.h"
 #include "present/cli/frame_summary.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/option_values.h"
 #include "present/cli/options.h"
 #include "present/commands/camera_motion.h"
@@ -26,125 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string noted_time(double time) { return text_of(time) + " s"; }
-
-// The pictures asked for, computed one at a time: a sequence may have 2^31 of them.
-class Tasks {
- public:
-    explicit Tasks(const RenderOptions& options) : options_(options) {
-        const OutputOptions& out = options.output;
-        if (out.frames) frames_.emplace(*out.frames, out.shard);
-        has_video_ = out.skip_existing && is_video(out.output) &&
-                     is_made(wanted_video(options.shared.settings, out, options.command));
-    }
-
-    std::size_t size() const { return frames_ ? frames_->size() : 1; }
-
-    PictureTask operator[](std::size_t i) const {
-        const OutputOptions& out = options_.output;
-        const double time = options_.shared.time;
-        if (!frames_) return {0, time, out.output, out.reference, out.difference};
-        const int frame = (*frames_)[i];
-        return {frame, time + frame / out.frames_per_second, frame_file(out.output, frame),
-                frame_file(out.reference, frame), frame_file(out.difference, frame)};
-    }
-
-    bool is_done(const PictureTask& task) const {
-        if (is_video(task.file)) return has_video_;
-        const RenderSettings& s = options_.shared.settings;
-        return options_.output.skip_existing &&
-               is_made({task.file, s.width, s.height, options_.command, noted_time(task.time)});
-    }
-
-    std::size_t first_to_do() const {
-        std::size_t i = 0;
-        while (i < size() && is_done((*this)[i])) ++i;
-        return i;
-    }
-
- private:
-    const RenderOptions& options_;
-    std::optional<ShardFrames> frames_;
-    bool has_video_ = false;  // the one that is asked for is there
-};
-
-ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
-                    const FrameRecord& record) {
-    ImageNotes notes = picture_notes(options.shared, pictures.renderer().device(), record.stats);
-    notes.strings.emplace_back("command", options.command);
-    std::erase_if(notes.strings, [](const auto& entry) { return entry.first == "time"; });
-    notes.strings.emplace_back("time", noted_time(record.time));
-    if (record.comparison) {
-        notes.strings.emplace_back("error", comparison_text(*record.comparison));
-    }
-    notes.camera = pictures.camera();
-    return notes;
-}
-
-// Says where a layer is stored as the options did not ask for.
-void note_layers(const RenderOptions& options, const Frame& frame, const fs::path& file) {
-    for (const Layer& layer : frame.aovs) {
-        if (options.output.uint_ids || float_holds(layer)) continue;
-        note(fmt::format("{}: layer {} is UINT: a float does not hold its largest numbers",
-                         file.string(), layer.name));
-    }
-}
-
-// Renders a task's picture; returns its record.
-FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
-                        RenderedPicture& picture) {
-    const OutputOptions& out = options.output;
-    const PictureTask& task = picture.task;
-    std::optional<Reference> reference;
-    if (!task.reference.empty()) {
-        const RenderSettings& settings = pictures.renderer().settings();
-        require_reference_size(task.reference, settings.width, settings.height);
-        reference.emplace(task.reference);
-    }
-    Frame& frame = picture.frame;
-    frame = pictures.render(task.time, task.frame);
-    check_interrupt();
-    FrameRecord record{task.frame, task.time, output_name(task.file), frame.stats, std::nullopt};
-    if (reference) {
-        record.comparison = reference->compare(frame, out.metric, out.threshold.value_or(0.0));
-    }
-    if (!task.difference.empty()) picture.difference = reference->difference(frame);
-    if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    if (options.has_alpha) picture.alpha = pictures.coverage(frame, task.time, task.frame);
-    note_layers(options, frame, task.file);
-    picture.notes = notes_of(options, pictures, record);
-    return record;
-}
-
-void advise(SceneRenderer& pictures, const FrameRecord& record) {
-    const std::string advice =
-        picture_advice(pictures.scene().scene(), pictures.camera(), pictures.renderer().settings(),
-                       record.stats, pictures.is_framed());
-    if (!advice.empty()) note(record.file + ": " + advice);
-}
-
-WrittenPictures render_tasks(const RenderOptions& options, const Tasks& tasks,
-                             SceneRenderer& pictures) {
-    const bool counted = !options.output.stats.empty();
-    const std::size_t first = tasks.first_to_do();
-    PictureFiles files(options, tasks.size() - first, pictures.renderer());
-    bool is_first = true;
-    for (std::size_t i = first; i < tasks.size(); ++i) {
-        check_interrupt();
-        RenderedPicture picture;
-        picture.task = tasks[i];
-        if (tasks.is_done(picture.task)) {
-            files.skip();
-            continue;
-        }
-        FrameRecord record = render_task(options, pictures, picture);
-        if (std::exchange(is_first, false)) advise(pictures, record);
-        if (counted) pictures.fill_limits(record);
-        files.add(std::move(picture), std::move(record));
-    }
-    return files.finish();
-}
-
 // Exposes by the sequence's first frame, also in a shard that does not contain it.
 void expose_automatically(const RenderOptions& options, SceneRenderer& pictures) {
     const OutputOptions& out = options.output;
@@ -156,7 +38,8 @@ void expose_automatically(const RenderOptions& options, SceneRenderer& pictures)
 }
 
 // Checks before rendering what would otherwise fail after it.
-void check_files(const RenderOptions& options, const Tasks& tasks, const PictureTask& first) {
+void check_files(const RenderOptions& options, const PictureTasks& tasks,
+                 const PictureTask& first) {
     const OutputOptions& out = options.output;
     if (is_video(out.output)) {
         check_can_write_video(out.output);
@@ -206,14 +89,52 @@ bool wants_alpha(const RenderOptions& options) {
            !shared.show_error;
 }
 
+// Statistics and summary of the pictures. Throws where one failed its comparison, or a device was
+// left out.
+void report_pictures(const RenderOptions& options, SceneRenderer& pictures,
+                     const MadePictures& made) {
+    const OutputOptions& out = options.output;
+    const WrittenPictures& written = made.written;
+    if (!out.stats.empty()) {
+        write_json(out.stats, pictures.stats(written.last, false),
+                   written.log ? &*written.log : nullptr);
+    }
+    note(frame_summary(pictures.scene().scene(), pictures.renderer().gpu(), written.last,
+                       written.count, options.shared.verbose));
+    std::string failures;
+    for (const DeviceShare& share : made.shares) {
+        note(fmt::format("device {}: {} pictures", share.device, share.pictures));
+        if (share.failure.empty()) continue;
+        failures += fmt::format("{}device {} failed: {}", failures.empty() ? "" : "; ",
+                                share.device, share.failure);
+    }
+    if (!written.first_failure.empty()) throw ComparisonFailed(written.first_failure);
+    if (!failures.empty()) throw Error(failures + "; the other devices made every picture");
+}
+
+// Leaves the first of several devices in the settings. Returns the others.
+std::vector<std::string> take_devices(RenderOptions& options) {
+    std::string& device = options.shared.settings.device;
+    std::vector<std::string> devices = render_devices(device, options.mixed_devices);
+    device = devices.front();
+    devices.erase(devices.begin());
+    if (!devices.empty() && !options.output.frames) {
+        throw UsageError(
+            "--device: several devices make the frames of a sequence; --frames is "
+            "not given");
+    }
+    return devices;
+}
+
 void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
+    const std::vector<std::string> more_devices = take_devices(options);
     options.command = picture_command(options.shared, out);
     options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
-    const Tasks tasks(options);
+    const PictureTasks tasks(options);
     if (tasks.size() == 0) {
         return note(fmt::format("nothing to render: shard {}/{} has none of the frames {}:{}",
                                 out.shard.index, out.shard.count, out.frames->first,
@@ -230,20 +151,14 @@ void run_render(RenderOptions& options) {
     const auto camera = [&motion](const Scene& scene, int frame, double time) {
         return motion.at(scene, frame, time);
     };
-    SceneRenderer pictures(options.shared, options.budget,
-                           {request_of(options, options.shared.settings.want), first.time,
-                            first.frame, camera, std::nullopt});
+    const FirstPicture start{request_of(options, options.shared.settings.want), first.time,
+                             first.frame, camera, std::nullopt};
+    SceneRenderer pictures(options.shared, options.budget, start);
     note(pictures.rig_lines());  // before the frames, which may take minutes
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
-    const WrittenPictures made = render_tasks(options, tasks, pictures);
-    if (!out.stats.empty()) {
-        write_json(out.stats, pictures.stats(made.last, false), made.log ? &*made.log : nullptr);
-    }
-    note(frame_summary(pictures.scene().scene(), pictures.renderer().device(), made.last,
-                       made.count));
-    if (!made.first_failure.empty()) throw ComparisonFailed(made.first_failure);
+    const MadePictures made = render_tasks(options, tasks, pictures, start, more_devices);
+    report_pictures(options, pictures, made);
 }
-
 void add_render_options(CLI::App& command, RenderOptions& options) {
     options.shared.takes_automatic_exposure = true;
     options.shared.takes_automatic_samples = true;
@@ -251,6 +166,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     add_shared_options(command, options.shared);
     add_output_options(command, options.output);
     add_budget_options(command, options.budget);
+    OptionBuilder(command, "Device")
+        .flag("--mixed-devices", options.mixed_devices,
+              "Several devices may differ; each picture notes which one made it");
 }
 
 constexpr const char* kRenderExamples =

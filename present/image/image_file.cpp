@@ -159,7 +159,7 @@ ImageLayout exr_layout(const Frame& frame, const ImageNotes& notes, const ImageO
                         is_uint(layer, options) ? SampleType::uint32 : SampleType::float32);
         }
     }
-    layout.attributes = {{"compression", "zip"},
+    layout.attributes = {{"compression", options.exr_compression},
                          {"oiio:ColorSpace", "Linear"},
                          {"chromaticities", std::vector<float>(kRec709.begin(), kRec709.end())}};
     // Without a date OpenImageIO writes the present time as capDate. A date that is not a text is

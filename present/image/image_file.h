@@ -42,6 +42,10 @@ bool holds_layers(const std::filesystem::path& file);
 /// place of 900 and 2.81 MB in place of 2.58, Sponza 210 ms for 920 and 3.57 MB for 3.35.
 inline constexpr int kPngLevel = 2;
 
+/// OpenEXR's compressions without loss.
+inline constexpr const char* kExrCompressions[] = {"none", "rle", "zips", "zip", "piz"};
+inline constexpr const char* kExrCompression = "zip";
+
 /// A file's notes about its picture.
 struct ImageNotes {
     /// Written as "kilolux:<name>": scene, lights, renderer, ... in this order.
@@ -55,6 +59,7 @@ struct Encoding {
     bool uint_ids = false;      // EXR: layers of ids in UINT, also where floats hold them
     int bits = 8;               // PNG, TIFF: a channel, 8 or 16
     int png_level = kPngLevel;  // of zlib's compression, 0..9
+    std::string exr_compression = kExrCompression;
 };
 
 /// The parts of a file beside its frame.

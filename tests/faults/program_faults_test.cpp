@@ -67,6 +67,29 @@ class Faults : public testing::Test {
     fs::path picture_ = folder_ / "a.png";
 };
 
+// One of two devices fails in a call of its renderer: the other one makes its pictures again, and
+// the exit code tells. A call that opens the first renderer ends the job.
+TEST_F(Faults, ADeviceOfTwoIsLeftOut) {
+    const auto render = [&](const std::string& fault, const fs::path& file) {
+        Words words = with_environment({"OPENCL_LAYERS=" KILOLUX_FAULT_LAYER,
+                                        "KILOLUX_FAULT=" + fault, "POCL_DEVICES=cpu cpu"});
+        return run_child(render_words(words, file, {"--device", "0,1", "--frames", "0:7"}));
+    };
+    const ChildResult whole = render("0:0", elsewhere_ / "a.y4m");
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    int left_out = 0;
+    for (const int call : {600, 900, 1200}) {
+        const ChildResult result = render(std::to_string(call) + ":-5", elsewhere_ / "b.y4m");
+        if (result.code == 0) continue;  // there are fewer calls
+        EXPECT_EQ(result.code, 1) << result.err;
+        left_out += has(result.err, " is left out: ") ? 1 : 0;
+        EXPECT_TRUE(has(result.err, "CL_OUT_OF_RESOURCES")) << result.err;
+        EXPECT_TRUE(has(result.err, "; the other devices made every picture")) << result.err;
+        EXPECT_EQ(text_of_file(elsewhere_ / "b.y4m"), text_of_file(elsewhere_ / "a.y4m"));
+    }
+    EXPECT_GT(left_out, 0);
+}
+
 TEST_F(Faults, NoPlatformNoDeviceNoOpenGl) {
     const std::string empty = elsewhere_.path().string();
     expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");

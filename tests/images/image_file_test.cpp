@@ -123,6 +123,21 @@ TEST(ImageFile, ExrKeepsEveryBitOfColourAndLayers) {
     }
 }
 
+TEST(ImageFile, ExrCompressionsKeepEveryDigit) {
+    const TemporaryFolder folder;
+    const Frame frame = make_layered_frame();
+    for (const char* compression : kExrCompressions) {
+        ImageOptions options;
+        options.exr_compression = compression;
+        const auto file = folder / (std::string(compression) + ".exr");
+        write_image(file, frame, {}, options);
+        const auto in = OIIO::ImageInput::open(file.string());
+        ASSERT_TRUE(in) << compression;
+        EXPECT_EQ(in->spec().get_string_attribute("compression"), compression);
+        EXPECT_EQ(colour_of(read_image(file)), frame.radiance) << compression;
+    }
+}
+
 TEST(ImageFile, ExrFormatsOfChannels) {
     const TemporaryFolder folder;
     write_image(folder / "a.exr", make_layered_frame(), {}, half_colour());

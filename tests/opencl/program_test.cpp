@@ -229,6 +229,19 @@ TEST(ProgramCache, SaysOnceThatBuildsTakeLong) {
     EXPECT_FALSE(cache.add_build_time(0.4));
     EXPECT_TRUE(cache.add_build_time(0.4));
     EXPECT_FALSE(cache.add_build_time(5.0));
+    EXPECT_NEAR(cache.build_seconds(), 6.2, 1e-9);
+}
+
+TEST(BuiltPrograms, AreToldOnce) {
+    const Gpu gpu = test_gpu();
+    gpu.programs->take_builds();
+    const std::string text = "kernel void nothing(global uint* a) { a[0] = 1u; }";
+    build_text(gpu, "nothing", text, {});
+    build_text(gpu, "nothing", text, {});
+    const std::vector<BuildSpan> builds = gpu.programs->take_builds();
+    ASSERT_EQ(builds.size(), 1u);
+    EXPECT_LT(builds[0].start, builds[0].end);
+    EXPECT_TRUE(gpu.programs->take_builds().empty());
 }
 
 }  // namespace

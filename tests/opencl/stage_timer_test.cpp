@@ -144,5 +144,44 @@ TEST_F(Timer, LeavesOutTheHostsOwnRows) {
     EXPECT_LE(timer_.enqueue_ms(), elapsed - 200.0 + kSlackMs);
 }
 
+// A program that is built, and what a driver does before a kernel's first launch, is no idle time.
+TEST_F(Timer, LeavesOutWhatIsBuilt) {
+    constexpr double kSlackMs = 50.0;  // between an enqueue and record()
+    run_after(0.0);
+    timer_.take();
+    const Clock::time_point start = Clock::now();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    timer_.record_build(start, Clock::now());
+    run_after(0.0);
+    const double elapsed = ms_since(start);
+    timer_.take();
+    EXPECT_GE(timer_.build_ms(), 200.0);
+    EXPECT_LE(timer_.build_ms(), elapsed);
+    EXPECT_LE(timer_.enqueue_ms(), elapsed - 200.0 + kSlackMs);
+    run_after(0.0);
+    timer_.take();
+    EXPECT_EQ(timer_.build_ms(), 0.0) << "of the time before";
+}
+
+// A user event holds the command back, as a compiler does.
+TEST_F(Timer, LeavesOutWhatComesBeforeAFirstLaunch) {
+    run_after(0.0);
+    timer_.take();
+    for (const bool is_first : {false, true}) {
+        const cl::UserEvent gate(gpu_.context);
+        const std::vector<cl::Event> gates = {gate};
+        cl::Event event;
+        gpu_.queue.enqueueFillBuffer(values_.get().buffer(), cl_uint{0}, 0,
+                                     kCount * sizeof(cl_uint), &gates, &event);
+        timer_.record("fill", event, is_first);
+        gpu_.queue.flush();
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        cl::UserEvent(gate).setStatus(CL_COMPLETE);
+        timer_.take();
+        EXPECT_GE(is_first ? timer_.first_launch_ms() : timer_.launch_ms(), 90.0);
+        EXPECT_LT(is_first ? timer_.launch_ms() : timer_.first_launch_ms(), 50.0);
+    }
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The four renderers against each other: lists must not change a picture.
+#include <chrono>
 #include <cmath>
 
 #include "tests/support/render_fixture.h"
@@ -67,6 +68,26 @@ TEST(Paths, RowsOfStagesAreWithinTheFrame) {
         EXPECT_LE(sum, stats.frame_ms + kClocksMs) << static_cast<int>(kind);
         EXPECT_GT(sum, 0.9 * stats.frame_ms) << static_cast<int>(kind);
     }
+}
+
+// Programs that the first frame needs, and what drivers do before first launches.
+TEST(Paths, BuildingIsNoTimeOfTheFrame) {
+    const Scene scene = make_generated_scene("grid");
+    RenderSettings settings = small_settings(64, 36, 100);
+    settings.opened = std::make_shared<Gpu>(choose_device(settings.device));  // without programs
+    Renderer renderer(scene, settings);
+    const auto start = std::chrono::steady_clock::now();
+    const FrameStats first = renderer.render(first_camera(scene)).stats;
+    const std::chrono::duration<double, std::milli> taken =
+        std::chrono::steady_clock::now() - start;
+    EXPECT_GT(first.build_ms, 0.0);
+    EXPECT_LE(first.build_ms + first.frame_ms, taken.count());
+    double sum = 0.0;
+    for (const StageTime& stage : first.stages) sum += stage.ms;
+    EXPECT_LE(sum, first.frame_ms + 0.2);
+    const FrameStats second = renderer.render(first_camera(scene)).stats;
+    EXPECT_EQ(second.build_ms, 0.0);
+    EXPECT_GE(1e3 * renderer.gpu().programs->build_seconds(), first.build_ms);
 }
 
 TEST(Paths, RenderersThatShareASceneRenderInTurn) {

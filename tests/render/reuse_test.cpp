@@ -91,7 +91,8 @@ TEST(Reuse, AStillCameraKeepsSurfacesAndBins) {
     renderer.render(camera, 0.0);
     renderer.render(camera, 0.0);  // lists have their room
     const Frame moved = renderer.render(camera, 0.1);
-    for (const char* stage : {"geometry", "gbuffer_bridge", "resolve_surfaces", "bin_pixels"}) {
+    for (const char* stage : {"geometry", "gbuffer_bridge", "bin_triangles", "raster_triangles",
+                              "resolve_surfaces", "bin_pixels"}) {
         EXPECT_FALSE(has_stage(moved, stage)) << stage;
     }
     EXPECT_TRUE(has_stage(moved, "move_lights"));

@@ -38,7 +38,8 @@ constexpr const StageInfo* kStages[] = {
     &kDrawShadowsStage,   &kCastShadowsStage,     &kShadeStage,           &kForwardStage,
     &kForwardPlusStage,   &kBlendedStage,         &kFillBackgroundStage,  &kReflectEnvironmentStage,
     &kBloomStage,         &kTailErrorsStage,      &kSumSamplesStage,      &kAdaptiveSamplesStage,
-    &kTonemapStage,       &kReadBackStage,        &kLaunchStage,          &kEnqueueStage};
+    &kTonemapStage,       &kReadBackStage,        &kLaunchStage,          &kEnqueueStage,
+    &kAllocateStage};
 
 }  // namespace
 

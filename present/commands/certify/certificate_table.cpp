@@ -23,14 +23,8 @@ struct Certified {
 };
 
 Certified read(const std::string& file) {
-    std::ifstream in(file);
-    if (!in) throw Error(file + ": cannot read");
-    try {
-        const Json json = Json::parse(in);
-        return {fs::path(file).stem().string(), json, rows_of_json(json)};
-    } catch (const std::exception& error) {
-        throw Error(file + ": no certificate: " + error.what());
-    }
+    const Json json = read_certificate(file);
+    return {fs::path(file).stem().string(), json, rows_of_json(json)};
 }
 
 std::string word(const Certified& c, const char* path) {

@@ -31,6 +31,8 @@ struct CertifyOptions {
     std::optional<std::set<std::size_t>> cases;  // places in hard_cases(); none: all
     std::set<std::size_t> parts;                 // places in certificate_parts()
     bool isolate = false;
+    int jobs = 1;  // processes at once; above 1 they are isolated
+    bool resume = false;
     std::vector<std::string> tables;  // --table: certificates to print instead of making one
     std::string output;               // file, "-" for standard output, empty: none
     bool quiet = false;
@@ -41,6 +43,9 @@ void check(const CertifyOptions& o) {
         throw UsageError(
             "--table: prints what was certified; it goes with no --case, --with, --isolate or -o");
     }
+    if (o.resume && (o.output.empty() || o.output == "-")) {
+        throw UsageError("--resume: goes on with the file of -o, which is not given");
+    }
 }
 
 std::vector<HardCase> chosen_cases(const CertifyOptions& options) {
@@ -49,6 +54,46 @@ std::vector<HardCase> chosen_cases(const CertifyOptions& options) {
     std::vector<HardCase> cases;
     for (const std::size_t place : *options.cases) cases.push_back(all[place]);
     return cases;
+}
+
+// Processes that end later than others leave this key, with how many of them had not ended.
+constexpr const char* kUnfinished = "unfinished";
+
+// What the file of an interrupted run holds; nothing where there is none. Throws UsageError for
+// another device's or program's.
+Certificate found_before(const CertifyOptions& options, const Json& device) {
+    Certificate out;
+    if (!options.resume || !std::filesystem::exists(options.output)) return out;
+    const Json former = read_certificate(options.output);
+    for (const auto& [key, now] :
+         {std::pair("device", device), std::pair("program", program_json())}) {
+        if (former.at(key) == now) continue;
+        throw UsageError(fmt::format("--resume: {} was made by another {}: {}, now {}",
+                                     options.output, key, former.at(key).dump(), now.dump()));
+    }
+    out.rows = rows_of_json(former);
+    for (const CertificatePart& part : certificate_parts()) {
+        if (former.contains(part.name)) out.parts[part.name] = former.at(part.name);
+    }
+    return out;
+}
+
+// Runs the processes; after each its findings are in the file of -o.
+Certificate make_isolated(const CertifyOptions& options, const IsolatedRequest& request,
+                          const cl::Device& device, Progress& progress) {
+    const Json capabilities = capabilities_json(device);
+    const bool keeps = !options.output.empty() && options.output != "-";
+    const auto on_done = [&](const Certificate& found, std::size_t left) {
+        if (keeps && left > 0) {
+            Json json = certificate_json(capabilities, found);
+            json["passed"] = false;
+            json[kUnfinished] = left;
+            write_json(options.output, json);
+        }
+        check_interrupt();
+        progress.advance();
+    };
+    return certify_isolated(request, found_before(options, capabilities), on_done);
 }
 
 // Makes all that the command line asks for, in this process or in others.
@@ -63,8 +108,9 @@ Certificate make_certificate(const CertifyOptions& options, const cl::Device& de
         check_interrupt();
         progress.advance();
     };
-    if (options.isolate) {
-        return certify_isolated({options.device, cases, options.lanes, parts}, step);
+    if (options.isolate || options.jobs > 1 || options.resume) {
+        return make_isolated(options, {options.device, cases, options.lanes, parts, options.jobs},
+                             device, progress);
     }
     out.rows = run_hard_cases(Gpu(device), cases, options.lanes, step);
     for (const CertificatePart& part : parts) {
@@ -159,7 +205,14 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
                },
                {})
         .flag("--isolate", options.isolate,
-              "Each in a process of its own: a driver that ends the process fails one of them");
+              "Each in a process of its own: a driver that ends the process fails one of them")
+        .count({"--jobs", "N", "1",
+                "Processes at once, as with --isolate, at most the machine's threads; for GPUs, "
+                "where nearly all time is that of compiling"},
+               options.jobs, {1, 1024})
+        .flag("--resume", options.resume,
+              "Go on with the file of -o, which holds what an interrupted run with --isolate or "
+              "--jobs found");
     add_question(command, "What is run", "--list-devices", "Print the OpenCL devices and leave");
     OptionBuilder(command, "Output")
         .text({"--output,-o", "FILE", "",

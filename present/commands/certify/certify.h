@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "host/certify/hard_case.h"
@@ -22,6 +23,9 @@ struct Certificate {
 /// times: the same result is the same text.
 nlohmann::ordered_json certificate_json(const nlohmann::ordered_json& device,
                                         const Certificate& made);
+
+/// A certificate's document. Throws Error for a file that is none.
+nlohmann::ordered_json read_certificate(const std::string& file);
 
 /// The rows of a certificate; throws nlohmann's exceptions for another document, Error for a case
 /// that this program does not know.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,12 +17,19 @@ struct IsolatedRequest {
     std::vector<HardCase> cases;
     std::vector<int> lanes;
     std::vector<CertificatePart> parts;
+    int processes = 1;  // at once, at most oneTBB's threads; parts run alone, after all cases
 };
 
-/// Runs this program for every case at every lane width, and for every part. A process that a
-/// signal ends, or that takes longer than kIsolatedSeconds, fails its case with that as the error.
-/// Calls `step` after each and passes its exceptions on.
-Certificate certify_isolated(const IsolatedRequest& request, const std::function<void()>& step);
+/// The results so far, and how many processes are still to end.
+using OnIsolated = std::function<void(const Certificate& found, std::size_t left)>;
+
+/// Runs this program for every case at every lane width, and for every part, but for those that
+/// `found` has without an error. A process that a signal ends, or that takes longer than
+/// kIsolatedSeconds, fails its case with that as the error. Calls `on_done` after each, one call at
+/// a time, and passes its exceptions on. The result depends neither on `found` nor on the number of
+/// processes.
+Certificate certify_isolated(const IsolatedRequest& request, const Certificate& found,
+                             const OnIsolated& on_done);
 
 inline constexpr int kIsolatedSeconds = 120;
 

@@ -2,6 +2,7 @@
 // Certificates as JSON, and back.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "host/base/error.h"
@@ -65,6 +66,20 @@ Json certificate_json(const Json& device, const Certificate& made) {
     }
     out["passed"] = out["failed"].empty();
     return out;
+}
+
+Json read_certificate(const std::string& file) {
+    std::ifstream in(file);
+    if (!in) throw Error(file + ": cannot read");
+    try {
+        Json json = Json::parse(in);
+        rows_of_json(json);
+        json.at("device").at("name");
+        json.at("program");
+        return json;
+    } catch (const std::exception& error) {
+        throw Error(file + ": no certificate: " + error.what());
+    }
 }
 
 std::vector<HardCaseRow> rows_of_json(const Json& certificate) {

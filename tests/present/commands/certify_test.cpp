@@ -65,7 +65,7 @@ TEST_F(Certify, PrintsJsonInsteadOfTheTableAndTheSameOneEachTime) {
 
 TEST_F(Certify, WritesEquality) {
     const ChildResult result =
-        run_kilolux({"certify", "--case", "none", "--with", "equality,tuning", "-o", "-"});
+        run_kilolux({"certify", "--case", "none", "--with", "equality,tuning", "-o", "-", "--quiet"});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     const Json json = Json::parse(result.out);
@@ -112,6 +112,39 @@ TEST_F(Certify, ProcessesOfTheirOwnFindTheSame) {
     const ChildResult several = run_kilolux(words);
     ASSERT_EQ(several.code, 0) << several.err;
     EXPECT_EQ(several.out, one.out);
+    words.insert(words.end(), {"--jobs", "2"});
+    EXPECT_EQ(run_kilolux(words).out, one.out) << "two at a time";
+}
+
+// A file that an interrupted run left: with one case's error, another that is done, and a third's
+// missing lane width.
+TEST_F(Certify, GoesOnWithAnInterruptedRun) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "result.json").string();
+    const std::vector<std::string> words = {"certify", "--case", "27,M2",     "--lanes", "1,8",
+                                            "--with",  "tuning", "--isolate", "-o",      file};
+    ASSERT_EQ(run_kilolux(words).code, 0);
+    const std::string whole = text_of_file(file);
+    Json json = Json::parse(whole);
+    const Json kept = json.at("cases").at(0).at("findings");
+    json["cases"][0]["findings"][0]["worst"] = -1.0;  // to be seen: this case is not run again
+    json["cases"][1]["lanes"] = {8};
+    json["tuning"] = {{"passed", false}, {"error", "the process ended"}};
+    json["unfinished"] = 2;
+    write_text(file, json.dump());
+    std::vector<std::string> resumed = words;
+    resumed.push_back("--resume");
+    const ChildResult result = run_kilolux(resumed);
+    ASSERT_EQ(result.code, 0) << result.err;
+    Json found = Json::parse(text_of_file(file));
+    EXPECT_EQ(found["cases"][0]["findings"][0]["worst"], -1.0);
+    found["cases"][0]["findings"] = kept;
+    EXPECT_EQ(found, Json::parse(whole));
+    json["device"]["name"] = "another";
+    write_text(file, json.dump());
+    const ChildResult other = run_kilolux(resumed);
+    EXPECT_EQ(other.code, 2);
+    EXPECT_TRUE(contains(other.err, "result.json was made by another device")) << other.err;
 }
 
 // A limit of the processor's time imitates a driver that ends the process: the case takes several
@@ -181,6 +214,8 @@ TEST_F(Certify, CommandLinesThatCannotBeObeyed) {
         {{"-o", "/no/such/folder/a.json"}, 1, "there is no folder"},
         {{"--with", "stage"}, 2, "did you mean 'stages'?"},
         {{"--table", "a.json", "--isolate"}, 2, "--table: prints what was certified"},
+        {{"--resume"}, 2, "--resume: goes on with the file of -o"},
+        {{"--jobs", "0"}, 2, "--jobs: '0'"},
         {{"--table", "/no/such/a.json"}, 1, "/no/such/a.json: cannot read"},
         {{"--table", source_root() + "/README.md"}, 1, "README.md: no certificate: "},
     };

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sequences that several devices make: PoCL, asked for twice, is two equal devices.
+#include <gtest/gtest.h>
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/support/child.h"
+#include "tests/support/messages.h"
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RenderDevices : public testing::Test {
+ protected:
+    // Frames of a small scene.
+    std::vector<std::string> words(const fs::path& output, const std::string& devices,
+                                   const std::string& frames = "0:6") const {
+        return {"/usr/bin/env", "POCL_DEVICES=cpu cpu",
+                program_file(), "render",
+                "grid",         "--resolution",
+                "48,32",        "--lights",
+                "20",           "--geometry",
+                "compute",      "--frames",
+                frames,         "--device",
+                devices,        "-o",
+                output.string()};
+    }
+    ChildResult render(const fs::path& output, const std::string& devices,
+                       const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> all = words(output, devices);
+        all.insert(all.end(), more.begin(), more.end());
+        return run_child(all);
+    }
+
+    TemporaryFolder one_, two_;
+};
+
+TEST_F(RenderDevices, MakeTheFilesOfOne) {
+    for (const char* name : {"f.#.png", "f.#.exr", "f.y4m"}) {
+        ASSERT_EQ(render(one_ / name, "0").code, 0);
+        const ChildResult result = render(two_ / name, "all");
+        ASSERT_EQ(result.code, 0) << result.err;
+        EXPECT_TRUE(contains(result.err, "\ndevice 1 (")) << result.err;
+    }
+    ASSERT_EQ(names_in(one_).size(), 15u);
+    EXPECT_EQ(names_in(two_), names_in(one_));
+    for (const std::string& name : names_in(one_)) {
+        EXPECT_EQ(text_of_file(two_ / name), text_of_file(one_ / name)) << name;
+    }
+}
+
+// OpenGL's contexts belong to threads.
+TEST_F(RenderDevices, DrawWithOpenGlToo) {
+    const std::vector<std::string> ids = {"--geometry", "ids", "--exposure", "auto"};
+    ASSERT_EQ(render(one_ / "f.y4m", "1", ids).code, 0);
+    const ChildResult result = render(two_ / "f.y4m", "1,0", ids);
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(text_of_file(two_ / "f.y4m"), text_of_file(one_ / "f.y4m"));
+}
+
+TEST_F(RenderDevices, LeaveOutWhatIsThere) {
+    ASSERT_EQ(render(two_ / "f.#.png", "0,1").code, 0);
+    fs::remove(two_ / "f.3.png");
+    write_text(two_ / "f.5.png", "");
+    const ChildResult result = render(two_ / "f.#.png", "0,1", {"--skip-existing"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    ASSERT_EQ(render(one_ / "f.#.png", "0").code, 0);
+    for (const char* name : {"f.3.png", "f.5.png"})
+        EXPECT_EQ(text_of_file(two_ / name), text_of_file(one_ / name)) << name;
+}
+
+TEST_F(RenderDevices, EndTogetherWhenInterrupted) {
+    const ChildResult result =
+        run_child(words(two_ / "f.######.png", "0,1", "0:99999"), [&](pid_t child) {
+            while (names_in(two_).size() < 4 && waitpid(child, nullptr, WNOHANG) == 0)
+                usleep(10'000);
+            kill(child, SIGTERM);
+        });
+    EXPECT_EQ(result.code, 130) << result.err;
+    const std::size_t count = names_in(two_).size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string number = std::to_string(i);
+        EXPECT_TRUE(
+            fs::exists(two_ / ("f." + std::string(6 - number.size(), '0') + number + ".png")))
+            << "the first " << count << " and no other file";
+    }
+}
+
+TEST_F(RenderDevices, AreRefusedWhereTheyCannotShare) {
+    const struct {
+        std::string devices;
+        const char* message;
+    } cases[] = {{"0,0", "--device 0,0: 0 is there twice"},
+                 {"0,7", "no device '7'"},
+                 {"0,", "no device ''"}};
+    for (const auto& c : cases) {
+        const ChildResult result = render(one_ / "f.y4m", c.devices);
+        EXPECT_NE(result.code, 0);
+        EXPECT_TRUE(contains(result.err, c.message)) << result.err;
+        EXPECT_TRUE(names_in(one_).empty());
+    }
+}
+
+}  // namespace
+}  // namespace kilolux
