@@ -101,25 +101,23 @@ ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
     return notes;
 }
 
-std::string frame_summary(const Scene& scene, const Gpu& gpu, const FrameRecord& last,
-                          std::size_t count, bool by_stage) {
-    const DeviceInfo& device = gpu.info;
+std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
+                          const JobSummary& job) {
     std::string out =
         fmt::format("device  {} ({}), {} lanes\nscene   {}, {} triangles\n", device.name,
                     device.version, device.lane_width, scene.name, triangle_count(scene));
     out += light_line(last.stats) + sample_line(last.stats.samples) + cluster_line(last.stats) +
-           (by_stage ? stage_lines(last.stats) : group_lines(last.stats)) +
+           (job.by_stage ? stage_lines(last.stats) : group_lines(last.stats)) +
            time_line(kFrameStage, last.stats.frame_ms) + "\n";
-    const double build_s = gpu.programs->build_seconds();
-    if (build_s >= kLongBuildSeconds) {
-        out +=
-            fmt::format("kernels built in {:.1f} s; drivers keep them for the next run\n", build_s);
+    if (job.build_seconds >= kLongBuildSeconds) {
+        out += fmt::format("kernels built in {:.1f} s; drivers keep them for the next run\n",
+                           job.build_seconds);
     }
     if (last.comparison) out += "error   " + comparison_text(*last.comparison) + "\n";
     out += "wrote   " + last.file;
     if (is_video(last.file) || last.file == output_name("-"))
-        return out + fmt::format(", {} frames", count);
-    if (count > 1) out += fmt::format(" and {} more", count - 1);
+        return out + fmt::format(", {} frames", job.pictures);
+    if (job.pictures > 1) out += fmt::format(" and {} more", job.pictures - 1);
     return out;
 }
 

@@ -18,9 +18,16 @@ std::string comparison_text(const Comparison& comparison);
 ImageNotes picture_notes(const SharedOptions& options, const DeviceInfo& device,
                          const FrameStats& stats);
 
-/// Device, scene, lights, times of the last of `count` frames by groups of stages (`by_stage`: by
-/// stages), how long kernels took to build, and the files; several lines.
-std::string frame_summary(const Scene& scene, const Gpu& gpu, const FrameRecord& last,
-                          std::size_t count, bool by_stage);
+/// What frame_summary() tells of a job.
+struct JobSummary {
+    std::size_t pictures = 1;
+    double build_seconds = 0.0;  // of kernels
+    bool by_stage = false;       // times by stages, not by groups of them
+};
+
+/// Device, scene, lights, times of the last frame, how long kernels took to build where that was
+/// long, and the files; several lines.
+std::string frame_summary(const Scene& scene, const DeviceInfo& device, const FrameRecord& last,
+                          const JobSummary& job);
 
 }  // namespace kilolux

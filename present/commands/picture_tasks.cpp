@@ -196,6 +196,8 @@ std::vector<std::string> render_devices(const std::string& choice, bool mixed) {
         for (const std::string_view index : split(choice, ',')) out.emplace_back(index);
     }
     if (out.size() < 2) return {out.empty() || choice != "all" ? choice : out.front()};
+    if (std::ranges::count(out, "") > 0)
+        throw UsageError(fmt::format("--device {}: '' is no index", choice));
     const DeviceInfo first = describe(choose_device(out.front()));
     for (std::size_t i = 1; i < out.size(); ++i) {
         if (std::count(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(i), out[i]) > 0)

@@ -99,8 +99,10 @@ void report_pictures(const RenderOptions& options, SceneRenderer& pictures,
         write_json(out.stats, pictures.stats(written.last, false),
                    written.log ? &*written.log : nullptr);
     }
-    note(frame_summary(pictures.scene().scene(), pictures.renderer().gpu(), written.last,
-                       written.count, options.shared.verbose));
+    const Renderer& renderer = pictures.renderer();
+    note(frame_summary(
+        renderer.scene(), renderer.device(), written.last,
+        {written.count, renderer.gpu().programs->build_seconds(), options.shared.verbose}));
     std::string failures;
     for (const DeviceShare& share : made.shares) {
         note(fmt::format("device {}: {} pictures", share.device, share.pictures));

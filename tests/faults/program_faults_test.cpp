@@ -72,7 +72,7 @@ class Faults : public testing::Test {
 TEST_F(Faults, ADeviceOfTwoIsLeftOut) {
     const auto render = [&](const std::string& fault, const fs::path& file) {
         Words words = with_environment({"OPENCL_LAYERS=" KILOLUX_FAULT_LAYER,
-                                        "KILOLUX_FAULT=" + fault, "POCL_DEVICES=cpu cpu"});
+                                        "KILOLUX_FAULT=" + fault, "POCL_DEVICES=pthread pthread"});
         return run_child(render_words(words, file, {"--device", "0,1", "--frames", "0:7"}));
     };
     const ChildResult whole = render("0:0", elsewhere_ / "a.y4m");

@@ -77,7 +77,7 @@ TEST(Paths, BuildingIsNoTimeOfTheFrame) {
     settings.opened = std::make_shared<Gpu>(choose_device(settings.device));  // without programs
     Renderer renderer(scene, settings);
     const auto start = std::chrono::steady_clock::now();
-    const FrameStats first = renderer.render(first_camera(scene)).stats;
+    const FrameStats first = renderer.render(first_camera(scene), 0.0).stats;
     const std::chrono::duration<double, std::milli> taken =
         std::chrono::steady_clock::now() - start;
     EXPECT_GT(first.build_ms, 0.0);
@@ -85,7 +85,7 @@ TEST(Paths, BuildingIsNoTimeOfTheFrame) {
     double sum = 0.0;
     for (const StageTime& stage : first.stages) sum += stage.ms;
     EXPECT_LE(sum, first.frame_ms + 0.2);
-    const FrameStats second = renderer.render(first_camera(scene)).stats;
+    const FrameStats second = renderer.render(first_camera(scene), 0.0).stats;
     EXPECT_EQ(second.build_ms, 0.0);
     EXPECT_GE(1e3 * renderer.gpu().programs->build_seconds(), first.build_ms);
 }
