@@ -2,7 +2,8 @@
 """Compiles the program's files with clang, without code: usage clang_syntax.py BUILD [SUBSTRING].
 
 The units are those of BUILD/compile_commands.json (files of a room together with KILOLUX_UNITY) that do not belong to
-tests, or whose names hold SUBSTRING. g++'s own options and precompiled headers are left out.
+tests, or whose names hold SUBSTRING. With KILOLUX_UNITY six of a library are compiled as one, since most of the time goes
+to the headers that they share. g++'s own options and precompiled headers are left out.
 """
 import concurrent.futures
 import json
@@ -14,15 +15,18 @@ import sys
 ONLY_GNU = {"-Winvalid-pch", "-Wno-subobject-linkage", "-Wno-maybe-uninitialized", "-fno-sanitize-recover=all"}
 
 
-def clang_command(command):
-    words = iter(shlex.split(command)[1:])
+UNITS_AT_ONCE = 6
+
+
+def clang_command(unit):
+    words = iter(shlex.split(unit["command"])[1:])
     kept = ["clang++", "-fsyntax-only"]
     for word in words:
         if word.endswith("/g++") or word.endswith("/c++"):
             continue  # behind a launcher
-        if word == "-o" or (word == "-include"):
+        if word in ("-o", "-include"):
             next(words)
-        elif word != "-c" and word not in ONLY_GNU and not word.startswith("-fsanitize"):
+        elif word not in ("-c", unit["file"]) and word not in ONLY_GNU and not word.startswith("-fsanitize"):
             kept.append(word)
     return kept
 
@@ -37,12 +41,22 @@ def main():
     if not chosen:
         sys.exit(f"{build}: no unit to compile")
 
-    def compile_unit(unit):
-        return subprocess.run(clang_command(unit["command"]), cwd=unit["directory"], check=False).returncode
+    together = {}  # files by command and folder
+    for unit in chosen:
+        together.setdefault((tuple(clang_command(unit)), unit["directory"]), []).append(unit["file"])
+    parts = []
+    for (command, folder), files in together.items():
+        step = UNITS_AT_ONCE if all("/Unity/" in file for file in files) else 1
+        parts += [(command, folder, files[i:i + step]) for i in range(0, len(files), step)]
+
+    def compile_part(part):
+        command, folder, files = part
+        text = "".join(f'#include "{file}"\n' for file in files)
+        return subprocess.run([*command, "-x", "c++", "-"], cwd=folder, input=text, text=True, check=False).returncode
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        codes = list(pool.map(compile_unit, chosen))
-    print(f"{len(codes)} units, {len(codes) - codes.count(0)} do not compile with clang")
+        codes = list(pool.map(compile_part, parts))
+    print(f"{len(chosen)} units, {len(codes) - codes.count(0)} of {len(codes)} parts do not compile with clang")
     sys.exit(1 if any(codes) else 0)
 
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/base/log.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <cstdio>
 #include <mutex>
@@ -12,6 +14,11 @@ namespace {
 
 std::atomic<Verbosity>& verbosity() {
     static std::atomic<Verbosity> value{Verbosity::normal};
+    return value;
+}
+
+std::atomic<bool>& shows_waits() {
+    static std::atomic<bool> value{false};
     return value;
 }
 
@@ -34,6 +41,12 @@ void warn(std::string_view message) {
 void note(std::string_view message) {
     if (verbosity() != Verbosity::quiet) print("", message);
 }
+
+void note_wait(std::string_view message) {
+    if (shows_waits() || ::isatty(STDERR_FILENO) == 1) note(message);
+}
+
+void show_waits() { shows_waits() = true; }
 
 void detail(std::string_view message) {
     if (verbosity() == Verbosity::verbose) print("", message);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/gpu/program.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <string>
 
@@ -74,10 +72,9 @@ KernelProgram build_text(const Gpu& gpu, const std::string& name, std::string_vi
         const auto start = std::chrono::steady_clock::now();
         KernelProgram program = build(gpu, name, source, all_options);
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        // For who waits, not for logs.
-        if (gpu.programs->add_build_time(taken.count()) && isatty(STDERR_FILENO) == 1) {
-            note("building kernels for " + gpu.info.name +
-                 "; most drivers keep them for the next run ...");
+        if (gpu.programs->add_build_time(taken.count())) {
+            note_wait("building kernels for " + gpu.info.name +
+                      "; most drivers keep them for the next run ...");
         }
         return program;
     });

@@ -81,9 +81,9 @@ void add_sequence_options(CLI::App& command, OutputOptions& o) {
                "metres and degrees: a smooth way through them"},
               o.camera_keys)
         .flag("--skip-existing", o.skip_existing,
-              "Leave out frames whose file holds this picture, by its size and notes; another "
-              "picture "
-              "there is refused, a file that is none is made anew");
+              "Leave out frames whose file holds this picture, by its size and notes, and a video "
+              "that holds these frames; another one there is refused, a file that is none is made "
+              "anew");
 }
 
 void add_comparison_options(CLI::App& command, OutputOptions& o) {

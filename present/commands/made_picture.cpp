@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/text.h"
 #include "host/images/images.h"
 #include "present/image/image_file.h"
+#include "present/video/read_video.h"
+#include "present/video/video_file.h"
 
 namespace kilolux {
 namespace {
@@ -20,12 +24,29 @@ std::string note_of(const ImageLayout& layout, const std::string& name) {
     return "";
 }
 
-[[noreturn]] void refuse(const WantedPicture& wanted, const std::string& what,
-                         const std::string& seen, const std::string& asked) {
-    throw Error(
-        fmt::format("{}: holds another picture: its {} is '{}', asked for is '{}'; remove it, "
-                    "name another --output, or leave --skip-existing out",
-                    wanted.file.string(), what, seen, asked));
+// Refuses a file whose `what` is not the one that was asked for.
+void expect(const std::filesystem::path& file, const char* what, const std::string& seen,
+            const std::string& asked) {
+    if (seen == asked) return;
+    throw Error(fmt::format(
+        "{}: holds another {}: its {} is '{}', asked for is '{}'; remove it, name another "
+        "--output, or leave --skip-existing out",
+        file.string(), is_video(file) ? "video" : "picture", what, seen, asked));
+}
+
+std::string size_text(int width, int height) { return fmt::format("{}x{}", width, height); }
+
+// What `read` finds in the file; none with a note where it cannot be read.
+template <typename Read>
+auto read_made(const std::filesystem::path& file, const Read& read)
+    -> std::optional<decltype(read(file))> {
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    try {
+        return read(file);
+    } catch (const Error& error) {
+        note(fmt::format("{}; it is made anew", error.what()));
+        return std::nullopt;
+    }
 }
 
 }  // namespace
@@ -43,25 +64,52 @@ std::string picture_command(const SharedOptions& shared, const OutputOptions& ou
 }
 
 bool is_made(const WantedPicture& wanted) {
-    if (!std::filesystem::exists(wanted.file)) return false;
-    std::unique_ptr<ImageReader> found;
-    try {
-        found = open_image(wanted.file);
-    } catch (const Error& error) {
-        note(fmt::format("{}; it is made anew", error.what()));
-        return false;
-    }
-    const ImageLayout& layout = found->layout();
-    const auto size = [](int width, int height) { return fmt::format("{}x{}", width, height); };
-    if (layout.width != wanted.width || layout.height != wanted.height) {
-        refuse(wanted, "size", size(layout.width, layout.height),
-               size(wanted.width, wanted.height));
-    }
+    const auto found = read_made(wanted.file, open_image);
+    if (!found) return false;
+    const ImageLayout& layout = (*found)->layout();
+    expect(wanted.file, "size", size_text(layout.width, layout.height),
+           size_text(wanted.width, wanted.height));
     if (!holds_notes(wanted.file)) return true;
-    const std::string command = note_of(layout, "command"), time = note_of(layout, "time");
-    if (command != wanted.command) refuse(wanted, "command", command, wanted.command);
-    if (time != wanted.time) refuse(wanted, "time", time, wanted.time);
+    expect(wanted.file, "command", note_of(layout, "command"), wanted.command);
+    expect(wanted.file, "time", note_of(layout, "time"), wanted.time);
     return true;
+}
+
+WantedVideo wanted_video(const RenderSettings& settings, const OutputOptions& output,
+                         const std::string& command) {
+    WantedVideo out{.file = output.output,
+                    .format = {settings.width, settings.height, output.frames_per_second},
+                    .note = command};
+    if (!output.frames) return out;
+    const auto [first, last] = *output.frames;
+    out.frames = static_cast<std::uint64_t>(std::int64_t{last} - first + 1);
+    out.note +=
+        fmt::format(" --frames {}:{} --fps {}", first, last, text_of(output.frames_per_second));
+    return out;
+}
+
+bool is_made(const WantedVideo& wanted) {
+    const std::filesystem::path& file = wanted.file;
+    if (std::filesystem::exists(file)) check_can_read_video(file);
+    const auto found = read_made(file, read_video);
+    if (!found) return false;
+    expect(file, "size", size_text(found->width, found->height),
+           size_text(wanted.format.width, wanted.format.height));
+    // Notes of other types than .y4m say how many frames there are.
+    bool is_whole = found->is_whole;
+    if (is_y4m(file)) {
+        expect(file, "header", found->header, y4m_header(wanted.format));
+        const auto text = [](std::uint64_t frames) { return std::to_string(frames); };
+        if (is_whole) expect(file, "number of frames", text(found->frames), text(wanted.frames));
+    } else {
+        expect(file, "command", found->note, wanted.note);
+        is_whole = found->frames == wanted.frames;
+    }
+    if (!is_whole) {
+        note(fmt::format("{}: does not hold {} whole frames; it is made anew", file.string(),
+                         wanted.frames));
+    }
+    return is_whole;
 }
 
 }  // namespace kilolux

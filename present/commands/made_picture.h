@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include "present/cli/options.h"
+#include "present/video/y4m.h"
 
 namespace kilolux {
 
@@ -21,8 +23,24 @@ struct WantedPicture {
     std::string time;     // as a note of the file
 };
 
+/// A video that may be in a file already.
+struct WantedVideo {
+    std::filesystem::path file;
+    VideoFormat format;
+    std::uint64_t frames = 1;
+    std::string note;  // picture_command() and the frames
+};
+
+/// `command`: picture_command().
+WantedVideo wanted_video(const RenderSettings& settings, const OutputOptions& output,
+                         const std::string& command);
+
 /// Whether the file holds this picture, by its size and, where its format keeps them, its notes. A
 /// file that cannot be read counts as none, with a note. Throws Error for another picture.
 bool is_made(const WantedPicture& wanted);
+
+/// The same of a video, by its size and its number of frames; .y4m also by its pace, other types by
+/// their comment.
+bool is_made(const WantedVideo& wanted);
 
 }  // namespace kilolux

@@ -5,6 +5,7 @@
 
 #include "host/base/system/atomic_write.h"
 #include "present/cli/frame_summary.h"
+#include "present/commands/made_picture.h"
 #include "present/image/display_picture.h"
 
 namespace kilolux {
@@ -90,10 +91,11 @@ void count(WrittenPictures& made, FrameRecord record) {
 }
 
 // Null for pictures.
-std::unique_ptr<VideoFile> open_video(const OutputOptions& out, const RenderSettings& settings) {
+std::unique_ptr<VideoFile> open_video(const RenderOptions& options) {
+    const OutputOptions& out = options.output;
     if (!is_video(out.output)) return nullptr;
-    return std::make_unique<VideoFile>(
-        out.output, VideoFormat{settings.width, settings.height, out.frames_per_second});
+    const WantedVideo wanted = wanted_video(options.shared.settings, out, options.command);
+    return std::make_unique<VideoFile>(out.output, wanted.format, wanted.note);
 }
 
 std::size_t bytes_of(const Frame& frame) {
@@ -128,7 +130,7 @@ bool wants_own_display(const RenderOptions& options) {
 PictureFiles::PictureFiles(const RenderOptions& options, std::size_t count,
                            const Renderer& renderer)
     : options_(options),
-      video_(open_video(options.output, renderer.settings())),
+      video_(open_video(options)),
       progress_("rendering", count, !options.shared.quiet),
       memory_(renderer.memory()),
       count_(count) {

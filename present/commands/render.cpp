@@ -32,7 +32,10 @@ std::string noted_time(double time) { return text_of(time) + " s"; }
 class Tasks {
  public:
     explicit Tasks(const RenderOptions& options) : options_(options) {
-        if (options.output.frames) frames_.emplace(*options.output.frames, options.output.shard);
+        const OutputOptions& out = options.output;
+        if (out.frames) frames_.emplace(*out.frames, out.shard);
+        has_video_ = out.skip_existing && is_video(out.output) &&
+                     is_made(wanted_video(options.shared.settings, out, options.command));
     }
 
     std::size_t size() const { return frames_ ? frames_->size() : 1; }
@@ -47,11 +50,7 @@ class Tasks {
     }
 
     bool is_done(const PictureTask& task) const {
-        if (is_video(task.file)) {
-            std::error_code none;
-            const std::uintmax_t bytes = fs::file_size(task.file, none);
-            return options_.output.skip_existing && !none && bytes > 0;
-        }
+        if (is_video(task.file)) return has_video_;
         const RenderSettings& s = options_.shared.settings;
         return options_.output.skip_existing &&
                is_made({task.file, s.width, s.height, options_.command, noted_time(task.time)});
@@ -66,6 +65,7 @@ class Tasks {
  private:
     const RenderOptions& options_;
     std::optional<ShardFrames> frames_;
+    bool has_video_ = false;  // the one that is asked for is there
 };
 
 ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,

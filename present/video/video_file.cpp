@@ -86,7 +86,8 @@ class StandardOutputSink : public VideoFile::Sink {
 };
 
 // Colours as the stream has them: BT.709's matrix and primaries, sRGB's curve, limited range.
-std::vector<std::string> ffmpeg_words(const Encoder& encoder, const fs::path& file) {
+std::vector<std::string> ffmpeg_words(const Encoder& encoder, const fs::path& file,
+                                      const std::string& note) {
     std::vector<std::string> words = {
         "ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y", "-f", "yuv4mpegpipe",
         // Of the input, then of the output: only chroma is scaled.
@@ -98,6 +99,7 @@ std::vector<std::string> ffmpeg_words(const Encoder& encoder, const fs::path& fi
         // The same pictures give the same bytes.
         "-fflags", "+bitexact", "-flags:v", "+bitexact"};
     words.insert(words.end(), encoder.options.begin(), encoder.options.end());
+    if (!note.empty()) words.insert(words.end(), {"-metadata", "comment=" + note});
     // With "file:" a name with a colon is no protocol and one with a dash no option.
     words.insert(words.end(), {"-f", encoder.muxer, "file:" + file.string()});
     return words;
@@ -116,11 +118,11 @@ struct Pipe {
 // The program ffmpeg writes the temporary file that commit() renames.
 class FfmpegSink : public VideoFile::Sink {
  public:
-    FfmpegSink(const Encoder& encoder, const fs::path& file)
+    FfmpegSink(const Encoder& encoder, const fs::path& file, const std::string& note)
         : name_(file.string()),
           file_(file),
           pipe_(file),
-          process_(ffmpeg_words(encoder, fs::absolute(file_.path())), pipe_.read->get()) {
+          process_(ffmpeg_words(encoder, fs::absolute(file_.path()), note), pipe_.read->get()) {
         pipe_.read.reset();
     }
 
@@ -156,11 +158,11 @@ class FfmpegSink : public VideoFile::Sink {
     ChildProcess process_;  // ends before its file goes
 };
 
-std::unique_ptr<VideoFile::Sink> make_sink(const fs::path& file) {
+std::unique_ptr<VideoFile::Sink> make_sink(const fs::path& file, const std::string& note) {
     if (is_standard_output(file)) return std::make_unique<StandardOutputSink>();
     const Encoder& encoder = *encoder_of(file);
     if (encoder.muxer == nullptr) return std::make_unique<FileSink>(file);
-    return std::make_unique<FfmpegSink>(encoder, file);
+    return std::make_unique<FfmpegSink>(encoder, file, note);
 }
 
 }  // namespace
@@ -170,6 +172,8 @@ std::vector<std::string> video_extensions() {
     for (const Encoder& encoder : encoders()) out.emplace_back(encoder.extension);
     return out;
 }
+
+bool is_y4m(const fs::path& file) { return is_video(file) && encoder_of(file)->muxer == nullptr; }
 
 bool is_video(const fs::path& file) { return encoder_of(file) != nullptr; }
 
@@ -199,8 +203,8 @@ void check_can_write_video(const fs::path& file) {
     }
 }
 
-VideoFile::VideoFile(const fs::path& file, const VideoFormat& format)
-    : sink_(make_sink(file)), header_(y4m_header(format)) {}
+VideoFile::VideoFile(const fs::path& file, const VideoFormat& format, const std::string& note)
+    : sink_(make_sink(file, note)), header_(y4m_header(format)) {}
 
 VideoFile::~VideoFile() = default;
 

@@ -17,6 +17,9 @@ std::vector<std::string> video_extensions();
 /// Whether the output is a video: by its extension, or "-", y4m on standard output.
 bool is_video(const std::filesystem::path& file);
 
+/// Whether the video is written here, without ffmpeg.
+bool is_y4m(const std::filesystem::path& file);
+
 /// "standard output" for "-", else the file.
 std::string output_name(const std::filesystem::path& file);
 
@@ -32,8 +35,10 @@ void check_can_write_video(const std::filesystem::path& file);
 /// or VP9 (.webm) with chroma of half the size (4:2:0).
 class VideoFile {
  public:
-    /// Throws Error when the file cannot be made or ffmpeg cannot be run.
-    VideoFile(const std::filesystem::path& file, const VideoFormat& format);
+    /// Throws Error when the file cannot be made or ffmpeg cannot be run. `note`: the file's
+    /// comment; .y4m has no place for it.
+    VideoFile(const std::filesystem::path& file, const VideoFormat& format,
+              const std::string& note = {});
     ~VideoFile();
     VideoFile(const VideoFile&) = delete;
     VideoFile& operator=(const VideoFile&) = delete;

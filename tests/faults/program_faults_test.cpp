@@ -96,6 +96,9 @@ TEST_F(Faults, AFolderOfKernelsThatCannotBeUsed) {
                     "PoCL's folder of kernels /dev/null/x/.cache/pocl/kcache: cannot be "
                     "made: Not a directory; this run keeps them in a temporary folder"))
         << made.err;
+    const std::size_t said = made.err.find("building kernels for ");
+    EXPECT_LT(said, made.err.find("frame  ")) << made.err;
+    EXPECT_EQ(made.err.find("building kernels for ", said + 1), std::string::npos) << made.err;
     EXPECT_EQ(names_in(elsewhere_), std::set<std::string>{});
     write_text(picture_, kOld);
     Words nowhere = homeless;

@@ -53,6 +53,12 @@ TEST(Table, RowsMustFit) {
     EXPECT_EQ(to_csv({{"a", "b"}, {}}), "a,b\n");
 }
 
+TEST(Table, CsvLinesMayEndInCrLf) {
+    const TextTable texts = parse_csv("a,b\r\n1,\"x\r\ny\"\r\n2,\r\n");
+    EXPECT_EQ(texts.columns, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(texts.rows, (std::vector<std::vector<std::string>>{{"1", "x\r\ny"}, {"2", ""}}));
+}
+
 TEST(Table, CsvComesBack) {
     const TextTable texts = parse_csv(to_csv(sample()));
     EXPECT_EQ(texts.columns, sample().columns);

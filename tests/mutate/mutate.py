@@ -27,7 +27,7 @@ from which_tests import steps_of
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-FOLDERS = ("shared", "device", "lights", "lists", "shading", "shadows", "surfaces")
+FOLDERS = ("shared", "device", "lights", "lists", "shading", "shadows", "surfaces", "tails", "picture")
 SECONDS = 120  # without output: an endless loop
 NO_BUILD = re.compile(r"build failed with CL_|: does not compile: ")
 

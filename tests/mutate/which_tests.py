@@ -21,6 +21,8 @@ LIGHTS = [("opencl_tests", "PrepareLights.*:MoveLights.*:DriftLights.*"), ("rend
 PROFILES = [("measure_tests", "LightProfile.*"), ("render_tests", "LightProfiles.*")]
 TREE = [("opencl_tests", "LightTreeKernels.*"), ("render_tests", "LightTreePictures.*")]
 TAILS = [("render_tests", "Tails.*")]
+BLOOM = [("render_tests", "Bloom.*")]
+SAMPLES = [("opencl_tests", "AdaptiveSamples.*"), ("render_tests", "SamplePattern.*:Samples.*:AutoSamples.*")]
 SHADOWS = [("opencl_tests", "ShadowTriangle.*:CountSeen.*:CastShadows.*"), ("render_tests", "Shadows.*:SampledShadows.*:ShadowError.*")]
 PICTURES = [("certify_tests", "All/HardCases.*Lanes8"), ("render_tests", "Paths.*:Bands.*:Views.*")]
 
@@ -43,6 +45,12 @@ STEPS = (
     (r"lights/", LIGHTS + PROFILES + TAILS),
     (r"lists/", LISTS + PICTURES),
     (r"shadows/", SHADOWS),
+    (r"tails/(cut_light_tree|tree_)", TREE + TAILS),
+    (r"tails/", TAILS + TREE),
+    (r"picture/tonemap", DISPLAY),
+    (r"picture/bloom", BLOOM),
+    (r"picture/pack_radiance", [("opencl_tests", "RepackGBuffer.*:PackRadiance.*")]),
+    (r"picture/", SAMPLES),
     (r"surfaces/(store_gbuffer|repack_gbuffer|decode_gbuffer)", GBUFFER + PICTURES),
     (r"surfaces/(count_texels|build_mips|resolve)", SURFACES + PICTURES),
     (r"surfaces/", TRIANGLES + PICTURES),

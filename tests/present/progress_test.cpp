@@ -107,7 +107,7 @@ TEST(Progress, WritesALineNowAndThenOffATerminal) {
     const std::string lines = written(true, 0.0);
     EXPECT_NE(lines.find("rendering 1/3 ["), std::string::npos) << lines;
     EXPECT_EQ(lines.find('\r'), std::string::npos) << lines;
-    EXPECT_EQ(lines.back(), '\n');
+    EXPECT_TRUE(lines.ends_with('\n')) << lines;
 }
 
 }  // namespace

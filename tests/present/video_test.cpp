@@ -231,6 +231,75 @@ TEST_P(FfmpegVideo, HoldsThePicturesAndSaysItsColours) {
     }
 }
 
+// Renders again with --skip-existing; the video must be another one to be refused.
+ChildResult skip_existing(const fs::path& file, std::vector<std::string> more = {}) {
+    std::vector<std::string> words = small_render(file, {"--fps", "10", "--skip-existing"});
+    words.erase(std::ranges::find(words, "-q"));
+    if (std::ranges::find(more, "--frames") == more.end()) {
+        words.insert(words.end(), {"--frames", "0:2"});
+    }
+    words.insert(words.end(), more.begin(), more.end());
+    return run_kilolux(words);
+}
+
+void expect_refused(const fs::path& file, const std::vector<std::string>& more,
+                    const std::string& why) {
+    const std::string before = text_of_file(file);
+    const ChildResult result = skip_existing(file, more);
+    EXPECT_EQ(result.code, 1) << why;
+    EXPECT_TRUE(contains(result.err, file.string() + ": holds another video: its " + why))
+        << result.err;
+    EXPECT_EQ(text_of_file(file), before);
+}
+
+// A part of a video is made anew.
+void expect_made_anew(const fs::path& file, const std::string& part) {
+    const std::string whole = text_of_file(file);
+    write_text(file, part);
+    const ChildResult result = skip_existing(file);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "it is made anew")) << result.err;
+    EXPECT_EQ(text_of_file(file), whole);
+}
+
+TEST(Video, IsLeftOutWhereItIsThere) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.y4m";
+    ASSERT_EQ(skip_existing(file).code, 0);
+    const auto made = fs::last_write_time(file);
+    EXPECT_TRUE(contains(skip_existing(file).err, "every file is there"));
+    EXPECT_EQ(fs::last_write_time(file), made);
+    expect_refused(file, {"--resolution", "32,48"}, "size is '48x32', asked for is '32x48'");
+    expect_refused(file, {"--frames", "0:3"}, "number of frames is '3', asked for is '4'");
+    expect_refused(file, {"--fps", "12"}, "header is 'YUV4MPEG2 W48 H32 F10:1 ");
+    const std::string whole = text_of_file(file);
+    expect_made_anew(file, "");
+    expect_made_anew(file, "no video");
+    expect_made_anew(file, whole.substr(0, whole.size() - 1));
+    std::string broken = whole;
+    broken[whole.find("FRAME", 2 * kPixels)] = 'f';
+    expect_made_anew(file, broken);
+    const std::string other = "YUV4MPEG2 W48 H32 F10:1 Ip A1:1 C420jpeg\nFRAME\nabc";
+    write_text(file, other);
+    expect_refused(file, {}, "header is 'YUV4MPEG2 W48 H32 F10:1 Ip A1:1 C420jpeg");
+}
+
+TEST_P(FfmpegVideo, IsLeftOutWhereItIsThere) {
+    if (!has_program("ffmpeg") || !has_program("ffprobe")) GTEST_SKIP() << "needs ffmpeg";
+    const TemporaryFolder folder;
+    const fs::path file = folder / GetParam();
+    ASSERT_EQ(skip_existing(file).code, 0);
+    const auto made = fs::last_write_time(file);
+    EXPECT_TRUE(contains(skip_existing(file).err, "every file is there"));
+    EXPECT_EQ(fs::last_write_time(file), made);
+    expect_refused(file, {"--resolution", "32,48"}, "size is '48x32', asked for is '32x48'");
+    expect_refused(file, {"--frames", "0:3"}, "command is 'kilolux render grid ");
+    expect_refused(file, {"--light-seed", "9"}, "command is 'kilolux render grid ");
+    const std::string whole = text_of_file(file);
+    expect_made_anew(file, "");
+    expect_made_anew(file, whole.substr(0, whole.size() - 200));
+}
+
 TEST(Video, TheSameCommandGivesTheSameBytesOfFfmpeg) {
     if (!has_program("ffmpeg")) GTEST_SKIP() << "needs ffmpeg";
     const TemporaryFolder folder;

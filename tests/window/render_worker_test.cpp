@@ -38,6 +38,16 @@ class RenderWorkerTest : public testing::Test {
     std::vector<uint> pixels_;
 };
 
+TEST(WaitingText, SaysHowLongAPictureTakesThatTakesLong) {
+    EXPECT_EQ(waiting_text(RendererKind::forward, 1.9, 0.0), "");
+    EXPECT_EQ(waiting_text(RendererKind::forward, 0.3, 1.9), "");
+    EXPECT_EQ(waiting_text(RendererKind::forward, 2.4, 0.0), "forward: 2 s so far");
+    EXPECT_EQ(waiting_text(RendererKind::deferred_all, 0.3, 61.2),
+              "deferred-all: 0 s so far, about 61 s in all");
+    EXPECT_EQ(waiting_text(RendererKind::forward, 70.0, 61.2),
+              "forward: 70 s so far, about 70 s in all");
+}
+
 TEST_F(RenderWorkerTest, MakesThePictureOfTheRenderer) {
     RenderWorker worker = this->worker();
     const Picture picture = worker.render(request()).get();

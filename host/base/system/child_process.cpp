@@ -21,7 +21,7 @@ namespace {
 // The child's folder and its three streams.
 class SpawnActions {
  public:
-    SpawnActions(const std::filesystem::path& folder, int input, int messages) {
+    SpawnActions(const std::filesystem::path& folder, int input, int messages, bool keeps_output) {
         posix_spawn_file_actions_init(&actions_);
         posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
         if (input < 0) {
@@ -29,7 +29,11 @@ class SpawnActions {
         } else {
             posix_spawn_file_actions_adddup2(&actions_, input, 0);
         }
-        posix_spawn_file_actions_addopen(&actions_, 1, "/dev/null", O_WRONLY, 0);
+        if (keeps_output) {
+            posix_spawn_file_actions_adddup2(&actions_, messages, 1);
+        } else {
+            posix_spawn_file_actions_addopen(&actions_, 1, "/dev/null", O_WRONLY, 0);
+        }
         posix_spawn_file_actions_adddup2(&actions_, messages, 2);
     }
     ~SpawnActions() { posix_spawn_file_actions_destroy(&actions_); }
@@ -54,7 +58,7 @@ bool has_program(const std::string& name) {
 }
 
 ChildProcess::ChildProcess(std::vector<std::string> words, int input,
-                           const std::filesystem::path& folder)
+                           const std::filesystem::path& folder, bool keeps_output)
     : messages_(std::tmpfile(), std::fclose) {
     const auto fail = [&words](int reason) {
         throw Error("cannot run " + words[0] + ": " + std::strerror(reason));
@@ -63,7 +67,7 @@ ChildProcess::ChildProcess(std::vector<std::string> words, int input,
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    const SpawnActions actions(folder, input, ::fileno(messages_.get()));
+    const SpawnActions actions(folder, input, ::fileno(messages_.get()), keeps_output);
     const int failure =
         posix_spawnp(&process_, arguments[0], actions.get(), nullptr, arguments.data(), environ);
     if (failure == 0) return;

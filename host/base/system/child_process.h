@@ -18,10 +18,10 @@ bool has_program(const std::string& name);
 class ChildProcess {
  public:
     /// Starts words[0], looked for in PATH, with the words after it as its arguments, in `folder`.
-    /// It reads the descriptor `input`, or nothing for -1; what it prints is lost, its messages are
-    /// kept. Throws Error with the system's reason.
+    /// It reads the descriptor `input`, or nothing for -1; its messages are kept, what it prints
+    /// only with `keeps_output`. Throws Error with the system's reason.
     explicit ChildProcess(std::vector<std::string> words, int input = -1,
-                          const std::filesystem::path& folder = ".");
+                          const std::filesystem::path& folder = ".", bool keeps_output = false);
     /// Kills it if nobody has waited for it.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
@@ -33,7 +33,8 @@ class ChildProcess {
     /// How it ended: "exit code 3", "signal 11 (Segmentation fault)".
     std::string ending() const;
 
-    /// The lines that it wrote to standard error, without empty ones. After its end.
+    /// The lines that it wrote to standard error, and what else is kept, without empty ones. After
+    /// its end.
     std::vector<std::string> messages() const;
 
  private:

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "present/window/app/render_worker.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "host/base/error.h"
+#include "present/cli/names.h"
 
 namespace kilolux {
 
@@ -30,6 +34,14 @@ void PictureProgress::note(double share) {
     } else if (share > first_share_) {
         estimate_ = (now() - first_end_) / (share - first_share_);
     }
+}
+
+std::string waiting_text(RendererKind renderer, double so_far_s, double whole_s) {
+    constexpr double kPatienceSeconds = 2.0;
+    const double longest = std::max(whole_s, so_far_s);
+    if (longest < kPatienceSeconds) return "";
+    const std::string time = fmt::format("{}: {:.0f} s so far", name_of(renderer), so_far_s);
+    return whole_s > 0.0 ? fmt::format("{}, about {:.0f} s in all", time, longest) : time;
 }
 
 RenderWorker::RenderWorker(const Scene& scene, const RenderSettings& settings,

@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "host/base/system/interrupt.h"
 #include "host/render/renderer.h"
@@ -48,6 +49,10 @@ struct PictureRequest {
     Rig rig{};                                       // the rig whose lights the scene has
     std::shared_ptr<PictureProgress> progress = {};  // null: not needed
 };
+
+/// The line about a picture that takes longer than two seconds; empty: it does not. `whole_s`:
+/// about how long it takes, 0 while that is unknown.
+std::string waiting_text(RendererKind renderer, double so_far_s, double whole_s);
 
 /// A rendered picture without its pixels.
 struct Picture {

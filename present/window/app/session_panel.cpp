@@ -9,22 +9,11 @@
 #include "present/window/app/session.h"
 
 namespace kilolux {
-namespace {
-
-constexpr double kPatienceSeconds = 2.0;  // a picture that takes longer is reported
-
-}  // namespace
-
 // The line about a picture that takes long; empty: none.
 std::string ViewSession::waiting_line() const {
     const PictureProgress* progress = pictures_.progress();
     if (progress == nullptr) return "";
-    const double whole = progress->estimate(), so_far = progress->seconds();
-    if (std::max(whole, so_far) < kPatienceSeconds) return "";
-    const std::string time =
-        fmt::format("{}: {:.0f} s so far", name_of(state_.settings.renderer), so_far);
-    return whole > 0.0 ? fmt::format("{}, about {:.0f} s in all", time, std::max(whole, so_far))
-                       : time;
+    return waiting_text(state_.settings.renderer, progress->seconds(), progress->estimate());
 }
 
 void ViewSession::describe() {

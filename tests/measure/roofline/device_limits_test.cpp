@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -23,11 +24,23 @@ class DeviceLimitsTest : public CacheSandbox {
     Gpu gpu_;
 };
 
-void expect_plausible(const DeviceLimits& l) {
+// Of a CPU with so many compute units.
+void expect_plausible(const DeviceLimits& l, int compute_units) {
     for (const LimitField& field : limit_fields()) {
         const double value = l.*field.value;
         EXPECT_TRUE(std::isfinite(value) && value > 0.0) << field.name << ": " << value;
     }
+    // No core exceeds 6 GHz, four vector instructions a cycle, and a vector moved by each.
+    const double lanes_per_s = 6e9 * 4.0 * l.lanes * compute_units;
+    EXPECT_LT(l.lane_instructions_per_s, lanes_per_s);
+    EXPECT_LT(std::max(l.fma_flops, l.one_lane_fma_flops), 2.0 * lanes_per_s);
+    for (const double bandwidth :
+         {l.read_bandwidth, l.write_bandwidth, l.copy_bandwidth, l.cached_read_bandwidth,
+          l.cached_write_bandwidth, l.cached_copy_bandwidth, l.upload_bandwidth,
+          l.download_bandwidth}) {
+        EXPECT_LT(bandwidth, 4.0 * lanes_per_s);
+    }
+    EXPECT_LT(std::max(l.launch_latency_ms, l.launch_event_ms), 1000.0);
     // A special function takes a vector instruction at least.
     EXPECT_LT(l.rsqrt_per_s, l.lane_instructions_per_s);
     EXPECT_LT(l.divisions_per_s, l.lane_instructions_per_s);
@@ -36,7 +49,7 @@ void expect_plausible(const DeviceLimits& l) {
 
 TEST_F(DeviceLimitsTest, ArePlausibleAndOfTheVectorUnit) {
     const DeviceLimits limits = measure_device_limits(gpu_);
-    expect_plausible(limits);
+    expect_plausible(limits, gpu_.info.compute_units);
     EXPECT_EQ(limits.lanes, describe(gpu_.device).vector_width);
 }
 
@@ -62,13 +75,13 @@ TEST_F(DeviceLimitsTest, AreMeasuredOnceAndKept) {
 TEST_F(DeviceLimitsTest, AreMeasuredAgainWhenAnEntryCannotBeTrue) {
     auto values = CacheValues{{"lanes", describe(gpu_.device).vector_width}, {"fma_flops", 1.0}};
     write_device_cache(gpu_.info, kKind, values);  // incomplete
-    expect_plausible(cached_device_limits(gpu_));
+    expect_plausible(cached_device_limits(gpu_), gpu_.info.compute_units);
     values = *read_device_cache(gpu_.info, kKind);
     values["read_bytes_per_s"] = 0.0;  // would make every limit infinite
     write_device_cache(gpu_.info, kKind, values);
-    expect_plausible(cached_device_limits(gpu_));
+    expect_plausible(cached_device_limits(gpu_), gpu_.info.compute_units);
     std::ofstream(device_cache_file(gpu_.info, kKind)) << "damaged";
-    expect_plausible(cached_device_limits(gpu_));
+    expect_plausible(cached_device_limits(gpu_), gpu_.info.compute_units);
 }
 
 TEST_F(DeviceLimitsTest, RiseWhileABenchmarkWatchesAndNeverFall) {
@@ -94,7 +107,7 @@ TEST_F(DeviceLimitsTest, WorkWithoutACacheFolder) {
     testing::internal::CaptureStderr();
     const DeviceLimits limits = cached_device_limits(gpu_);
     const std::string warning = testing::internal::GetCapturedStderr();
-    expect_plausible(limits);
+    expect_plausible(limits, gpu_.info.compute_units);
     EXPECT_NE(warning.find("measured again"), std::string::npos) << warning;
 }
 

@@ -254,7 +254,7 @@ TEST(EveryKernel, DeepShadowsByGroup) {
     expect_deep_shadows(64, 10, true);
     expect_deep_shadows(64, 10, false);
     expect_deep_shadows(64, SHADOW_LEVELS, true);
-    expect_deep_shadows(128, 5, true);
+    expect_deep_shadows(128, 10, true);
     expect_deep_shadows(128, 10, false);
 }
 

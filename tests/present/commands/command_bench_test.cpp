@@ -11,6 +11,7 @@
 #include "host/measure/bench/row.h"
 #include "present/commands/bench.h"
 #include "tests/support/child.h"
+#include "tests/support/environment_variable.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -28,8 +29,8 @@ std::vector<std::string> small_bench(std::vector<std::string> more) {
 
 TEST(Bench, QuickMeasuresLightsAndGrids) {
     const TemporaryFolder folder;
-    const ChildResult result =
-        run_kilolux(small_bench({"--quick", "--lights", "20,40", "-o", (folder / "out").string()}));
+    const ChildResult result = run_kilolux(
+        small_bench({"--quick", "--lights", "20:40:20", "-o", (folder / "out").string()}));
     ASSERT_EQ(result.code, 0) << result.err;
     const auto rows = bench_rows(parse_csv(text_of_file(folder / "out/bench.csv")));
     ASSERT_FALSE(rows.empty());
@@ -67,11 +68,28 @@ TEST(Bench, QuickMeasuresLightsAndGrids) {
         EXPECT_TRUE(fs::exists(folder / "out" / (std::string(plot) + ".svg"))) << plot;
     }
     EXPECT_TRUE(contains(result.err, "more points, by a measured frame")) << result.err;
+    EXPECT_TRUE(contains(result.err, ": 20 generated and ")) << result.err;
+    EXPECT_TRUE(contains(result.err, "sweep   generated lights: 20, 40\n")) << result.err;
     EXPECT_TRUE(contains(result.err, "is 4x3x")) << "the grid is explained: " << result.err;
     for (const char* column : {"median [ms]", "limit [ms]", "ratio", "Geval/s", "GB/s", "k*/k",
                                "max rel. error", "bits differ"}) {
         EXPECT_TRUE(contains(result.out, column)) << column;
     }
+}
+
+TEST(Bench, SaysBeforeItMeasuresThatThereIsNoGnuplot) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "bin");
+    fs::create_symlink("/usr/bin/ld", folder / "bin/ld");  // the program looks for it
+    const EnvironmentVariable path("PATH", (folder / "bin").string());
+    const ChildResult result =
+        run_kilolux(small_bench({"--lights", "10,20", "-o", (folder / "out").string()}));
+    EXPECT_EQ(result.code, 0) << result.err;
+    const std::size_t said =
+        result.err.find("no plots: gnuplot not found; install the package gnuplot-nox\n");
+    EXPECT_LT(said, result.err.find("more points, by a measured frame")) << result.err;
+    EXPECT_TRUE(fs::exists(folder / "out/bench.csv"));
+    EXPECT_FALSE(fs::exists(folder / "out/time_against_lights.png"));
 }
 
 TEST(Bench, CountsTheRaysOfShadowsAndLimitsTheirStages) {

@@ -63,6 +63,17 @@ TEST(Info, ComparesLimitsWithIndependentOnes) {
     EXPECT_EQ(agree, result.code == 0) << result.err;
 }
 
+// A GPU without published peaks: its limits cannot be judged.
+TEST(Info, KeepsNoLimitsThatItCouldNotJudge) {
+    const TemporaryFolder folder;
+    const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
+    const EnvironmentVariable kind("KILOLUX_DEVICE_KIND", "gpu");
+    const ChildResult result = run_kilolux({"info", "--check-limits"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(contains(result.err, "its published peaks are not known")) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "kilolux"));
+}
+
 TEST(Info, MeasuresLimitsAgainWhenAsked) {
     const TemporaryFolder folder;
     const EnvironmentVariable cache("XDG_CACHE_HOME", folder.path().string());
