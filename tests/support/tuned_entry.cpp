@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An entry of the label `tuning` whose tuning this device has without being told repeats the tests
-// of the label `render`: it is skipped.
+// An entry of the label `tuning` whose tuning this device has without being told repeats the
+// entries of the label `render`: it is skipped.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
