@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "tests/support/render_fixture.h"
 
 namespace kilolux {
@@ -28,18 +26,6 @@ TEST(FrameError, TheReferenceHasShadows) {
     RenderSettings settings = small_settings(64, 36, 40);
     settings.shadows = Shadows::exact;
     EXPECT_LT(largest_error(scene, settings), kRounding);
-}
-
-// Of a small scene it stops growing nearer than by default.
-TEST(FrameError, TheReferenceLimitsTheInverseSquareWhereTheFrameDoes) {
-    Scene scene = make_generated_scene("grid");
-    constexpr double kScale = 1e-4;
-    for (Instance& instance : scene.instances) {
-        instance.world_from_object =
-            glm::scale(glm::dmat4(1.0), glm::dvec3(kScale)) * instance.world_from_object;
-    }
-    scene.cameras.clear();
-    EXPECT_LT(largest_error(scene, small_settings(64, 36, 40)), kRounding);
 }
 
 }  // namespace
