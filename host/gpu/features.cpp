@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "host/gpu/tuning/shipped_tunings.h"
 #include "kernels/shared/cluster_grid.h"
 
 namespace kilolux {
@@ -39,6 +40,7 @@ constexpr int kLeastShared = 32;  // work-items that share a tile's triangles or
 }  // namespace
 
 Tuning default_tuning(const DeviceInfo& device) {
+    if (const auto forced = forced_tuning(device)) return forced->tuning;
     Tuning tuning;
     const int columns = std::max(FINE_TILE / device.lane_width, 1);
     if (device.is_cpu) {

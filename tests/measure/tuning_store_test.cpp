@@ -338,5 +338,24 @@ TEST(ForcedTuning, OfNoShippedDeviceIsNamed) {
               "KILOLUX_SHIPPED_TUNING=no such device: no tuning is shipped for it");
 }
 
+// What tests of kernels take, and what frames take.
+TEST(ForcedTuning, IsTheDefaultAndTheKnownOneOfADeviceOfItsKind) {
+    DeviceInfo cpu;
+    cpu.is_cpu = true;
+    cpu.max_work_group = 4096;
+    DeviceInfo gpu = cpu;
+    gpu.is_cpu = false;
+    const Tuning built_in = default_tuning(cpu);
+    for (const ShippedTuning& row : shipped_tunings()) {
+        const EnvironmentVariable forced("KILOLUX_SHIPPED_TUNING", std::string(row.device));
+        const DeviceInfo& same = row.is_cpu ? cpu : gpu;
+        EXPECT_EQ(default_tuning(same), row.tuning.tuning) << row.device;
+        EXPECT_EQ(known_tuning(same).tuning, row.tuning.tuning) << row.device;
+        if (!row.is_cpu) {
+            EXPECT_EQ(default_tuning(cpu), built_in) << "of another kind";
+        }
+    }
+}
+
 }  // namespace
 }  // namespace kilolux

@@ -2,6 +2,10 @@
 #include "host/gpu/tuning/shipped_tunings.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "host/base/error.h"
 
 namespace kilolux {
 
@@ -24,6 +28,22 @@ std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
     chunks = std::clamp(chunks * device.compute_units / found->compute_units, 1, 65536);
     if (!same_device && !device.is_cpu) match.tuning.tuning.geometry = 0;
     return match;
+}
+
+std::optional<StoredTuning> forced_tuning(const DeviceInfo& device) {
+    const char* name = std::getenv("KILOLUX_SHIPPED_TUNING");
+    if (name == nullptr) return std::nullopt;
+    bool is_known = false;
+    for (const ShippedTuning& row : shipped_tunings()) {
+        if (row.device.find(name) == std::string_view::npos) continue;
+        is_known = true;
+        if (row.is_cpu == device.is_cpu && is_valid(row.tuning, device)) return row.tuning;
+    }
+    if (!is_known) {
+        throw Error(std::string("KILOLUX_SHIPPED_TUNING=") + name +
+                    ": no tuning is shipped for it");
+    }
+    return std::nullopt;
 }
 
 }  // namespace kilolux

@@ -34,4 +34,9 @@ struct ShippedMatch {
 std::optional<ShippedMatch> shipped_tuning(const DeviceInfo& device,
                                            std::span<const ShippedTuning> table);
 
+/// For tests, which run with each on whatever machine: KILOLUX_SHIPPED_TUNING=<a part of a device's
+/// name> takes the tuning that is shipped for it, also for default_tuning(), as far as the device
+/// is of the same kind and accepts it. Throws Error for a name that none has.
+std::optional<StoredTuning> forced_tuning(const DeviceInfo& device);
+
 }  // namespace kilolux

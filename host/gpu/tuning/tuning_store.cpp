@@ -2,9 +2,7 @@
 #include "host/gpu/tuning/tuning_store.h"
 
 #include <bit>
-#include <cstdlib>
 
-#include "host/base/error.h"
 #include "host/gpu/tuning/device_cache.h"
 #include "host/gpu/tuning/shipped_tunings.h"
 #include "kernels/shared/cluster_grid.h"
@@ -47,24 +45,6 @@ int int_of(const CacheValues& values, std::string_view key) {
     if (found == values.end() || !(found->second >= 0.0 && found->second <= 1e9)) return -1;
     const int value = static_cast<int>(found->second);
     return value == found->second ? value : -1;
-}
-
-// KILOLUX_SHIPPED_TUNING=<a part of a device's name> takes the tuning that was shipped for it, as
-// far as it is one for a device of this kind: the test suite runs with each, on whatever machine.
-std::optional<StoredTuning> forced_tuning(const DeviceInfo& device) {
-    const char* name = std::getenv("KILOLUX_SHIPPED_TUNING");
-    if (name == nullptr) return std::nullopt;
-    bool is_known = false;
-    for (const ShippedTuning& row : shipped_tunings()) {
-        if (row.device.find(name) == std::string_view::npos) continue;
-        is_known = true;
-        if (row.is_cpu == device.is_cpu && is_valid(row.tuning, device)) return row.tuning;
-    }
-    if (!is_known) {
-        throw Error(std::string("KILOLUX_SHIPPED_TUNING=") + name +
-                    ": no tuning is shipped for it");
-    }
-    return std::nullopt;
 }
 
 }  // namespace
