@@ -88,8 +88,8 @@ TEST(GoldenFiles, ExportedTexturesLookLikeTheirScene) {
     const std::string golden = source_root() + "/tests/golden/atrium.exr";
     const ChildResult result =
         run_kilolux({"render", scene, "--lights", "0", "--fit", "height", "--resolution", "96,64",
-                     "--quiet", "-o", (folder.path() / "a.exr").string(), "--reference", golden,
-                     "--metric", "rmse", "--threshold", kGoldenTolerance});
+                     "--geometry", "compute", "--quiet", "-o", (folder.path() / "a.exr").string(),
+                     "--reference", golden, "--metric", "rmse", "--threshold", kGoldenTolerance});
     EXPECT_EQ(result.code, 0) << result.out << result.err;
 }
 
