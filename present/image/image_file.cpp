@@ -2,6 +2,8 @@
 #include "present/image/image_file.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -127,19 +129,26 @@ void add_channel(ImageLayout& layout, const std::string& name, SampleType type) 
     layout.channels.push_back({name, type});
 }
 
+template <typename Call>
+void each_in_parallel(std::size_t count, const Call& call) {
+    constexpr std::size_t kAtOnce = 1u << 16;  // fewer are not worth a task
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kAtOnce), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) call(i);
+    });
+}
+
 // Copies interleaved values, `count` a pixel, into every pixel's slots from `offset` bytes on.
 template <typename T>
 void place(std::vector<unsigned char>& pixels, std::size_t offset, std::size_t pixel_bytes,
            const std::vector<T>& values, std::size_t count) {
-    unsigned char* out = pixels.data() + offset;
-    for (std::size_t i = 0; i < values.size(); i += count, out += pixel_bytes) {
-        std::memcpy(out, &values[i], count * sizeof(T));
-    }
+    each_in_parallel(values.size() / count, [&](std::size_t i) {
+        std::memcpy(&pixels[offset + i * pixel_bytes], &values[i * count], count * sizeof(T));
+    });
 }
 
 std::vector<std::uint16_t> half_of(const std::vector<float>& values) {
     std::vector<std::uint16_t> out(values.size());
-    std::transform(values.begin(), values.end(), out.begin(), half_bits_clamped);
+    each_in_parallel(values.size(), [&](std::size_t i) { out[i] = half_bits_clamped(values[i]); });
     return out;
 }
 
@@ -256,7 +265,8 @@ std::vector<unsigned char> encode_image(const std::filesystem::path& file, const
         layout.attributes.emplace_back("kilolux:" + name, text);
     }
     if (display) return encode_display(file, layout, frame, options);
-    if (holds_layers(file)) {
+    const bool has_more = !options.alpha.empty() || !frame.aovs.empty() || options.half_colour;
+    if (holds_layers(file) && has_more) {
         return encode(file, layout, exr_pixels(frame, layout, options), layout.pixel_bytes());
     }
     const auto* bytes = reinterpret_cast<const unsigned char*>(frame.radiance.data());

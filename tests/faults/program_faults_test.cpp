@@ -212,7 +212,7 @@ TEST_F(Faults, KernelsThatDoNotBuild) {
     expect_refused(developer, "kernels/shading/shade.cl: cannot be read");
     write_text(elsewhere_ / "kernels/shading/shade.cl", shade);
     write_text(elsewhere_ / "raster/shaders/coverage.frag", "#version 450\nthis is no GLSL\n");
-    expect_refused(developer, "raster/shaders/coverage.frag");
+    expect_refused(developer, "raster/shaders/coverage.frag", {"--geometry", "ids"});
 }
 
 TEST_F(Faults, FileSizeLimitAndFullDisk) {

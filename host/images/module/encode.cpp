@@ -54,6 +54,7 @@ std::vector<unsigned char> encode_pixels(const std::string& name, const std::str
     const auto out = OIIO::ImageOutput::create(format);
     if (!out) fail(OIIO::geterror());
     std::vector<unsigned char> bytes;
+    bytes.reserve(pixels.size() + 65536);  // growing would copy: few files are larger
     OIIO::Filesystem::IOVecOutput memory(bytes);
     if (!out->set_ioproxy(&memory)) fail("the writer cannot write into memory");
     const OIIO::ImageSpec spec = spec_of(layout);

@@ -65,12 +65,16 @@ Certificate found_before(const CertifyOptions& options, const Json& device) {
     Certificate out;
     if (!options.resume || !std::filesystem::exists(options.output)) return out;
     const Json former = read_certificate(options.output);
-    for (const auto& [key, now] :
-         {std::pair("device", device), std::pair("program", program_json())}) {
-        if (former.at(key) == now) continue;
-        throw UsageError(fmt::format("--resume: {} was made by another {}: {}, now {}",
-                                     options.output, key, former.at(key).dump(), now.dump()));
+    const auto require_same = [&](const char* key, const char* part, const Json& now) {
+        const Json& then = former.at(key).at(part);
+        if (then == now.at(part)) return;
+        throw UsageError(fmt::format("--resume: {} was made by another {}: its {} is {}, now {}",
+                                     options.output, key, part, then.dump(), now.at(part).dump()));
+    };
+    for (const char* part : {"name", "platform", "version", "driver", "environment"}) {
+        require_same("device", part, device);
     }
+    require_same("program", "commit", program_json());
     out.rows = rows_of_json(former);
     for (const CertificatePart& part : certificate_parts()) {
         if (former.contains(part.name)) out.parts[part.name] = former.at(part.name);

@@ -64,8 +64,8 @@ TEST_F(Certify, PrintsJsonInsteadOfTheTableAndTheSameOneEachTime) {
 }
 
 TEST_F(Certify, WritesEquality) {
-    const ChildResult result =
-        run_kilolux({"certify", "--case", "none", "--with", "equality,tuning", "-o", "-", "--quiet"});
+    const ChildResult result = run_kilolux(
+        {"certify", "--case", "none", "--with", "equality,tuning", "-o", "-", "--quiet"});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     const Json json = Json::parse(result.out);

@@ -49,7 +49,8 @@ TEST(Bench, QuickMeasuresLightsAndGrids) {
             EXPECT_EQ(row.k, static_cast<double>(row.point.lights));
         }
     }
-    for (const char* stage : {"resolve_surfaces", "cull_lights", "shade", "tonemap", "other", "frame"}) {
+    for (const char* stage :
+         {"resolve_surfaces", "cull_lights", "shade", "tonemap", "other", "frame"}) {
         EXPECT_TRUE(stages.count(stage)) << stage;
     }
     const Json document = Json::parse(text_of_file(folder / "out/bench.json"));

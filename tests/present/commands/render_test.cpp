@@ -50,8 +50,9 @@ TEST(Render, WritesAnExrThatSaysHowItWasMade) {
     EXPECT_TRUE(stats.at("evaluations").at("useful_per_pixel").is_number());
     for (const Json& stage : stats.at("stages")) {
         // Stages of the host or OpenGL, and sums of a few numbers, have no model.
-        const std::set<std::string> unmodelled = {
-            "light_input", "geometry", "count_pairs", "launch", "enqueue", "read_back", "allocate", "other"};
+        const std::set<std::string> unmodelled = {"light_input", "geometry", "count_pairs",
+                                                  "launch",      "enqueue",  "read_back",
+                                                  "allocate",    "other"};
         const bool modelled = !unmodelled.contains(stage.at("name"));
         EXPECT_EQ(stage.at("limit_ms").is_number(), modelled) << stage;
     }
