@@ -31,7 +31,8 @@ void StageTimer::record(std::string_view stage, const cl::Event& event, bool is_
     auto entry = std::find_if(entries_.begin(), entries_.end(),
                               [&](const Entry& e) { return e.stage == stage; });
     if (entry == entries_.end()) entry = entries_.insert(entry, Entry{std::string(stage), {}});
-    entry->events.push_back({event, Clock::now(), is_first});
+    entry->events.push_back({event, Clock::now()});
+    if (is_first) first_launches_.push_back(event);
 }
 
 void StageTimer::record_build(Clock::time_point start, Clock::time_point end) {
@@ -53,15 +54,13 @@ std::vector<StageTimer::Time> StageTimer::take() {
     const Clock::time_point now = Clock::now();
     std::vector<Time> times;
     std::vector<CommandSpan> spans;
-    std::vector<HostSpan> first_launches;
     // Offset from the device's clock to the host's: the least difference that a record() shows.
     std::int64_t offset = std::numeric_limits<std::int64_t>::max();
     for (const Entry& entry : entries_) {
         Time& time = times.emplace_back(Time{entry.stage});
-        for (const auto& [event, recorded, is_first] : entry.events) {
+        for (const auto& [event, recorded] : entry.events) {
             const CommandSpan span = span_of(event);
             spans.push_back(span);
-            if (is_first) first_launches.push_back({span.queued, span.start});
             time.ms += kMsPerTick * static_cast<double>(span.end - span.start);
             offset = std::min(offset, ticks(recorded.time_since_epoch()) - span.queued);
         }
@@ -74,7 +73,12 @@ std::vector<StageTimer::Time> StageTimer::take() {
     for (const HostSpan& span : std::exchange(builds_, {})) {
         host.push_back({span.start - offset, span.end - offset});
     }
-    host.insert(host.end(), first_launches.begin(), first_launches.end());
+    const std::size_t builds_end = host.size();
+    for (const cl::Event& event : std::exchange(first_launches_, {})) {
+        event.wait();  // of a command that was dropped, too
+        const CommandSpan span = span_of(event);
+        host.push_back({span.queued, span.start});
+    }
     for (const Clock::time_point end : {std::exchange(since_, now), now}) {
         spans.push_back(moment(ticks(end.time_since_epoch()) - offset));
     }
@@ -84,9 +88,8 @@ std::vector<StageTimer::Time> StageTimer::take() {
         return std::accumulate(begin + static_cast<std::ptrdiff_t>(first),
                                begin + static_cast<std::ptrdiff_t>(last), std::int64_t{0});
     };
-    const std::size_t launches = host.size() - first_launches.size();
-    build_ = sum(host_.size(), launches);
-    first_launch_ = sum(launches, host.size());
+    build_ = sum(host_.size(), builds_end);
+    first_launch_ = sum(builds_end, host.size());
     add_host_times(times);
     entries_.clear();
     host_.clear();

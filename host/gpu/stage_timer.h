@@ -42,20 +42,20 @@ class StageTimer {
     /// device idled although the next command was enqueued [ms].
     double launch_ms() const;
     /// How long it idled because no command was enqueued [ms]. Both are without the time of
-    /// record_host() and without build_ms().
+    /// record_host(), and without build_ms() and first_launch_ms().
     double enqueue_ms() const;
     /// How long it idled while programs were built, and before first launches [ms].
     double build_ms() const;
     double first_launch_ms() const;
 
-    /// Forgets the commands that were recorded after the copy `before`, but not the host's time.
+    /// Forgets the commands that were recorded after the copy `before`, but neither the host's time
+    /// nor that before first launches.
     void drop_commands_since(const StageTimer& before) { entries_ = before.entries_; }
 
  private:
     struct Recorded {
         cl::Event event;
         Clock::time_point time;
-        bool is_first;
     };
     struct Entry {
         std::string stage;
@@ -71,6 +71,7 @@ class StageTimer {
     Clock::time_point since_ = Clock::now();  // start of the idle time that is not yet reported
     std::vector<HostEntry> host_;
     std::vector<HostSpan> builds_;  // on Clock
+    std::vector<cl::Event> first_launches_;
     IdleTime idle_;
     std::int64_t build_ = 0, first_launch_ = 0;  // [ns]
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/frame.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -154,8 +155,9 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
         if (!is_one) develop_band(p, {}, p.samples.mean(lit.light, p.timer), frame);
         p.picture.finish(p.timer, stats);
         add_band(frame.stats, stats);
-        frame.stats.frame_ms += ms_since(start) - stats.build_ms;
+        frame.stats.frame_ms += std::max(0.0, ms_since(start) - stats.build_ms);
         add_pixels(p, shot, surfaces, frame);
+        p.context.gpu.programs->take_builds();  // of the pixels, which are no part of frame_ms
     }
 }
 

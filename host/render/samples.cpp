@@ -47,6 +47,7 @@ void add_times(const Gpu& gpu, StageTimer& timer, FrameStats& stats) {
     add_stage_time(stats.stages, kLaunchStage, timer.launch_ms());
     add_stage_time(stats.stages, kEnqueueStage, timer.enqueue_ms());
     stats.build_ms += timer.build_ms() + timer.first_launch_ms();
+    // The wait is over: nothing is said about it.
     gpu.programs->add_build_time(1e-3 * timer.first_launch_ms());
 }
 

@@ -34,6 +34,12 @@ void expect(const std::filesystem::path& file, const char* what, const std::stri
         file.string(), is_video(file) ? "video" : "picture", what, seen, asked));
 }
 
+// Without its newline.
+std::string without_end(std::string line) {
+    line.pop_back();
+    return line;
+}
+
 std::string size_text(int width, int height) { return fmt::format("{}x{}", width, height); }
 
 // What `read` finds in the file; none with a note where it cannot be read.
@@ -52,7 +58,15 @@ auto read_made(const std::filesystem::path& file, const Read& read)
 }  // namespace
 
 std::string picture_command(const SharedOptions& shared, const OutputOptions& output) {
-    std::string out = "kilolux render " + shell_word(shared.scene) + option_words(shared);
+    SharedOptions shown = shared;
+    shown.settings.device.clear();  // a picture notes it by its name
+    std::string out = "kilolux render " + shell_word(shared.scene) + option_words(shown);
+    const OcioOptions& ocio = output.ocio;
+    for (const auto& [word, value] :
+         {std::pair(" --ocio-view ", &ocio.view), std::pair(" --ocio-display ", &ocio.display),
+          std::pair(" --ocio-input ", &ocio.input)}) {
+        if (!value->empty()) out += word + shell_word(*value);
+    }
     if (output.half_colour) out += " --exr-half";
     if (output.uint_ids) out += " --aov-ids uint";
     if (output.bits != 8) out += fmt::format(" --bits {}", output.bits);
@@ -98,9 +112,10 @@ bool is_made(const WantedVideo& wanted) {
     // Notes of other types than .y4m say how many frames there are.
     bool is_whole = found->is_whole;
     if (is_y4m(file)) {
-        expect(file, "header", found->header, y4m_header(wanted.format));
         const auto text = [](std::uint64_t frames) { return std::to_string(frames); };
         if (is_whole) expect(file, "number of frames", text(found->frames), text(wanted.frames));
+        expect(file, "header", without_end(found->header),
+               without_end(y4m_header(wanted.format, wanted.note)));
     } else {
         expect(file, "command", found->note, wanted.note);
         is_whole = found->frames == wanted.frames;

@@ -39,8 +39,7 @@ WantedVideo wanted_video(const RenderSettings& settings, const OutputOptions& ou
 /// file that cannot be read counts as none, with a note. Throws Error for another picture.
 bool is_made(const WantedPicture& wanted);
 
-/// The same of a video, by its size and its number of frames; .y4m also by its pace, other types by
-/// their comment.
+/// The same of a video, by its size, its number of frames and its note.
 bool is_made(const WantedVideo& wanted);
 
 }  // namespace kilolux

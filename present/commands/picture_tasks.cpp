@@ -51,6 +51,25 @@ void note_layers(const RenderOptions& options, const Frame& frame, const fs::pat
     }
 }
 
+// What a device failed with: another one may make the picture.
+class DeviceFailure : public Error {
+ public:
+    using Error::Error;
+};
+
+template <typename Call>
+auto on_device(const Call& call) {
+    try {
+        return call();
+    } catch (const UsageError&) {
+        throw;
+    } catch (const Interrupted&) {
+        throw;
+    } catch (const Error& error) {
+        throw DeviceFailure(error.what());
+    }
+}
+
 // Renders a task's picture; returns its record.
 FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
                         RenderedPicture& picture) {
@@ -63,7 +82,7 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
         reference.emplace(task.reference);
     }
     Frame& frame = picture.frame;
-    frame = pictures.render(task.time, task.frame);
+    frame = on_device([&] { return pictures.render(task.time, task.frame); });
     check_interrupt();
     FrameRecord record{task.frame, task.time, output_name(task.file), frame.stats, std::nullopt};
     if (reference) {
@@ -71,7 +90,9 @@ FrameRecord render_task(const RenderOptions& options, SceneRenderer& pictures,
     }
     if (!task.difference.empty()) picture.difference = reference->difference(frame);
     if (options.shared.show_error) frame.display = reference->error_map(frame).rgba;
-    if (options.has_alpha) picture.alpha = pictures.coverage(frame, task.time, task.frame);
+    if (options.has_alpha) {
+        picture.alpha = on_device([&] { return pictures.coverage(frame, task.time, task.frame); });
+    }
     note_layers(options, frame, task.file);
     picture.notes = notes_of(options, pictures, record);
     return record;
@@ -84,77 +105,80 @@ void advise(SceneRenderer& pictures, const FrameRecord& record) {
     if (!advice.empty()) note(record.file + ": " + advice);
 }
 
-// One of several renderers, with what its thread has come to.
-struct Worker {
-    DeviceShare share;
-    std::exception_ptr failure{};
-};
-
-// What the threads of render_tasks() share.
+// What the renderers of render_tasks() share.
 struct Job {
     const RenderOptions& options;
     const PictureTasks& tasks;
     PictureFiles& files;
-    SharedTasks& shared;
-    std::size_t first;  // task that is to do
+    SharedTasks& queue;
+    std::size_t first;      // task that is to do
+    bool measures_devices;  // for the limits of --stats: where one device is all there is
 };
 
-void make_picture(const Job& job, SceneRenderer& pictures, Worker& worker, std::size_t i) {
+void make_picture(const Job& job, SceneRenderer& pictures, DeviceShare& share, std::size_t i) {
     const auto picture = std::make_shared<RenderedPicture>();
     picture->task = job.tasks[i];
     if (job.tasks.is_done(picture->task)) {
-        return job.shared.deliver(i, [&job] { job.files.skip(); });
+        return job.queue.deliver(i, [&job] { job.files.skip(); });
     }
     FrameRecord record = render_task(job.options, pictures, *picture);
     if (i == job.first) advise(pictures, record);
-    if (!job.options.output.stats.empty()) pictures.fill_limits(record);
-    ++worker.share.pictures;
-    job.shared.deliver(i, [&job, picture, record = std::move(record)]() mutable {
+    if (job.measures_devices) pictures.fill_limits(record);
+    ++share.pictures;
+    job.queue.deliver(i, [&job, picture, record = std::move(record)]() mutable {
         job.files.add(std::move(*picture), std::move(record));
     });
 }
 
-// Makes pictures until none is left, or this renderer fails.
-void make_pictures(const Job& job, SceneRenderer& pictures, Worker& worker) {
-    while (const std::optional<std::size_t> i = job.shared.take()) {
-        check_interrupt();
+// Makes pictures until none is left, or the device fails, which throws.
+void make_pictures(const Job& job, SceneRenderer& pictures, DeviceShare& share) {
+    while (const std::optional<std::size_t> i = job.queue.take()) {
         try {
-            make_picture(job, pictures, worker, *i);
-        } catch (...) {
-            job.shared.give_back(*i);
+            check_interrupt();
+            make_picture(job, pictures, share, *i);
+        } catch (const DeviceFailure&) {
+            job.queue.give_back(*i);
             throw;
+        } catch (...) {
+            return job.queue.fail(std::current_exception());
         }
     }
 }
 
-// Runs a worker; its failure is kept. `left`: workers that have not failed.
+// Runs a device's part of the job. `left`: devices that have not failed.
 template <typename Run>
-void run_worker(SharedTasks& shared, std::atomic<std::size_t>& left, Worker& worker,
-                const Run& run) noexcept {
+void run_share(SharedTasks& queue, std::atomic<std::size_t>& left, DeviceShare& share,
+               const Run& run) noexcept {
     try {
         run();
+    } catch (const UsageError&) {
+        queue.fail(std::current_exception());
     } catch (const Interrupted&) {
-        worker.failure = std::current_exception();
-        shared.stop();
+        queue.fail(std::current_exception());
     } catch (const std::exception& error) {
-        worker.failure = std::current_exception();
-        worker.share.failure = error.what();
-        if (--left == 0) return shared.stop();
-        note(fmt::format("device {} is left out: {}", worker.share.device, error.what()));
-    }
-}
-
-// Throws what ended the job before its last picture.
-void require_done(const std::vector<Worker>& workers, SharedTasks& shared, std::size_t left) {
-    shared.rethrow();
-    for (const Worker& worker : workers) {
-        const bool interrupted = worker.failure && worker.share.failure.empty();
-        if (worker.failure && (interrupted || left == 0)) std::rethrow_exception(worker.failure);
+        share.failure = error.what();
+        if (--left == 0) return queue.fail(std::current_exception());
+        note(fmt::format("device {} is left out: {}", share.device, error.what()));
     }
 }
 
 std::string device_text(const std::string& choice) {
     return fmt::format("{} ({})", choice, describe(choose_device(choice)).name);
+}
+
+// "0,2" as indices. Throws UsageError for another text.
+std::vector<std::string> indices_of(const std::string& choice) {
+    std::vector<std::string> out;
+    for (const std::string_view text : split(choice, ',')) {
+        const std::optional<std::uint64_t> index = count_of(text);
+        if (!index) {
+            throw UsageError(fmt::format("--device {}: '{}' is no index", choice, text));
+        }
+        out.push_back(fmt::to_string(*index));
+        if (std::ranges::count(out, out.back()) > 1)
+            throw UsageError(fmt::format("--device {}: {} is there twice", choice, out.back()));
+    }
+    return out;
 }
 
 }  // namespace
@@ -187,65 +211,60 @@ std::size_t PictureTasks::first_to_do() const {
     while (i < size() && is_done((*this)[i])) ++i;
     return i;
 }
-std::vector<std::string> render_devices(const std::string& choice, bool mixed) {
+
+std::vector<std::string> devices_of(const std::string& choice, bool mixed) {
     std::vector<std::string> out;
     if (choice == "all") {
         const std::size_t count = all_devices().size();
         for (std::size_t i = 0; i < count; ++i) out.push_back(fmt::to_string(i));
-    } else if (choice.find_first_not_of("0123456789,") == std::string::npos) {
-        for (const std::string_view index : split(choice, ',')) out.emplace_back(index);
+    } else if (choice.find(',') != std::string::npos &&
+               choice.find_first_not_of("0123456789,") == std::string::npos) {
+        out = indices_of(choice);
     }
-    if (out.size() < 2) return {out.empty() || choice != "all" ? choice : out.front()};
-    if (std::ranges::count(out, "") > 0)
-        throw UsageError(fmt::format("--device {}: '' is no index", choice));
+    if (out.empty()) return {choice};
     const DeviceInfo first = describe(choose_device(out.front()));
-    for (std::size_t i = 1; i < out.size(); ++i) {
-        if (std::count(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(i), out[i]) > 0)
-            throw UsageError(fmt::format("--device {}: {} is there twice", choice, out[i]));
-        const DeviceInfo other = describe(choose_device(out[i]));
+    for (const std::string& index : out) {
+        const DeviceInfo other = describe(choose_device(index));
         const bool equal = other.name == first.name && other.platform == first.platform &&
                            other.driver == first.driver;
         if (equal || mixed) continue;
         throw UsageError(
             fmt::format("--device {}: {} ({}) and {} ({}) may differ in digits; "
                         "--mixed-devices allows that",
-                        choice, out.front(), first.name, out[i], other.name));
+                        choice, out.front(), first.name, index, other.name));
     }
     return out;
 }
 
 MadePictures render_tasks(const RenderOptions& options, const PictureTasks& tasks,
-                          SceneRenderer& pictures, const FirstPicture& start,
+                          std::size_t first, SceneRenderer& pictures, const FirstPicture& start,
                           const std::vector<std::string>& more_devices) {
-    const std::size_t first = tasks.first_to_do();
-    PictureFiles files(options, tasks.size() - first, pictures.renderer());
     constexpr std::size_t kAhead = 2;  // pictures of each device that wait for an earlier one
-    const std::size_t count = 1 + more_devices.size();
-    SharedTasks shared(first, tasks.size(), kAhead * count);
-    const Job job{options, tasks, files, shared, first};
-    std::vector<Worker> workers(count);
+    const std::size_t count = std::min(1 + more_devices.size(), tasks.size() - first);
+    PictureFiles files(options, tasks.size() - first, pictures.renderer());
+    SharedTasks queue(first, tasks.size(), kAhead * count);
+    const bool has_stats = !options.output.stats.empty();
+    const Job job{options, tasks, files, queue, first, has_stats && count == 1};
+    std::vector<DeviceShare> shares(count);
     std::atomic<std::size_t> left = count;
     std::vector<std::jthread> threads;
     for (std::size_t i = 1; i < count; ++i) {
-        workers[i].share.device = device_text(more_devices[i - 1]);
+        shares[i].device = device_text(more_devices[i - 1]);
         threads.emplace_back([&, i] {
-            run_worker(shared, left, workers[i], [&] {
+            run_share(queue, left, shares[i], [&] {
                 SharedOptions own = options.shared;
                 own.settings.device = more_devices[i - 1];
                 SceneRenderer renderer(own, options.budget, start);
-                make_pictures(job, renderer, workers[i]);
+                make_pictures(job, renderer, shares[i]);
             });
         });
     }
-    workers[0].share.device = device_text(options.shared.settings.device);
-    run_worker(shared, left, workers[0], [&] { make_pictures(job, pictures, workers[0]); });
+    shares[0].device = device_text(options.shared.settings.device);
+    run_share(queue, left, shares[0], [&] { make_pictures(job, pictures, shares[0]); });
     threads.clear();  // waits for them
-    require_done(workers, shared, left);
-    MadePictures out{files.finish(), {}};
-    for (Worker& worker : workers) {
-        if (count > 1) out.shares.push_back(std::move(worker.share));
-    }
-    return out;
+    queue.rethrow();
+    if (count == 1) shares.clear();
+    return {files.finish(), std::move(shares)};
 }
 
 }  // namespace kilolux

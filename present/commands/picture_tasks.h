@@ -29,10 +29,11 @@ class PictureTasks {
     bool has_video_ = false;  // the one that is asked for is there
 };
 
-/// The devices of --device by index: of "all", or of indices with commas between; of another text,
-/// which choose_device() takes, that alone. Throws UsageError for an index that is there twice,
-/// and, unless `mixed`, for devices that differ in name, platform or driver: their pictures may.
-std::vector<std::string> render_devices(const std::string& choice, bool mixed);
+/// The devices of --device by index: of "all", or of several indices with commas between. Any other
+/// text is returned alone, for choose_device(). Throws UsageError for an index that is there twice,
+/// and, unless `mixed`, for devices that differ in name, platform or driver: their pictures may
+/// differ.
+std::vector<std::string> devices_of(const std::string& choice, bool mixed);
 
 /// What a device of several has done.
 struct DeviceShare {
@@ -46,11 +47,12 @@ struct MadePictures {
     std::vector<DeviceShare> shares;  // of several devices
 };
 
-/// Renders and writes the pictures that are not there. `more_devices` help `pictures`, each with a
-/// renderer and a thread of its own, which begins like `pictures` did, by `start`. A device that
-/// fails is left out, and others make its picture again. Throws its error where none is left.
+/// Renders and writes the pictures from `first` on that are not there. `more_devices` help
+/// `pictures`, each with a renderer and a thread of its own, which begins like `pictures` did, by
+/// `start`. A device that fails is left out, and others make its picture again. Throws its error
+/// where none is left.
 MadePictures render_tasks(const RenderOptions& options, const PictureTasks& tasks,
-                          SceneRenderer& pictures, const FirstPicture& start,
+                          std::size_t first, SceneRenderer& pictures, const FirstPicture& start,
                           const std::vector<std::string>& more_devices);
 
 }  // namespace kilolux

@@ -14,8 +14,8 @@
 #include "present/cli/options.h"
 #include "present/commands/camera_motion.h"
 #include "present/commands/made_picture.h"
-#include "present/commands/picture_advice.h"
 #include "present/commands/picture_files.h"
+#include "present/commands/picture_tasks.h"
 #include "present/commands/scene_renderer.h"
 #include "present/image/comparison.h"
 #include "present/image/image_file.h"
@@ -110,14 +110,18 @@ void report_pictures(const RenderOptions& options, SceneRenderer& pictures,
         failures += fmt::format("{}device {} failed: {}", failures.empty() ? "" : "; ",
                                 share.device, share.failure);
     }
-    if (!written.first_failure.empty()) throw ComparisonFailed(written.first_failure);
-    if (!failures.empty()) throw Error(failures + "; the other devices made every picture");
+    if (!failures.empty()) failures += "; the other devices made every picture";
+    if (!written.first_failure.empty()) {
+        if (!failures.empty()) note(failures);
+        throw ComparisonFailed(written.first_failure);
+    }
+    if (!failures.empty()) throw Error(failures);
 }
 
 // Leaves the first of several devices in the settings. Returns the others.
 std::vector<std::string> take_devices(RenderOptions& options) {
     std::string& device = options.shared.settings.device;
-    std::vector<std::string> devices = render_devices(device, options.mixed_devices);
+    std::vector<std::string> devices = devices_of(device, options.mixed_devices);
     device = devices.front();
     devices.erase(devices.begin());
     if (!devices.empty() && !options.output.frames) {
@@ -155,12 +159,14 @@ void run_render(RenderOptions& options) {
     };
     const FirstPicture start{request_of(options, options.shared.settings.want), first.time,
                              first.frame, camera, std::nullopt};
+    options.shared.settings.max_memory_bytes /= 1 + more_devices.size();  // each has its share
     SceneRenderer pictures(options.shared, options.budget, start);
     note(pictures.rig_lines());  // before the frames, which may take minutes
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);
-    const MadePictures made = render_tasks(options, tasks, pictures, start, more_devices);
+    const MadePictures made = render_tasks(options, tasks, begin, pictures, start, more_devices);
     report_pictures(options, pictures, made);
 }
+
 void add_render_options(CLI::App& command, RenderOptions& options) {
     options.shared.takes_automatic_exposure = true;
     options.shared.takes_automatic_samples = true;

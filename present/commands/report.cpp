@@ -148,10 +148,10 @@ void check_default(const ReportOptions& options, const std::vector<ReportRow>& r
     const ReportRow* other = row_that_beats_default(rows);
     if (other == nullptr) return;
     const std::string text = fmt::format(
-        "the default is not in the Pareto set: {} takes {:.2f} of its time with {:.2f} of its R2 "
-        "RMSE",
-        other->setting.name, other->speed.relative,
-        other->surfaces.hdr.rmse / rows.front().surfaces.hdr.rmse);
+        "the default is not in the Pareto set: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
+        "for {:.3g}",
+        other->setting.name, other->speed.relative, other->surfaces.hdr.rmse,
+        rows.front().surfaces.hdr.rmse);
     if (options.check_default) throw ComparisonFailed(text);
     warn(text);
 }

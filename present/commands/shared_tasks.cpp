@@ -11,10 +11,9 @@ SharedTasks::SharedTasks(std::size_t first, std::size_t end, std::size_t ahead)
 std::optional<std::size_t> SharedTasks::take() {
     std::unique_lock lock(mutex_);
     const auto is_open = [&] { return next_ < end_ && next_ < unfinished_ + ahead_; };
-    changed_.wait(lock, [&] {
-        return is_stopped_ || unfinished_ == end_ || !returned_.empty() || is_open();
-    });
-    if (is_stopped_) return std::nullopt;
+    changed_.wait(
+        lock, [&] { return failure_ || unfinished_ == end_ || !returned_.empty() || is_open(); });
+    if (failure_) return std::nullopt;
     if (!returned_.empty()) return returned_.extract(returned_.begin()).value();
     if (is_open()) return next_++;
     return std::nullopt;
@@ -25,7 +24,7 @@ void SharedTasks::deliver(std::size_t task, std::function<void()> finish) {
     delivered_.emplace(task, std::move(finish));
     if (is_finishing_) return;  // by another thread
     is_finishing_ = true;
-    while (!is_stopped_) {
+    while (!cannot_finish_) {
         const auto next = delivered_.find(unfinished_);
         if (next == delivered_.end()) break;
         const std::function<void()> call = std::move(next->second);
@@ -39,8 +38,8 @@ void SharedTasks::deliver(std::size_t task, std::function<void()> finish) {
         }
         lock.lock();
         if (failure) {
-            failure_ = failure;
-            is_stopped_ = true;
+            if (!failure_) failure_ = failure;
+            cannot_finish_ = true;
         } else {
             ++unfinished_;
         }
@@ -55,9 +54,9 @@ void SharedTasks::give_back(std::size_t task) {
     changed_.notify_all();
 }
 
-void SharedTasks::stop() {
+void SharedTasks::fail(std::exception_ptr failure) {
     const std::scoped_lock lock(mutex_);
-    is_stopped_ = true;
+    if (!failure_) failure_ = std::move(failure);
     changed_.notify_all();
 }
 

@@ -16,24 +16,24 @@ namespace kilolux {
 /// of the tasks, one at a time. All functions may be called by any thread.
 class SharedTasks {
  public:
-    /// Tasks `first` to `end` - 1. `ahead`: how many tasks after the first unfinished one may be
-    /// taken.
+    /// Tasks `first` to `end` - 1. `ahead`: how many tasks, from the first unfinished one on, may
+    /// be out at once.
     SharedTasks(std::size_t first, std::size_t end, std::size_t ahead);
 
-    /// The next task; waits while none may be taken. None: all are finished, or stop() was called.
+    /// The next task; waits while none may be taken. None: all are finished, or fail() was called.
     std::optional<std::size_t> take();
 
     /// Has `finish` called for a task that was taken, by this thread or another one, after those
-    /// before it. Where a call throws, stop() follows.
+    /// before it. Where a call throws, fail() follows, and no other is called.
     void deliver(std::size_t task, std::function<void()> finish);
 
     /// Another thread is to do a task that was taken.
     void give_back(std::size_t task);
 
-    /// No task is taken and none is finished any more.
-    void stop();
+    /// No task is taken any more; those delivered are finished as far as none before them lacks.
+    void fail(std::exception_ptr failure);
 
-    /// Throws what a call of `finish` threw.
+    /// Throws the first failure.
     void rethrow();
 
  private:
@@ -42,7 +42,7 @@ class SharedTasks {
     std::size_t next_, end_, ahead_;
     std::size_t unfinished_;  // the first one
     bool is_finishing_ = false;
-    bool is_stopped_ = false;
+    bool cannot_finish_ = false;
     std::exception_ptr failure_;
     std::set<std::size_t> returned_;
     std::map<std::size_t, std::function<void()>> delivered_;

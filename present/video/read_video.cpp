@@ -23,8 +23,14 @@ constexpr std::string_view kFrameMark = "FRAME\n";
 VideoContents read_y4m(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     VideoContents out;
-    std::getline(in, out.header);
-    out.header += '\n';
+    constexpr std::size_t kLongestHeader = 256;
+    out.header.resize(kLongestHeader);
+    in.read(out.header.data(), kLongestHeader);
+    out.header.resize(static_cast<std::size_t>(in.gcount()));
+    const std::size_t end = out.header.find('\n');
+    if (end == std::string::npos) throw Error(file.string() + ": holds no video");
+    out.header.resize(end + 1);
+    in.clear();
     if (std::sscanf(out.header.c_str(), "YUV4MPEG2 W%d H%d ", &out.width, &out.height) != 2 ||
         out.width <= 0 || out.height <= 0) {
         throw Error(file.string() + ": holds no video");

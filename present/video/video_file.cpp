@@ -204,7 +204,7 @@ void check_can_write_video(const fs::path& file) {
 }
 
 VideoFile::VideoFile(const fs::path& file, const VideoFormat& format, const std::string& note)
-    : sink_(make_sink(file, note)), header_(y4m_header(format)) {}
+    : sink_(make_sink(file, note)), header_(y4m_header(format, note)) {}
 
 VideoFile::~VideoFile() = default;
 

@@ -36,7 +36,7 @@ void check_can_write_video(const std::filesystem::path& file);
 class VideoFile {
  public:
     /// Throws Error when the file cannot be made or ffmpeg cannot be run. `note`: the file's
-    /// comment; .y4m has no place for it.
+    /// comment; of .y4m its hash is.
     VideoFile(const std::filesystem::path& file, const VideoFormat& format,
               const std::string& note = {});
     ~VideoFile();

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "host/base/hash.h"
+
 namespace kilolux {
 namespace {
 
@@ -40,10 +42,13 @@ Ratio ratio_of(double value) {
     return {static_cast<std::uint32_t>(now[0]), static_cast<std::uint32_t>(now[1])};
 }
 
-std::string y4m_header(const VideoFormat& format) {
+std::string y4m_header(const VideoFormat& format, const std::string& note) {
     const Ratio pace = ratio_of(format.frames_per_second);
-    return fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C444 XCOLORRANGE=LIMITED XMATRIX=BT709\n",
-                       format.width, format.height, pace.numerator, pace.denominator);
+    const std::string hash =
+        note.empty() ? "" : fmt::format(" X{:08x}", static_cast<std::uint32_t>(hash64(note)));
+    return fmt::format(
+        "YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C444 XCOLORRANGE=LIMITED XMATRIX=BT709{}\n", format.width,
+        format.height, pace.numerator, pace.denominator, hash);
 }
 
 std::string y4m_frame(std::span<const std::uint8_t> rgba) {

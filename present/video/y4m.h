@@ -26,9 +26,9 @@ struct Ratio {
 Ratio ratio_of(double value);
 
 /// The stream's first line: 4:4:4, 8 bits, progressive, square pixels. Parameters that begin with X
-/// say what the format has no place for: codes of limited range by the matrix of BT.709. At most 95
-/// bytes, which is what ffmpeg reads.
-std::string y4m_header(const VideoFormat& format);
+/// say what the format has no place for: codes of limited range by the matrix of BT.709, and, in
+/// hexadecimal digits, the hash of a note. At most 95 bytes, which is what ffmpeg reads.
+std::string y4m_header(const VideoFormat& format, const std::string& note = {});
 
 /// A frame, "FRAME\n" and the planes Y', Cb, Cr, of display codes R, G, B, A. Each code is the
 /// nearest to ITU-R BT.709-6, 3.2 to 3.5: Y' 16 to 235, Cb and Cr 16 to 240.

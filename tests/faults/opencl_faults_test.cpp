@@ -125,14 +125,13 @@ TEST(OpenClFaults, EveryCallOfTheStartMayFail) {
     const FaultLayer layer;
     ASSERT_TRUE(layer.loaded());
     const Scene scene = make_generated_scene("plain");
-    layer.arm(0, 0);
     int calls = 0;
-    {
+    for (int run = 0; run < 2; ++run) {  // a process' first renderer may make more calls
+        layer.arm(0, 0);
         Renderer renderer(scene, faulty_settings());
         renderer.render(first_camera(scene), 0.0);
-        // Of the picture but for the last one, with which QueueDrain waits when the picture is
-        // there. Errors of calls at destruction are not reported.
-        calls = layer.calls() - 1;
+        calls = layer.calls();  // of the picture: errors of later calls, at destruction, are not
+                                // reported
     }
     std::mt19937 random(7);
     // The first ones make context and queue; the others are a sample.

@@ -74,13 +74,20 @@ TEST(SharedTasks, StopWhereOneCannotBeFinished) {
     EXPECT_THROW(tasks.rethrow(), std::runtime_error);
 }
 
-TEST(SharedTasks, StopForAll) {
-    SharedTasks tasks(0, 5, 1);
+// What is done already is finished.
+TEST(SharedTasks, AreNotTakenAfterAFailure) {
+    SharedTasks tasks(0, 5, 2);
     EXPECT_EQ(tasks.take(), 0u);
+    EXPECT_EQ(tasks.take(), 1u);
     std::jthread waiting([&] { EXPECT_EQ(tasks.take(), std::nullopt); });
-    tasks.stop();
+    tasks.fail(std::make_exception_ptr(std::runtime_error("interrupted")));
     waiting.join();
-    tasks.deliver(0, [] { FAIL(); });
+    int finished = 0;
+    tasks.deliver(1, [&] { ++finished; });
+    EXPECT_EQ(finished, 0) << "the first one lacks";
+    tasks.deliver(0, [&] { ++finished; });
+    EXPECT_EQ(finished, 2);
+    EXPECT_THROW(tasks.rethrow(), std::runtime_error);
 }
 
 }  // namespace

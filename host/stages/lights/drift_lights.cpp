@@ -24,8 +24,8 @@ ulong fixed_point(double share) {
     return share < 0.0 ? 0 - magnitude : magnitude;
 }
 
-uint upper(ulong v) { return static_cast<uint>(v >> 32); }
-uint lower(ulong v) { return static_cast<uint>(v); }
+uint high_word(ulong v) { return static_cast<uint>(v >> 32); }
+uint low_word(ulong v) { return static_cast<uint>(v); }
 
 // Time since the start, in the kernels' units.
 struct Elapsed {
@@ -41,7 +41,7 @@ struct Elapsed {
 Elapsed elapsed(double seconds) {
     const double whole = std::floor(seconds);
     const ulong rest = fixed_point(seconds - whole);
-    return {static_cast<uint>(whole), upper(rest), lower(rest)};
+    return {static_cast<uint>(whole), high_word(rest), low_word(rest)};
 }
 
 }  // namespace
@@ -52,10 +52,10 @@ LightDrift light_drift(const std::array<double, 3>& turns, const std::array<doub
     std::ranges::transform(turns, at.begin(), fixed_point);
     std::ranges::transform(rate, by.begin(), fixed_point);
     const auto bits = [&](std::size_t i) { return std::bit_cast<uint>(intensity[i]); };
-    return {{upper(at[0]), upper(at[1]), upper(at[2]), box},
-            {lower(at[0]), lower(at[1]), lower(at[2]), bits(0)},
-            {upper(by[0]), upper(by[1]), upper(by[2]), bits(1)},
-            {lower(by[0]), lower(by[1]), lower(by[2]), bits(2)}};
+    return {{high_word(at[0]), high_word(at[1]), high_word(at[2]), box},
+            {low_word(at[0]), low_word(at[1]), low_word(at[2]), bits(0)},
+            {high_word(by[0]), high_word(by[1]), high_word(by[2]), bits(1)},
+            {low_word(by[0]), low_word(by[1]), low_word(by[2]), bits(2)}};
 }
 
 DriftBox drift_box(const std::array<double, 3>& min, const std::array<double, 3>& extent,
@@ -139,7 +139,7 @@ std::vector<std::uint32_t> DriftLights::download_order() const {
     std::vector<std::uint32_t> out;
     if (lights_ == 0) return out;
     out.reserve(lights_);
-    for (const std::uint64_t pair : download(gpu_, order_.get())) out.push_back(upper(pair));
+    for (const std::uint64_t pair : download(gpu_, order_.get())) out.push_back(high_word(pair));
     return out;
 }
 

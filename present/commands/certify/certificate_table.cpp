@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "host/base/error.h"
 #include "host/measure/bench/table.h"
@@ -24,6 +23,10 @@ struct Certified {
 
 Certified read(const std::string& file) {
     const Json json = read_certificate(file);
+    if (json.contains(kUnfinished)) {
+        throw Error(fmt::format("{}: unfinished: {} processes had not ended; --resume goes on",
+                                file, json.at(kUnfinished).dump()));
+    }
     return {fs::path(file).stem().string(), json, rows_of_json(json)};
 }
 

@@ -39,9 +39,11 @@ struct CertifyOptions {
 };
 
 void check(const CertifyOptions& o) {
-    if (!o.tables.empty() && (o.cases || !o.parts.empty() || o.isolate || !o.output.empty())) {
+    if (!o.tables.empty() &&
+        (o.cases || !o.parts.empty() || o.isolate || o.jobs > 1 || o.resume || !o.output.empty())) {
         throw UsageError(
-            "--table: prints what was certified; it goes with no --case, --with, --isolate or -o");
+            "--table: prints what was certified; it goes with no --case, --with, --isolate, "
+            "--jobs, --resume or -o");
     }
     if (o.resume && (o.output.empty() || o.output == "-")) {
         throw UsageError("--resume: goes on with the file of -o, which is not given");
@@ -56,9 +58,6 @@ std::vector<HardCase> chosen_cases(const CertifyOptions& options) {
     return cases;
 }
 
-// Processes that end later than others leave this key, with how many of them had not ended.
-constexpr const char* kUnfinished = "unfinished";
-
 // What the file of an interrupted run holds; nothing where there is none. Throws UsageError for
 // another device's or program's.
 Certificate found_before(const CertifyOptions& options, const Json& device) {
@@ -66,7 +65,7 @@ Certificate found_before(const CertifyOptions& options, const Json& device) {
     if (!options.resume || !std::filesystem::exists(options.output)) return out;
     const Json former = read_certificate(options.output);
     const auto require_same = [&](const char* key, const char* part, const Json& now) {
-        const Json& then = former.at(key).at(part);
+        const Json then = former.at(key).value(part, Json());
         if (then == now.at(part)) return;
         throw UsageError(fmt::format("--resume: {} was made by another {}: its {} is {}, now {}",
                                      options.output, key, part, then.dump(), now.at(part).dump()));
@@ -82,22 +81,30 @@ Certificate found_before(const CertifyOptions& options, const Json& device) {
     return out;
 }
 
+// Writes what was found while `left` processes have not ended.
+void keep(const CertifyOptions& options, const Json& device, Certificate found, std::size_t left) {
+    if (options.output.empty() || options.output == "-" || left == 0) return;
+    std::erase_if(found.rows, [](const HardCaseRow& row) { return row.lanes.empty(); });
+    Json json = certificate_json(device, found);
+    json["passed"] = false;
+    json[kUnfinished] = left;
+    write_json(options.output, json);
+}
+
 // Runs the processes; after each its findings are in the file of -o.
 Certificate make_isolated(const CertifyOptions& options, const IsolatedRequest& request,
-                          const cl::Device& device, Progress& progress) {
+                          const cl::Device& device) {
     const Json capabilities = capabilities_json(device);
-    const bool keeps = !options.output.empty() && options.output != "-";
-    const auto on_done = [&](const Certificate& found, std::size_t left) {
-        if (keeps && left > 0) {
-            Json json = certificate_json(capabilities, found);
-            json["passed"] = false;
-            json[kUnfinished] = left;
-            write_json(options.output, json);
-        }
-        check_interrupt();
-        progress.advance();
+    std::optional<Progress> progress;
+    const auto on_begin = [&](const Certificate&, std::size_t left) {
+        progress.emplace("certifying", left, !options.quiet);
     };
-    return certify_isolated(request, found_before(options, capabilities), on_done);
+    const auto on_done = [&](const Certificate& found, std::size_t left) {
+        keep(options, capabilities, found, left);
+        check_interrupt();
+        progress->advance();
+    };
+    return certify_isolated(request, found_before(options, capabilities), on_begin, on_done);
 }
 
 // Makes all that the command line asks for, in this process or in others.
@@ -105,6 +112,10 @@ Certificate make_certificate(const CertifyOptions& options, const cl::Device& de
     const std::vector<HardCase> cases = chosen_cases(options);
     std::vector<CertificatePart> parts;
     for (const std::size_t place : options.parts) parts.push_back(certificate_parts()[place]);
+    if (options.isolate || options.jobs > 1 || options.resume) {
+        return make_isolated(options, {options.device, cases, options.lanes, parts, options.jobs},
+                             device);
+    }
     Certificate out;
     Progress progress("certifying", cases.size() * options.lanes.size() + parts.size(),
                       !options.quiet);
@@ -112,10 +123,6 @@ Certificate make_certificate(const CertifyOptions& options, const cl::Device& de
         check_interrupt();
         progress.advance();
     };
-    if (options.isolate || options.jobs > 1 || options.resume) {
-        return make_isolated(options, {options.device, cases, options.lanes, parts, options.jobs},
-                             device, progress);
-    }
     out.rows = run_hard_cases(Gpu(device), cases, options.lanes, step);
     for (const CertificatePart& part : parts) {
         out.parts[part.name] = made_part(part, device, check_interrupt);

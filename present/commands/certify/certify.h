@@ -24,6 +24,9 @@ struct Certificate {
 nlohmann::ordered_json certificate_json(const nlohmann::ordered_json& device,
                                         const Certificate& made);
 
+/// Key of an unfinished certificate: how many processes had not ended.
+inline constexpr const char* kUnfinished = "unfinished";
+
 /// A certificate's document. Throws Error for a file that is none.
 nlohmann::ordered_json read_certificate(const std::string& file);
 

@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "host/base/system/child_process.h"
@@ -54,13 +53,12 @@ Outcome run_program(const std::string& device, std::vector<std::string> more) {
 
 // One process: a case at a lane width.
 struct CaseRun {
-    std::size_t row;  // in IsolatedRequest::cases
+    std::size_t place;  // in IsolatedRequest::cases
     int lanes;
-    std::optional<HardCaseRow> found{};  // once it is done
 };
 
 HardCaseRow run_case(const IsolatedRequest& request, const CaseRun& run) {
-    const HardCase& hard_case = request.cases[run.row];
+    const HardCase& hard_case = request.cases[run.place];
     const Outcome outcome = run_program(request.device, {"--case", std::string(hard_case.label),
                                                          "--lanes", fmt::to_string(run.lanes)});
     if (outcome.error.empty()) return rows_of_json(outcome.certificate).at(0);
@@ -74,77 +72,72 @@ Json part_of(const std::string& device, const std::string& name) {
     return outcome.certificate.at(name);
 }
 
-// The row of a case among those found, without an error; null if there is none.
-const HardCaseRow* found_row(const Certificate& found, const HardCase& hard_case) {
-    const auto row = std::ranges::find_if(found.rows, [&](const HardCaseRow& r) {
-        return r.hard_case.label == hard_case.label && r.error.empty();
+// The row of a case; null if there is none.
+HardCaseRow* row_of(Certificate& certificate, const HardCase& hard_case) {
+    const auto row = std::ranges::find_if(certificate.rows, [&](const HardCaseRow& r) {
+        return r.hard_case.label == hard_case.label;
     });
-    return row == found.rows.end() ? nullptr : &*row;
+    return row == certificate.rows.end() ? nullptr : &*row;
 }
 
-std::vector<CaseRun> runs_left(const IsolatedRequest& request, const Certificate& found) {
+// What was found before, without the rows of cases that could not run, and a row for each case.
+Certificate begun(const IsolatedRequest& request, Certificate found) {
+    std::erase_if(found.rows, [](const HardCaseRow& row) { return !row.error.empty(); });
+    for (const HardCase& hard_case : request.cases) {
+        if (row_of(found, hard_case) == nullptr) found.rows.push_back({hard_case, {}, {}, {}});
+    }
+    std::ranges::sort(found.rows, {}, [](const HardCaseRow& row) {
+        return std::ranges::find(hard_cases(), row.hard_case.label, &HardCase::label) -
+               hard_cases().begin();
+    });
+    return found;
+}
+
+std::vector<CaseRun> runs_left(const IsolatedRequest& request, Certificate& found) {
     std::vector<CaseRun> runs;
     for (std::size_t i = 0; i < request.cases.size(); ++i) {
-        const HardCaseRow* row = found_row(found, request.cases[i]);
+        const std::vector<int>& done = row_of(found, request.cases[i])->lanes;
         for (const int lanes : request.lanes) {
-            const bool is_done = row != nullptr && std::ranges::count(row->lanes, lanes) > 0;
-            if (!is_done) runs.push_back({i, lanes});
+            if (std::ranges::count(done, lanes) == 0) runs.push_back({i, lanes});
         }
     }
     return runs;
 }
 
-// What was found before and by the runs that are done.
-std::vector<HardCaseRow> rows_of(const IsolatedRequest& request, const Certificate& found,
-                                 const std::vector<CaseRun>& runs) {
-    std::vector<HardCaseRow> rows;
-    for (const HardCase& hard_case : request.cases) {
-        const HardCaseRow* row = found_row(found, hard_case);
-        rows.push_back(row != nullptr ? *row : HardCaseRow{hard_case, {}, {}, {}});
-    }
-    for (const CaseRun& run : runs) {
-        if (!run.found) continue;
-        HardCaseRow& row = rows[run.row];
-        row.lanes.push_back(run.lanes);
-        row.findings.merge(run.found->findings);
-        if (!run.found->error.empty()) row.error = run.found->error;
-    }
-    for (HardCaseRow& row : rows) {
-        std::ranges::sort(row.lanes, {}, [&](int lanes) {
-            return std::ranges::find(request.lanes, lanes) - request.lanes.begin();
-        });
-    }
-    return rows;
+void add(HardCaseRow& row, const HardCaseRow& found) {
+    row.lanes.insert(row.lanes.end(), found.lanes.begin(), found.lanes.end());
+    std::ranges::sort(row.lanes);
+    row.findings.merge(found.findings);
+    if (row.error.empty()) row.error = found.error;
 }
 
 }  // namespace
 
 Certificate certify_isolated(const IsolatedRequest& request, const Certificate& found,
-                             const OnIsolated& on_done) {
-    std::vector<CaseRun> runs = runs_left(request, found);
+                             const OnIsolated& on_begin, const OnIsolated& on_done) {
+    Certificate out = begun(request, found);
+    const std::vector<CaseRun> runs = runs_left(request, out);
     std::size_t left = runs.size() + request.parts.size();
-    Certificate out{rows_of(request, found, runs)};
+    on_begin(out, left);
     std::mutex mutex;
-    const auto take = [&](std::size_t i) {
-        HardCaseRow row = run_case(request, runs[i]);
+    const auto run = [&](const CaseRun& of) {
+        const HardCaseRow row = run_case(request, of);
         const std::scoped_lock lock(mutex);
-        runs[i].found = std::move(row);
-        out.rows = rows_of(request, found, runs);
+        add(*row_of(out, row.hard_case), row);
         on_done(out, --left);
     };
     tbb::task_arena(request.processes).execute([&] {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, runs.size(), 1),
             [&](const auto& range) {
-                for (std::size_t i = range.begin(); i < range.end(); ++i) take(i);
+                for (std::size_t i = range.begin(); i < range.end(); ++i) run(runs[i]);
             },
             tbb::simple_partitioner{});
     });
     for (const CertificatePart& part : request.parts) {
         const bool is_done =
-            found.parts.contains(part.name) && !found.parts.at(part.name).contains("error");
-        out.parts[part.name] =
-            is_done ? found.parts.at(part.name) : part_of(request.device, part.name);
+            out.parts.contains(part.name) && !out.parts.at(part.name).contains("error");
+        if (!is_done) out.parts[part.name] = part_of(request.device, part.name);
         on_done(out, --left);
     }
     return out;

@@ -24,12 +24,12 @@ struct IsolatedRequest {
 using OnIsolated = std::function<void(const Certificate& found, std::size_t left)>;
 
 /// Runs this program for every case at every lane width, and for every part, but for those that
-/// `found` has without an error. A process that a signal ends, or that takes longer than
-/// kIsolatedSeconds, fails its case with that as the error. Calls `on_done` after each, one call at
-/// a time, and passes its exceptions on. The result depends neither on `found` nor on the number of
-/// processes.
+/// `found` has without an error; what else `found` has stays. A process that a signal ends, or that
+/// takes longer than kIsolatedSeconds, fails its case with that as the error. Calls `on_begin`
+/// first, and `on_done` after each process, one call at a time, and passes their exceptions on. The
+/// rows are in the order of hard_cases(), their lane widths ascend.
 Certificate certify_isolated(const IsolatedRequest& request, const Certificate& found,
-                             const OnIsolated& on_done);
+                             const OnIsolated& on_begin, const OnIsolated& on_done);
 
 inline constexpr int kIsolatedSeconds = 120;
 

@@ -132,6 +132,7 @@ TEST_F(Certify, GoesOnWithAnInterruptedRun) {
     json["tuning"] = {{"passed", false}, {"error", "the process ended"}};
     json["unfinished"] = 2;
     write_text(file, json.dump());
+    EXPECT_TRUE(contains(run_kilolux({"certify", "--table", file}).err, "unfinished: 2 processes"));
     std::vector<std::string> resumed = words;
     resumed.push_back("--resume");
     const ChildResult result = run_kilolux(resumed);
@@ -139,7 +140,19 @@ TEST_F(Certify, GoesOnWithAnInterruptedRun) {
     Json found = Json::parse(text_of_file(file));
     EXPECT_EQ(found["cases"][0]["findings"][0]["worst"], -1.0);
     found["cases"][0]["findings"] = kept;
+    // The file had findings of both widths for one of them: those of the other come again.
+    Json& again = found["cases"][1]["findings"][0]["checked"];
+    const Json once = Json::parse(whole)["cases"][1]["findings"][0]["checked"];
+    EXPECT_GT(again, once);
+    again = once;
     EXPECT_EQ(found, Json::parse(whole));
+    const ChildResult more =
+        run_kilolux({"certify", "--case", "27", "--lanes", "2", "--resume", "--quiet", "-o", file});
+    ASSERT_EQ(more.code, 0) << more.err;
+    Json wider = Json::parse(text_of_file(file));
+    EXPECT_EQ(wider["cases"][0]["lanes"], Json({1, 2, 8}));
+    EXPECT_EQ(wider["cases"][1], found["cases"][1]) << "what was not asked for stays";
+    EXPECT_EQ(wider["tuning"], found["tuning"]);
     json["device"]["name"] = "another";
     write_text(file, json.dump());
     const ChildResult other = run_kilolux(resumed);
