@@ -4,18 +4,27 @@
 The units are those of BUILD/compile_commands.json (files of a room together with KILOLUX_UNITY) that do not belong to
 tests, or whose names hold SUBSTRING. With KILOLUX_UNITY six of a library are compiled as one, since most of the time goes
 to the headers that they share. g++'s own options and precompiled headers are left out.
+
+Without SUBSTRING the files of ALONE are compiled one by one, too: those that no unit of an ordinary build has, and those
+that a unit would lend its includes. Only headers of libraries, compiled once, come before each.
 """
 import concurrent.futures
+import glob
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
+import tempfile
 
 ONLY_GNU = {"-Winvalid-pch", "-Wno-subobject-linkage", "-Wno-maybe-uninitialized", "-fno-sanitize-recover=all"}
-
-
 UNITS_AT_ONCE = 6
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ALONE = ("present/commands", "tests/fuzz")
+LIBRARIES = ("kernels/shared", "host", "present/cli", "present/image", "present/video", "present/commands")
+ALONE_HAS = "/kilolux_present.dir/"  # in the output of the unit whose options they get
 
 
 def clang_command(unit):
@@ -29,6 +38,33 @@ def clang_command(unit):
         elif word not in ("-c", unit["file"]) and word not in ONLY_GNU and not word.startswith("-fsanitize"):
             kept.append(word)
     return kept
+
+
+def files_under(folder, extension):
+    return sorted(glob.glob(os.path.join(ROOT, folder, "**", "*" + extension), recursive=True))
+
+
+def compile_alone(units):
+    """The return codes of ALONE's files; none where the build has not the program."""
+    like = next((u for u in units if ALONE_HAS in u.get("output", u["command"])), None)
+    if like is None:
+        return []
+    command, includes = clang_command(like), set()
+    for path in (path for folder in LIBRARIES for path in files_under(folder, ".h")):
+        with open(path, encoding="utf-8") as file:
+            includes |= set(re.findall(r"^#include <[\w./+-]+>", file.read(), re.M))
+    with tempfile.TemporaryDirectory() as folder:
+        header, compiled = os.path.join(folder, "libraries.h"), os.path.join(folder, "libraries.pch")
+        with open(header, "w", encoding="utf-8") as file:
+            file.write("\n".join(sorted(includes)) + "\n")
+        emit = [word for word in command if word != "-fsyntax-only"]
+        subprocess.run([*emit, "-x", "c++-header", header, "-o", compiled], cwd=like["directory"], check=True)
+
+        def compile_file(path):
+            return subprocess.run([*command, "-include-pch", compiled, path], cwd=like["directory"], check=False).returncode
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            return list(pool.map(compile_file, (path for folder in ALONE for path in files_under(folder, ".cpp"))))
 
 
 def main():
@@ -56,6 +92,8 @@ def main():
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         codes = list(pool.map(compile_part, parts))
+    if not wanted:
+        codes += compile_alone(units)
     print(f"{len(chosen)} units, {len(codes) - codes.count(0)} of {len(codes)} parts do not compile with clang")
     sys.exit(1 if any(codes) else 0)
 

@@ -19,4 +19,6 @@ expect_red("nothing includes present" host/render/a.cpp "#include \"present/cli/
 expect_red("render does not measure" host/render/a.cpp "#include \"host/measure/metrics/metrics.h\"")
 expect_red("one room sees OpenImageIO" host/scene/a.cpp "#include <OpenImageIO/imageio.h>")
 expect_red("paths from the root" host/base/a.cpp "#include \"a.h\"")
+expect_red("a .cpp has its header" host/render/a.cpp "#include <vector>")
+expect_red("a .cpp has its header, in a folder" host/scene/gltf/a.cpp "#include <vector>")
 file(REMOVE_RECURSE ${WORK})

@@ -16,8 +16,8 @@ void warn(std::string_view message);
 /// One line on stderr unless --quiet.
 void note(std::string_view message);
 
-/// The same about something that takes time. In a log it tells a reader why; a library writes none
-/// there, and show_waits() makes the program do so.
+/// A note that the user waits. The library prints it only to a terminal; after show_waits() to
+/// logs, too.
 void note_wait(std::string_view message);
 void show_waits();
 

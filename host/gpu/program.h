@@ -96,10 +96,10 @@ class ProgramCache {
  private:
     std::mutex mutex_;
     std::map<std::string, KernelProgram> programs_;
-    mutable std::mutex times_;  // of those that follow
+    std::shared_ptr<const DeviceTables> tables_;
+    mutable std::mutex times_;  // of those that follow; a build holds the other mutex for long
     double build_seconds_ = 0.0;
     std::vector<BuildSpan> builds_;
-    std::shared_ptr<const DeviceTables> tables_;
 };
 
 /// The program of one stage, `kernels/<stem>.cl`, built for the device with its lane width as VW.

@@ -2,7 +2,10 @@
 #include "host/scene/animated_scene.h"
 
 #include "host/base/log.h"
+#include "host/scene/gltf/animation.h"
 #include "host/scene/gltf/choices.h"
+#include "host/scene/gltf/light_profiles.h"
+#include "host/scene/gltf/lights_cameras.h"
 #include "host/scene/gltf/material/image.h"
 #include "host/scene/gltf/material/specular_glossiness.h"
 #include "host/scene/gltf/nodes.h"

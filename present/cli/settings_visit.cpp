@@ -162,7 +162,9 @@ void visit_device(const SettingVisitor& f, RenderSettings& s) {
         return fmt::format("{},{},{}", s.grid.tiles_x, s.grid.tiles_y, s.grid.slices_per_octave);
     };
     OptionBuilder(f, "Device")
-        .text({"--device", "NAME-OR-INDEX", "best", "OpenCL device"}, s.device)
+        .text({"--device", "NAME-OR-INDEX", "best",
+               "OpenCL device; also all, or indices by commas: render's sequences are shared"},
+              s.device)
         .rest()
         .value({"--max-memory", "SIZE|auto", "",
                 "Bound for rendering, e.g. 512M or 4G: pictures that need more are made in bands, "

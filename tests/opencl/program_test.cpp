@@ -15,6 +15,7 @@
 #include "host/gpu/buffer.h"
 #include "host/gpu/stage_timer.h"
 #include "tests/support/environment_variable.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/test_gpu.h"
 
 namespace kilolux {
@@ -47,15 +48,13 @@ TEST(Program, BuildFailureNamesFileDeviceOptionsAndLog) {
 
 // A text that an #if leaves out is spliced where it is included next.
 TEST(Program, IncludesFollowConditions) {
-    const auto folder = std::filesystem::temp_directory_path() / "kilolux_splice_test";
-    std::filesystem::create_directories(folder);
+    const TemporaryFolder folder;
     std::ofstream(folder / "a.h") << "#ifndef A_H\n#define A_H\n#include \"b.h\"\nint a;\n#endif\n";
     std::ofstream(folder / "b.h") << "#ifndef B_H\n#define B_H\nint b;\n#endif\n";
     std::ofstream(folder / "c.cl") << "#if 0\n#include \"a.h\"\n#endif\n#include \"b.h\"\n#include "
                                       "\"a.h\"\n#include \"b.h\"\n";
-    const EnvironmentVariable root("KILOLUX_SOURCE_DIR", folder.string());
+    const EnvironmentVariable root("KILOLUX_SOURCE_DIR", folder.path().string());
     const SplicedSource source = splice_source("c.cl", false);
-    std::filesystem::remove_all(folder);
     const std::string rest = source.text.substr(source.text.find("#line 3 \"c.cl\""));
     const auto count = [&](const std::string& line) {
         std::size_t found = 0;
@@ -71,16 +70,14 @@ TEST(Program, IncludesFollowConditions) {
 
 TEST(Program, CompilerMessagesNameTheFileAndLineOfAnInclude) {
     if (!test_gpu().info.is_cpu) GTEST_SKIP() << "NVIDIA's compiler ignores #line";
-    const auto folder = std::filesystem::temp_directory_path() / "kilolux_program_test";
+    const TemporaryFolder folder;
     for (const std::string& path : embedded_paths("kernels/")) {
         std::filesystem::create_directories((folder / path).parent_path());
         std::ofstream(folder / path) << embedded_text(path);
     }
     std::ofstream(folder / "kernels/device/lanes.h") << "// broken on line 3\n\nint oops = ;\n";
-    setenv("KILOLUX_SOURCE_DIR", folder.c_str(), 1);
+    const EnvironmentVariable root("KILOLUX_SOURCE_DIR", folder.path().string());
     const std::string message = error_of([] { build_program(test_gpu(), "tonemap"); });
-    unsetenv("KILOLUX_SOURCE_DIR");
-    std::filesystem::remove_all(folder);
     expect_contains(message, "kernels/device/lanes.h:3");
 }
 

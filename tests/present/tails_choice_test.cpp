@@ -2,9 +2,11 @@
 // What --tails auto keeps of the light of many lights without a range, and what it says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "host/scene/export/export_scene.h"
 #include "present/cli/options.h"
@@ -105,6 +107,30 @@ TEST_F(TailsChoice, BlendedSurfacesKeepBoundedOnesWithAWarning) {
     EXPECT_EQ(options_.settings.tails, Tails::automatic);
     EXPECT_TRUE(contains(warning, "cut up to about")) << warning;
 }
+
+// What a tree cannot light keeps bounded ranges.
+class KeptRanges : public TailsChoice,
+                   public testing::WithParamInterface<std::tuple<int, const char*>> {};
+
+TEST_P(KeptRanges, AreSaidOnceAlsoWithQuiet) {
+    const auto& [count, option] = GetParam();
+    write(hall(count, 1.0f));
+    testing::internal::CaptureStderr();
+    const std::string line = open(option);
+    open(option);
+    const std::string written = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(options_.settings.tails, Tails::automatic);
+    EXPECT_TRUE(contains(line, "tails   bounded (automatic)")) << line;
+    const std::string warning = "kilolux: warning: " + options_.scene +
+                                ": the ranges that lights without one get cut up to about ";
+    EXPECT_TRUE(written.starts_with(warning)) << written;
+    EXPECT_EQ(std::ranges::count(written, '\n'), 1) << written;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, KeptRanges,
+                         testing::Combine(testing::Values(129, 1000),
+                                          testing::Values("--shadows exact",
+                                                          "--renderer forward-plus")));
 
 }  // namespace
 }  // namespace kilolux

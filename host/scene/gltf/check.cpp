@@ -9,6 +9,7 @@
 
 #include "host/base/error.h"
 #include "host/scene/gltf/files.h"
+#include "host/scene/gltf/rules.h"
 
 namespace kilolux {
 namespace {

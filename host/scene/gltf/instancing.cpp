@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/instancing.h"
+
 #include <array>
 
 #include "host/scene/gltf/extensions.h"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // EXT_lights_ies: IES files, and the nodes that carry them.
+#include "host/scene/gltf/light_profiles.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "host/scene/gltf/extensions.h"
-#include "host/scene/gltf/nodes.h"
 
 namespace kilolux {
 namespace {

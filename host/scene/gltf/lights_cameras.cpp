@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/scene/gltf/nodes.h"
+#include "host/scene/gltf/lights_cameras.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>

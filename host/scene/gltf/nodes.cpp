@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "host/scene/gltf/animation.h"
+
 namespace kilolux {
 namespace {
 

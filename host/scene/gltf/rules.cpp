@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/scene/gltf/rules.h"
+
 #include <utility>
 
-#include "host/scene/gltf/check.h"
 #include "host/scene/lights/light_kinds.h"
 #include "host/scene/material_table.h"
 

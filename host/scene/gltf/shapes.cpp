@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "host/scene/gltf/animation.h"
+#include "host/scene/gltf/instancing.h"
 #include "host/scene/gltf/mesh/skin.h"
 
 namespace kilolux {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "host/gpu/device.h"
 #include "host/measure/bench/row.h"
 #include "host/measure/report/run.h"
 #include "host/scene/generated/scenes.h"
@@ -52,9 +53,13 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
     EXPECT_EQ(document.at("context").at("lights"), 40);
     EXPECT_TRUE(contains(result.out, "Errors are measured on pictures of 64x36 pixels"));
     std::set<std::string> names;
+    const double standard_ms = document.at("rows").at(0).at("frame [ms]");
     for (const Json& row : document.at("rows")) {
         names.insert(row.at("setting"));
-        EXPECT_GT(row.at("frame [ms]"), 0.0) << row;
+        const double frame_ms = row.at("frame [ms]");
+        EXPECT_GT(frame_ms, 0.0) << row;
+        EXPECT_NEAR(row.at("times default").get<double>() * standard_ms, frame_ms, 1e-9 * frame_ms)
+            << row;
         EXPECT_GT(row.at("shade [ms]"), 0.0) << row;
         EXPECT_GT(row.at("k"), 0.0) << row;
         EXPECT_LE(row.at("k*/k"), 1.0) << row;
@@ -74,6 +79,28 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
     const std::string csv = text_of_file(out / "report.csv");
     const auto header = parse_csv(csv).columns;
     EXPECT_EQ(header.size(), document.at("rows").front().size());
+}
+
+// Every light for every pixel takes many times longer one by one; on CPUs lanes change no bit.
+TEST_F(Report, TellsWhereAnotherSettingBeatsTheDefault) {
+    if (!describe(choose_device("")).is_cpu) GTEST_SKIP() << "a GPU's lanes differ little";
+    const auto told = [](std::vector<std::string> more) {
+        more.insert(more.end(), {"grid", "--resolution", "160,90", "--lights", "2000",
+                                 "--error-width", "16", "--renderer", "deferred-all", "--axes",
+                                 "lanes", "--quick", "--warm-up", "1", "--frames", "4"});
+        more.insert(more.begin(), "report");
+        return run_kilolux(more);
+    };
+    const std::string text = "the default is not in the Pareto set: lanes 16 takes 0.";
+    const ChildResult warned = told({"--lanes", "1"});
+    EXPECT_EQ(warned.code, 0) << warned.err;
+    EXPECT_TRUE(contains(warned.err, "kilolux: warning: " + text)) << warned.err;
+    const ChildResult failed = told({"--lanes", "1", "--check-default"});
+    EXPECT_EQ(failed.code, 3) << failed.err;
+    EXPECT_TRUE(contains(failed.err, "kilolux: " + text)) << failed.err;
+    const ChildResult best = told({"--lanes", "16", "--check-default"});
+    EXPECT_EQ(best.code, 0) << best.err;
+    EXPECT_FALSE(contains(best.err, "Pareto")) << best.err;
 }
 
 TEST_F(Report, ComparesShadows) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/scene/gltf/nodes.h"
+
+namespace kilolux {
+
+/// The lights of KHR_lights_punctual at their nodes. Unusable values are kept: the renderer rejects
+/// and counts those lights.
+std::vector<SceneLight> convert_lights(const GltfDocument& document, const PlacedNodes& nodes);
+
+/// The cameras at their nodes, parents first. Throws Error for invalid values.
+std::vector<SceneCamera> convert_cameras(const GltfDocument& document, const PlacedNodes& nodes);
+
+}  // namespace kilolux
