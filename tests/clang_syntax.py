@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles the program's files with clang, without code: usage clang_syntax.py BUILD [SUBSTRING].
+"""Compiles the program's files with clang, without code: usage clang_syntax.py BUILD [SUBSTRING | --alone].
 
 The units are those of BUILD/compile_commands.json (files of a room together with KILOLUX_UNITY) that do not belong to
-tests, or whose names hold SUBSTRING. With KILOLUX_UNITY six of a library are compiled as one, since most of the time goes
-to the headers that they share. g++'s own options and precompiled headers are left out.
+tests, or whose names hold SUBSTRING. g++'s own options and precompiled headers are left out.
 
-Without SUBSTRING the files of ALONE are compiled one by one, too: those that no unit of an ordinary build has, and those
-that a unit would lend its includes. Only headers of libraries, compiled once, come before each.
+Without SUBSTRING the files of FUZZ are compiled one by one, too, which no unit of an ordinary build has. With --alone it is
+the files of ALONE, to which a unit would lend its includes. Only headers of libraries, compiled once, come before each.
 """
 import concurrent.futures
 import glob
@@ -19,10 +18,10 @@ import sys
 import tempfile
 
 ONLY_GNU = {"-Winvalid-pch", "-Wno-subobject-linkage", "-Wno-maybe-uninitialized", "-fno-sanitize-recover=all"}
-UNITS_AT_ONCE = 6
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-ALONE = ("present/commands", "tests/fuzz")
+FUZZ = ("tests/fuzz",)
+ALONE = ("present/cli", "present/commands", "present/image", "present/video")
 LIBRARIES = ("kernels/shared", "host", "present/cli", "present/image", "present/video", "present/commands")
 ALONE_HAS = "/kilolux_present.dir/"  # in the output of the unit whose options they get
 
@@ -44,8 +43,8 @@ def files_under(folder, extension):
     return sorted(glob.glob(os.path.join(ROOT, folder, "**", "*" + extension), recursive=True))
 
 
-def compile_alone(units):
-    """The return codes of ALONE's files; none where the build has not the program."""
+def compile_alone(units, folders):
+    """The return codes of the folders' files; none where the build has not the program."""
     like = next((u for u in units if ALONE_HAS in u.get("output", u["command"])), None)
     if like is None:
         return []
@@ -64,37 +63,29 @@ def compile_alone(units):
             return subprocess.run([*command, "-include-pch", compiled, path], cwd=like["directory"], check=False).returncode
 
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            return list(pool.map(compile_file, (path for folder in ALONE for path in files_under(folder, ".cpp"))))
+            return list(pool.map(compile_file, (path for folder in folders for path in files_under(folder, ".cpp"))))
 
 
 def main():
     build, wanted = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else ""
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
         units = json.load(file)
+    if wanted == "--alone":
+        sys.exit(max(compile_alone(units, ALONE), default=0))
     tests = os.path.join(os.path.abspath(build), "tests")
     chosen = [u for u in units if (wanted in u["file"] if wanted else not u["file"].startswith(tests)
                                    and "/tests/" not in u["file"]) and not u["file"].endswith("cmake_pch.hxx.cxx")]
     if not chosen:
         sys.exit(f"{build}: no unit to compile")
 
-    together = {}  # files by command and folder
-    for unit in chosen:
-        together.setdefault((tuple(clang_command(unit)), unit["directory"]), []).append(unit["file"])
-    parts = []
-    for (command, folder), files in together.items():
-        step = UNITS_AT_ONCE if all("/Unity/" in file for file in files) else 1
-        parts += [(command, folder, files[i:i + step]) for i in range(0, len(files), step)]
-
-    def compile_part(part):
-        command, folder, files = part
-        text = "".join(f'#include "{file}"\n' for file in files)
-        return subprocess.run([*command, "-x", "c++", "-"], cwd=folder, input=text, text=True, check=False).returncode
+    def compile_unit(unit):
+        return subprocess.run([*clang_command(unit), unit["file"]], cwd=unit["directory"], check=False).returncode
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        codes = list(pool.map(compile_part, parts))
+        codes = list(pool.map(compile_unit, chosen))
     if not wanted:
-        codes += compile_alone(units)
-    print(f"{len(chosen)} units, {len(codes) - codes.count(0)} of {len(codes)} parts do not compile with clang")
+        codes += compile_alone(units, FUZZ)
+    print(f"{len(codes) - codes.count(0)} of {len(codes)} units do not compile with clang")
     sys.exit(1 if any(codes) else 0)
 
 

@@ -176,7 +176,9 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     add_budget_options(command, options.budget);
     OptionBuilder(command, "Device")
         .flag("--mixed-devices", options.mixed_devices,
-              "Several devices may differ; each picture notes which one made it");
+              "With several devices: they may differ, and so may the bits of their frames; each "
+              "picture "
+              "notes which one made it");
 }
 
 constexpr const char* kRenderExamples =

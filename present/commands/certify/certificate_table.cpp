@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/measure/bench/table.h"
+#include "host/measure/roofline/stage_report.h"
 #include "present/commands/certify/certificate.h"
 #include "present/commands/certify/certify.h"
 
