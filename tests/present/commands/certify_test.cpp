@@ -116,8 +116,8 @@ TEST_F(Certify, ProcessesOfTheirOwnFindTheSame) {
     EXPECT_EQ(run_kilolux(words).out, one.out) << "two at a time";
 }
 
-// A file that an interrupted run left: with one case's error, another that is done, and a third's
-// missing lane width.
+// A file that an interrupted run left: a case is done, another lacks a lane width, and a part ended
+// with an error.
 TEST_F(Certify, GoesOnWithAnInterruptedRun) {
     const TemporaryFolder folder;
     const std::string file = (folder / "result.json").string();
@@ -137,7 +137,8 @@ TEST_F(Certify, GoesOnWithAnInterruptedRun) {
     resumed.push_back("--resume");
     const ChildResult result = run_kilolux(resumed);
     ASSERT_EQ(result.code, 0) << result.err;
-    Json found = Json::parse(text_of_file(file));
+    const Json resumed_file = Json::parse(text_of_file(file));
+    Json found = resumed_file;
     EXPECT_EQ(found["cases"][0]["findings"][0]["worst"], -1.0);
     found["cases"][0]["findings"] = kept;
     // The file had findings of both widths for one of them: those of the other come again.
@@ -151,7 +152,7 @@ TEST_F(Certify, GoesOnWithAnInterruptedRun) {
     ASSERT_EQ(more.code, 0) << more.err;
     Json wider = Json::parse(text_of_file(file));
     EXPECT_EQ(wider["cases"][0]["lanes"], Json({1, 2, 8}));
-    EXPECT_EQ(wider["cases"][1], found["cases"][1]) << "what was not asked for stays";
+    EXPECT_EQ(wider["cases"][1], resumed_file["cases"][1]) << "what was not asked for stays";
     EXPECT_EQ(wider["tuning"], found["tuning"]);
     json["device"]["name"] = "another";
     write_text(file, json.dump());
