@@ -71,7 +71,8 @@ def main():
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
         units = json.load(file)
     if wanted == "--alone":
-        sys.exit(max(compile_alone(units, ALONE), default=0))
+        codes = compile_alone(units, ALONE)
+        sys.exit(f"{build}: has no program" if not codes else 1 if any(codes) else 0)
     tests = os.path.join(os.path.abspath(build), "tests")
     chosen = [u for u in units if (wanted in u["file"] if wanted else not u["file"].startswith(tests)
                                    and "/tests/" not in u["file"]) and not u["file"].endswith("cmake_pch.hxx.cxx")]

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <mutex>
 
 #include "host/base/error.h"
 #include "host/base/text.h"
@@ -99,6 +100,9 @@ DeviceInfo describe(const cl::Device& device) {
 std::vector<cl::Device> all_devices() {
     refuse_after_fork();
     prepare_pocl();
+    // Drivers start here. To a second thread PoCL 3.1 says meanwhile that it has no device.
+    static std::mutex starting;
+    const std::scoped_lock lock(starting);
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

@@ -157,7 +157,9 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
         add_band(frame.stats, stats);
         frame.stats.frame_ms += std::max(0.0, ms_since(start) - stats.build_ms);
         add_pixels(p, shot, surfaces, frame);
-        p.context.gpu.programs->take_builds();  // of the pixels, which are no part of frame_ms
+        // What the pixels took is no part of frame_ms.
+        p.context.gpu.programs->take_builds();
+        p.timer = StageTimer();
     }
 }
 

@@ -89,7 +89,7 @@ class PictureFiles {
     WrittenPictures written_;
     std::deque<FrameRecord> records_;  // of pictures that are not written
     Progress progress_;
-    const MemoryPlan& memory_;
+    MemoryPlan memory_;
     std::size_t count_;                    // of pictures
     std::optional<OrderedWriter> writer_;  // from the first picture on; goes before the video
 };

@@ -158,7 +158,7 @@ void run_share(SharedTasks& queue, std::atomic<std::size_t>& left, DeviceShare& 
     } catch (const std::exception& error) {
         share.failure = error.what();
         if (--left == 0) return queue.fail(std::current_exception());
-        note(fmt::format("device {} is left out: {}", share.device, error.what()));
+        warn(fmt::format("device {} is left out: {}", share.device, error.what()));
     }
 }
 
@@ -248,8 +248,9 @@ MadePictures render_tasks(const RenderOptions& options, const PictureTasks& task
     std::vector<DeviceShare> shares(count);
     std::atomic<std::size_t> left = count;
     std::vector<std::jthread> threads;
+    shares[0].device = device_text(options.shared.settings.device);
+    for (std::size_t i = 1; i < count; ++i) shares[i].device = device_text(more_devices[i - 1]);
     for (std::size_t i = 1; i < count; ++i) {
-        shares[i].device = device_text(more_devices[i - 1]);
         threads.emplace_back([&, i] {
             run_share(queue, left, shares[i], [&] {
                 SharedOptions own = options.shared;
@@ -259,7 +260,6 @@ MadePictures render_tasks(const RenderOptions& options, const PictureTasks& task
             });
         });
     }
-    shares[0].device = device_text(options.shared.settings.device);
     run_share(queue, left, shares[0], [&] { make_pictures(job, pictures, shares[0]); });
     threads.clear();  // waits for them
     queue.rethrow();

@@ -8,6 +8,7 @@
 #include "host/base/error.h"
 #include "host/base/log.h"
 #include "host/base/system/interrupt.h"
+#include "host/base/system/memory.h"
 #include "present/cli/frame_summary.h"
 #include "present/cli/option_builder.h"
 #include "present/cli/option_values.h"
@@ -112,7 +113,7 @@ void report_pictures(const RenderOptions& options, SceneRenderer& pictures,
     }
     if (!failures.empty()) failures += "; the other devices made every picture";
     if (!written.first_failure.empty()) {
-        if (!failures.empty()) note(failures);
+        if (!failures.empty()) warn(failures);
         throw ComparisonFailed(written.first_failure);
     }
     if (!failures.empty()) throw Error(failures);
@@ -130,6 +131,16 @@ std::vector<std::string> take_devices(RenderOptions& options) {
             "not given");
     }
     return devices;
+}
+
+// Gives each of several devices its share of the bound, or of most of what is available.
+void share_memory(RenderSettings& settings, std::size_t devices) {
+    constexpr double kMost = 0.8;  // as plan_memory() has it
+    std::uint64_t& bytes = settings.max_memory_bytes;
+    if (bytes == 0) {
+        bytes = static_cast<std::uint64_t>(kMost * static_cast<double>(available_memory_bytes()));
+    }
+    bytes /= devices;
 }
 
 void run_render(RenderOptions& options) {
@@ -159,7 +170,7 @@ void run_render(RenderOptions& options) {
     };
     const FirstPicture start{request_of(options, options.shared.settings.want), first.time,
                              first.frame, camera, std::nullopt};
-    options.shared.settings.max_memory_bytes /= 1 + more_devices.size();  // each has its share
+    if (!more_devices.empty()) share_memory(options.shared.settings, 1 + more_devices.size());
     SceneRenderer pictures(options.shared, options.budget, start);
     note(pictures.rig_lines());  // before the frames, which may take minutes
     if (options.shared.automatic_exposure) expose_automatically(options, pictures);

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "host/base/system/child_process.h"
@@ -80,9 +81,16 @@ HardCaseRow* row_of(Certificate& certificate, const HardCase& hard_case) {
     return row == certificate.rows.end() ? nullptr : &*row;
 }
 
-// What was found before, without the rows of cases that could not run, and a row for each case.
+// What was found before, and a row for each case. A case that could not run is begun anew where all
+// of its lane widths are asked for.
 Certificate begun(const IsolatedRequest& request, Certificate found) {
-    std::erase_if(found.rows, [](const HardCaseRow& row) { return !row.error.empty(); });
+    std::erase_if(found.rows, [&](const HardCaseRow& row) {
+        const auto& label = row.hard_case.label;
+        const bool is_asked = std::ranges::count(request.cases, label, &HardCase::label) > 0;
+        return !row.error.empty() && is_asked && std::ranges::all_of(row.lanes, [&](int lanes) {
+            return std::ranges::count(request.lanes, lanes) > 0;
+        });
+    });
     for (const HardCase& hard_case : request.cases) {
         if (row_of(found, hard_case) == nullptr) found.rows.push_back({hard_case, {}, {}, {}});
     }
@@ -111,29 +119,39 @@ void add(HardCaseRow& row, const HardCaseRow& found) {
     if (row.error.empty()) row.error = found.error;
 }
 
+// What was found before and by the runs that are done, in the order of the runs.
+Certificate with_runs(Certificate found, const std::vector<std::optional<HardCaseRow>>& done) {
+    for (const std::optional<HardCaseRow>& row : done) {
+        if (row) add(*row_of(found, row->hard_case), *row);
+    }
+    return found;
+}
+
 }  // namespace
 
 Certificate certify_isolated(const IsolatedRequest& request, const Certificate& found,
                              const OnIsolated& on_begin, const OnIsolated& on_done) {
-    Certificate out = begun(request, found);
-    const std::vector<CaseRun> runs = runs_left(request, out);
+    Certificate start = begun(request, found);
+    const std::vector<CaseRun> runs = runs_left(request, start);
+    std::vector<std::optional<HardCaseRow>> done(runs.size());
     std::size_t left = runs.size() + request.parts.size();
-    on_begin(out, left);
+    on_begin(start, left);
     std::mutex mutex;
-    const auto run = [&](const CaseRun& of) {
-        const HardCaseRow row = run_case(request, of);
+    const auto run = [&](std::size_t i) {
+        HardCaseRow row = run_case(request, runs[i]);
         const std::scoped_lock lock(mutex);
-        add(*row_of(out, row.hard_case), row);
-        on_done(out, --left);
+        done[i] = std::move(row);
+        on_done(with_runs(start, done), --left);
     };
     tbb::task_arena(request.processes).execute([&] {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, runs.size(), 1),
             [&](const auto& range) {
-                for (std::size_t i = range.begin(); i < range.end(); ++i) run(runs[i]);
+                for (std::size_t i = range.begin(); i < range.end(); ++i) run(i);
             },
             tbb::simple_partitioner{});
     });
+    Certificate out = with_runs(std::move(start), done);
     for (const CertificatePart& part : request.parts) {
         const bool is_done =
             out.parts.contains(part.name) && !out.parts.at(part.name).contains("error");

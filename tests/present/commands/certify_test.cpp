@@ -154,6 +154,12 @@ TEST_F(Certify, GoesOnWithAnInterruptedRun) {
     EXPECT_EQ(wider["cases"][0]["lanes"], Json({1, 2, 8}));
     EXPECT_EQ(wider["cases"][1], resumed_file["cases"][1]) << "what was not asked for stays";
     EXPECT_EQ(wider["tuning"], found["tuning"]);
+    wider["cases"][1]["error"] = "8 lanes: the process ended";
+    write_text(file, wider.dump());
+    const ChildResult rest =
+        run_kilolux({"certify", "--case", "27", "--lanes", "2", "--resume", "--quiet", "-o", file});
+    EXPECT_EQ(rest.code, 3) << "a failure that was not run again stays";
+    EXPECT_TRUE(contains(rest.err, "M2 idle-lights")) << rest.err;
     json["device"]["name"] = "another";
     write_text(file, json.dump());
     const ChildResult other = run_kilolux(resumed);
