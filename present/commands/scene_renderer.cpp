@@ -28,7 +28,6 @@ void check_budget(SharedOptions& options, const BudgetOptions& budget) {
 SceneRenderer::SceneRenderer(SharedOptions& options, const BudgetOptions& budget,
                              FirstPicture first)
     : options_(options),
-      starting_(start_drivers()),
       camera_at_(std::move(first.camera)),
       scene_(first.made ? AnimatedScene(std::move(*first.made)) : open_animated_scene(options)) {
     if (!camera_at_) {

@@ -5,9 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <thread>
 
-#include "host/gpu/start_drivers.h"
 #include "host/measure/roofline/device_limits.h"
 #include "host/render/renderer.h"
 #include "host/scene/animated_scene.h"
@@ -73,7 +71,6 @@ class SceneRenderer {
     RenderSettings settings_of(const BudgetOptions& budget, const FrameRequest& want, double time);
 
     SharedOptions& options_;
-    std::jthread starting_;  // the drivers
     std::function<Camera(const Scene&, int, double)> camera_at_;
     AnimatedScene scene_;
     std::vector<SceneLight> lights_;  // of set_lights()

@@ -90,13 +90,6 @@ TEST_F(Faults, ADeviceOfTwoIsLeftOut) {
     EXPECT_GT(left_out, 0);
 }
 
-// The scene is there long before it.
-TEST_F(Faults, ADriverThatStartsSlowlyIsWaitedFor) {
-    const ChildResult result =
-        run_child(render_words(with_environment({"POCL_STARTUP_DELAY=1"}), elsewhere_ / "a.png"));
-    EXPECT_EQ(result.code, 0) << result.err;
-}
-
 TEST_F(Faults, NoPlatformNoDeviceNoOpenGl) {
     const std::string empty = elsewhere_.path().string();
     expect_refused(with_environment({"OCL_ICD_VENDORS=" + empty}), "OpenCL: no device found");
