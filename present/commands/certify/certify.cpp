@@ -176,6 +176,23 @@ std::vector<std::string> part_names() {
     return words;
 }
 
+void add_result_options(CLI::App& command, CertifyOptions& options) {
+    using Text = const std::string&;
+    OptionBuilder(command, "Output")
+        .text({"--output,-o", "FILE", "",
+               "Write the result as JSON; - prints it instead of the table"},
+              options.output)
+        .value(SettingKind::list,
+               {"--table", "FILE,...", "", "Print the table of certificates (-o FILE)"},
+               [&options](Text, Text text) {
+                   for (const std::string_view file : split(text, ',')) {
+                       options.tables.emplace_back(file);
+                   }
+               },
+               {})
+        .flag("--quiet", options.quiet, "No progress bar");
+}
+
 void add_certify_options(CLI::App& command, CertifyOptions& options) {
     using Text = const std::string&;
     OptionBuilder(command, "What is run")
@@ -225,19 +242,7 @@ void add_certify_options(CLI::App& command, CertifyOptions& options) {
               "Go on with the file of -o, which holds what an interrupted run with --isolate or "
               "--jobs found");
     add_question(command, "What is run", "--list-devices", "Print the OpenCL devices and leave");
-    OptionBuilder(command, "Output")
-        .text({"--output,-o", "FILE", "",
-               "Write the result as JSON; - prints it instead of the table"},
-              options.output)
-        .value(SettingKind::list,
-               {"--table", "FILE,...", "", "Print the table of certificates (-o FILE)"},
-               [&options](Text, Text text) {
-                   for (const std::string_view file : split(text, ',')) {
-                       options.tables.emplace_back(file);
-                   }
-               },
-               {})
-        .flag("--quiet", options.quiet, "No progress bar");
+    add_result_options(command, options);
 }
 
 constexpr const char* kCertifyExamples =
