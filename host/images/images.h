@@ -87,6 +87,7 @@ struct OcioOptions {
     std::string view;     // empty: the display's default; "none": OpenColorIO stays out
     std::string input;    // colour space of the radiance; empty: a linear Rec. 709 one by its usual
                           // names, else the role scene_linear
+    bool operator==(const OcioOptions&) const = default;
 };
 
 /// Linear RGB to the display's, in place; 3 * width values a row. Throws Error with OpenColorIO's

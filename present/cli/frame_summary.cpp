@@ -25,7 +25,7 @@ std::string time_line(std::string_view name, double ms) {
 }
 
 std::string group_lines(const FrameStats& stats) {
-    std::map<StageGroup, double> times = {{StageGroup::host, other_ms(stats)}};
+    std::map<StageGroup, double> times = {{StageGroup::host, outside_stages_ms(stats)}};
     for (const StageTime& stage : stats.stages) times[group_of(stage.name)] += stage.ms;
     std::string out;
     for (const auto& [group, ms] : times)
@@ -40,7 +40,7 @@ std::string stage_lines(const FrameStats& stats) {
         if (stage.limit_ms > 0.0) out += fmt::format("  (limit {:.2f} ms)", stage.limit_ms);
         out += "\n";
     }
-    return out + time_line(kOtherStage, other_ms(stats)) + "\n";
+    return out + time_line(kOtherStage, outside_stages_ms(stats)) + "\n";
 }
 
 std::string light_line(const FrameStats& s) {

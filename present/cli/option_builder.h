@@ -125,6 +125,12 @@ class OptionBuilder {
 /// Registers a setting as an option; of several values given the last one counts.
 void add_option(CLI::App& command, const Setting& setting);
 
+/// Registers all settings of `options`.
+template <typename Options>
+void add_options(CLI::App& command, Options& options) {
+    visit_settings(options, [&command](const Setting& setting) { add_option(command, setting); });
+}
+
 /// A flag that Program itself handles.
 void add_question(CLI::App& command, const std::string& heading, const std::string& name,
                   const std::string& meaning);

@@ -277,6 +277,10 @@ std::string text_of(const BackgroundChoice& choice) {
     };
     return fmt::format("#{:02x}{:02x}{:02x}", code(0), code(1), code(2));
 }
+std::string text_of(const FrameRange& frames) {
+    return fmt::format("{}:{}", frames.first, frames.last);
+}
+std::string text_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 std::string text_of(const Box& box) {
     return box.empty() ? "" : text_of(box.min) + "," + text_of(box.max);
 }

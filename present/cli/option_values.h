@@ -136,6 +136,8 @@ std::string text_of(int value);
 std::string text_of(const glm::dvec3& value);
 std::string text_of(const Box& value);
 std::string text_of(const BackgroundChoice& value);
+std::string text_of(const FrameRange& frames);
+std::string text_of(const Shard& shard);
 inline std::string text_of(const std::string& value) { return value; }
 template <typename T>
 requires requires(const T& value) { text_of(value); }

@@ -23,7 +23,7 @@ void check_reflections(const SharedOptions& options) {
 }  // namespace
 
 void add_shared_options(CLI::App& command, SharedOptions& options) {
-    visit_settings(options, [&command](const Setting& setting) { add_option(command, setting); });
+    add_options(command, options);
     add_question(command, "Device", "--list-devices", "Print the OpenCL devices and leave");
 }
 
@@ -44,26 +44,23 @@ void begin_command(const SharedOptions& options, bool compares) {
                                     : Verbosity::normal);
 }
 
-std::vector<Setting> settings_of(SharedOptions& options) {
-    std::vector<Setting> out;
-    visit_settings(options, [&out](const Setting& setting) { out.push_back(setting); });
-    return out;
-}
-
-std::string option_words(SharedOptions options) {
-    SharedOptions defaults;
+std::string option_words(const std::vector<Setting>& settings, const std::vector<Setting>& defaults,
+                         Changes least) {
+    const auto differs = [&](std::size_t i) { return settings[i].show() != defaults[i].show(); };
     // The default number of lights and the default ambient light hold for some rigs only.
-    const bool has_own_rig = options.rig != Rig::automatic;
-    const std::vector<Setting> standard = settings_of(defaults), settings = settings_of(options);
+    bool has_own_rig = false;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+        has_own_rig = has_own_rig || (settings[i].option() == "--rig" && differs(i));
+    }
     std::string out;
     for (std::size_t i = 0; i < settings.size(); ++i) {
         const Setting& setting = settings[i];
-        const std::string name = setting.option(), value = setting.show();
-        const bool of_rig = name == "--lights" || name == "--ambient";
-        const bool is_standard = value == standard[i].show() && !(of_rig && has_own_rig);
-        if (is_standard || name == "SCENE" || setting.heading == "General") continue;
+        const std::string name = setting.option();
+        const bool of_rig = has_own_rig && (name == "--lights" || name == "--ambient");
+        const bool is_said = (differs(i) || of_rig) && setting.text.effect.changes >= least;
+        if (!is_said || name == "SCENE" || setting.heading == "General") continue;
         out += " " + name;
-        if (setting.kind != SettingKind::flag) out += " " + shell_word(value);
+        if (setting.kind != SettingKind::flag) out += " " + shell_word(setting.show());
     }
     return out;
 }

@@ -52,7 +52,8 @@ struct SharedOptions {
 };
 
 /// Options of commands that write pictures.
-struct OutputOptions : Encoding {
+struct OutputOptions {
+    Encoding encoding;
     std::filesystem::path output;
     OcioOptions ocio;
     std::optional<FrameRange> frames;
@@ -66,19 +67,20 @@ struct OutputOptions : Encoding {
     std::optional<double> threshold;
     std::string metric = "rmse";
     std::filesystem::path difference;  // empty: none
+    bool mixed_devices = false;
+    bool operator==(const OutputOptions&) const = default;
 };
 
-/// Calls `visit` with each shared option and its value in `options`, in the order of --help. The
-/// one list of them: see Setting.
+/// Calls `visit` with each option and its value in `options`, in the order of --help. The one list
+/// of them: see Setting.
 void visit_settings(SharedOptions& options, const SettingVisitor& visit);
 void visit_picture_settings(SharedOptions& options, const SettingVisitor& visit);  // a part of it
+void visit_settings(OutputOptions& options, const SettingVisitor& visit);
 
-/// The same as a list, which refers to `options`.
-std::vector<Setting> settings_of(SharedOptions& options);
-
-/// The options that differ from the defaults, as words for a shell: " --lights 77 --rig none".
-/// Leaves out the scene and the options of printing.
-std::string option_words(SharedOptions options);
+/// The settings that differ from the same rows of the defaults and change `least` or more, as words
+/// for a shell: " --lights 77 --rig none". Leaves out the scene and the options of printing.
+std::string option_words(const std::vector<Setting>& settings, const std::vector<Setting>& defaults,
+                         Changes least);
 
 /// Registers the shared options.
 void add_shared_options(CLI::App& command, SharedOptions& options);
@@ -86,9 +88,6 @@ void add_shared_options(CLI::App& command, SharedOptions& options);
 /// Sets the verbosity. Throws UsageError for shared options that exclude or need each other;
 /// `compares`: the command line has --reference.
 void begin_command(const SharedOptions& options, bool compares = false);
-
-/// Output, sequence, statistics and comparison options.
-void add_output_options(CLI::App& command, OutputOptions& options);
 
 /// Throws UsageError for options that exclude or need each other.
 void check_output_options(const SharedOptions& shared, const OutputOptions& options);

@@ -13,6 +13,15 @@
 namespace kilolux {
 namespace {
 
+// A new member does not compile here: add a row below, then its name.
+void count_members(OutputOptions& options) {
+    [[maybe_unused]] auto& [encoding, output, ocio, frames, frames_per_second, shard, turntable,
+                            camera_keys, skip_existing, stats, reference, threshold, metric,
+                            difference, mixed_devices] = options;
+    [[maybe_unused]] auto& [half_colour, uint_ids, bits, png_level, exr_compression] = encoding;
+    [[maybe_unused]] auto& [display, view, input] = ocio;
+}
+
 // The file's name; throws UsageError for an unknown type of picture.
 std::string picture_file(const std::string&, const std::string& text) {
     image_meaning(text);
@@ -34,19 +43,9 @@ std::vector<std::string> exr_compressions() {
     return {std::begin(kExrCompressions), std::end(kExrCompressions)};
 }
 
-std::string exr_compression(const std::string& name, const std::string& text) {
-    const std::vector<std::string> known = exr_compressions();
-    return known[parse_name(name, text, known)];
-}
-
-void add_encoding_options(CLI::App& command, OutputOptions& o) {
-    const auto take_ids = [](const std::string& name, const std::string& text) {
-        return parse_name(name, text, {"float", "uint"}) == 1;
-    };
-    const auto bits = [](const std::string& name, const std::string& text) {
-        return parse_name(name, text, {"8", "16"}) == 0 ? 8 : 16;
-    };
-    OptionBuilder(command, "Output")
+void visit_encoding(const SettingVisitor& f, OutputOptions& o) {
+    Encoding& e = o.encoding;
+    OptionBuilder(f, "Output")
         .value({"--output,-o", "FILE", "",
                 "Picture: .exr and .hdr linear, .png .jpg .jpeg .tif .tiff for the eye; a sequence "
                 "has #### for the frame number. Video: .y4m, - for y4m on standard output, and "
@@ -54,43 +53,55 @@ void add_encoding_options(CLI::App& command, OutputOptions& o) {
                o.output, output_file)
         .text({"--stats", "FILE", "", "Times and counts as JSON; - for standard output"}, o.stats)
         .rest()
-        .flag("--exr-half", o.half_colour, "EXR colour in half precision")
-        .value({"--exr-compression", joined(exr_compressions(), "|"), kExrCompression,
-                "How EXR is compressed, without loss; none is fastest"},
-               o.exr_compression, exr_compression)
-        .value({"--aov-ids", "float|uint", "float",
-                "How EXR holds layers of whole numbers; uint in any case above 16777216, where "
-                "floats are not exact"},
-               o.uint_ids, take_ids)
-        .value({"--bits", "8|16", "", "Bits a channel of PNG and TIFF"}, o.bits, bits)
-        .count({"--png-level", "N", "",
-                "zlib's level of PNG, 0 to 9: higher ones take longer and make files smaller"},
-               o.png_level, {0, 9})
+        .flag("--exr-half", e.half_colour, "EXR colour in half precision", kPicture)
+        .choice({"--exr-compression", "", "",
+                 "How EXR is compressed, without loss; none is fastest", kTime},
+                e.exr_compression, {exr_compressions(), {}})
+        .choice({"--aov-ids", "", "",
+                 "How EXR holds layers of whole numbers; uint in any case above 16777216, where "
+                 "floats are not exact",
+                 kPicture},
+                e.uint_ids, {{"float", "uint"}, {}})
+        .choice(
+            {"--bits", "", "", "Bits a channel of PNG and TIFF", kPicture}, {{"8", "16"}, {}},
+            [&e](std::size_t place) { e.bits = place == 0 ? 8 : 16; },
+            [&e] { return text_of(e.bits); })
+        .count(
+            {"--png-level", "N", "",
+             "zlib's level of PNG, 0 to 9: higher ones take longer and make files smaller", kTime},
+            e.png_level, {0, 9})
         .text({"--ocio-view", "NAME|none", "the display's",
                "OpenColorIO view of pictures for the eye in place of --tonemap, where the "
-               "environment's OCIO names a configuration; none: no OpenColorIO"},
+               "environment's OCIO names a configuration; none: no OpenColorIO",
+               kPicture},
               o.ocio.view)
-        .text({"--ocio-display", "NAME", "the configuration's", "OpenColorIO display"},
+        .text({"--ocio-display", "NAME", "the configuration's", "OpenColorIO display", kPicture},
               o.ocio.display)
         .text({"--ocio-input", "NAME", "linear Rec. 709, else scene_linear",
-               "OpenColorIO colour space of the linear picture"},
+               "OpenColorIO colour space of the linear picture", kPicture},
               o.ocio.input);
 }
 
-void add_sequence_options(CLI::App& command, OutputOptions& o) {
-    OptionBuilder(command, "Sequences")
-        .value({"--frames", "A:B", "", "Frames A to B; frame f is at --time + f / --fps"}, o.frames,
-               parse_frames)
-        .number({"--fps", "F", "", "Frames a second"}, o.frames_per_second, {0.0, 1e6, true})
+void visit_sequence(const SettingVisitor& f, OutputOptions& o) {
+    // A picture of a sequence is that of its time, which its notes hold.
+    const bool one_file = is_video(o.output);
+    OptionBuilder(f, "Sequences")
+        .value({"--frames", "A:B", "", "Frames A to B; frame f is at --time + f / --fps",
+                one_file || o.turntable ? kPicture : kNeither},
+               o.frames, parse_frames)
+        .number({"--fps", "F", "", "Frames a second", one_file ? kPicture : kNeither},
+                o.frames_per_second, {0.0, 1e6, true})
         .value({"--shard", "I/N", "0/1", "Only every N-th frame, from the I-th on, counted from 0"},
                o.shard, parse_shard)
         .number({"--turntable", "DEGREES", "",
                  "The camera goes so far around the vertical axis through the scene's middle over "
-                 "the frames; 360 ends one step before its start"},
+                 "the frames; 360 ends one step before its start",
+                 kPicture},
                 o.turntable)
         .text({"--camera-keys", "FILE", "",
                "JSON list of {\"time\", \"position\", \"focal_point\", \"angle\"}, in seconds, "
-               "metres and degrees: a smooth way through them"},
+               "metres and degrees: a smooth way through them",
+               kPicture},
               o.camera_keys)
         .flag("--skip-existing", o.skip_existing,
               "Leave out frames whose file holds this picture, by its size and notes, and a video "
@@ -98,8 +109,8 @@ void add_sequence_options(CLI::App& command, OutputOptions& o) {
               "anew");
 }
 
-void add_comparison_options(CLI::App& command, OutputOptions& o) {
-    OptionBuilder(command, "Comparison")
+void visit_comparison(const SettingVisitor& f, OutputOptions& o) {
+    OptionBuilder(f, "Comparison")
         .text({"--reference", "FILE", "", "Compare the picture with this one"}, o.reference)
         .number({"--threshold", "T", "0", "Exit with 3 if the metric is above"}, o.threshold, {0.0})
         .choice({"--metric", "", "", "What is compared with the threshold"}, o.metric,
@@ -108,35 +119,38 @@ void add_comparison_options(CLI::App& command, OutputOptions& o) {
                 "Write the difference: .exr holds |picture - reference| a channel, .png a heat "
                 "map, logarithmic from 1e-6 to 1"},
                o.difference, picture_file);
+    OptionBuilder(f, "Device")
+        .flag("--mixed-devices", o.mixed_devices,
+              "With several devices: they may differ, and so may the bits of their frames; each "
+              "picture notes which one made it");
+}
+
+void refuse(bool is_wrong, const std::string& why) {
+    if (is_wrong) throw UsageError(why);
 }
 
 void check_sequence(const OutputOptions& options) {
     const auto check = [&options](const char* name, const std::filesystem::path& file) {
         const bool pattern = has_frame_pattern(file);
-        if (options.frames && !pattern) {
-            throw UsageError(fmt::format("{}: '{}' has no #### for the frame numbers of --frames",
-                                         name, file.string()));
-        }
-        if (!options.frames && pattern) {
-            throw UsageError(
-                fmt::format("{}: '{}' has # for a frame number, but there is no --frames A:B", name,
-                            file.string()));
-        }
+        refuse(options.frames && !pattern,
+               fmt::format("{}: '{}' has no #### for the frame numbers of --frames", name,
+                           file.string()));
+        refuse(!options.frames && pattern,
+               fmt::format("{}: '{}' has # for a frame number, but there is no --frames A:B", name,
+                           file.string()));
     };
     if (!is_video(options.output)) check("--output", options.output);
     if (!options.difference.empty()) check("--difference", options.difference);
-    if (!options.frames && options.shard.count > 1) throw UsageError("--shard: needs --frames A:B");
+    refuse(!options.frames && options.shard.count > 1, "--shard: needs --frames A:B");
 }
 
 void check_motion(const CameraChoice& camera, const OutputOptions& options) {
-    if (options.turntable && !options.frames) throw UsageError("--turntable: needs --frames A:B");
+    refuse(options.turntable && !options.frames, "--turntable: needs --frames A:B");
     if (options.camera_keys.empty()) return;
-    if (options.turntable) throw UsageError("--turntable and --camera-keys exclude each other");
-    if (camera.position || camera.focal_point || camera.index || camera.framed) {
-        throw UsageError(
-            "--camera-keys: says where the camera is; leave out --camera-position, "
-            "--camera-focal-point and --camera-index");
-    }
+    refuse(options.turntable.has_value(), "--turntable and --camera-keys exclude each other");
+    refuse(camera.position || camera.focal_point || camera.index || camera.framed,
+           "--camera-keys: says where the camera is; leave out --camera-position, "
+           "--camera-focal-point and --camera-index");
 }
 
 // An option of what a picture's file holds.
@@ -147,33 +161,31 @@ struct FormatOption {
     const char* misfit;  // of other files
 };
 
-std::vector<FormatOption> format_options(const SharedOptions& shared,
-                                         const OutputOptions& options) {
+std::vector<FormatOption> format_options(const SharedOptions& shared, const Encoding& e) {
     const bool has_layers = !shared.settings.want.aovs.empty();
     return {{"--aov", has_layers, holds_layers, "cannot hold layers; use .exr"},
-            {"--exr-half", options.half_colour, holds_layers, "is not an EXR file"},
-            {"--exr-compression", options.exr_compression != kExrCompression, holds_layers,
+            {"--exr-half", e.half_colour, holds_layers, "is not an EXR file"},
+            {"--exr-compression", e.exr_compression != kExrCompression, holds_layers,
              "is not an EXR file"},
-            {"--aov-ids", options.uint_ids, holds_layers, "is not an EXR file"},
-            {"--bits", options.bits == 16, holds_16_bits,
+            {"--aov-ids", e.uint_ids, holds_layers, "is not an EXR file"},
+            {"--bits", e.bits == 16, holds_16_bits,
              "cannot hold 16 bits a channel; use .png or .tif, or .exr for light"},
-            {"--png-level", options.png_level != kPngLevel, is_png, "is not a PNG file"}};
+            {"--png-level", e.png_level != kPngLevel, is_png, "is not a PNG file"}};
 }
 
 // A video is one file of display pictures, of all frames.
 void check_video(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
-    const auto refuse = [&file](bool asked, const char* what) {
-        if (asked) throw UsageError(fmt::format("{}: '{}' is a video", what, file));
+    const auto refuse_video = [&file](bool is_asked, const char* what) {
+        refuse(is_asked, fmt::format("{}: '{}' is a video", what, file));
     };
-    refuse(has_frame_pattern(file), "--output: #### for frame numbers");
-    refuse(options.shard.count > 1, "--shard");
-    for (const FormatOption& option : format_options(shared, options)) {
-        refuse(option.is_given, option.name);
+    refuse_video(has_frame_pattern(file), "--output: #### for frame numbers");
+    refuse_video(options.shard.count > 1, "--shard");
+    for (const FormatOption& option : format_options(shared, options.encoding)) {
+        refuse_video(option.is_given, option.name);
     }
-    if (file == "-" && options.stats == "-") {
-        throw UsageError("--stats: standard output is the video's; name a file");
-    }
+    refuse(file == "-" && options.stats == "-",
+           "--stats: standard output is the video's; name a file");
     check_video_size(file, shared.settings.width, shared.settings.height);
     uses_ocio(options.ocio);
 }
@@ -181,40 +193,36 @@ void check_video(const SharedOptions& shared, const OutputOptions& options) {
 void check_format(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
     if (is_video(file)) return check_video(shared, options);
-    for (const FormatOption& option : format_options(shared, options)) {
-        if (!option.is_given || option.fits(file)) continue;
-        throw UsageError(fmt::format("{}: '{}' {}", option.name, file, option.misfit));
+    for (const FormatOption& option : format_options(shared, options.encoding)) {
+        refuse(option.is_given && !option.fits(file),
+               fmt::format("{}: '{}' {}", option.name, file, option.misfit));
     }
-    if (image_meaning(file) == ImageMeaning::display) {
-        uses_ocio(options.ocio);
-    } else if (shared.show_error) {
-        throw UsageError(fmt::format(
-            "--show error: '{}' holds light; use .png, .jpg or .tif, or --difference", file));
-    }
+    const bool for_the_eye = image_meaning(file) == ImageMeaning::display;
+    if (for_the_eye) uses_ocio(options.ocio);
+    refuse(!for_the_eye && shared.show_error,
+           fmt::format("--show error: '{}' holds light; use .png, .jpg or .tif, or --difference",
+                       file));
 }
 
 }  // namespace
 
-void add_output_options(CLI::App& command, OutputOptions& options) {
-    add_encoding_options(command, options);
-    add_sequence_options(command, options);
-    add_comparison_options(command, options);
+void visit_settings(OutputOptions& options, const SettingVisitor& f) {
+    count_members(options);
+    visit_encoding(f, options);
+    visit_sequence(f, options);
+    visit_comparison(f, options);
 }
 
 void check_output_options(const SharedOptions& shared, const OutputOptions& options) {
-    if (options.output.empty()) throw UsageError("--output: needs a file, e.g. -o picture.png");
+    refuse(options.output.empty(), "--output: needs a file, e.g. -o picture.png");
     check_sequence(options);
     check_motion(shared.camera, options);
     check_format(shared, options);
-    if (options.reference.empty() && options.threshold) {
-        throw UsageError("--threshold: needs --reference FILE");
-    }
-    if (!options.reference.empty() && options.skip_existing) {
-        throw UsageError("--skip-existing: leaves frames out that --reference would compare");
-    }
-    if (options.reference.empty() && !options.difference.empty()) {
-        throw UsageError("--difference: needs --reference FILE");
-    }
+    const bool compares = !options.reference.empty();
+    refuse(!compares && options.threshold, "--threshold: needs --reference FILE");
+    refuse(compares && options.skip_existing,
+           "--skip-existing: leaves frames out that --reference would compare");
+    refuse(!compares && !options.difference.empty(), "--difference: needs --reference FILE");
 }
 
 }  // namespace kilolux

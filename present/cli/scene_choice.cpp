@@ -17,8 +17,8 @@
 #include "host/scene/lights/built_in_environments.h"
 #include "host/scene/lights/light_tree.h"
 #include "present/cli/names.h"
-#include "present/cli/prefiltered_cache.h"
 #include "present/cli/progress.h"
+#include "present/image/prefiltered_cache.h"
 
 namespace kilolux {
 namespace {

@@ -12,12 +12,14 @@ namespace kilolux {
 struct FrameRange {
     int first = 0;
     int last = 0;
+    bool operator==(const FrameRange&) const = default;
 };
 
 /// Part `index` of `count` of a sequence, so that any batch scheduler can spread it.
 struct Shard {
     int index = 0;  // 0 <= index < count
     int count = 1;
+    bool operator==(const Shard&) const = default;
 };
 
 /// Frames f of `range` with (f - range.first) % shard.count == shard.index, ascending. Counted, not

@@ -64,4 +64,12 @@ struct Setting {
 
 using SettingVisitor = std::function<void(const Setting&)>;
 
+/// The rows of visit_settings(options, visitor) as a list, which refers to `options`.
+template <typename Options>
+std::vector<Setting> settings_of(Options& options) {
+    std::vector<Setting> out;
+    visit_settings(options, [&out](const Setting& setting) { out.push_back(setting); });
+    return out;
+}
+
 }  // namespace kilolux

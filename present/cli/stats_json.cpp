@@ -52,7 +52,7 @@ void add_frame(Json& out, const FrameRecord& record) {
         out["stages"].push_back({{"name", stage.name}, {"ms", stage.ms}, {"limit_ms", limit}});
     }
     out["stages"].push_back(
-        {{"name", kOtherStage.name}, {"ms", other_ms(s)}, {"limit_ms", nullptr}});
+        {{"name", kOtherStage.name}, {"ms", outside_stages_ms(s)}, {"limit_ms", nullptr}});
     out["frame_ms"] = s.frame_ms;
     out["build_ms"] = s.build_ms;
     if (record.comparison) out["error"] = comparison_json(*record.comparison);

@@ -112,7 +112,7 @@ void add_bench_options(CLI::App& command, BenchOptions& options) {
               "Go on with the CSV in the folder, which the same program, device, tuning, scene and "
               "settings must have written")
         .flag("--json", options.json, "JSON instead of a table on standard output");
-    add_budget_options(command, options.budget);
+    add_options(command, options.budget);
 }
 
 }  // namespace kilolux

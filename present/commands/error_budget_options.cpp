@@ -87,28 +87,26 @@ RenderSettings tails_within_budget(const SharedOptions& shared, const BudgetOpti
 
 }  // namespace
 
-void add_budget_options(CLI::App& command, BudgetOptions& options) {
-    visit_budget_settings(options,
-                          [&command](const Setting& setting) { add_option(command, setting); });
-}
-
-void visit_budget_settings(BudgetOptions& options, const SettingVisitor& visit) {
+void visit_settings(BudgetOptions& options, const SettingVisitor& visit) {
     OptionBuilder(visit, "Error budget")
         .rest()
         .number({"--max-error", "E", "",
                  "Use the fastest setting whose error on this scene and device is at most E; of "
                  "sampled shadows it also chooses the rays, or exact ones, unless --shadow-rays "
-                 "is given"},
+                 "is given",
+                 kPicture},
                 options.max_error, {0.0})
         .choice(
             {"--error-metric", "", "flip",
              "What E is: against the float64 picture asked for; r1-: the kernels' error alone; "
              "r3-: lights without a range; bound: the most that any pixel of this view may lack "
-             "because such lights got one, in radiance: guaranteed, by --tails alone"},
+             "because such lights got one, in radiance: guaranteed, by --tails alone",
+             kPicture},
             options.metric, metric_names())
         .count({"--error-width", "W", "auto",
                 "Width of the pictures that errors are measured on; auto: at most 320 pixels, and "
-                "so few that the float64 reference takes seconds"},
+                "so few that the float64 reference takes seconds",
+                kPicture},
                options.error_width, kEdgeRange);
 }
 

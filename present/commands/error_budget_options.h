@@ -2,7 +2,6 @@
 // --max-error: the fastest setting within an error budget, for the commands that render.
 #pragma once
 
-#include <CLI/App.hpp>
 #include <optional>
 
 #include "host/measure/report/error_budget.h"
@@ -14,11 +13,11 @@ struct BudgetOptions {
     std::optional<double> max_error;
     std::string metric = "flip";
     std::optional<int> error_width;  // [pixel]; none: see ErrorSizeLimits
+    bool operator==(const BudgetOptions&) const = default;
 };
 
-/// Registers --max-error, --error-metric and --error-width.
-void add_budget_options(CLI::App& command, BudgetOptions& options);
-void visit_budget_settings(BudgetOptions& options, const SettingVisitor& visit);
+/// The rows of --max-error, --error-metric and --error-width.
+void visit_settings(BudgetOptions& options, const SettingVisitor& visit);
 
 /// The limits that --error-width sets.
 ErrorSizeLimits error_limits(const BudgetOptions& options);

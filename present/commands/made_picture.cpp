@@ -57,24 +57,10 @@ auto read_made(const std::filesystem::path& file, const Read& read)
 
 }  // namespace
 
-std::string picture_command(const SharedOptions& shared, const OutputOptions& output) {
-    SharedOptions shown = shared;
-    shown.settings.device.clear();  // a picture notes it by its name
-    std::string out = "kilolux render " + shell_word(shared.scene) + option_words(shown);
-    const OcioOptions& ocio = output.ocio;
-    for (const auto& [word, value] :
-         {std::pair(" --ocio-view ", &ocio.view), std::pair(" --ocio-display ", &ocio.display),
-          std::pair(" --ocio-input ", &ocio.input)}) {
-        if (!value->empty()) out += word + shell_word(*value);
-    }
-    if (output.half_colour) out += " --exr-half";
-    if (output.uint_ids) out += " --aov-ids uint";
-    if (output.bits != 8) out += fmt::format(" --bits {}", output.bits);
-    if (output.turntable) out += fmt::format(" --turntable {}", *output.turntable);
-    if (!output.camera_keys.empty()) {
-        out += " --camera-keys " + shell_word(output.camera_keys.string());
-    }
-    return out;
+std::string picture_command(const RenderOptions& options) {
+    RenderOptions noted = options, defaults;
+    return "kilolux render " + shell_word(options.shared.scene) +
+           option_words(settings_of(noted), settings_of(defaults), Changes::picture);
 }
 
 bool is_made(const WantedPicture& wanted) {
@@ -89,17 +75,13 @@ bool is_made(const WantedPicture& wanted) {
     return true;
 }
 
-WantedVideo wanted_video(const RenderSettings& settings, const OutputOptions& output,
-                         const std::string& command) {
-    WantedVideo out{.file = output.output,
-                    .format = {settings.width, settings.height, output.frames_per_second},
-                    .note = command};
-    if (!output.frames) return out;
-    const auto [first, last] = *output.frames;
-    out.frames = static_cast<std::uint64_t>(std::int64_t{last} - first + 1);
-    out.note +=
-        fmt::format(" --frames {}:{} --fps {}", first, last, text_of(output.frames_per_second));
-    return out;
+WantedVideo wanted_video(const RenderOptions& options) {
+    const RenderSettings& settings = options.shared.settings;
+    const OutputOptions& out = options.output;
+    return {.file = out.output,
+            .format = {settings.width, settings.height, out.frames_per_second},
+            .frames = out.frames ? ShardFrames(*out.frames, {}).size() : 1,
+            .note = options.command};
 }
 
 bool is_made(const WantedVideo& wanted) {

@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <string>
 
-#include "present/cli/options.h"
+#include "present/commands/picture_files.h"
 #include "present/video/y4m.h"
 
 namespace kilolux {
 
-/// The command that makes the pictures of these options, without names of files; a picture notes
-/// it.
-std::string picture_command(const SharedOptions& shared, const OutputOptions& output);
+/// The command that makes the pictures of these options, by those that change a picture, without
+/// the output's name; a picture notes it.
+std::string picture_command(const RenderOptions& options);
 
 /// A picture that may be in a file already.
 struct WantedPicture {
@@ -28,12 +28,10 @@ struct WantedVideo {
     std::filesystem::path file;
     VideoFormat format;
     std::uint64_t frames = 1;
-    std::string note;  // picture_command() and the frames
+    std::string note;  // picture_command()
 };
 
-/// `command`: picture_command().
-WantedVideo wanted_video(const RenderSettings& settings, const OutputOptions& output,
-                         const std::string& command);
+WantedVideo wanted_video(const RenderOptions& options);
 
 /// Whether the file holds this picture, by its size and, where its format keeps them, its notes. A
 /// file that cannot be read counts as none, with a note. Throws Error for another picture.

@@ -37,7 +37,7 @@ std::vector<float> covered_colours(const RenderOptions& options, const Frame& fr
 ImageOptions image_options(const RenderOptions& options, const RenderedPicture& picture) {
     const OutputOptions& out = options.output;
     const bool for_the_eye = is_for_the_eye(picture.task.file);
-    ImageOptions image{out};
+    ImageOptions image{out.encoding};
     image.alpha = picture.alpha;
     if (for_the_eye && wants_own_display(options)) {
         RenderSettings settings = options.shared.settings;
@@ -62,7 +62,7 @@ OrderedWriter::Write coded(const RenderOptions& options, RenderedPicture& pictur
     if (picture.difference) {
         write_difference = [file = task.difference,
                             bytes = encode_image(task.difference, *picture.difference, {},
-                                                 ImageOptions{options.output})] {
+                                                 ImageOptions{options.output.encoding})] {
             write_atomically(file, bytes);
         };
     }
@@ -94,7 +94,7 @@ void count(WrittenPictures& made, FrameRecord record) {
 std::unique_ptr<VideoFile> open_video(const RenderOptions& options) {
     const OutputOptions& out = options.output;
     if (!is_video(out.output)) return nullptr;
-    const WantedVideo wanted = wanted_video(options.shared.settings, out, options.command);
+    const WantedVideo wanted = wanted_video(options);
     return std::make_unique<VideoFile>(out.output, wanted.format, wanted.note);
 }
 
@@ -119,12 +119,18 @@ std::size_t most_held(const RenderedPicture& picture, std::size_t pictures,
 
 }  // namespace
 
+void visit_settings(RenderOptions& options, const SettingVisitor& visit) {
+    visit_settings(options.shared, visit);
+    visit_settings(options.output, visit);
+    visit_settings(options.budget, visit);
+}
+
 bool is_for_the_eye(const fs::path& output) {
     return is_video(output) || image_meaning(output) == ImageMeaning::display;
 }
 
 bool wants_own_display(const RenderOptions& options) {
-    return options.output.bits == 16 || uses_ocio(options.output.ocio);
+    return options.output.encoding.bits == 16 || uses_ocio(options.output.ocio);
 }
 
 PictureFiles::PictureFiles(const RenderOptions& options, std::size_t count,

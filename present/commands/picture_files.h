@@ -25,9 +25,11 @@ struct RenderOptions {
     OutputOptions output;
     BudgetOptions budget;
     bool has_alpha = false;  // the picture: see wants_alpha()
-    bool mixed_devices = false;
-    std::string command{};  // picture_command() of what was asked for
+    std::string command{};   // picture_command() of what was asked for
+    bool operator==(const RenderOptions&) const = default;
 };
+
+void visit_settings(RenderOptions& options, const SettingVisitor& visit);
 
 /// One picture to make: a frame of the sequence, or the only one.
 struct PictureTask {

@@ -45,7 +45,7 @@ ImageNotes notes_of(const RenderOptions& options, SceneRenderer& pictures,
 // Says where a layer is stored as the options did not ask for.
 void note_layers(const RenderOptions& options, const Frame& frame, const fs::path& file) {
     for (const Layer& layer : frame.aovs) {
-        if (options.output.uint_ids || float_holds(layer)) continue;
+        if (options.output.encoding.uint_ids || float_holds(layer)) continue;
         note(fmt::format("{}: layer {} is UINT: a float does not hold its largest numbers",
                          file.string(), layer.name));
     }
@@ -186,8 +186,7 @@ std::vector<std::string> indices_of(const std::string& choice) {
 PictureTasks::PictureTasks(const RenderOptions& options) : options_(options) {
     const OutputOptions& out = options.output;
     if (out.frames) frames_.emplace(*out.frames, out.shard);
-    has_video_ = out.skip_existing && is_video(out.output) &&
-                 is_made(wanted_video(options.shared.settings, out, options.command));
+    has_video_ = out.skip_existing && is_video(out.output) && is_made(wanted_video(options));
 }
 
 PictureTask PictureTasks::operator[](std::size_t i) const {

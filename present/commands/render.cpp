@@ -122,7 +122,7 @@ void report_pictures(const RenderOptions& options, SceneRenderer& pictures,
 // Leaves the first of several devices in the settings. Returns the others.
 std::vector<std::string> take_devices(RenderOptions& options) {
     std::string& device = options.shared.settings.device;
-    std::vector<std::string> devices = devices_of(device, options.mixed_devices);
+    std::vector<std::string> devices = devices_of(device, options.output.mixed_devices);
     device = devices.front();
     devices.erase(devices.begin());
     if (!devices.empty() && !options.output.frames) {
@@ -147,7 +147,7 @@ void run_render(RenderOptions& options) {
     const OutputOptions& out = options.output;
     check_output_options(options.shared, out);
     const std::vector<std::string> more_devices = take_devices(options);
-    options.command = picture_command(options.shared, out);
+    options.command = picture_command(options);
     options.has_alpha = wants_alpha(options);  // lighting the scene may change the background
     begin_command(options.shared, !out.reference.empty());
     check_budget(options.shared, options.budget);
@@ -183,13 +183,8 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
     options.shared.takes_automatic_samples = true;
     options.shared.shows_environment = true;
     add_shared_options(command, options.shared);
-    add_output_options(command, options.output);
-    add_budget_options(command, options.budget);
-    OptionBuilder(command, "Device")
-        .flag("--mixed-devices", options.mixed_devices,
-              "With several devices: they may differ, and so may the bits of their frames; each "
-              "picture "
-              "notes which one made it");
+    add_options(command, options.output);
+    add_options(command, options.budget);
 }
 
 constexpr const char* kRenderExamples =

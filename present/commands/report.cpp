@@ -145,12 +145,12 @@ void write_report(const ReportOptions& options, const Report& report, ReportRun&
 
 // Throws where another setting beats the default and --check-default is given, else warns.
 void check_default(const ReportOptions& options, const std::vector<ReportRow>& rows) {
-    const ReportRow* other = row_that_beats_default(rows);
-    if (other == nullptr) return;
+    const ReportRow* better = row_that_beats_default(rows);
+    if (better == nullptr) return;
     const std::string text = fmt::format(
         "the default is not in the Pareto set: {} takes {:.2f} of its time, its R2 RMSE is {:.3g} "
         "for {:.3g}",
-        other->setting.name, other->speed.relative, other->surfaces.hdr.rmse,
+        better->setting.name, better->speed.relative, better->surfaces.hdr.rmse,
         rows.front().surfaces.hdr.rmse);
     if (options.check_default) throw ComparisonFailed(text);
     warn(text);
@@ -224,7 +224,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
         .text({"--output,-o", "DIR", "", "Folder for CSV, JSON, Markdown, plots and pictures"},
               options.output)
         .flag("--json", options.json, "JSON instead of a table on standard output");
-    add_budget_options(command, options.budget);
+    add_options(command, options.budget);
 }
 
 constexpr const char* kReportExamples =

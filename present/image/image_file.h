@@ -60,6 +60,7 @@ struct Encoding {
     int bits = 8;               // PNG, TIFF: a channel, 8 or 16
     int png_level = kPngLevel;  // of zlib's compression, 0..9
     std::string exr_compression = kExrCompression;
+    bool operator==(const Encoding&) const = default;
 };
 
 /// The parts of a file beside its frame.

@@ -133,12 +133,10 @@ class FullPlanes {
 };
 
 KernelFeatures features_of(const HostSurfaces& surfaces, const LightRows& rows, int shading) {
-    KernelFeatures features;
+    KernelFeatures features{rows.features};
     features.shading = shading;
     features.gbuffer = GBUFFER_FULL;
     features.point_lights = true;
-    features.spot_lights = rows.has_spot;
-    features.directional_lights = !rows.directional.empty();
     features.metallic = !surfaces.metallic.empty();
     features.emissive = !surfaces.emissive.empty();
     features.material = features.metallic || features.emissive;

@@ -37,7 +37,7 @@ py::dict probe_dict(const ThreadRenderer::Probed& probed) {
     };
     const ToWorld to_world{probed.camera};
     py::dict out;
-    out["drawn"] = probe.drawn();
+    out["drawn"] = probe.has_surface();
     out["depth"] = probe.surface[SURFACE_DEPTH];
     out["position"] = tuple_of(to_world.point(three(SURFACE_POSITION)));
     out["normal"] = tuple_of(to_world.direction(three(SURFACE_NORMAL)));

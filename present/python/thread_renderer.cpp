@@ -45,11 +45,9 @@ FrameRequest request_of(const SharedOptions& shared, bool counts, bool probes) {
 
 }  // namespace
 
-std::vector<Setting> settings_of(RendererOptions& options) {
-    std::vector<Setting> out = settings_of(options.shared);
-    visit_budget_settings(options.budget,
-                          [&out](const Setting& setting) { out.push_back(setting); });
-    return out;
+void visit_settings(RendererOptions& options, const SettingVisitor& visit) {
+    visit_settings(options.shared, visit);
+    visit_settings(options.budget, visit);
 }
 
 RendererOptions parse_renderer_options(const std::string& scene,
@@ -62,7 +60,7 @@ RendererOptions parse_renderer_options(const std::string& scene,
     options.shared.takes_automatic_samples = true;
     options.shared.shows_environment = true;
     add_shared_options(app, options.shared);
-    add_budget_options(app, options.budget);
+    add_options(app, options.budget);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     refuse_extras(app, app.remaining());
     if (app.get_option("--list-devices")->count() > 0) {

@@ -22,7 +22,7 @@ struct RendererOptions {
 };
 
 /// The options of a renderer with their values in `options`.
-std::vector<Setting> settings_of(RendererOptions& options);
+void visit_settings(RendererOptions& options, const SettingVisitor& visit);
 
 /// Throws UsageError or CLI::ParseError as the command line would. `scene`: a generated scene, a
 /// file, or the name of a scene made from arrays.

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "host/base/error.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/config_file.h"
 #include "present/program.h"
@@ -44,7 +45,7 @@ void parse(const Words& words) {
     SharedOptions shared;
     OutputOptions output;
     add_shared_options(app, shared);
-    add_output_options(app, output);
+    add_options(app, output);
     app.parse(std::vector<std::string>(words.words.rbegin(), words.words.rend()));
     refuse_extras(app, app.remaining());
     if (words.has_config) {

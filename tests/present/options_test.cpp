@@ -8,6 +8,7 @@
 
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
+#include "present/cli/option_builder.h"
 #include "tests/support/messages.h"
 
 namespace kilolux {
@@ -23,7 +24,7 @@ Parsed parse(const std::string& line) {
     Parsed parsed;
     CLI::App app;
     add_shared_options(app, parsed.shared);
-    add_output_options(app, parsed.output);
+    add_options(app, parsed.output);
     std::istringstream words(line);
     std::vector<std::string> arguments;
     for (std::string word; words >> word;) arguments.insert(arguments.begin(), word);
@@ -87,7 +88,7 @@ TEST(Options, DefaultsInHelpAreTheRealOnes) {
     SharedOptions shared;
     OutputOptions output;
     add_shared_options(app, shared);
-    add_output_options(app, output);
+    add_options(app, output);
     std::vector<std::string> arguments;
     for (const CLI::Option* option : app.get_options()) {
         const std::string text = option->get_default_str();
@@ -171,7 +172,7 @@ TEST(Options, OutputOptionsArrive) {
         "-o a/f.####.exr --exr-half --frames 3:9 --fps 12.5 --shard 1/4 --skip-existing --stats - "
         "--reference r.exr --threshold 0.01 --metric max --quiet");
     EXPECT_EQ(p.output.output, "a/f.####.exr");
-    EXPECT_TRUE(p.output.half_colour);
+    EXPECT_TRUE(p.output.encoding.half_colour);
     ASSERT_TRUE(p.output.frames.has_value());
     EXPECT_EQ(p.output.frames->first, 3);
     EXPECT_EQ(p.output.frames->last, 9);

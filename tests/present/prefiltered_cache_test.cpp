@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "present/cli/prefiltered_cache.h"
+#include "present/image/prefiltered_cache.h"
 
 #include <gtest/gtest.h>
 

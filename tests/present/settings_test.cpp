@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests every shared option: all code that reads the table of settings reads all of it.
+// Tests every option of `kilolux render`: all code that reads the rows of settings reads all of
+// them.
 #include <gtest/gtest.h>
 
 #include <wordexp.h>
@@ -9,8 +10,10 @@
 #include <set>
 
 #include "host/scene/generated/scenes.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/scene_choice.h"
 #include "present/commands/bench.h"
+#include "present/commands/made_picture.h"
 #include "present/config_file.h"
 #include "present/window/app/command_text.h"
 #include "present/window/app/state_file.h"
@@ -28,11 +31,22 @@ SharedOptions render_options() {
     return options;
 }
 
+// The defaults: of the shared options, or of all that render takes.
+template <typename Options>
+Options initial() {
+    if constexpr (std::is_same_v<Options, SharedOptions>) {
+        return render_options();
+    } else {
+        return {.shared = render_options(), .output = {}, .budget = {}};
+    }
+}
+
 // The options that the command line makes of words.
-SharedOptions parsed(std::vector<std::string> words) {
-    SharedOptions options = render_options();
+template <typename Options = SharedOptions>
+Options parsed(std::vector<std::string> words) {
+    Options options = initial<Options>();
     CLI::App app;
-    add_shared_options(app, options);
+    add_options(app, options);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return options;
 }
@@ -56,6 +70,19 @@ const std::map<std::string, std::string>& special_values() {
         {"--max-memory", "1073741824"},
         {"--grid", "8,4,2"},
         {"--lanes", "4"},
+        {"--output", "a.exr"},
+        {"--exr-compression", "zips"},
+        {"--aov-ids", "uint"},
+        {"--bits", "16"},
+        {"--frames", "3:9"},
+        {"--shard", "1/4"},
+        {"--stats", "-"},
+        {"--ocio-view", "Film"},
+        {"--ocio-display", "P3"},
+        {"--ocio-input", "ACEScg"},
+        {"--camera-keys", "my keys.json"},
+        {"--reference", "r.exr"},
+        {"--difference", "d.png"},
     };
     return values;
 }
@@ -79,24 +106,27 @@ std::string other_value(const Setting& setting) {
     }
 }
 
+template <typename Options = SharedOptions>
 struct ChangedOption {
     std::string option, word, text;
-    SharedOptions options;  // as the command line gives it
+    Options options;  // as the command line gives it
 };
 
-std::vector<ChangedOption> changed_options() {
-    SharedOptions defaults = render_options();
-    std::vector<ChangedOption> out;
+template <typename Options = SharedOptions>
+std::vector<ChangedOption<Options>> changed_options() {
+    Options defaults = initial<Options>();
+    std::vector<ChangedOption<Options>> out;
     for (const Setting& setting : settings_of(defaults)) {
         const std::string text = other_value(setting);
         const bool positional = setting.option() == "SCENE";
         out.push_back({setting.option(), setting.word(), text,
-                       parsed({positional ? text : setting.option() + "=" + text})});
+                       parsed<Options>({positional ? text : setting.option() + "=" + text})});
     }
     return out;
 }
 
-std::map<std::string, std::string> texts_of(SharedOptions options) {
+template <typename Options>
+std::map<std::string, std::string> texts_of(Options options) {
     std::map<std::string, std::string> out;
     for (const Setting& setting : settings_of(options)) out[setting.option()] = setting.show();
     return out;
@@ -106,9 +136,10 @@ std::map<std::string, std::string> texts_of(SharedOptions options) {
 const Names kOfNoResult = {"--strict", "--allow-outside-paths", "--quiet", "--verbose", "--device"};
 
 TEST(Settings, EachChangesItselfAlone) {
-    const auto before = texts_of(render_options());
-    for (const ChangedOption& changed : changed_options()) {
-        EXPECT_FALSE(changed.options == render_options()) << changed.option;
+    const auto defaults = initial<RenderOptions>();
+    const auto before = texts_of(defaults);
+    for (const auto& changed : changed_options<RenderOptions>()) {
+        EXPECT_FALSE(changed.options == defaults) << changed.option;
         for (const auto& [option, text] : texts_of(changed.options)) {
             EXPECT_EQ(text, option == changed.option ? changed.text : before.at(option))
                 << changed.option << " and " << option;
@@ -159,7 +190,7 @@ TEST(Settings, RefuseAResumeWithAnotherValue) {
     EXPECT_NO_THROW(require_same_context(file, context(render_options())));
     // Rows say them; lanes are in the tuning, too.
     const Names swept = {"--renderer", "--resolution", "--lights", "--grid", "--gbuffer"};
-    for (const ChangedOption& changed : changed_options()) {
+    for (const auto& changed : changed_options()) {
         std::string refusal;
         try {
             require_same_context(file, context(changed.options));
@@ -177,7 +208,7 @@ TEST(Settings, AreInTheKeyOfAChoice) {
     const auto key = [&](const SharedOptions& options) {
         return conditions_json(options, scene, choose_camera(options, scene)).dump();
     };
-    for (const ChangedOption& changed : changed_options()) {
+    for (const auto& changed : changed_options()) {
         EXPECT_EQ(key(changed.options) == key(render_options()),
                   kOfNoResult.contains(changed.option))
             << changed.option;
@@ -192,7 +223,7 @@ TEST(Settings, OfThePanelComeBack) {
         "--rig",        "--lights",          "--light-radius", "--light-seed", "--tails",
         "--tree-share", "--light-intensity", "--grid",         "--lanes"};
     std::size_t found = 0;
-    for (const ChangedOption& changed : changed_options()) {
+    for (const auto& changed : changed_options()) {
         if (!panel.contains(changed.option)) continue;
         ++found;
         const TemporaryFolder folder;
@@ -213,19 +244,63 @@ TEST(Settings, OfThePanelComeBack) {
 
 TEST(Settings, ComeFromConfigFiles) {
     const TemporaryFolder folder;
-    for (const ChangedOption& changed : changed_options()) {
+    for (const auto& changed : changed_options<RenderOptions>()) {
         const nlohmann::json text = changed.text;
         write_text(folder / "a.toml", changed.word + " = " + text.dump() + "\n");
         write_text(folder / "a.json", nlohmann::json{{changed.word, changed.text}}.dump());
         for (const char* name : {"a.toml", "a.json"}) {
-            SharedOptions options = render_options();
+            auto options = initial<RenderOptions>();
             CLI::App app;
-            add_shared_options(app, options);
+            add_options(app, options);
             app.parse(std::vector<std::string>{});
             apply_config_file(app, folder / name);
             EXPECT_EQ(options, changed.options) << changed.option << " by " << name;
         }
     }
+}
+
+// A picture's note holds the options that change it, and --skip-existing refuses it by them.
+TEST(Settings, AreInTheNoteOfAPictureThatTheyChange) {
+    const Names of_no_picture = {"--strict",       "--allow-outside-paths",
+                                 "--quiet",        "--verbose",
+                                 "--device",       "--no-reuse",
+                                 "--max-memory",   "--lanes",
+                                 "--output",       "--stats",
+                                 "--frames",       "--fps",
+                                 "--shard",        "--exr-compression",
+                                 "--png-level",    "--metric",
+                                 "--threshold",    "--reference",
+                                 "--difference",   "--skip-existing",
+                                 "--mixed-devices"};
+    const TemporaryFolder folder;
+    const std::string before = picture_command(initial<RenderOptions>());
+    Frame frame;
+    frame.width = 2;
+    frame.height = 1;
+    frame.display.resize(8);
+    write_image(folder / "a.png", frame, {{{"command", before}, {"time", "0 s"}}, {}});
+    for (const auto& changed : changed_options<RenderOptions>()) {
+        const std::string command = picture_command(changed.options);
+        const bool stays = of_no_picture.contains(changed.option);
+        EXPECT_EQ(command == before, stays) << changed.option << ": " << command;
+        const WantedPicture wanted{folder / "a.png", 2, 1, command, "0 s"};
+        if (stays) {
+            EXPECT_TRUE(is_made(wanted)) << changed.option;
+        } else {
+            EXPECT_THROW(is_made(wanted), Error) << changed.option;
+        }
+    }
+}
+
+// A video's frames are in one file, and a turntable's angle is a share of its frames.
+TEST(Settings, FramesAreInTheNoteWhereAPictureDependsOnThem) {
+    const auto command = [](const std::vector<std::string>& words) {
+        return picture_command(parsed<RenderOptions>(words));
+    };
+    EXPECT_EQ(command({"--output=a.mp4", "--frames=3:9", "--fps=12"}),
+              "kilolux render atrium --frames 3:9 --fps 12");
+    EXPECT_EQ(command({"--output=a.#.png", "--turntable=90", "--frames=3:9", "--fps=12"}),
+              "kilolux render atrium --frames 3:9 --turntable 90");
 }
 
 // The words of a shell.
@@ -250,7 +325,7 @@ TEST(Settings, AreInTheCopiedCommand) {
                             "--camera-view-angle",
                             "--camera-orthographic",
                             "--fit"};
-    for (const ChangedOption& changed : changed_options()) {
+    for (const auto& changed : changed_options()) {
         if (not_said.contains(changed.option)) continue;
         const CameraRig rig(choose_camera(changed.options, scene), bounds(scene));
         auto words = shell_words(render_command(rig, changed.options, scene));

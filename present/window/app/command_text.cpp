@@ -40,7 +40,10 @@ std::string render_command(const CameraRig& rig, const SharedOptions& options, c
     SharedOptions said = options;
     said.camera = {};                 // camera_options() writes it
     said.settings.want.aovs.clear();  // a PNG has no layers
-    const std::string out = "kilolux render " + shell_word(options.scene) + option_words(said);
+    SharedOptions defaults;
+    const std::string out =
+        "kilolux render " + shell_word(options.scene) +
+        option_words(settings_of(said), settings_of(defaults), Changes::neither);
     const std::string camera = camera_options(rig, options, scene);
     return fmt::format("{}{}{} -o kilolux.png", out, camera.empty() ? "" : " ", camera);
 }

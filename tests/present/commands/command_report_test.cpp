@@ -11,6 +11,7 @@
 #include "host/measure/report/run.h"
 #include "host/scene/generated/scenes.h"
 #include "present/cli/names.h"
+#include "present/cli/option_builder.h"
 #include "present/cli/options.h"
 #include "present/commands/error_budget_options.h"
 #include "tests/support/cache_sandbox.h"
@@ -84,7 +85,7 @@ TEST_F(Report, WritesTablesPlotsAndPictures) {
 // Every light for every pixel takes many times longer one by one; on CPUs lanes change no bit.
 TEST_F(Report, TellsWhereAnotherSettingBeatsTheDefault) {
     if (!describe(choose_device("")).is_cpu) GTEST_SKIP() << "a GPU's lanes differ little";
-    const auto told = [](std::vector<std::string> more) {
+    const auto report_with = [](std::vector<std::string> more) {
         more.insert(more.end(), {"grid", "--resolution", "160,90", "--lights", "2000",
                                  "--error-width", "16", "--renderer", "deferred-all", "--axes",
                                  "lanes", "--quick", "--warm-up", "1", "--frames", "4"});
@@ -92,13 +93,13 @@ TEST_F(Report, TellsWhereAnotherSettingBeatsTheDefault) {
         return run_kilolux(more);
     };
     const std::string text = "the default is not in the Pareto set: lanes 16 takes 0.";
-    const ChildResult warned = told({"--lanes", "1"});
+    const ChildResult warned = report_with({"--lanes", "1"});
     EXPECT_EQ(warned.code, 0) << warned.err;
     EXPECT_TRUE(contains(warned.err, "kilolux: warning: " + text)) << warned.err;
-    const ChildResult failed = told({"--lanes", "1", "--check-default"});
+    const ChildResult failed = report_with({"--lanes", "1", "--check-default"});
     EXPECT_EQ(failed.code, 3) << failed.err;
     EXPECT_TRUE(contains(failed.err, "kilolux: " + text)) << failed.err;
-    const ChildResult best = told({"--lanes", "16", "--check-default"});
+    const ChildResult best = report_with({"--lanes", "16", "--check-default"});
     EXPECT_EQ(best.code, 0) << best.err;
     EXPECT_FALSE(contains(best.err, "Pareto")) << best.err;
 }
@@ -139,7 +140,7 @@ ErrorBudget budget_with(const std::vector<std::string>& words) {
     BudgetOptions options;
     CLI::App app;
     add_shared_options(app, shared);
-    add_budget_options(app, options);
+    add_options(app, options);
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return budget_of(shared, options);
 }
