@@ -3,6 +3,7 @@
 // sample along a footprint; a texture that several uses read counts once. For limits; no part of a
 // frame otherwise.
 // One work-item counts for VW neighbouring pixels of a row.
+#include "kernels/device/arguments.h"
 #include "kernels/device/triangle.h"
 #include "kernels/shared/surface_of.h"
 
@@ -47,15 +48,9 @@ static inline UV texels_of_material(SurfaceScene scene, uint material, const Fra
 }
 #endif
 
-kernel void count_texels(
-    global const uint* restrict ids,  // [height][stride]: triangle + 1; 0 for background
-    View view,
-    global const InstanceRow* restrict instances,  // ascending first_triangle, and an end
-    global const uint* restrict instance_blocks,   // by INSTANCE_BLOCK triangles
-    global const MeshRow* restrict meshes, global const float* restrict vertices,
-    global const uint* restrict indices, global const SurfaceMaterial* restrict materials,
-    global const TextureRow* restrict textures, global const ulong* restrict texels,
-    global uint* restrict counts) {  // out [height][stride]; 0 for background
+// ids: [height][stride], triangle + 1; 0 for background. counts: likewise.
+kernel void count_texels(global const uint* restrict ids, View view, SCENE_ARGS,
+                         global uint* restrict counts) {
     uint x = (uint)get_global_id(0) * VW;
     uint y = get_global_id(1);
     if (y >= view.height) return;
@@ -64,8 +59,7 @@ kernel void count_texels(
     MASK shown = lane_mask(id != (UV)(0u)) & within_width(view, pixels);
     UV count = (UV)(0u);
     if (lane_any(shown)) {
-        SurfaceScene scene = {instances, instance_blocks, meshes,   vertices,
-                              indices,   materials,       textures, texels};
+        SurfaceScene scene = SCENE_OF_ARGS;
         Fragment fragment = interpolate_fragment(scene, view, pixels, id, shown);
         for (MASK left = shown; lane_any(left);) {
             uint material = first_of(fragment.material, left);

@@ -55,17 +55,19 @@ static inline uint normal_code(View view, float4 v, uint is_world) {
     return pack_normal(octahedral.x, octahedral.y);
 }
 
-kernel void repack_gbuffer(SOURCE(uint) depth,     // [height][pitch], bits of a float or 24
-                           SOURCE(NORMAL) normal,  // [height][pitch]
-                           SOURCE(ALBEDO) albedo,  // [height][pitch]
-                           uint pitch,             // [pixel]
-                           uint invert,            // 1: the depth plane holds 1 - d
-                           uint world_normals,     // 0: they are in view space
-                           float roughness,        // below 0: that of the albedo's 4th channel
-                           GBufferLayout layout, View view,
-                           global const float* restrict bucket_boundary,  // [SRGB_BUCKETS]
-                           global const uint* restrict bucket_code,       // [SRGB_BUCKETS]
-                           global uchar* restrict gbuffer) {              // out
+// depth: bits of a float or 24; it, normal and albedo are [height][pitch], pitch in pixels. invert:
+// 1: the depth plane holds 1 - d. world_normals: 0: they are in view space. roughness: below 0:
+// that of the albedo's 4th channel.
+#define SOURCE_ARGS                                                               \
+    SOURCE(uint)                                                                  \
+    depth, SOURCE(NORMAL) normal, SOURCE(ALBEDO) albedo, uint pitch, uint invert, \
+        uint world_normals, float roughness
+
+// bucket_boundary, bucket_code: [SRGB_BUCKETS].
+kernel void repack_gbuffer(SOURCE_ARGS, GBufferLayout layout, View view,
+                           global const float* restrict bucket_boundary,
+                           global const uint* restrict bucket_code,
+                           global uchar* restrict gbuffer) {
     uint place = get_global_id(0);
     if (place >= view.stride * view.height) return;
     uint x = place % view.stride;
