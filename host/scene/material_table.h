@@ -7,33 +7,37 @@
 #include <type_traits>
 #include <variant>
 
+#include "host/base/scene_features.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/material.h"
 
 namespace kilolux {
 
 /// A texture of a material. The loader, its rules, the rows for devices, the exporter and the
-/// references loop over these.
+/// references loop over these. A path "extensions.NAME..." says that the extension NAME is read.
 struct MaterialMap {
     int use;                // its number on devices, USE_*
     std::string_view path;  // in a glTF material
     TextureUse Material::*member;
-    bool srgb;                  // its colours are stored as sRGB
-    std::string_view channels;  // that are read
+    bool srgb;                              // its colours are stored as sRGB
+    std::string_view channels;              // that are read
+    bool SceneFeatures::*needed = nullptr;  // scenes without this do not keep it; null: all keep it
 };
 
 inline constexpr std::array<MaterialMap, USE_COUNT> kMaterialMaps = {{
     {USE_BASE_COLOR, "pbrMetallicRoughness.baseColorTexture", &Material::base_color_texture, true,
      "rgba"},
     {USE_METALLIC_ROUGHNESS, "pbrMetallicRoughness.metallicRoughnessTexture",
-     &Material::metallic_roughness_texture, false, "gb"},
+     &Material::metallic_roughness_texture, false, "gb", &SceneFeatures::gloss},
     {USE_NORMAL, "normalTexture", &Material::normal_texture, false, "rgb"},
-    {USE_OCCLUSION, "occlusionTexture", &Material::occlusion_texture, false, "r"},
-    {USE_EMISSIVE, "emissiveTexture", &Material::emissive_texture, true, "rgb"},
+    {USE_OCCLUSION, "occlusionTexture", &Material::occlusion_texture, false, "r",
+     &SceneFeatures::occlusion},
+    {USE_EMISSIVE, "emissiveTexture", &Material::emissive_texture, true, "rgb",
+     &SceneFeatures::material},
     {USE_SPECULAR, "extensions.KHR_materials_specular.specularTexture", &Material::specular_texture,
-     false, "a"},
+     false, "a", &SceneFeatures::specular},
     {USE_SPECULAR_COLOR, "extensions.KHR_materials_specular.specularColorTexture",
-     &Material::specular_color_texture, true, "rgb"},
+     &Material::specular_color_texture, true, "rgb", &SceneFeatures::specular},
 }};
 
 static_assert([] {
@@ -50,23 +54,27 @@ enum class FactorRange { unit, positive, finite, ior };
 struct MaterialFactor {
     std::string_view path;  // in a glTF material
     std::variant<float Material::*, glm::vec3 Material::*, glm::vec4 Material::*> member;
+    float4 MaterialRow::*row;  // where devices read it; null: material_row() computes from it
+    int component;             // of the row, the first one
     FactorRange range = FactorRange::unit;
 };
 
 /// Read before KHR_materials_emissive_strength, which multiplies emissiveFactor.
-inline constexpr std::array kMaterialFactors = {
-    MaterialFactor{"pbrMetallicRoughness.baseColorFactor", &Material::base_color},
-    MaterialFactor{"pbrMetallicRoughness.metallicFactor", &Material::metallic},
-    MaterialFactor{"pbrMetallicRoughness.roughnessFactor", &Material::roughness},
-    MaterialFactor{"normalTexture.scale", &Material::normal_scale, FactorRange::finite},
-    MaterialFactor{"occlusionTexture.strength", &Material::occlusion_strength},
-    MaterialFactor{"emissiveFactor", &Material::emissive},
-    MaterialFactor{"alphaCutoff", &Material::alpha_cutoff, FactorRange::positive},
-    MaterialFactor{"extensions.KHR_materials_ior.ior", &Material::ior, FactorRange::ior},
-    MaterialFactor{"extensions.KHR_materials_specular.specularFactor", &Material::specular},
-    MaterialFactor{"extensions.KHR_materials_specular.specularColorFactor",
-                   &Material::specular_color, FactorRange::positive},
-};
+inline constexpr auto kMaterialFactors = std::to_array<MaterialFactor>({
+    {"pbrMetallicRoughness.baseColorFactor", &Material::base_color, &MaterialRow::base_color, 0},
+    {"pbrMetallicRoughness.metallicFactor", &Material::metallic, &MaterialRow::factors, 0},
+    {"pbrMetallicRoughness.roughnessFactor", &Material::roughness, &MaterialRow::factors, 1},
+    {"normalTexture.scale", &Material::normal_scale, &MaterialRow::factors, 2, FactorRange::finite},
+    {"occlusionTexture.strength", &Material::occlusion_strength, &MaterialRow::factors, 3},
+    {"emissiveFactor", &Material::emissive, &MaterialRow::emissive_cutoff, 0},
+    {"alphaCutoff", &Material::alpha_cutoff, &MaterialRow::emissive_cutoff, 3,
+     FactorRange::positive},
+    {"extensions.KHR_materials_ior.ior", &Material::ior, nullptr, 0, FactorRange::ior},
+    {"extensions.KHR_materials_specular.specularFactor", &Material::specular,
+     &MaterialRow::specular, 3},
+    {"extensions.KHR_materials_specular.specularColorFactor", &Material::specular_color, nullptr, 0,
+     FactorRange::positive},
+});
 
 /// Numbers of a factor: 1, 3 or 4.
 constexpr std::size_t factor_length(const MaterialFactor& factor) {
@@ -88,5 +96,23 @@ auto factor_values(M& material, const MaterialFactor& factor) {
         },
         factor.member);
 }
+
+/// An extension of materials that is left out.
+struct LeftOutExtension {
+    std::string_view name;
+    std::string_view lacks;  // how the picture shows it
+};
+
+inline constexpr auto kLeftOutMaterialExtensions = std::to_array<LeftOutExtension>({
+    {"KHR_materials_transmission", "glass looks opaque"},
+    {"KHR_materials_volume", "thick glass does not tint light"},
+    {"KHR_materials_volume_scatter", "no light scatters below surfaces"},
+    {"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
+    {"KHR_materials_dispersion", "glass shows no rainbow"},
+    {"KHR_materials_clearcoat", "coats have no highlight of their own"},
+    {"KHR_materials_sheen", "cloth has no sheen"},
+    {"KHR_materials_iridescence", "thin films show no colours"},
+    {"KHR_materials_anisotropy", "brushed metal has round highlights"},
+});
 
 }  // namespace kilolux

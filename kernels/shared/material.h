@@ -25,7 +25,7 @@ SHARED_STRUCT(MaterialRow) {
     float4 uv_x[USE_COUNT];  // xyz: u = dot(xyz, (texcoord, 1))
     float4 uv_y[USE_COUNT];  // xyz: v likewise
 };
-SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 288);
+SHARED_ASSERT(material_row_size, sizeof(MaterialRow) == 64 + 32 * USE_COUNT);
 
 #if defined(__cplusplus)
 }  // namespace kilolux

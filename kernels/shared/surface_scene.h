@@ -55,16 +55,17 @@ SHARED_ASSERT(instance_row_size, sizeof(InstanceRow) == 144);
 #define MATERIAL_MASKED (1u << 10)  // cut by its alpha
 // << USE_*: the use reads the texels of the shared lookup.
 #define MATERIAL_SHARES_LOOKUP (1u << 16)
-SHARED_ASSERT(uses_have_bits, USE_COUNT <= 8);
+#define USES_MAX 8
+SHARED_ASSERT(uses_have_bits, USE_COUNT <= USES_MAX);
 
 SHARED_STRUCT(SurfaceMaterial) {
     MaterialRow row;
-    uint textures[USE_COUNT];  // TextureRows by use
-    uint flags;                // bit USE_*: the use reads texcoord1; and see above
-    uint lookup_use;           // the use whose lookup others share; SURFACE_ABSENT: none
-    uint unused0, unused1, unused2;
+    uint textures[USES_MAX];  // TextureRows by use
+    uint flags;               // bit USE_*: the use reads texcoord1; and see above
+    uint lookup_use;          // the use whose lookup others share; SURFACE_ABSENT: none
+    uint unused0, unused1;
 };
-SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == 336);
+SHARED_ASSERT(surface_material_size, sizeof(SurfaceMaterial) == sizeof(MaterialRow) + 48);
 
 #define WRAP_REPEAT 0u
 #define WRAP_CLAMP 1u

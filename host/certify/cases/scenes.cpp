@@ -12,6 +12,7 @@
 #include "host/render/lights/light_source.h"
 #include "host/render/renderer.h"
 #include "host/scene/generated/scenes.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 namespace {
@@ -48,9 +49,9 @@ std::vector<BadLight> bad_lights(const Box& box) {
         spoil(light);
         out.push_back({what, light});
     };
-    for (const LightType type : {LightType::point, LightType::spot, LightType::directional}) {
-        const bool local = type != LightType::directional;
-        const bool aimed = type != LightType::point;
+    for (const LightKind& kind : kLightKinds) {
+        const LightType type = kind.type;
+        const bool local = kind.is_placed, aimed = kind.is_aimed;
         for (const float bad : {kNan, kInfinity, -kInfinity}) {
             const auto spoil = [&](bool exists, const char* field, const auto& change) {
                 if (exists) add(fmt::format("{} {:f}", field, bad), type, change);
@@ -65,8 +66,8 @@ std::vector<BadLight> bad_lights(const Box& box) {
                 spoil(aimed, "direction", [&](auto& l) { l.direction[c] = double{bad}; });
             }
             spoil(local, "range", [&](auto& l) { l.range = bad; });
-            spoil(local && aimed, "outer cone", [&](auto& l) { l.outer_cone = bad; });
-            spoil(local && aimed, "inner cone", [&](auto& l) { l.inner_cone = bad; });
+            spoil(kind.has_cone, "outer cone", [&](auto& l) { l.outer_cone = bad; });
+            spoil(kind.has_cone, "inner cone", [&](auto& l) { l.inner_cone = bad; });
         }
         for (int c = 0; c < 3; ++c)
             add("intensity -1", type, [&](auto& l) { l.intensity[c] = -1.0f; });

@@ -49,7 +49,7 @@ ReferenceOptions reference_options(const KernelFeatures& kernels, const RenderSe
             .ambient = double{settings.ambient},
             .orthographic = camera.orthographic,
             .light_d_min = double{kernels.light_d_min},
-            .drawn_ranges = double{kernels.drawn_ranges}};
+            .random_ranges = double{kernels.random_ranges}};
 }
 
 ReferenceOptions reference_options(const Renderer& renderer, const Camera& camera) {

@@ -32,41 +32,6 @@ struct Pixel {
     std::uint32_t reaching = 0;
 };
 
-// A light as seen from a surface.
-struct Incidence {
-    glm::dvec3 to_light{0.0};
-    double attenuation = 0.0;
-    bool reaches = false;  // by more than kReachMargin
-};
-
-double cone(const ReferenceLight& light, const glm::dvec3& to_light) {
-    const double cosine = glm::dot(light.axis, -to_light);
-    const double edge = std::clamp((cosine - light.cos_out) * light.cone_scale, 0.0, 1.0);
-    return edge * edge;
-}
-
-// Repeats drawn_weight() of evaluate.h in double.
-double drawn_weight(const ReferenceLight& light, double d2, double drawn_ranges) {
-    const glm::dvec3& i = light.intensity;
-    return std::max(1.0, d2 * drawn_ranges / std::max({i.x, i.y, i.z}));
-}
-
-Incidence incidence(const ReferenceLight& light, const glm::dvec3& position,
-                    const ReferenceOptions& options) {
-    const glm::dvec3 v = light.position - position;
-    const double d2 = glm::dot(v, v);
-    const double x = options.windowed ? d2 * std::abs(light.inv_range2) : 0.0;  // (d / range)^2
-    if (x >= 1.0) return {};
-    const double d = std::max(std::sqrt(d2), options.light_d_min);
-    const glm::dvec3 to_light = v / d;
-    const double edge = cone(light, to_light);
-    const double window = light.inv_range2 < 0.0 ? drawn_weight(light, d2, options.drawn_ranges)
-                                                 : (1.0 - x) * (1.0 + x);
-    const double share = light.web.web != nullptr ? share_towards(light.web, -to_light) : 1.0;
-    return {to_light, window / (d * d) * edge * share,
-            x < 1.0 - kReachMargin && edge > kReachMargin && share > kReachMargin};
-}
-
 glm::dvec3 direction_to_eye(const glm::dvec3& position, bool orthographic) {
     const double distance = glm::length(position);
     if (orthographic || distance == 0.0) return {0.0, 0.0, 1.0};

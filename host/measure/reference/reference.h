@@ -30,7 +30,7 @@ struct ReferenceOptions {
     double ambient = 0.0;                // incident radiance, the same from every direction
     bool orthographic = false;           // rays to the eye are parallel to +Z
     double light_d_min = 0.01;           // nearer than this the inverse square stops growing [m]
-    double drawn_ranges = 0.0;           // DRAWN_RANGES of evaluate.h, for lights that have one
+    double random_ranges = 0.0;          // RANDOM_RANGES of evaluate.h, for lights that have one
     bool windowed = true;                // false: unbounded inverse square, no light has a range
     OnProgress progress{};
     std::shared_ptr<const ShadowCaster> shadows{};  // none: every light is seen

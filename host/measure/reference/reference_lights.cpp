@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/measure/reference/reference.h"
+#include "host/scene/lights/light_kinds.h"
+
 namespace kilolux {
 namespace {
 
@@ -32,7 +35,7 @@ ReferenceLight of_scene(const SceneLight& light, const Camera& camera, const Sce
     out.inv_range2 = range > 0.0 ? 1.0 / (range * range) : 0.0;
     out.intensity = glm::dvec3(light.intensity);
     if (light.profile >= 0 && scene != nullptr) out.web = web_of(light, view_from_world, *scene);
-    if (light.type == LightType::spot) {
+    if (kind_of(light).has_cone) {
         out.axis = view_from_world * glm::normalize(light.direction);
         out.cos_out = std::cos(static_cast<double>(light.outer_cone));
         const double cos_in = std::cos(static_cast<double>(light.inner_cone));
@@ -41,7 +44,36 @@ ReferenceLight of_scene(const SceneLight& light, const Camera& camera, const Sce
     return out;
 }
 
+double cone(const ReferenceLight& light, const glm::dvec3& to_light) {
+    const double cosine = glm::dot(light.axis, -to_light);
+    const double edge = std::clamp((cosine - light.cos_out) * light.cone_scale, 0.0, 1.0);
+    return edge * edge;
+}
+
+// Repeats random_range_weight() of evaluate.h in double.
+double random_range_weight(const ReferenceLight& light, double d2, double random_ranges) {
+    const glm::dvec3& i = light.intensity;
+    return std::max(1.0, d2 * random_ranges / std::max({i.x, i.y, i.z}));
+}
+
 }  // namespace
+
+Incidence incidence(const ReferenceLight& light, const glm::dvec3& position,
+                    const ReferenceOptions& options) {
+    const glm::dvec3 v = light.position - position;
+    const double d2 = glm::dot(v, v);
+    const double x = options.windowed ? d2 * std::abs(light.inv_range2) : 0.0;  // (d / range)^2
+    if (x >= 1.0) return {};
+    const double d = std::max(std::sqrt(d2), options.light_d_min);
+    const glm::dvec3 to_light = v / d;
+    const double edge = cone(light, to_light);
+    const double window = light.inv_range2 < 0.0
+                              ? random_range_weight(light, d2, options.random_ranges)
+                              : (1.0 - x) * (1.0 + x);
+    const double share = light.web.web != nullptr ? share_towards(light.web, -to_light) : 1.0;
+    return {to_light, window / (d * d) * edge * share,
+            x < 1.0 - kReachMargin && edge > kReachMargin && share > kReachMargin};
+}
 
 ReferenceLights reference_lights(std::span<const ShadeLight> lights,
                                  std::span<const DirectionalLight> directional,
@@ -60,12 +92,12 @@ ReferenceLights reference_lights(std::span<const SceneLight> lights, const Camer
     ReferenceLights out;
     const glm::dmat3 view_from_world = glm::transpose(camera.world_from_view);
     for (const SceneLight& light : lights) {
-        if (light.type == LightType::directional) {
+        if (kind_of(light).is_placed) {
+            out.lights.push_back(of_scene(light, camera, scene));
+        } else {
             out.directional.push_back(
                 {.to_light = view_from_world * -glm::normalize(light.direction),
                  .illuminance = glm::dvec3(light.intensity)});
-        } else {
-            out.lights.push_back(of_scene(light, camera, scene));
         }
     }
     return out;

@@ -15,7 +15,7 @@ namespace kilolux {
 /// A point or spot light in view space, in double.
 struct ReferenceLight {
     glm::dvec3 position{0.0};   // [m]
-    double inv_range2 = 0.0;    // 1/range^2 [1/m^2]; 0: no range; < 0: minus that of a drawn one
+    double inv_range2 = 0.0;    // 1/range^2 [1/m^2]; 0: no range; < 0: minus that of a random one
     glm::dvec3 intensity{0.0};  // linear Rec. 709 [cd]
     glm::dvec3 axis{0.0};       // unit, direction of the light's travel; 0 for a point light
     double cos_out = -1.0;      // of the outer cone's half angle
@@ -28,6 +28,17 @@ struct ReferenceDirectionalLight {
     glm::dvec3 to_light{0.0, 0.0, 1.0};  // unit
     glm::dvec3 illuminance{0.0};         // linear Rec. 709 [lx]
 };
+
+/// A light as seen from a surface.
+struct Incidence {
+    glm::dvec3 to_light{0.0};
+    double attenuation = 0.0;
+    bool reaches = false;  // by more than kReachMargin
+};
+
+struct ReferenceOptions;
+Incidence incidence(const ReferenceLight& light, const glm::dvec3& position,
+                    const ReferenceOptions& options);
 
 struct ReferenceLights {
     std::vector<ReferenceLight> lights;

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "host/base/light_cells.h"
+#include "host/scene/lights/light_kinds.h"
 
 namespace kilolux {
 namespace {
@@ -25,7 +26,7 @@ bool operator<(const Place& a, const Place& b) {
 
 Place place_of(const SceneLight& light, std::uint32_t number) {
     const glm::dvec3& p = light.position;
-    const bool placed = light.type != LightType::directional && std::isfinite(p.x + p.y + p.z) &&
+    const bool placed = kind_of(light).is_placed && std::isfinite(p.x + p.y + p.z) &&
                         std::isfinite(light.range) && light.range > 0.0f;
     if (!placed) return {.light = number};
     const double edge = light_cell_edge(light.range);

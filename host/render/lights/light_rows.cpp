@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/scene/lights/light_kinds.h"
 #include "host/stages/lights/move_lights.h"
 
 namespace kilolux {
@@ -33,7 +34,7 @@ Light row_of(const SceneLight& light, const glm::dvec3& relative) {
     Light row{{p.x, p.y, p.z, light.has_own_range ? light.range : -light.range},
               {light.intensity.x, light.intensity.y, light.intensity.z, 1.0f},
               {0.0f, 0.0f, 0.0f, -1.0f}};
-    if (light.type == LightType::point) return row;
+    if (!kind_of(light).has_cone) return row;
     const glm::vec3 axis(glm::normalize(light.direction));
     const double cos_out = std::cos(std::min<double>(light.outer_cone, 1.5707963267948966));
     const double cos_in = std::cos(std::clamp<double>(light.inner_cone, 0.0, light.outer_cone));
@@ -50,15 +51,11 @@ Light row_of(const SceneLight& light, const glm::dvec3& relative) {
 // assume that there are none (-cl-finite-math-only, OpenCL C 5.8.4).
 bool is_usable(const SceneLight& light, const glm::dvec3& camera_position) {
     if (!gives_light(light.intensity)) return false;
-    if (light.type == LightType::directional) return has_direction(light.direction);
+    const LightKind& kind = kind_of(light);
+    if ((kind.is_aimed || light.profile >= 0) && !has_direction(light.direction)) return false;
     const glm::dvec3 relative = light.position - camera_position;
     const bool placed = is_finite(relative) && glm::length(relative) < kFarthest;
-    const bool ranged = std::isfinite(light.range) && light.range > 0.0f;
-    const bool aimed = light.profile < 0 || has_direction(light.direction);
-    if (light.type == LightType::point) return placed && ranged && aimed;
-    const bool cone = std::isfinite(light.inner_cone) && std::isfinite(light.outer_cone) &&
-                      light.outer_cone > 0.0f;
-    return placed && ranged && cone && has_direction(light.direction);
+    return (placed || !kind.is_placed) && has_good_numbers(light);
 }
 
 WorldLight world_light(const SceneLight& light) {
@@ -89,11 +86,13 @@ LightRows make_light_rows(std::span<const SceneLight> lights, const glm::dvec3& 
     for (const SceneLight& light : lights) {
         if (!is_usable(light, camera_position)) {
             ++rows.rejected;
-        } else if (light.type == LightType::directional) {
-            rows.directional.push_back(directional_row(light));
-        } else {
+            continue;
+        }
+        rows.features.*kind_of(light).feature = true;
+        if (kind_of(light).is_placed) {
             rows.local.push_back(row_of(light, light.position - camera_position));
-            rows.has_spot = rows.has_spot || light.type == LightType::spot;
+        } else {
+            rows.directional.push_back(directional_row(light));
         }
     }
     return rows;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "host/base/scene_features.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/light_profile.h"
@@ -19,7 +20,7 @@ struct LightRows {
     std::vector<AimedProfile> profiles;     // one per local light, or none at all; world axes
     std::span<const float> profile_tables;  // that they are of; the light source's
     std::uint64_t rejected = 0;  // not finite, no range, or no light: counted, never silently lost
-    bool has_spot = false;
+    SceneFeatures features;      // the kinds of lights alone
 };
 
 /// Whether a light can be used from this camera position: finite, with a range, and giving light.

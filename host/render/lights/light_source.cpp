@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/render/lights/light_order.h"
+#include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/rig.h"
 #include "kernels/shared/hash.h"
 
@@ -132,7 +133,7 @@ void LightSource::find_order(const glm::dvec3& camera_position) {
     bool all_near = is_near(camera_position);
     for (const std::uint32_t number : order_by_place(lights)) {
         const SceneLight& light = lights[number];
-        const bool is_directional = light.type == LightType::directional;
+        const bool is_directional = !kind_of(light).is_placed;
         all_near = all_near && (is_directional || is_near(light.position));
         if (!is_usable(light, camera_position)) continue;
         const bool in_tree =

@@ -19,12 +19,13 @@
 namespace kilolux {
 
 /// All lights of a scene at `time` [s], its own and then the generated ones, each with a range;
-/// `camera` has the headlights. Ranges that the renderer draws reach everywhere here, as in the
+/// `camera` has the headlights. Random ranges reach everywhere here, as in the
 /// mean.
 std::vector<SceneLight> lights_at(const Scene& scene, const RenderSettings& settings,
                                   const Camera& camera, double time);
 
-/// Seed of the drawn ranges (Tails::stochastic) of one of a pixel's samples; 0: none is drawn.
+/// Seed of the random ranges (Tails::stochastic) of one of a pixel's samples; 0: no range is
+/// random.
 uint tail_seed(const RenderSettings& settings, uint sample);
 
 /// All lights of a scene, its own and the generated ones, at any time. They are on the device in

@@ -6,6 +6,7 @@
 
 #include "host/base/error.h"
 #include "host/render/plan/settings_check.h"
+#include "host/scene/lights/light_kinds.h"
 #include "host/scene/lights/light_region.h"
 #include "host/scene/lights/light_tree.h"
 
@@ -44,10 +45,7 @@ SceneFeatures features_of(const Scene& scene, const std::vector<Material>& mater
     SceneFeatures out;
     out.light_d_min = light_d_min(scene);
     out.light_profiles = !scene.aimed_profiles.empty();
-    for (const SceneLight& light : scene.lights) {
-        out.spot_lights |= light.type == LightType::spot;
-        out.directional_lights |= light.type == LightType::directional;
-    }
+    for (const SceneLight& light : scene.lights) out.*kind_of(light).feature = true;
     for (const Material& m : materials) {
         out.metallic |= is_metallic(m);
         out.emissive |= largest_emission(m) > 0.0f;
@@ -108,7 +106,7 @@ ScenePlan make_scene_plan(const Scene& scene, const RenderSettings& settings,
     features.wide_light_index = light_count > 65536;
     features.shadows = settings.shadows != Shadows::off && triangle_count(scene) > 0;
     if (settings.tails == Tails::stochastic && std::ranges::any_of(scene.lights, lacks_range)) {
-        features.drawn_ranges = static_cast<float>(std::numbers::pi * settings.range_budget);
+        features.random_ranges = static_cast<float>(std::numbers::pi * settings.range_budget);
     }
     const auto in_tree =
         settings.tails == Tails::tree

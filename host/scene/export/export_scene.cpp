@@ -120,9 +120,9 @@ class Writer {
         std::vector<int> mesh_of;
         Json meshes = Json::array();
         for (const Mesh& mesh : scene_.meshes) {
-            const bool drawn = !mesh.positions.empty() && !mesh.indices.empty();
-            mesh_of.push_back(drawn ? static_cast<int>(meshes.size()) : -1);
-            if (drawn) meshes.push_back(mesh_json(mesh, buffer_));
+            const bool has_triangles = !mesh.positions.empty() && !mesh.indices.empty();
+            mesh_of.push_back(has_triangles ? static_cast<int>(meshes.size()) : -1);
+            if (has_triangles) meshes.push_back(mesh_json(mesh, buffer_));
         }
         add_array(root_, "meshes", std::move(meshes));
         return mesh_of;

@@ -78,13 +78,6 @@ Json use_json(const TextureUse& use) {
     return out;
 }
 
-// The member at a path of a material; objects on the way are created.
-Json& at_path(Json& object, std::string_view path) {
-    const std::size_t end = std::min(path.find('.'), path.size());
-    Json& member = object[std::string(path.substr(0, end))];
-    return end == path.size() ? member : at_path(member, path.substr(end + 1));
-}
-
 // Whether a factor of this path is needed: not for a map that the material lacks, nor the cutoff of
 // a surface without alpha mask.
 bool is_written(const Material& m, std::string_view path) {
@@ -141,6 +134,12 @@ Json material_json(const Material& m) {
 }
 
 }  // namespace
+
+Json& at_path(Json& object, std::string_view path) {
+    const std::size_t end = std::min(path.find('.'), path.size());
+    Json& member = object[std::string(path.substr(0, end))];
+    return end == path.size() ? member : at_path(member, path.substr(end + 1));
+}
 
 ExportedMaterials export_materials(const Scene& scene) {
     ExportedMaterials out;

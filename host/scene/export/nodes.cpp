@@ -75,23 +75,27 @@ int add_placed(Json& nodes, const glm::dmat4& world_from_node, Json node) {
     return child + 1;
 }
 
+// A file need not say a range: 0 means that it does not, infinity that there is none.
+SceneLight with_range(SceneLight light) {
+    if (light.range <= 0.0f || std::isinf(light.range)) light.range = 1.0f;
+    return light;
+}
+
 bool is_usable(const SceneLight& light) {
     const glm::dvec3 intensity(light.intensity);
     const LightKind& kind = kind_of(light);
     const bool aimed = (!kind.is_aimed && light.profile < 0) ||
                        (is_finite(light.direction) && glm::length(light.direction) > 0.0);
-    const bool cone = !kind.has_cone || (std::isfinite(light.inner_cone) &&
-                                         std::isfinite(light.outer_cone) && light.outer_cone > 0);
     return is_finite(intensity) && std::min({intensity.x, intensity.y, intensity.z}) >= 0.0 &&
-           is_finite(light.position) && !std::isnan(light.range) && aimed && cone;
+           is_finite(light.position) && aimed && has_good_numbers(with_range(light));
 }
 
-// Angles as KHR_lights_punctual allows them: inner < outer <= 90 degrees.
-Json cone_json(const SceneLight& light) {
-    const double outer = std::min<double>(light.outer_cone, std::numbers::pi / 2);
-    const double below = std::nextafter(static_cast<float>(outer), 0.0f);
-    const double inner = std::clamp<double>(light.inner_cone, 0.0, below);
-    return {{"innerConeAngle", inner}, {"outerConeAngle", outer}};
+// The light with angles as KHR_lights_punctual allows them: inner < outer <= 90 degrees.
+SceneLight with_angles(SceneLight light) {
+    constexpr double kRight = std::numbers::pi / 2;
+    light.outer_cone = std::min(light.outer_cone, std::nextafter(static_cast<float>(kRight), 0.0f));
+    light.inner_cone = std::clamp(light.inner_cone, 0.0f, std::nextafter(light.outer_cone, 0.0f));
+    return light;
 }
 
 double brightest(const SceneLight& light) {
@@ -111,9 +115,12 @@ Json light_json(const SceneLight& light) {
     const LightKind& kind = kind_of(light);
     Json out{{"type", kind.name}, {"intensity", brightest(light)}};
     add_color(out, light);
-    if (kind.has_cone) out["spot"] = cone_json(light);
-    if (kind.is_placed && light.range > 0.0f && std::isfinite(light.range)) {
-        out["range"] = light.range;
+    const SceneLight allowed = with_angles(light);
+    for (const LightNumber& number : kLightNumbers) {
+        const float value = allowed.*number.member;
+        if (kind.*number.has && value > 0.0f && std::isfinite(value)) {
+            at_path(out, number.path) = value;
+        }
     }
     return out;
 }

@@ -70,9 +70,6 @@ std::vector<int> adapt_to_tinygltf(json& root) {
         if (!root.contains(place)) return;
         for (json& element : root.at(place)) change(element);
     };
-    each("/extensions/KHR_lights_punctual/lights", [](json& light) {
-        if (light.at("type") == "spot") light.emplace("spot", json::object());
-    });
     // tinygltf drops empty objects, and the array's indices with them.
     each("/extensions/EXT_lights_ies/lights", [](json& light) { light.emplace("name", ""); });
     std::vector<int> indices;
@@ -114,10 +111,13 @@ std::vector<json> take_array(json& root, const char* name) {
     return out;
 }
 
-// Reads all but buffers and images, which tinygltf would read without our checks, and materials.
+// Reads all but buffers and images, which tinygltf would read without our checks, materials
+// and lights.
 void parse_model(GltfDocument& document, json root) {
     std::vector<json> images = take_array(root, "images");
     document.materials = take_array(root, "materials");
+    const json::json_pointer punctual("/extensions/KHR_lights_punctual");
+    if (root.contains(punctual)) document.lights = take_array(root.at(punctual), "lights");
     const std::vector<int> indices = adapt_to_tinygltf(root);
     const std::string text = root.dump();
     if (text.size() > std::numeric_limits<unsigned>::max()) {

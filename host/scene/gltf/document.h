@@ -71,9 +71,10 @@ class LoadBudget {
 struct GltfDocument {
     UriBase base;
     LoadOptions options;
-    // Without buffers and materials; images keep uri, bufferView and mimeType only.
+    // Without buffers, materials and lights; images keep uri, bufferView and mimeType only.
     tinygltf::Model model;
     std::vector<nlohmann::json> materials;
+    std::vector<nlohmann::json> lights;            // of KHR_lights_punctual
     std::vector<std::optional<ByteSpan>> buffers;  // none: a placeholder without data
     std::vector<ByteSpan> views;                   // one per buffer view, decompressed
     std::vector<Bytes> owned;                      // what buffers and views point into

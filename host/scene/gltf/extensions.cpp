@@ -4,51 +4,24 @@
 #include <algorithm>
 #include <array>
 
+#include "host/scene/material_table.h"
+
 namespace kilolux {
 namespace {
 
-// An extension that a file may require.
-struct KnownExtension {
-    std::string_view name;
-    std::string_view
-        lacks{};  // how the picture shows that it is left out; empty: nothing is missing
-};
+// Beside those of the table of materials. The last six are metadata.
+constexpr auto kRead = std::to_array<std::string_view>(
+    {"KHR_lights_punctual", "KHR_texture_transform", "KHR_mesh_quantization",
+     "KHR_materials_emissive_strength", "KHR_materials_unlit",
+     "KHR_materials_pbrSpecularGlossiness", "KHR_materials_variants", "EXT_mesh_gpu_instancing",
+     "EXT_meshopt_compression", "KHR_draco_mesh_compression", "EXT_texture_webp", "EXT_lights_ies",
+     "KHR_xmp_json_ld", "KHR_xmp", "EXT_structural_metadata", "EXT_feature_metadata",
+     "EXT_mesh_features", "EXT_instance_features"});
 
-constexpr std::array kKnown = {
-    KnownExtension{"KHR_lights_punctual"},
-    KnownExtension{"KHR_texture_transform"},
-    KnownExtension{"KHR_mesh_quantization"},
-    KnownExtension{"KHR_materials_emissive_strength"},
-    KnownExtension{"KHR_materials_unlit"},
-    KnownExtension{"KHR_materials_ior"},
-    KnownExtension{"KHR_materials_specular"},
-    KnownExtension{"KHR_materials_pbrSpecularGlossiness"},
-    KnownExtension{"KHR_materials_variants"},
-    KnownExtension{"EXT_mesh_gpu_instancing"},
-    KnownExtension{"EXT_meshopt_compression"},
-    KnownExtension{"KHR_draco_mesh_compression"},
-    KnownExtension{"EXT_texture_webp"},
-    KnownExtension{"EXT_lights_ies"},
-    // Metadata.
-    KnownExtension{"KHR_xmp_json_ld"},
-    KnownExtension{"KHR_xmp"},
-    KnownExtension{"EXT_structural_metadata"},
-    KnownExtension{"EXT_feature_metadata"},
-    KnownExtension{"EXT_mesh_features"},
-    KnownExtension{"EXT_instance_features"},
-    // Left out.
-    KnownExtension{"KHR_materials_transmission", "glass looks opaque"},
-    KnownExtension{"KHR_materials_volume", "thick glass does not tint light"},
-    KnownExtension{"KHR_materials_volume_scatter", "no light scatters below surfaces"},
-    KnownExtension{"KHR_materials_diffuse_transmission", "leaves and paper let no light through"},
-    KnownExtension{"KHR_materials_dispersion", "glass shows no rainbow"},
-    KnownExtension{"KHR_materials_clearcoat", "coats have no highlight of their own"},
-    KnownExtension{"KHR_materials_sheen", "cloth has no sheen"},
-    KnownExtension{"KHR_materials_iridescence", "thin films show no colours"},
-    KnownExtension{"KHR_materials_anisotropy", "brushed metal has round highlights"},
-    KnownExtension{"KHR_animation_pointer", "what it animates stands still"},
-    KnownExtension{"KHR_node_visibility", "hidden nodes are drawn"},
-    KnownExtension{"MSFT_lod", "the finest level is drawn"},
+constexpr std::array kLeftOut = {
+    LeftOutExtension{"KHR_animation_pointer", "what it animates stands still"},
+    LeftOutExtension{"KHR_node_visibility", "hidden nodes are drawn"},
+    LeftOutExtension{"MSFT_lod", "the finest level is drawn"},
 };
 
 // A program that makes a file without an extension that is refused.
@@ -68,6 +41,24 @@ const Row* find_row(const std::array<Row, N>& rows, const std::string& name) {
     return found == rows.end() ? nullptr : &*found;
 }
 
+// Whether a map or a factor of materials is of an extension.
+template <std::size_t N, typename Row>
+bool names_extension(const std::array<Row, N>& rows, const std::string& name) {
+    const std::string path = "extensions." + name + ".";
+    return std::ranges::any_of(rows, [&](const Row& row) { return row.path.starts_with(path); });
+}
+
+bool is_read(const std::string& name) {
+    return std::ranges::count(kRead, std::string_view(name)) > 0 ||
+           names_extension(kMaterialMaps, name) || names_extension(kMaterialFactors, name);
+}
+
+// Null for one that is not left out, or not known.
+const LeftOutExtension* find_left_out(const std::string& name) {
+    const auto* of_materials = find_row(kLeftOutMaterialExtensions, name);
+    return of_materials != nullptr ? of_materials : find_row(kLeftOut, name);
+}
+
 // Extensions that a file uses or requires, each once, in the file's order.
 std::vector<std::string> named_extensions(const tinygltf::Model& model) {
     std::vector<std::string> names;
@@ -85,8 +76,8 @@ void check_extensions(const GltfDocument& document) {
     const tinygltf::Model& model = document.model;
     std::string left_out;
     for (const std::string& name : named_extensions(model)) {
-        const KnownExtension* known = find_row(kKnown, name);
-        if (known != nullptr && known->lacks.empty()) continue;
+        if (is_read(name)) continue;
+        const LeftOutExtension* known = find_left_out(name);
         if (known == nullptr && std::ranges::count(model.extensionsRequired, name) > 0) {
             const Converter* converter = find_row(kConverters, name);
             document.fail("extensionsRequired", "the file needs '{}', which is not supported{}",

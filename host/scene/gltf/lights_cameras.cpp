@@ -10,23 +10,23 @@
 namespace kilolux {
 namespace {
 
-SceneLight convert_light(const tinygltf::Light& source, const glm::dmat4& world_from_node) {
+SceneLight convert_light(const nlohmann::json& source, const glm::dmat4& world_from_node) {
     SceneLight out;
-    const LightKind& kind = *find_light_kind(source.type);
+    const LightKind& kind = *find_light_kind(source.at("type").get<std::string>());
     out.type = kind.type;
     out.position = glm::dvec3(world_from_node[3]);
     if (kind.is_aimed) {
         // Lights travel along the node's -Z; its scale does not matter.
         out.direction = -glm::normalize(glm::dvec3(world_from_node[2]));
     }
+    const auto color = source.value("color", std::array<double, 3>{1.0, 1.0, 1.0});
     for (glm::length_t c = 0; c < 3; ++c) {
-        const double color = source.color.empty() ? 1.0 : source.color[static_cast<std::size_t>(c)];
-        out.intensity[c] = to_float(color * source.intensity);
+        out.intensity[c] =
+            to_float(color[static_cast<std::size_t>(c)] * source.value("intensity", 1.0));
     }
-    out.range = to_float(source.range);
-    if (kind.has_cone) {
-        out.inner_cone = to_float(source.spot.innerConeAngle);
-        out.outer_cone = to_float(source.spot.outerConeAngle);
+    for (const LightNumber& number : kLightNumbers) {
+        const nlohmann::json* value = find_member(source, number.path);
+        if (value != nullptr && kind.*number.has) out.*number.member = to_float(*value);
     }
     return out;
 }
@@ -94,7 +94,7 @@ std::vector<SceneLight> convert_lights(const GltfDocument& document, const Place
         const auto* use = find_extension(document.model.nodes[n].extensions, "KHR_lights_punctual");
         if (use == nullptr || !use->Has("light")) continue;
         const auto light = static_cast<std::size_t>(member_or(*use, "light", 0));
-        lights.push_back(convert_light(document.model.lights[light], nodes.world_from_node[n]));
+        lights.push_back(convert_light(document.lights[light], nodes.world_from_node[n]));
     }
     return lights;
 }

@@ -213,7 +213,7 @@ std::vector<std::string> light_kind_names() {
 Rules camera_and_light_rules() {
     const std::string light = "extensions.KHR_lights_punctual.lights[].";
     const std::string profile = "extensions.EXT_lights_ies.lights[].";
-    return {
+    Rules rules = {
         required(choice("cameras[].type", {"perspective", "orthographic"})),
         where_type("perspective", required(object("cameras[].perspective"))),
         where_type("orthographic", required(object("cameras[].orthographic"))),
@@ -228,14 +228,15 @@ Rules camera_and_light_rules() {
         required(choice(light + "type", light_kind_names())),
         numbers(light + "color", 3),
         number(light + "intensity"),
-        number(light + "range"),
-        number(light + "spot.innerConeAngle"),
-        number(light + "spot.outerConeAngle"),
         text(profile + "uri"),
         text(profile + "name"),
         index(profile + "bufferView", "/bufferViews"),
         choice(profile + "mimeType", {"application/x-ies-lm-63"}),
     };
+    for (const LightNumber& of_light : kLightNumbers) {
+        rules.push_back(number(light + std::string(of_light.path)));
+    }
+    return rules;
 }
 
 Rules animation_rules() {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
+#include "host/base/scene_features.h"
 #include "host/scene/scene.h"
 
 namespace kilolux {
@@ -17,16 +19,33 @@ struct LightKind {
     bool is_placed;         // has a position and a range, intensity in candela; else lux
     bool is_aimed;          // has a direction
     bool has_cone;
+    bool SceneFeatures::*feature;  // of scenes that have one
 };
 
-inline constexpr std::array kLightKinds = {
-    LightKind{LightType::point, "point", true, false, false},
-    LightKind{LightType::spot, "spot", true, true, true},
-    LightKind{LightType::directional, "directional", false, true, false},
+inline constexpr auto kLightKinds = std::to_array<LightKind>({
+    {LightType::point, "point", true, false, false, &SceneFeatures::point_lights},
+    {LightType::spot, "spot", true, true, true, &SceneFeatures::spot_lights},
+    {LightType::directional, "directional", false, true, false, &SceneFeatures::directional_lights},
+});
+static_assert(std::ranges::is_sorted(kLightKinds, {}, &LightKind::type));
+
+/// A number that some kinds of light have, in a file as here. The loader, its rules, the exporter
+/// and the test of a light's usability loop over these.
+struct LightNumber {
+    std::string_view path;  // in a light of KHR_lights_punctual
+    float SceneLight::*member;
+    bool LightKind::*has;      // the kinds that have it
+    bool is_positive = false;  // a light of 0 or less gives none
 };
+
+inline constexpr auto kLightNumbers = std::to_array<LightNumber>({
+    {"range", &SceneLight::range, &LightKind::is_placed, true},
+    {"spot.innerConeAngle", &SceneLight::inner_cone, &LightKind::has_cone},
+    {"spot.outerConeAngle", &SceneLight::outer_cone, &LightKind::has_cone, true},
+});
 
 constexpr const LightKind& kind_of(LightType type) {
-    return *std::ranges::find(kLightKinds, type, &LightKind::type);
+    return kLightKinds[static_cast<std::size_t>(type)];
 }
 constexpr const LightKind& kind_of(const SceneLight& light) { return kind_of(light.type); }
 
@@ -34,6 +53,15 @@ constexpr const LightKind& kind_of(const SceneLight& light) { return kind_of(lig
 constexpr const LightKind* find_light_kind(std::string_view name) {
     const auto found = std::ranges::find(kLightKinds, name, &LightKind::name);
     return found == kLightKinds.end() ? nullptr : &*found;
+}
+
+/// Whether the numbers of the light's kind are finite, and positive where they must be.
+inline bool has_good_numbers(const SceneLight& light) {
+    return std::ranges::all_of(kLightNumbers, [&](const LightNumber& number) {
+        const float value = light.*number.member;
+        return !(kind_of(light).*number.has) ||
+               (std::isfinite(value) && (!number.is_positive || value > 0.0f));
+    });
 }
 
 }  // namespace kilolux

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/scene/rows/material_row.h"
 
+#include <algorithm>
+
 #include "host/scene/material_table.h"
 
 namespace kilolux {
 
 MaterialRow material_row(const Material& material) {
     MaterialRow row{};
-    const glm::vec4& color = material.base_color;
-    row.base_color = {color.x, color.y, color.z, color.w};
-    const glm::vec3& emissive = material.emissive;
-    row.emissive_cutoff = {emissive.x, emissive.y, emissive.z, material.alpha_cutoff};
-    row.factors = {material.metallic, material.roughness, material.normal_scale,
-                   material.occlusion_strength};
     const glm::vec3 f0 = dielectric_reflectance(material);
-    row.specular = {f0.x, f0.y, f0.z, material.specular};
+    row.specular = {f0.x, f0.y, f0.z, 0.0f};
+    for (const MaterialFactor& factor : kMaterialFactors) {
+        if (factor.row == nullptr) continue;
+        const auto values = factor_values(material, factor);
+        std::ranges::copy(values, &(row.*factor.row).x + factor.component);
+    }
     for (int use = 0; use < USE_COUNT; ++use) {
         const glm::mat3& m = texture_use(material, use).uv_from_texcoord;
         row.uv_x[use] = {m[0].x, m[1].x, m[2].x, 0.0f};

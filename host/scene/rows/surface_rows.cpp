@@ -4,28 +4,13 @@
 #include <fmt/format.h>
 
 #include "host/base/error.h"
+#include "host/scene/material_table.h"
 #include "host/scene/rows/material_row.h"
 #include "host/scene/rows/texture_table.h"
 #include "host/scene/rows/vertex_rows.h"
 
 namespace kilolux {
 namespace {
-
-bool keeps_use(int use, const SceneFeatures& needs) {
-    switch (use) {
-        case USE_METALLIC_ROUGHNESS:
-            return needs.gloss;
-        case USE_EMISSIVE:
-            return needs.material;
-        case USE_OCCLUSION:
-            return needs.occlusion;
-        case USE_SPECULAR:
-        case USE_SPECULAR_COLOR:
-            return needs.specular;
-        default:
-            return true;
-    }
-}
 
 bool is_trilinear(const Sampler& sampler) {
     return sampler.magnify == Filter::linear && sampler.minify == Filter::linear &&
@@ -99,7 +84,9 @@ bool reads_use(const Scene& scene, const Mesh& mesh, int use) {
 
 uint kept_uses(const SceneFeatures& needs) {
     uint uses = 0;
-    for (int use = 0; use < USE_COUNT; ++use) uses |= keeps_use(use, needs) ? 1u << use : 0u;
+    for (const MaterialMap& map : kMaterialMaps) {
+        if (map.needed == nullptr || needs.*map.needed) uses |= 1u << map.use;
+    }
     return uses;
 }
 

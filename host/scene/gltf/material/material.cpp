@@ -27,10 +27,12 @@ AlphaMode convert_alpha_mode(const std::string& mode) {
     return mode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
+bool is_of_extension(std::string_view path) { return path.starts_with("extensions."); }
+
 // Whether a property counts: specular-glossiness replaces some.
 bool counts(const json& source, std::string_view path) {
     return !is_specular_glossiness(source) ||
-           !(path.starts_with("pbrMetallicRoughness.") || path.starts_with("extensions."));
+           !(path.starts_with("pbrMetallicRoughness.") || is_of_extension(path));
 }
 
 void read_factors(Material& out, const json& source) {
@@ -103,10 +105,13 @@ std::array<int, 2> pack_texcoord_sets(const GltfDocument& document, Material& ma
 void set_unlit(Material& material) {
     const Material standard;
     material.unlit = true;
-    material.ior = standard.ior;
-    material.specular = standard.specular;
-    material.specular_color = standard.specular_color;
-    material.specular_texture = material.specular_color_texture = {};
+    for (const MaterialMap& map : kMaterialMaps) {
+        if (is_of_extension(map.path)) material.*map.member = {};
+    }
+    for (const MaterialFactor& factor : kMaterialFactors) {
+        if (!is_of_extension(factor.path)) continue;
+        std::ranges::copy(factor_values(standard, factor), factor_values(material, factor).begin());
+    }
 }
 
 GltfMaterials convert_materials(const GltfDocument& document) {
