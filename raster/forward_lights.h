@@ -17,7 +17,7 @@ namespace kilolux {
 struct ForwardLights {
     std::span<const Light> lights;                  // camera-relative
     std::span<const DirectionalLight> directional;  // camera-relative
-    uint seed = 0;                                  // of drawn ranges; 0: none is drawn
+    uint seed = 0;                                  // of random ranges; 0: none is random
     float ambient = 0.0f;                           // radiance that falls in from everywhere
     // forward-plus only: lights of coarse cluster c are lists[offsets[c] .. offsets[c + 1]),
     // ascending.

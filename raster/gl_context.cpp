@@ -167,20 +167,20 @@ GlContext GlContext::headless(std::string_view platform) {
     ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // the Error holds the messages
     const char* variable = std::getenv("KILOLUX_EGL");
     const std::string wanted(platform.empty() && variable != nullptr ? variable : platform);
-    std::string tried;
+    std::string failures;
     for (const Candidate& candidate : candidates(wanted)) {
         try {
             EGLDisplay display = open_display(candidate);
             return {display, create_context(display), candidate.name};
         } catch (const Error& error) {
-            tried += (tried.empty() ? "" : "; ") + candidate.name + ": " + error.what();
+            failures += (failures.empty() ? "" : "; ") + candidate.name + ": " + error.what();
         }
     }
-    if (tried.empty()) {
-        tried = wanted.empty() ? "EGL offers neither surfaceless nor device platform"
-                               : "EGL offers no platform '" + wanted + "'";
+    if (failures.empty()) {
+        failures = wanted.empty() ? "EGL offers neither surfaceless nor device platform"
+                                  : "EGL offers no platform '" + wanted + "'";
     }
-    throw Error("EGL: no headless OpenGL 4.5 context (" + tried +
+    throw Error("EGL: no headless OpenGL 4.5 context (" + failures +
                 "); Debian's libegl1 and libgl1-mesa-dri provide one");
 }
 

@@ -48,9 +48,9 @@ std::vector<std::pair<std::string, std::string>> feature_macros(const SceneFeatu
     if (features.light_d_min != LIGHT_D_MIN) {
         macros.emplace_back("LIGHT_D_MIN", literal(features.light_d_min));
     }
-    const bool draws_ranges = features.drawn_ranges > 0.0f;
-    macros.emplace_back("HAS_DRAWN_RANGES", draws_ranges ? "1" : "0");
-    if (draws_ranges) macros.emplace_back("DRAWN_RANGES", literal(features.drawn_ranges));
+    const bool has_random_ranges = features.random_ranges > 0.0f;
+    macros.emplace_back("HAS_RANDOM_RANGES", has_random_ranges ? "1" : "0");
+    if (has_random_ranges) macros.emplace_back("RANDOM_RANGES", literal(features.random_ranges));
     return macros;
 }
 

@@ -51,7 +51,7 @@ struct LightInput {
         directional{};  // [directional_count], world axes; none: no buffer
     uint directional_count = 0;
     ProfileInput profiles{};    // world axes
-    uint seed = 0;              // of drawn ranges, see light_transform.h; 0: none is drawn
+    uint seed = 0;              // of random ranges, see light_transform.h; 0: no range is random
     std::uint64_t version = 0;  // equal only for equal lights; 0: unknown
     // With KernelFeatures::light_tree, lights that are in no coarse list: the nodes of a tree.
     uint node_count = 0;

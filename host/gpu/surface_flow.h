@@ -62,7 +62,7 @@ struct ShadowInput {
     ShadowCasters casters;
     ShadowView view{};
     DeviceArray<float> origins;  // [4][height][stride], see kernels/shadows/shadow_space.h
-    // With KernelFeatures::sampled_shadows, see kernels/shadows/shadow_draw.h.
+    // With KernelFeatures::sampled_shadows, see kernels/shadows/shadow_pick.h.
     float rays = 0.0f;  // most rays a pixel, on average
     uint seed = 0;      // of the frame and sample
 
@@ -73,7 +73,7 @@ struct ShadowInput {
     }
 };
 
-/// The inputs of drawing sampled shadows.
+/// The inputs of picking lights for sampled shadows.
 struct ShadowSamples {
     DeviceArray<float> whole;  // [3][height][stride]: radiance if all lights are seen
     float rays = 0.0f;         // see ShadowInput

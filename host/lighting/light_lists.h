@@ -29,7 +29,7 @@ struct ListedLights {
 /// The versions of the inputs that lists were made from.
 struct ListSource {
     std::uint64_t gbuffer = 0, lights = 0;  // versions; 0: not known
-    uint seed = 0;                          // of drawn ranges
+    uint seed = 0;                          // of random ranges
     ClusterGrid grid{};
 
     /// Whether both are known and the same.

@@ -10,7 +10,8 @@
 
 namespace kilolux {
 
-/// Which pixels see which lights of their lists; with sampled shadows, what the rays were drawn by.
+/// Which pixels see which lights of their lists; with sampled shadows, what the rays were picked
+/// by.
 struct SeenLights {
     ShadowWords words;
     ShadowSamples samples;
@@ -24,7 +25,7 @@ class Visibility {
     Visibility(const Gpu& gpu, const Tuning& tuning, const KernelFeatures& features,
                const SurfaceFeatures& surfaces);
 
-    /// Casts the rays; kept while the version of the lists stays and the rays are drawn alike.
+    /// Casts the rays; kept while the version of the lists stays and the rays are picked alike.
     /// Blocks for the number of words. Valid until the next call.
     SeenLights enqueue(const ListedLights& lists, const GBuffer& gbuffer,
                        const ShadowInput& shadows, StageTimer& timer);

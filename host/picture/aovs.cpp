@@ -36,8 +36,8 @@ void fill_world(const DecodedSurfaces& s, const Camera& camera, Layer& layer) {
     const glm::dvec3 origin = first_plane == SURFACE_POSITION ? camera.position : glm::dvec3(0.0);
     fill(layer, layer.values, s.view, [&](std::size_t pixel, float* out) {
         const glm::dvec3 world = camera.world_from_view * s.vector(first_plane, pixel) + origin;
-        const bool drawn = s.shows_surface(pixel);
-        for (int c = 0; c < 3; ++c) out[c] = drawn ? static_cast<float>(world[c]) : 0.0f;
+        const bool has_surface = s.shows_surface(pixel);
+        for (int c = 0; c < 3; ++c) out[c] = has_surface ? static_cast<float>(world[c]) : 0.0f;
     });
 }
 

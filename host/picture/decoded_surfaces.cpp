@@ -19,13 +19,13 @@ std::optional<uint> coarse_cluster_at(const DecodedSurfaces& s, std::size_t pixe
 
 double mean_over_surfaces(const std::vector<uint>& counts) {
     double sum = 0.0;
-    std::size_t drawn = 0;
+    std::size_t surfaces = 0;
     for (const uint count : counts) {
         if (count == kBackground) continue;
         sum += count;
-        ++drawn;
+        ++surfaces;
     }
-    return drawn > 0 ? sum / static_cast<double>(drawn) : 0.0;
+    return surfaces > 0 ? sum / static_cast<double>(surfaces) : 0.0;
 }
 
 }  // namespace kilolux

@@ -34,7 +34,7 @@ struct PixelProbe {
     std::optional<ActiveCluster> active;     // view space; none unless the renderer has them
     bool has_list = false;                   // else the renderer evaluates every light
     std::vector<ProbedLight> lights;         // in the list that is evaluated at the pixel
-    bool drawn() const { return surface[SURFACE_DEPTH] != 0.0f; }
+    bool has_surface() const { return surface[SURFACE_DEPTH] != 0.0f; }
 };
 
 }  // namespace kilolux

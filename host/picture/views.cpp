@@ -30,7 +30,7 @@ using Magnitude = std::function<double(const Pixel& pixel)>;
 
 // Calls each(pixel) for pixels that show a surface.
 template <typename Each>
-void for_each_drawn(const DecodedSurfaces& surfaces, const Each& each) {
+void for_each_surface(const DecodedSurfaces& surfaces, const Each& each) {
     const View& view = surfaces.view;
     for (uint y = 0; y < view.height; ++y) {
         for (uint x = 0; x < view.width; ++x) {
@@ -44,7 +44,7 @@ void for_each_drawn(const DecodedSurfaces& surfaces, const Each& each) {
 Canvas painted(const ViewInput& input, const Paint& paint) {
     const View& view = input.pixels.view;
     Canvas canvas = make_canvas(static_cast<int>(view.width), static_cast<int>(view.height));
-    for_each_drawn(input.pixels, [&](const Pixel& p) {
+    for_each_surface(input.pixels, [&](const Pixel& p) {
         canvas.set(static_cast<int>(p.x), static_cast<int>(p.y), paint(p));
     });
     return canvas;
@@ -52,7 +52,7 @@ Canvas painted(const ViewInput& input, const Paint& paint) {
 
 double largest(const ViewInput& input, const Magnitude& magnitude) {
     double out = 0.0;
-    for_each_drawn(input.pixels, [&](const Pixel& p) { out = std::max(out, magnitude(p)); });
+    for_each_surface(input.pixels, [&](const Pixel& p) { out = std::max(out, magnitude(p)); });
     return out;
 }
 

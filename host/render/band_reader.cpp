@@ -148,7 +148,7 @@ std::vector<float> BandReader::variance(const LastSample& last) {
     const KernelFeatures& kernels = context_.plan.kernels;
     const LitBand& band = last.band;
     if (!context_.settings.want.has_aov("error-standard")) return {};
-    if (kernels.drawn_ranges == 0.0f) {
+    if (kernels.random_ranges == 0.0f) {
         if (kernels.sampled_shadows) return download(context_.gpu, last.stages.variance());
         return std::vector<float>(plane_size(band));
     }
@@ -192,7 +192,7 @@ PixelProbe BandReader::probe(const LastSample& last, int x, int y) {
     last.stages.draw_missing_surfaces(last.camera, last.band);
     const LitBand& band = last.band;
     PixelProbe out = surface_at(band, x, y);
-    if (!out.drawn()) return out;
+    if (!out.has_surface()) return out;
     if (last.stages.lists()) {
         probe_lists(last, x, y, out);
     } else if (!band.coarse.offsets.empty()) {

@@ -138,14 +138,14 @@ void render_bands(Pipeline& p, const Shot& shot, DecodedSurfaces& surfaces, Fram
                 p.timer.drop_commands_since(before);  // stages that lacked room
                 lit.drop_lists();
                 if (!room.surfaces) stages.draw_surfaces(sample, lit, out);
-                const StageTimer drawn = p.timer;
+                const StageTimer with_surfaces = p.timer;
                 stages.list_lights(sample, lit, out);
                 stages.find_visible(lit, out);
                 stages.shade(sample, lit, p.environment, out);
                 p.environment.enqueue(lit, p.timer);
                 if (is_one) develop_band(p, sample.display, lit.light, frame);
                 room = stages.room(lit, out);  // waits for the device
-                if (room.surfaces) before = drawn;
+                if (room.surfaces) before = with_surfaces;
             }
             p.reader.count({lit, stages, sample.camera}, stats);
             stages.blend(sample, lit, out);

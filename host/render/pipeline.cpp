@@ -47,11 +47,11 @@ void Pipeline::take_up_settings() {
 }
 
 // Whether other settings need neither other kernels nor another device.
-bool Pipeline::is_built_for(const RenderSettings& other) const {
+bool Pipeline::is_built_for(const RenderSettings& wanted) const {
     const RenderSettings& settings = context.settings;
-    return other.device == settings.device && other.geometry == settings.geometry &&
-           other.anisotropy == settings.anisotropy && other.kernels == settings.kernels &&
-           plan_of(context.scene->scene(), other) == context.plan;
+    return wanted.device == settings.device && wanted.geometry == settings.geometry &&
+           wanted.anisotropy == settings.anisotropy && wanted.kernels == settings.kernels &&
+           plan_of(context.scene->scene(), wanted) == context.plan;
 }
 
 void Pipeline::take(const RenderSettings& next) {

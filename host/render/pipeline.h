@@ -50,7 +50,7 @@ struct Pipeline {
     LastSample last_sample() { return {last.band, current_stages(), last.camera}; }
 
  private:
-    bool is_built_for(const RenderSettings& other) const;
+    bool is_built_for(const RenderSettings& wanted) const;
     void take(const RenderSettings& next);
     void take_up_settings();
 };

@@ -32,7 +32,7 @@ enum class Geometry { automatic, ids, compute, planes };
 constexpr bool resolves_ids(Geometry geometry) { return geometry != Geometry::planes; }
 
 /// Which lights a surface sees: all; or those that no triangle hides, a ray for each light of a
-/// pixel's list; or, in the mean, the same from a few rays a pixel (kernels/shadows/shadow_draw.h).
+/// pixel's list; or, in the mean, the same from a few rays a pixel (kernels/shadows/shadow_pick.h).
 enum class Shadows { off, exact, sampled };
 
 enum class Shading { automatic, lambert, blinn_phong, pbr };

@@ -83,7 +83,7 @@ static inline void find_extents(View view, ClusterGrid grid, Sphere sphere, uint
 }
 
 kernel void prepare_lights(global const Light* restrict own,  // camera-relative, world axes
-                           uint seed,                         // of drawn ranges; 0: none is drawn
+                           uint seed,  // of random ranges; 0: no range is random
                            View view, ClusterGrid grid,
                            LIGHT_ARGS()) {  // out: lights, bounds, extents
     uint count = light_count + node_count;
@@ -95,7 +95,7 @@ kernel void prepare_lights(global const Light* restrict own,  // camera-relative
         ShadeLight out = shade_light(view, own[light], light, seed);
         float4 p = out.position_inv_range2;
         float range = fabs(own[light].position_range.w);
-        if (has_drawn_range(out)) range = sqrt(-1.0f / p.w);
+        if (has_random_range(out)) range = sqrt(-1.0f / p.w);
         p.w = fabs(p.w);
         lights[light] = out;
         bounds[light] = p;

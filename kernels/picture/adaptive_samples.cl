@@ -83,14 +83,14 @@ kernel void adaptive_samples_decide(View view, uint n, float squared_error, floa
                 sum += error - error == 0.0f ? error : 0.0f;
             }
         }
-        uint other = (1 - h) * tiles + tile;
+        uint other_half = (1 - h) * tiles + tile;
         // The estimated variance of n values is off by sqrt(2 / (n - 1)) of it where a tile's
         // pixels err alike: that much is added. The mean of both halves has half the variance of
         // one.
         float degrees = (float)(n - 1);
         float bound = sum * (1.0f + sqrt(2.0f / degrees));
         bool is_enough = bound <= squared_error * pixels * 2.0f * (float)n * degrees;
-        if (fixed[other] == 0 && is_enough) fixed[other] = n;
+        if (fixed[other_half] == 0 && is_enough) fixed[other_half] = n;
     }
 }
 
@@ -107,9 +107,9 @@ kernel void adaptive_samples_mean(View view, uint n, global const float* restric
     uint tiles = fine_tile_count(view);
     uint plane = view.stride * view.height;
     uint pixel = y * view.stride + x;
-    global const float* other = state + STATE_PLANES * plane;
+    global const float* other_half = state + STATE_PLANES * plane;
     for (uint c = 0; c < 3; ++c) {
-        FV sum = lane_load(state + c * plane + pixel) + lane_load(other + c * plane + pixel);
+        FV sum = lane_load(state + c * plane + pixel) + lane_load(other_half + c * plane + pixel);
         lane_store(0.5f * sum, mean + c * plane + pixel);
     }
     uint counts[2] = {fixed[tile], fixed[tiles + tile]};

@@ -28,7 +28,7 @@ kernel void fill_background(GBUFFER_ARGS,
     uint plane_size = view.stride * view.height;
     for (uint channel = 0; channel < 3u; ++channel) {
         global float* plane = radiance + channel * plane_size + pixels.first;
-        FV other = everywhere != 0u ? fv(0.0f) : lane_load(plane);
-        lane_store(lane_select(open, filtered(texels, t, channel), other), plane);
+        FV kept = everywhere != 0u ? fv(0.0f) : lane_load(plane);
+        lane_store(lane_select(open, filtered(texels, t, channel), kept), plane);
     }
 }

@@ -86,11 +86,11 @@ kernel void shade(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS, OUTPUT_ARGS) {
 #if SAMPLED_SHADOWS
     FV spread = fv(0.0f);
     set.variance = &spread;
-    set.draw = make_draw(s, whole, view, item.pixels, at.x, row, rays, seed);
+    set.pick = make_pick(s, whole, view, item.pixels, at.x, row, rays, seed);
 #endif
     LightSum sum = sum_clusters(from, at.tile, item, any_shown, p, set);
 #if SAMPLED_SHADOWS
-    FV3 color = without_hidden(set.draw, load_radiance(whole, view, item.pixels), sum);
+    FV3 color = without_hidden(set.pick, load_radiance(whole, view, item.pixels), sum);
     if (at.inside) store_plane(variance, item.pixels, lane_select(item.shown, spread, fv(0.0f)));
 #else
     FV3 color = finish_shading(s, sum, ambient);

@@ -10,7 +10,8 @@
 #include "kernels/shared/light_profile.h"
 
 // Which pixels see a light: SHADOWS_NONE: all; SHADOWS_BITS: those whose bit cast_shadows has set;
-// SHADOWS_RAYS: those whose rays, cast on demand, reach it. SAMPLED_SHADOWS: only for drawn lights.
+// SHADOWS_RAYS: those whose rays, cast on demand, reach it. SAMPLED_SHADOWS: only for picked
+// lights.
 #define SHADOWS_NONE 0
 #define SHADOWS_BITS 1
 #define SHADOWS_RAYS 2
@@ -27,7 +28,7 @@
 #endif
 
 #if SAMPLED_SHADOWS
-#include "kernels/shadows/shadow_draw.h"
+#include "kernels/shadows/shadow_pick.h"
 #endif
 
 #ifndef ALL_LIGHTS
@@ -53,7 +54,7 @@ typedef struct LightSet {
     ShadowRays shadows;
 #endif
 #if SAMPLED_SHADOWS
-    ShadowDraw draw;
+    ShadowPick pick;
     FV* variance;  // the estimated variance of the luminance
 #endif
 #if HAS_LIGHT_PROFILES
@@ -97,27 +98,27 @@ static inline MASK sees_directional(LightSet set, uint i) {
 
 #if SAMPLED_SHADOWS
 #if SHADOWS == SHADOWS_BITS
-// The lanes that draw the light and from which it is hidden, as cast_shadows' bits say.
+// The lanes that pick the light and from which it is hidden, as cast_shadows' bits say.
 static inline MASK hides_drawn(LightSet set, uint entry, uint light) {
     return sees_light(set.shadows,
-                      (light & DRAWN_DIRECTIONAL) != 0u ? entry : set.directional_count + entry);
+                      (light & PICKED_DIRECTIONAL) != 0u ? entry : set.directional_count + entry);
 }
 #else
 // The same; `one`: the light's sum alone.
 static inline MASK hides_drawn(LightSet set, uint entry, uint light, LightSum one) {
-    MASK drawn = set.shadows.wanted & draws_light(set.draw, light_alone(set.draw, one), light);
-    if (!lane_any(drawn)) return drawn;
-    set.shadows.wanted = drawn;
-    MASK seen = (light & DRAWN_DIRECTIONAL) != 0u ? sees_directional(set, entry)
-                                                  : sees_entry(set, entry, light);
-    return drawn & ~seen;
+    MASK picked = set.shadows.wanted & picks_light(set.pick, light_alone(set.pick, one), light);
+    if (!lane_any(picked)) return picked;
+    set.shadows.wanted = picked;
+    MASK seen = (light & PICKED_DIRECTIONAL) != 0u ? sees_directional(set, entry)
+                                                   : sees_entry(set, entry, light);
+    return picked & ~seen;
 }
 #endif
 
 // `sum`, the hidden light of the estimate, with a light whose sum alone is `one`.
 static inline LightSum sampled_sum(LightSet set, MASK hidden, LightSum one, LightSum sum) {
-    FV alone = light_alone(set.draw, one);
-    FV q = draw_probability(set.draw, alone);
+    FV alone = light_alone(set.pick, one);
+    FV q = pick_probability(set.pick, alone);
     *set.variance += lane_select(hidden, variance_of(alone, q), fv(0.0f));
     return add_hidden(sum, one, q, hidden);
 }
@@ -217,7 +218,7 @@ static inline LightSum sum_directional(ShadingPoint p, LightSet set,
 #if HAS_DIRECTIONAL_LIGHTS
     for (uint i = 0; i < count; ++i) {
 #if SAMPLED_SHADOWS
-        ADD_SAMPLED(set, i, DRAWN_DIRECTIONAL + i, sum,
+        ADD_SAMPLED(set, i, PICKED_DIRECTIONAL + i, sum,
                     evaluate_directional(zero_sum(), p, lights[i]))
 #else
         ADD_SEEN(sum, sees_directional(set, i), evaluate_directional(sum, p, lights[i]))

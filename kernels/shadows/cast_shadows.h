@@ -6,10 +6,10 @@
 // 32 w + i in the tile's order, w counted from the cluster's first pixel's.
 #ifndef KILOLUX_DEVICE_CAST_SHADOWS_H
 #define KILOLUX_DEVICE_CAST_SHADOWS_H
-// With DRAWN_ONLY the words hold the pixels that draw a light (draw_shadows), and afterwards those
+// With PICKED_ONLY the words hold the pixels that pick a light (draw_shadows), and afterwards those
 // of them from which it is hidden; else those that see it.
-#ifndef DRAWN_ONLY
-#define DRAWN_ONLY 0
+#ifndef PICKED_ONLY
+#define PICKED_ONLY 0
 #endif
 #include "kernels/device/lit_item.h"
 #include "kernels/shadows/shadow_bits.h"

@@ -9,7 +9,7 @@
 // Writes the bits of the item's pixels that are the cluster's, from lane 0 on.
 static inline void put_seen(ShadowBits bits, uint j, MASK mine, MASK seen, global uint* words) {
     global uint* word = words + (bits.words - words) + j * bits.stride;
-#if DRAWN_ONLY
+#if PICKED_ONLY
     atomic_and(word, ~(lane_ballot(seen) << bits.shift));
 #else
     atomic_and(word, ~(lane_ballot(mine) << bits.shift));
@@ -45,8 +45,8 @@ kernel void cast_shadows(
             ShadowLight light = light_of_cluster(shadow, clusters + i, j, directional_lights,
                                                  directional_count, bounds, lists);
             rays.wanted = mine;
-#if DRAWN_ONLY
-            rays.wanted &= sees_light(bits, j);  // the bits are those of drawn lights
+#if PICKED_ONLY
+            rays.wanted &= sees_light(bits, j);  // the bits are those of picked lights
 #endif
             put_seen(bits, j, mine, sees(rays, light), words);
         }

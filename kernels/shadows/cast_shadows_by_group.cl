@@ -245,7 +245,7 @@ static inline void store_words(uint first, uint end, local GroupWalk* walk, glob
             uint place = from + i * 8u + bit;
             if (place >= first && place < end && walk->flags[place]) bits |= 1u << bit;
         }
-#if DRAWN_ONLY
+#if PICKED_ONLY
         ((global uchar*)words)[i] &= (uchar)~bits;
 #else
         ((global uchar*)words)[i] = (uchar)bits;
@@ -264,7 +264,7 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
         if (k >= points->row_count) continue;
         uint place = place_of_point(first, k);
         MASK mine = lane_mask(place < end);
-#if DRAWN_ONLY
+#if PICKED_ONLY
         mine &= lane_mask(place < end && (words[place / 32u - first / 32u] >> place % 32u & 1u));
 #endif
         MASK lit = face_light(points, k, light, mine);

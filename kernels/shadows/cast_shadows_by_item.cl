@@ -19,8 +19,8 @@ static inline void load_tile(global const float* origins, View view, uint tile,
     }
 }
 
-#if DRAWN_ONLY
-// The lanes of a row that draw the light.
+#if PICKED_ONLY
+// The lanes of a row that pick the light.
 static inline MASK drawn_lanes(global const uint* words, uint first, uint row) {
     uint word = words[row * VW / 32u - first / 32u] >> (row * VW % 32u);
     return lane_mask(((UV)(word) >> lane_numbers & 1u) != (UV)(0u));
@@ -32,10 +32,10 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
                               ShadowPoints* points, global uint* words) {
     uint first_row = first / VW;
     uint end_row = (end + VW - 1) / VW;
-#if DRAWN_ONLY
-    uint drawn = 0u;
-    for (uint word = 0; word < shadow_words(first, end); ++word) drawn |= words[word];
-    if (drawn == 0u) return;
+#if PICKED_ONLY
+    uint picked = 0u;
+    for (uint word = 0; word < shadow_words(first, end); ++word) picked |= words[word];
+    if (picked == 0u) return;
 #endif
     ulong tests_before = counted_tests(points);
     uint rays = 0, seen = 0;
@@ -44,7 +44,7 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
     for (uint row = first_row; row < end_row; ++row) {
         UV place = lane_numbers + row * VW;
         MASK mine = lane_mask(place >= (UV)(first)) & lane_mask(place < (UV)(end));
-#if DRAWN_ONLY
+#if PICKED_ONLY
         mine &= drawn_lanes(words, first, row);
 #endif
         MASK lit = face_light(points, row, light, mine);
@@ -57,14 +57,14 @@ static inline void cast_light(ShadowScene scene, ShadowLight light, uint first, 
         float3 high = (float3)(lane_max(box.high.x), lane_max(box.high.y), lane_max(box.high.z));
         cast_shadows_of(scene, light, low, high, first_row, end_row, points);
     }
-#if !DRAWN_ONLY
+#if !PICKED_ONLY
     for (uint word = 0; word < shadow_words(first, end); ++word) words[word] = 0u;
 #endif
     if (!lane_any(any)) return;
     for (uint row = first_row; row < end_row; ++row) {
         uint bits = lane_ballot(lit_of(points, row)) << (row * VW % 32u);
         seen += popcount(bits);
-#if DRAWN_ONLY
+#if PICKED_ONLY
         words[row * VW / 32u - first / 32u] &= ~bits;
 #else
         words[row * VW / 32u - first / 32u] |= bits;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides for each pixel to which lights of its cluster's list it draws a shadow ray, as bits in
-// cast_shadows' words: see kernels/shadows/shadow_draw.h.
+// Decides for each pixel which lights of its list a shadow ray goes to, as bits in
+// cast_shadows' words: see kernels/shadows/shadow_pick.h.
 //   draw_shadows_clear  words to 0
-//   draw_shadows        one work-item draws for VW pixels, neighbours in the order of their tile's
+//   draw_shadows        one work-item picks for VW pixels, neighbours in the order of their tile's
 //                       clusters
 #define ORDERED_PIXELS 1
 #include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
 #include "kernels/shadows/cast_shadows.h"
-#include "kernels/shadows/shadow_draw.h"
+#include "kernels/shadows/shadow_pick.h"
 
 kernel void draw_shadows_clear(WORD_ARGS(), uint tile_count) {
     for (size_t i = get_global_id(0); i < word_offsets[tile_count]; i += get_global_size(0)) {
@@ -16,9 +16,9 @@ kernel void draw_shadows_clear(WORD_ARGS(), uint tile_count) {
     }
 }
 
-static inline void put_bits(ShadowBits bits, uint i, MASK drawn, global uint* words) {
-    if (!lane_any(drawn)) return;
-    atomic_or(words + (bits.words - words) + i * bits.stride, lane_ballot(drawn) << bits.shift);
+static inline void put_bits(ShadowBits bits, uint i, MASK picked, global uint* words) {
+    if (!lane_any(picked)) return;
+    atomic_or(words + (bits.words - words) + i * bits.stride, lane_ballot(picked) << bits.shift);
 }
 
 kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
@@ -29,7 +29,7 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
     if (!item.any) return;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    ShadowDraw draw = make_draw(s, whole, view, item.pixels, at.x, at.y, rays, seed);
+    ShadowPick pick = make_pick(s, whole, view, item.pixels, at.x, at.y, rays, seed);
 #if HAS_LIGHT_PROFILES
     LightProfiles profiles = {aimed_profiles, profile_tables};
 #endif
@@ -41,15 +41,15 @@ kernel void draw_shadows(LIT_ARGS, WORD_ARGS(), SAMPLE_ARGS) {
 #if HAS_DIRECTIONAL_LIGHTS
         for (uint j = 0; j < directional_count; ++j) {
             LightSum one = evaluate_directional(zero_sum(), p, directional_lights[j]);
-            FV alone = light_alone(draw, one);
-            put_bits(bits, j, mine & draws_light(draw, alone, DRAWN_DIRECTIONAL + j), words);
+            FV alone = light_alone(pick, one);
+            put_bits(bits, j, mine & picks_light(pick, alone, PICKED_DIRECTIONAL + j), words);
         }
 #endif
         for (uint j = 0; j < clusters[i].list_count; ++j) {
             uint light = lists[clusters[i].list_begin + j];
             LightSum one = EVALUATE(zero_sum(), p, LIGHT_AT(lights, light), profiles, light);
-            FV alone = light_alone(draw, one);
-            put_bits(bits, directional_count + j, mine & draws_light(draw, alone, light), words);
+            FV alone = light_alone(pick, one);
+            put_bits(bits, directional_count + j, mine & picks_light(pick, alone, light), words);
         }
     }
 }

@@ -9,8 +9,8 @@
 //
 // The window is exactly 0 where d >= range, so a light that is listed but out of range adds exactly
 // nothing. Switches: those of surface.h, FAST_RSQRT and NATIVE_MATH of types.h, EARLY_OUT, and
-// HAS_DRAWN_RANGES, where lights may have drawn ranges (light_transform.h): then DRAWN_RANGES is pi
-// times the radiance that such a light causes on a white surface at the least of them;
+// HAS_RANDOM_RANGES, where lights may have random ranges (light_transform.h): then RANDOM_RANGES is
+// pi times the radiance that such a light causes on a white surface at the least of them;
 // HAS_LIGHT_PROFILES, where lights may have photometric webs: then evaluate() takes them and the
 // light's index. The macro EVALUATE takes them in any case, and drops them where there are none.
 #ifndef KILOLUX_SHARED_EVALUATE_H
@@ -21,8 +21,8 @@
 #include "kernels/shared/surface.h"
 #include "kernels/shared/types.h"
 
-#ifndef HAS_DRAWN_RANGES
-#define HAS_DRAWN_RANGES 0
+#ifndef HAS_RANDOM_RANGES
+#define HAS_RANDOM_RANGES 0
 #endif
 #ifndef HAS_LIGHT_PROFILES
 #define HAS_LIGHT_PROFILES 0
@@ -113,20 +113,20 @@ SHARED_FN FV cone_of(FV3 v, FV inv_distance, ShadeLight light) {
     return cone * cone;
 }
 
-#if HAS_DRAWN_RANGES
-// One over the probability that a light's drawn range covers a distance.
-SHARED_FN FV drawn_weight(ShadeLight light, FV d2) {
+#if HAS_RANDOM_RANGES
+// One over the probability that a light's random range covers a distance.
+SHARED_FN FV random_range_weight(ShadeLight light, FV d2) {
     float4 color = light.color_scale;
-    return max(d2 * fv(DRAWN_RANGES / max(max(color.x, color.y), color.z)), fv(1.0f));
+    return max(d2 * fv(RANDOM_RANGES / max(max(color.x, color.y), color.z)), fv(1.0f));
 }
 #endif
 
 // The factor of the window on a light's inverse square.
 SHARED_FN FV window_of(ShadeLight light, FV d2) {
     FV x = d2 * fv(light.position_inv_range2.w);
-#if HAS_DRAWN_RANGES
-    if (has_drawn_range(light)) {
-        return lane_select(x > fv(-1.0f), drawn_weight(light, d2), fv(0.0f));
+#if HAS_RANDOM_RANGES
+    if (has_random_range(light)) {
+        return lane_select(x > fv(-1.0f), random_range_weight(light, d2), fv(0.0f));
     }
 #endif
     return max(fma(-x, x, fv(1.0f)), fv(0.0f));

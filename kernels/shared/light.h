@@ -36,7 +36,7 @@ SHARED_ASSERT(world_light_size, sizeof(WorldLight) == 64);
 
 // A light in view space, as shading reads it.
 SHARED_STRUCT(ShadeLight) {
-    // xyz: p_view [m]; w: 1/range^2 [1/m^2], negative if has_drawn_range()
+    // xyz: p_view [m]; w: 1/range^2 [1/m^2], negative if has_random_range()
     float4 position_inv_range2;
     float4 color_scale;  // as Light
     float4 axis_cos;     // as Light, axis in view space
@@ -44,7 +44,7 @@ SHARED_STRUCT(ShadeLight) {
 SHARED_ASSERT(shade_light_size, sizeof(ShadeLight) == 48);
 
 // Whether the range is a random one: inv_range2_of() of light_transform.h.
-SHARED_FN bool has_drawn_range(ShadeLight light) { return light.position_inv_range2.w < 0.0f; }
+SHARED_FN bool has_random_range(ShadeLight light) { return light.position_inv_range2.w < 0.0f; }
 
 // A directional light: parallel, never culled.
 SHARED_STRUCT(DirectionalLight) {

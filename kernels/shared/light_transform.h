@@ -26,7 +26,7 @@ SHARED_FN float4 rotated(View view, float4 v, float w) {
 // 1/range^2 of light `index`. With a seed, lights without a range of their own get a random one,
 // r = r0 / sqrt(1 - random): so that a point at distance d > r0 is in range with probability
 // (r0 / d)^2 and can weigh the light by its reciprocal, unbiased (Tokuyoshi and Harada 2016,
-// "Stochastic Light Culling"). Beyond 4096 r0 none is drawn: 6e-8 of the probability.
+// "Stochastic Light Culling"). Beyond 4096 r0 none is chosen: 6e-8 of the probability.
 SHARED_FN float inv_range2_of(Light light, uint index, uint seed) {
     float range = light.position_range.w;
     float inv = min(1.0f / (range * range), INV_RANGE2_MAX);
@@ -34,7 +34,7 @@ SHARED_FN float inv_range2_of(Light light, uint index, uint seed) {
     return -inv * (1.0f - random_of(hash_of(hash_of(seed) ^ index)));
 }
 
-// `seed`: of drawn ranges; 0: none is drawn.
+// `seed`: of random ranges; 0: no range is random.
 SHARED_FN ShadeLight shade_light(View view, Light light, uint index, uint seed) {
     ShadeLight local_light;
     local_light.position_inv_range2 =

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Estimates the variance that drawn ranges (Tails::stochastic) cause in each pixel's luminance,
-// from the lights that were drawn: X = f / p with probability p, else 0, has E[X^2 (1 - p)]. Adds
-// it to the estimate of sampled shadows. One work-item does VW pixels, neighbours in the order of
-// their tile's clusters.
+// Estimates the variance that random ranges (Tails::stochastic) cause in each pixel's luminance,
+// from the lights whose range reaches: X = f / p with probability p, else 0, has E[X^2 (1 - p)].
+// Adds it to the estimate of sampled shadows. One work-item does VW pixels, neighbours in the order
+// of their tile's clusters.
 #define ORDERED_PIXELS 1
 #include "kernels/device/lit_item.h"
 #include "kernels/device/radiance.h"
 #include "kernels/shadows/shadow_bits.h"
-#include "kernels/shadows/shadow_draw.h"
+#include "kernels/shadows/shadow_pick.h"
 
 // SHADOWS: 0: every light is seen; 1: words have the pixels that see a light. SAMPLED_SHADOWS: the
-// words have those that drew it and from which it is hidden.
+// words have those that picked it and from which it is hidden.
 #ifndef SHADOWS
 #define SHADOWS 0
 #endif
@@ -19,9 +19,9 @@
 #endif
 
 // The seen share of a light that adds `alone`: exact, or an unbiased estimate.
-static inline FV seen_share(ShadowDraw draw, ShadowBits bits, uint i, FV alone) {
+static inline FV seen_share(ShadowPick pick, ShadowBits bits, uint i, FV alone) {
 #if SAMPLED_SHADOWS
-    FV q = draw_probability(draw, alone);
+    FV q = pick_probability(pick, alone);
     return lane_select(sees_light(bits, i), fv(1.0f) - fv(1.0f) / q, fv(1.0f));
 #elif SHADOWS
     return lane_select(sees_light(bits, i), fv(1.0f), fv(0.0f));
@@ -39,12 +39,12 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
     if (!item.any) return;
     Surface s = load_surface(g, item.pixels, item.z);
     ShadingPoint p = make_shading_point(s, view.orthographic != 0u);
-    ShadowDraw draw;
+    ShadowPick pick;
 #if SAMPLED_SHADOWS
-    draw = make_draw(s, whole, view, item.pixels, at.x, at.y, rays, seed);
+    pick = make_pick(s, whole, view, item.pixels, at.x, at.y, rays, seed);
 #endif
-    draw.surface = s;
-    draw.surface.emissive = zero3();
+    pick.surface = s;
+    pick.surface.emissive = zero3();
 #if HAS_LIGHT_PROFILES
     LightProfiles profiles = {aimed_profiles, profile_tables};
 #endif
@@ -65,9 +65,9 @@ kernel void tail_variance(LIT_ARGS, WORD_ARGS(const), SAMPLE_ARGS,
             FV3 v = fv3(fv(from.x) - p.position.x, fv(from.y) - p.position.y,
                         fv(from.z) - p.position.z);
             LightSum one = EVALUATE(zero_sum(), p, light, profiles, index);
-            FV alone = light_alone(draw, one);
-            FV missed = fv(1.0f) - fv(1.0f) / drawn_weight(light, dot3(v, v));
-            FV share = seen_share(draw, bits, directional_count + j, alone);
+            FV alone = light_alone(pick, one);
+            FV missed = fv(1.0f) - fv(1.0f) / random_range_weight(light, dot3(v, v));
+            FV share = seen_share(pick, bits, directional_count + j, alone);
             sum += lane_select(mine, alone * alone * missed * share, fv(0.0f));
         }
     }

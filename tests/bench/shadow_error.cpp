@@ -104,7 +104,7 @@ class SampledSums {
 
     // A hidden light that was drawn takes the luminance without shadows over the rays away, and
     // adds its square, times one minus its probability, to the variance:
-    // kernels/shadows/shadow_draw.h.
+    // kernels/shadows/shadow_pick.h.
     double hidden_draws(const HalfOfPictures& half, std::size_t i) const {
         const double each = luminance(&of_.whole.radiance[3 * i]) / result_.rays;
         return each > 0.0 ? half.estimated[i] / (each * each) : 0.0;

@@ -114,7 +114,7 @@ TEST(LightTreePictures, EveryLightCountsOnce) {
     int probed = 0;
     for (int x = 5; x < 160; x += 30) {
         const PixelProbe probe = renderer.probe(x, 60);
-        if (!probe.drawn()) continue;
+        if (!probe.has_surface()) continue;
         float found = 0.0f;
         for (const ProbedLight& light : probe.lights) found += light.light.color_scale.x;
         EXPECT_LT(probe.lights.size(), 900u);

@@ -320,7 +320,7 @@ TEST(Shadows, AProbeSaysWhichLightsAPixelSees) {
     for (int y = 2; y < 54; y += 10) {
         for (int x = 3; x < 96; x += 15) {
             const PixelProbe probe = renderer.probe(x, y);
-            if (!probe.drawn()) continue;
+            if (!probe.has_surface()) continue;
             const float* p = &probe.surface[SURFACE_POSITION];
             const auto point = rays.point_at({p[0], p[1], p[2]});
             if (!point) continue;

@@ -184,7 +184,7 @@ void Viewer::wait_for_rest() const {
     });
 }
 
-Seen Viewer::settled() const {
+Seen Viewer::final_picture() const {
     Seen out;
     wait_for("a settled picture", [&] {
         wait_for_rest();
@@ -195,7 +195,7 @@ Seen Viewer::settled() const {
 }
 
 void Viewer::wait_for_picture(const Seen& wanted) const {
-    wait_for("the picture that was", [&] { return settled() == wanted; });
+    wait_for("the picture that was", [&] { return final_picture() == wanted; });
 }
 
 void Viewer::wait_for_change() const {

@@ -73,7 +73,7 @@ class Viewer {
     /// The place of the picture, without the overlays.
     Place picture() const;
     /// The picture once no work is left, while the program waits for input.
-    Seen settled() const;
+    Seen final_picture() const;
     /// Waits until the picture differs, where it keeps changing.
     void wait_for_change() const;
     /// Waits until the final picture is this one.

@@ -38,7 +38,7 @@ TEST(Desktop, RestsWhileMinimised) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop);
     viewer.activate();
-    viewer.settled();
+    viewer.final_picture();
     viewer.key("space");  // the lights move
     viewer.wait_for_change();
     viewer.minimise();
@@ -58,7 +58,7 @@ TEST(Desktop, DrawsNothingWhileNothingHappens) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop);
     viewer.activate();
-    viewer.settled();
+    viewer.final_picture();
     const std::size_t swaps = viewer.count("swap");
     const std::size_t waits = viewer.count("wait 0.250");
     wait_for("more of it", [&] { return viewer.count("wait 0.250") >= waits + 6; });
@@ -70,15 +70,15 @@ TEST(Desktop, FreezesClustersAfterItCouldNot) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop);
     viewer.activate();
-    viewer.settled();
+    viewer.final_picture();
     viewer.key("3");  // forward: no clusters
-    viewer.settled();
+    viewer.final_picture();
     viewer.key("g");
     viewer.wait_for_change();  // a message
     viewer.key("1");
-    const Seen before = viewer.settled();
+    const Seen before = viewer.final_picture();
     viewer.key("g");
-    wait_for("boxes", [&] { return viewer.settled() != before; });
+    wait_for("boxes", [&] { return viewer.final_picture() != before; });
     leave(viewer);
 }
 
@@ -107,7 +107,7 @@ TEST(Desktop, AnswersWhileAForwardPictureIsMade) {
     EXPECT_FALSE(viewer.program().has_ended());
     viewer.key("1");  // another renderer: the picture is given up
     viewer.key("h");
-    viewer.settled();
+    viewer.final_picture();
     leave(viewer);
 }
 
@@ -152,7 +152,7 @@ TEST(Desktop, ComesBackFromMinimisedAsItWas) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop);
     viewer.activate();
-    const Seen before = viewer.settled();
+    const Seen before = viewer.final_picture();
     const Place picture = viewer.picture();
     viewer.minimise();
     viewer.wait_for_rest();
@@ -185,17 +185,17 @@ TEST(Desktop, LetsKeysGoWithTheFocus) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop);
     viewer.activate();
-    const Seen start = viewer.settled();
+    const Seen start = viewer.final_picture();
     desktop.tool({"xdotool", "keydown", "w"});
     viewer.wait_for_change();
     const OtherWindow other(desktop, viewer);
     // The key is still down, but for another window: the camera comes to rest.
-    const Seen flown = viewer.settled();
+    const Seen flown = viewer.final_picture();
     EXPECT_NE(flown, start);
     desktop.tool({"xdotool", "keyup", "w"});
-    EXPECT_EQ(viewer.settled(), flown);
+    EXPECT_EQ(viewer.final_picture(), flown);
     viewer.activate();
-    EXPECT_EQ(viewer.settled(), flown);
+    EXPECT_EQ(viewer.final_picture(), flown);
     viewer.key("r");
     viewer.wait_for_picture(start);
     leave(viewer);
@@ -205,7 +205,7 @@ TEST(Desktop, GoesOnWithoutTheFocus) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop);
     viewer.activate();
-    viewer.settled();
+    viewer.final_picture();
     viewer.key("space");
     viewer.wait_for_change();
     {
@@ -216,7 +216,7 @@ TEST(Desktop, GoesOnWithoutTheFocus) {
     }
     viewer.activate();
     viewer.key("space");
-    viewer.settled();
+    viewer.final_picture();
     leave(viewer);
 }
 
@@ -226,11 +226,11 @@ TEST_P(FullScreen, FillsTheScreenAndComesBack) {
     const Desktop desktop(GetParam());
     Viewer viewer(desktop);
     desktop.tool({"xdotool", "windowmove", "--sync", viewer.window(), "150", "90"});
-    const Seen before = viewer.settled();
+    const Seen before = viewer.final_picture();
     const Place windowed = viewer.place();
     viewer.key("F11");
     wait_for("full screen", [&] { return viewer.place() == desktop.place(); });
-    const Seen full = viewer.settled();
+    const Seen full = viewer.final_picture();
     const Place screen = desktop.place();
     EXPECT_EQ(full.width, screen.width - kPanel);
     // The picture reaches the screen's right and lower edges.
@@ -255,12 +255,12 @@ TEST(Desktop, StaysInFullScreenWithoutTheFocus) {
     const Desktop desktop({"--manager"});
     Viewer viewer(desktop);
     viewer.activate();
-    viewer.settled();
+    viewer.final_picture();
     viewer.key("F11");
     wait_for("full screen", [&] { return viewer.place() == desktop.place(); });
-    viewer.settled();
+    viewer.final_picture();
     const OtherWindow other(desktop, viewer);
-    viewer.settled();
+    viewer.final_picture();
     EXPECT_FALSE(viewer.is_minimised());
     viewer.activate();
     leave(viewer);

@@ -181,15 +181,15 @@ void try_scaled_world(const Gpu& gpu, Findings& findings) {
 void try_mirror(const Gpu& gpu, Findings& findings) {
     const std::vector<SurfaceSample> surfaces = random_surfaces(kMirrorWidth, 24);
     LightingCase input = surface_case(surfaces, SHADING_PBR, kMirrorWidth);
-    LightingCase other = surface_case(mirrored(surfaces), SHADING_PBR, kMirrorWidth);
-    input.lights = other.lights = random_lights(
+    LightingCase mirror = surface_case(mirrored(surfaces), SHADING_PBR, kMirrorWidth);
+    input.lights = mirror.lights = random_lights(
         input.image.view, {.count = 300, .z_far = 10.0, .range_min = 0.5, .spots = 0.4});
-    for (Light& light : other.lights) {
+    for (Light& light : mirror.lights) {
         light.position_range.x = -light.position_range.x;
         light.axis_cos.x = -light.axis_cos.x;
     }
     const DeviceResult a = light_on_device(gpu, input);
-    const DeviceResult b = light_on_device(gpu, other);
+    const DeviceResult b = light_on_device(gpu, mirror);
     check_lit(findings, a);
     Worst worst;
     for (std::size_t i = 0; i < a.listed.size(); ++i) {

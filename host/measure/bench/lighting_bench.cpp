@@ -103,8 +103,8 @@ void LightingBench::set_drawing(const LightingRequest& request) {
     if (drawing_ && draws_alike(drawing_->request, request)) return;
     drawing_.reset();  // before the next is there: both might not fit
     drawing_ = std::make_unique<Drawing>(render_scene_, request, settings_, gpu_);
-    FrameStats untold;
-    draw(untold);
+    FrameStats unused;
+    draw(unused);
     timer_.take();
 }
 

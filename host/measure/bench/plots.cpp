@@ -95,9 +95,9 @@ Plot time_plot(const PlotAxis& axis, const Curves& curves) {
     plot.log_x = plot.log_y = true;
     for (const BenchRow& row : curves.rows) {
         // Automatic values are not on the axis.
-        const bool drawn =
+        const bool is_plotted =
             row.stage == kFrameStage.name || group_of(row.stage) == StageGroup::shading;
-        if (!drawn || axis.x(row.point) <= 0.0) continue;
+        if (!is_plotted || axis.x(row.point) <= 0.0) continue;
         const std::string name = curve_name(row.point, curves.varying, axis.field);
         series_of(plot, row.stage + (name.empty() ? "" : ", " + name))
             .push_back({axis.x(row.point), row.ms.median, row.ms.p5, row.ms.p95});

@@ -159,7 +159,7 @@ std::string bench_legend(const std::vector<BenchRow>& rows) {
     if (std::ranges::none_of(rows, casts)) return out;
     return out +
            "rays: shadow rays; saved: of the pairs of a pixel and a listed light, those that need "
-           "none, as the light is\nbehind the surface, out of range or not drawn. shafts: walks "
+           "none, as the light is\nbehind the surface, out of range or not picked. shafts: walks "
            "through the hierarchy. Geval/s of cast_shadows: rays.\n";
 }
 

@@ -135,7 +135,7 @@ std::vector<BenchRow> BenchRun::rows_of(const SweepPoint& point, std::vector<Fra
     for (const StageReport& report : stage_reports(stats, limits(), setup)) {
         rows.push_back(stage_row(row, report, frames));
     }
-    rows.push_back(timed_row(row, kOtherStage, frames, other_ms));
+    rows.push_back(timed_row(row, kOtherStage, frames, outside_stages_ms));
     rows.push_back(timed_row(row, kFrameStage, frames, &FrameStats::frame_ms));
     return rows;
 }

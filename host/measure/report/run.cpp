@@ -247,9 +247,9 @@ void ReportRun::time_frames(const ReportSetting& setting, const BenchFrames& fra
     const int affordable = static_cast<int>(kSettingMs / std::max(timing.expected_ms, 1e-3));
     const int measured =
         std::clamp((frames.measured + kRounds - 1) / kRounds, 1, std::max(1, affordable));
-    std::optional<Renderer> other;
-    if (standard || !standard_) other.emplace(view_.opened, whole_frames(setting));
-    Renderer& renderer = other ? *other : *standard_;
+    std::optional<Renderer> own;
+    if (standard || !standard_) own.emplace(view_.opened, whole_frames(setting));
+    Renderer& renderer = own ? *own : *standard_;
     for (int i = 0; i < std::min(frames.warm_up, affordable); ++i) {
         on_step_();
         renderer.render(view_.camera, view_.time);

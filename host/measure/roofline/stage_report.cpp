@@ -53,7 +53,7 @@ Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameSta
     return efficiency;
 }
 
-double other_ms(const FrameStats& stats) {
+double outside_stages_ms(const FrameStats& stats) {
     double ms = stats.frame_ms;
     for (const StageTime& stage : stats.stages) ms -= stage.ms;
     return ms;

@@ -17,7 +17,7 @@ struct StageEffort {
     // Of cast_shadows: rays.
     double evaluations = 0.0;
     // Of cast_shadows, where it was counted: walks, and pairs of a pixel and a listed light that
-    // need no ray, since the light is behind the surface, out of range or not drawn.
+    // need no ray, since the light is behind the surface, out of range or not picked.
     double shafts = 0.0;
     double saved_rays = 0.0;
 };
@@ -43,9 +43,9 @@ std::vector<StageReport> stage_reports(const FrameStats& stats, const DeviceLimi
 Efficiency efficiency_of(const std::vector<StageReport>& reports, const FrameStats& stats);
 
 /// The part of the frame's time that belongs to no stage [ms]: host work, waiting, driver.
-double other_ms(const FrameStats& stats);
+double outside_stages_ms(const FrameStats& stats);
 
-/// Rows beside the stages': other_ms(), and the frame as the host's clock sees it.
+/// Rows beside the stages': outside_stages_ms(), and the frame as the host's clock sees it.
 inline constexpr StageInfo kOtherStage = {"other", StageGroup::host};
 inline constexpr StageInfo kFrameStage = {"frame", StageGroup::host};
 

@@ -36,18 +36,18 @@ void check_shadows(const RenderSettings& settings) {
 }
 
 void check_tails(const RenderSettings& settings) {
-    const bool drawn = settings.tails == Tails::stochastic;
+    const bool is_stochastic = settings.tails == Tails::stochastic;
     const bool deferred = settings.renderer == RendererKind::deferred;
     if (settings.want.has_aov("sample-count") && !settings.auto_samples.on) {
         throw UsageError("aov sample-count: needs --samples auto");
     }
     if (settings.want.has_aov("error-standard") && !settings.auto_samples.on) {
-        if (!drawn && settings.shadows != Shadows::sampled) {
+        if (!is_stochastic && settings.shadows != Shadows::sampled) {
             throw UsageError(
                 "aov error-standard: only --samples auto, --shadows sampled and --tails stochastic "
                 "have one");
         }
-        if (drawn && !deferred) {
+        if (is_stochastic && !deferred) {
             throw UsageError(
                 "aov error-standard: of --tails stochastic only --renderer deferred "
                 "has one");
@@ -60,7 +60,7 @@ void check_tails(const RenderSettings& settings) {
         throw UsageError(
             "tails tree: its nodes cast no shadows; take --shadows off, or --tails stochastic");
     }
-    if (settings.want.has_aov("error-bound") && (drawn || !deferred)) {
+    if (settings.want.has_aov("error-bound") && (is_stochastic || !deferred)) {
         throw UsageError(
             "aov error-bound: it takes --renderer deferred, and not --tails stochastic, which has "
             "error-standard");

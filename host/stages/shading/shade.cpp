@@ -179,7 +179,7 @@ Radiance ShadeAll::enqueue(const GBuffer& gbuffer, const PreparedLights& lights,
     return {out.radiance, view};
 }
 
-// Sampled shadows shade twice: with all lights, and without hidden ones that were drawn.
+// Sampled shadows shade twice: with all lights, and without hidden ones that were picked.
 StageWork shade_work(const StageCounts& c) {
     StageWork work{.bytes_read = listed_surface_bytes(c),
                    .bytes_written = kRadianceBytes * c.pixels,

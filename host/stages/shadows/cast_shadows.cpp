@@ -24,7 +24,7 @@ KernelProgram cast_program(const Gpu& gpu, const Tuning& tuning, const KernelFea
                            const SurfaceFeatures& surfaces, bool counts) {
     BuildOptions options = feature_options(features);
     define_casters(options, surfaces, tuning);
-    options.define("DRAWN_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
+    options.define("PICKED_ONLY", features.sampled_shadows).define("COUNT_SHADOWS", counts);
     if (tuning.shadow_group == 0) return build_program(gpu, "cast_shadows_by_bundle", options);
     if (tuning.shadow_group == 1) return build_program(gpu, "cast_shadows_by_item", options);
     options.define("GROUP", tuning.shadow_group).define("SPLIT", kSplit);

@@ -28,7 +28,7 @@ class CastShadows {
                         StageTimer& timer);
 
     /// Casts into what reserve() returned; with KernelFeatures::sampled_shadows the words hold what
-    /// DrawShadows drew. Enqueues only.
+    /// DrawShadows picked. Enqueues only.
     void enqueue(const ShadowInput& input, const LitPixels& lit, const ShadowWords& words,
                  StageTimer& timer);
 

@@ -28,7 +28,7 @@ class TailErrors {
     /// With a light tree, a bound of what its nodes add or leave out. Enqueues only.
     DeviceArray<float> tree_bound(const LitPixels& lit, StageTimer& timer);
 
-    /// The estimated variance of the luminance that drawn ranges cause: [height][stride]; for
+    /// The estimated variance of the luminance that random ranges cause: [height][stride]; for
     /// background 0, with sampled shadows undefined. `shadow_variance`: with sampled shadows,
     /// theirs, which is added. `shadows`: with shadows, what CastShadows made. Enqueues only.
     DeviceArray<float> variance(const LitPixels& lit, const ShadowWords& shadows,

@@ -52,8 +52,8 @@ bool PictureQueue::is_moving() const {
     return rest.count() < kRestSeconds;
 }
 
-bool PictureQueue::has_settled(const PictureRequest& next) const {
-    return drawn_ && same_request(*drawn_, next) && has_all_samples(*drawn_);
+bool PictureQueue::has_finished(const PictureRequest& next) const {
+    return displayed_ && same_request(*displayed_, next) && has_all_samples(*displayed_);
 }
 
 const PictureProgress* PictureQueue::progress() const {
@@ -74,8 +74,8 @@ void PictureQueue::request(RenderWorker& worker, PictureRequest next, const Poli
     const bool same = requested_ && same_request(*requested_, next);
     if (policy.refines && next.settings.samples > 1) {
         next.samples = same ? requested_->samples + 1 : 1;
-        const bool comes = same && (!drawn_ || !same_request(*drawn_, next) ||
-                                    drawn_->samples != requested_->samples);
+        const bool comes = same && (!displayed_ || !same_request(*displayed_, next) ||
+                                    displayed_->samples != requested_->samples);
         if (comes || next.samples > next.settings.samples) return;
     } else if (same && !(policy.again && pending_.empty())) {
         return;
@@ -101,7 +101,7 @@ bool PictureQueue::take_one(Pending& pending, const Receiver& receiver) {
         Picture picture = pending.picture.get();
         buffers_.show(pending.slot, pending.request.settings.width,
                       pending.request.settings.height);
-        drawn_ = pending.request;
+        displayed_ = pending.request;
         ++shown_;
         receiver.shown(pending.request, std::move(picture));
         return true;

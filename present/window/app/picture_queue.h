@@ -49,9 +49,9 @@ class PictureQueue {
 
     bool is_busy() const { return !pending_.empty(); }
     /// Whether a request for `next` is shown with all its samples.
-    bool has_settled(const PictureRequest& next) const;
-    const std::optional<PictureRequest>& drawn() const { return drawn_; }  // on the screen
-    std::uint64_t shown() const { return shown_; }                         // pictures
+    bool has_finished(const PictureRequest& next) const;
+    const std::optional<PictureRequest>& displayed() const { return displayed_; }  // on the screen
+    std::uint64_t shown() const { return shown_; }                                 // pictures
     const PictureBuffers& buffers() const { return buffers_; }
 
     /// The progress of the picture that is being made; null: none is.
@@ -69,7 +69,7 @@ class PictureQueue {
     PictureBuffers buffers_;
     std::deque<Pending> pending_;
     std::optional<PictureRequest> requested_;  // the last
-    std::optional<PictureRequest> drawn_;
+    std::optional<PictureRequest> displayed_;
     std::uint64_t shown_ = 0;
     std::chrono::steady_clock::time_point last_change_;
 };

@@ -177,7 +177,7 @@ bool ViewSession::is_busy() const {
 // Whether the last picture is the wanted one, in full size, and no task is left.
 Settled ViewSession::settled() const {
     if (state_.lights_move) return Settled::never;
-    const bool shown = !pictures_.is_moving() && pictures_.has_settled(wanted());
+    const bool shown = !pictures_.is_moving() && pictures_.has_finished(wanted());
     return shown && !is_busy() ? Settled::yes : Settled::not_yet;
 }
 

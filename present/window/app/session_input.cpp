@@ -17,7 +17,7 @@ double held(const InputState& input, int plus, int minus) {
     return (input.is_down(plus) ? 1.0 : 0.0) - (input.is_down(minus) ? 1.0 : 0.0);
 }
 
-CameraMode other(CameraMode mode) {
+CameraMode opposite(CameraMode mode) {
     return mode == CameraMode::fly ? CameraMode::orbit : CameraMode::fly;
 }
 
@@ -45,7 +45,7 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_TAB, 0, [](ViewState& s, Actions&) { s.show_panel = !s.show_panel; }},
     {GLFW_KEY_F, 0, [](ViewState&, Actions& a) { a.frame_scene = true; }},
     {GLFW_KEY_R, 0, [](ViewState&, Actions& a) { a.reset_camera = true; }},
-    {GLFW_KEY_O, 0, [](ViewState& s, Actions&) { s.camera_mode = other(s.camera_mode); }},
+    {GLFW_KEY_O, 0, [](ViewState& s, Actions&) { s.camera_mode = opposite(s.camera_mode); }},
     {GLFW_KEY_C, 0, [](ViewState&, Actions& a) { a.copy_command = true; }},
     {GLFW_KEY_C, kControl, [](ViewState&, Actions& a) { a.copy_camera = true; }},
     {GLFW_KEY_V, 0, [](ViewState& s, Actions&) { step_view(s, 1); }},

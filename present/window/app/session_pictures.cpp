@@ -38,7 +38,7 @@ ShownPicture ViewSession::shown_picture() {
     const glm::dvec2 mouse(input_.mouse().x, input_.mouse().y);
     const bool inside = mouse.x >= at.x0 && mouse.x < at.x1 && mouse.y >= at.y0 && mouse.y < at.y1;
     const bool is_on_picture = inside && !gui_.wants_mouse();
-    return {pictures_.drawn(),
+    return {pictures_.displayed(),
             pictures_.shown(),
             at,
             area(),
@@ -93,8 +93,8 @@ void ViewSession::take_picture(const PictureRequest& request, Picture picture) {
     }
     const int width = area().width;
     const FrameStats& stats = picture.frame.stats;
-    facts_.history.add(stats, facts_.drawn == request.settings);
-    facts_.drawn = request.settings;
+    facts_.history.add(stats, facts_.displayed == request.settings);
+    facts_.displayed = request.settings;
     facts_.scale = width > 0 ? static_cast<double>(request.settings.width) / width : 1.0;
     facts_.samples = request.samples > 0 ? request.samples : request.settings.samples;
     scale_.picture_took(stats.frame_ms, facts_.scale);

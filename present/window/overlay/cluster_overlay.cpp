@@ -11,17 +11,19 @@
 namespace kilolux {
 namespace {
 
-std::optional<ProbedPixel> probe_pixel(Renderer& renderer, const PictureRequest& drawn,
+std::optional<ProbedPixel> probe_pixel(Renderer& renderer, const PictureRequest& displayed,
                                        const glm::ivec2& at) {
     const RenderSettings& s = renderer.settings();
     // The renderer may have made another picture since, e.g. for a measurement of errors.
-    if (s.width != drawn.settings.width || s.height != drawn.settings.height) return std::nullopt;
-    ProbedPixel out{at.x, at.y, s.width, s.height, drawn.camera, renderer.probe(at.x, at.y), {}};
+    if (s.width != displayed.settings.width || s.height != displayed.settings.height)
+        return std::nullopt;
+    ProbedPixel out{at.x, at.y, s.width, s.height, displayed.camera, renderer.probe(at.x, at.y),
+                    {}};
     const KernelFeatures& kernels = renderer.plan().kernels;
     out.shares = light_contributions(out.probe, {.shading = shading_of(kernels),
-                                                 .orthographic = drawn.camera.orthographic,
+                                                 .orthographic = displayed.camera.orthographic,
                                                  .light_d_min = double{kernels.light_d_min},
-                                                 .drawn_ranges = double{kernels.drawn_ranges}});
+                                                 .random_ranges = double{kernels.random_ranges}});
     return out;
 }
 
@@ -43,28 +45,30 @@ void ClusterOverlay::ask_probe(RenderWorker& worker, const ShownPicture& picture
         return;
     }
     const ScreenPlace& place = picture.place;
-    const RenderSettings& drawn = picture.drawn->settings;
+    const RenderSettings& displayed = picture.displayed->settings;
     const glm::dvec2 edges(std::max(place.x1 - place.x0, 1.0f),
                            std::max(place.y1 - place.y0, 1.0f));
     const glm::dvec2 part = (*picture.mouse - glm::dvec2(place.x0, place.y0)) / edges;
-    const glm::ivec2 at = glm::clamp(glm::ivec2(part * glm::dvec2(drawn.width, drawn.height)),
-                                     glm::ivec2(0), glm::ivec2(drawn.width, drawn.height) - 1);
+    const glm::ivec2 at =
+        glm::clamp(glm::ivec2(part * glm::dvec2(displayed.width, displayed.height)), glm::ivec2(0),
+                   glm::ivec2(displayed.width, displayed.height) - 1);
     const std::array<std::int64_t, 3> wanted_for = {at.x, at.y,
                                                     static_cast<std::int64_t>(picture.number)};
     if (std::exchange(probed_for_, wanted_for) == wanted_for) return;
-    probing_ = Awaited(worker.ask([at, drawn = *picture.drawn](Renderer& renderer) {
-        return probe_pixel(renderer, drawn, at);
+    probing_ = Awaited(worker.ask([at, displayed = *picture.displayed](Renderer& renderer) {
+        return probe_pixel(renderer, displayed, at);
     }));
 }
 
 void ClusterOverlay::ask(RenderWorker& worker, const ViewState& state,
                          const ShownPicture& picture) {
     if (!state.frozen) frozen_.reset();
-    if (!picture.drawn) return;
+    if (!picture.displayed) return;
     if (state.probe && !probing_.is_open()) ask_probe(worker, picture);
     if (!state.frozen || frozen_ || freezing_.is_open()) return;
-    freezing_ = Awaited(worker.ask(
-        [camera = picture.drawn->camera](Renderer& renderer) { return freeze(renderer, camera); }));
+    freezing_ = Awaited(worker.ask([camera = picture.displayed->camera](Renderer& renderer) {
+        return freeze(renderer, camera);
+    }));
 }
 
 void ClusterOverlay::take(ViewState& state, const OnFailure& failed) {
@@ -84,10 +88,10 @@ void ClusterOverlay::take_depths(const Frame& frame) {
 }
 
 void ClusterOverlay::describe(const ViewState& state, const ShownPicture& picture) {
-    if (!picture.drawn) return;
+    if (!picture.displayed) return;
     if (frozen_) describe_boxes(state, picture);
     if (!state.probe || !probed_) return;
-    draw_probe(*ImGui::GetBackgroundDrawList(), *probed_, picture.drawn->camera, picture.place);
+    draw_probe(*ImGui::GetBackgroundDrawList(), *probed_, picture.displayed->camera, picture.place);
     describe_probe(*probed_, picture.place, picture.scale);
 }
 
@@ -96,7 +100,7 @@ void ClusterOverlay::describe_boxes(const ViewState& state, const ShownPicture& 
     if (std::exchange(box_lights_, state.box_lights) != state.box_lights) {
         boxes_->set_boxes(boxes_of(*frozen_, static_cast<uint>(box_lights_)), frozen_->camera);
     }
-    box_camera_ = picture.drawn->camera;
+    box_camera_ = picture.displayed->camera;
     box_area_ = picture.area;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.AddCallback(

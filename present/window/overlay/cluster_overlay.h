@@ -14,12 +14,12 @@ namespace kilolux {
 
 /// The picture in the window, for probing and freezing.
 struct ShownPicture {
-    const std::optional<PictureRequest>& drawn;  // none: no picture yet
-    std::uint64_t number = 0;                    // of the picture
-    ScreenPlace place;                           // window coordinates
-    BoxTarget area;                              // framebuffer
-    std::optional<glm::dvec2> mouse;             // window coordinates; none: not on the picture
-    float scale = 1.0f;                          // of fonts
+    const std::optional<PictureRequest>& displayed;  // none: no picture yet
+    std::uint64_t number = 0;                        // of the picture
+    ScreenPlace place;                               // window coordinates
+    BoxTarget area;                                  // framebuffer
+    std::optional<glm::dvec2> mouse;                 // window coordinates; none: not on the picture
+    float scale = 1.0f;                              // of fonts
 };
 
 /// Drawn over the picture: the lists of the pixel under the mouse, and frozen clusters as boxes.

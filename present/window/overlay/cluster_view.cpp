@@ -176,7 +176,7 @@ std::array<glm::dvec3, 8> coarse_corners(const ProbedPixel& pixel) {
 
 void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera,
                 const ScreenPlace& place) {
-    if (!pixel.probe.drawn()) return;
+    if (!pixel.probe.has_surface()) return;
     draw.PushClipRect({place.x0, place.y0}, {place.x1, place.y1});
     if (pixel.probe.has_list) {
         draw_edges(draw, coarse_corners(pixel), camera, place, kCoarseColor);
@@ -188,7 +188,7 @@ void draw_probe(ImDrawList& draw, const ProbedPixel& pixel, const Camera& camera
 
 std::string pixel_line(const ProbedPixel& pixel) {
     const std::string place = fmt::format("{},{}  ", pixel.x, pixel.y);
-    if (!pixel.probe.drawn()) return place + "nothing is there";
+    if (!pixel.probe.has_surface()) return place + "nothing is there";
     return place + fmt::format("depth {:.2f} m", pixel.probe.surface[SURFACE_DEPTH]);
 }
 
@@ -204,7 +204,7 @@ void describe_probe(const ProbedPixel& pixel, const ScreenPlace& place, float sc
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
     fact_line("Pixel", pixel_line(pixel));
-    if (pixel.probe.drawn()) {
+    if (pixel.probe.has_surface()) {
         const auto& s = pixel.probe.surface;
         const glm::dvec3 world = to_world(
             pixel.camera, {s[SURFACE_POSITION], s[SURFACE_POSITION + 1], s[SURFACE_POSITION + 2]});

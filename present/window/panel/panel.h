@@ -24,9 +24,9 @@ struct PanelFacts {
     DeviceInfo device{};
     ScenePlan plan{};
     FrameStats stats{};
-    RenderSettings drawn{};  // of the last picture
-    double scale = 1.0;      // of its edges
-    int samples = 1;         // a pixel of the picture, out of drawn.samples
+    RenderSettings displayed{};  // of the last picture
+    double scale = 1.0;          // of its edges
+    int samples = 1;             // a pixel of the picture, out of displayed.samples
     StageHistory history{};
     std::optional<DeviceLimits> limits{};
     std::uint64_t device_bytes = 0;   // of our OpenCL buffers

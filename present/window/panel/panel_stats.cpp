@@ -169,7 +169,7 @@ void Panel::speed() const {
     std::vector<StageReport> reports;
     if (facts.limits) {
         reports = stage_reports(facts.stats, *facts.limits,
-                                frame_setup(facts.drawn, facts.plan, facts.device));
+                                frame_setup(facts.displayed, facts.plan, facts.device));
     }
     draw_stage_history(facts.history, 6.0f * ImGui::GetFontSize());
     stage_table(facts, reports);

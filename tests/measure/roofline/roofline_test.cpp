@@ -265,7 +265,7 @@ TEST(StageReports, HoldTimesAgainstLimits) {
 TEST(StageReports, OtherIsWhatTheStagesLeaveOfTheFrame) {
     FrameStats stats = some_stats();
     stats.frame_ms = 5.5;
-    EXPECT_DOUBLE_EQ(other_ms(stats), 1.5);
+    EXPECT_DOUBLE_EQ(outside_stages_ms(stats), 1.5);
 }
 
 }  // namespace
