@@ -22,7 +22,6 @@ constexpr std::array<DisplayColor, 9> kHeat = {{{0, 0, 4},
                                                 {249, 201, 50},
                                                 {252, 255, 164}}};
 constexpr DisplayColor kPaper = {0, 0, 0};
-constexpr DisplayColor kInk = {255, 255, 255};
 
 constexpr int kLegendLine = 10;  // of text, at a zoom of 1 [pixel]
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/render/picture_output.h"
 
+#include "host/render/environment_light.h"
 #include "host/render/renderer.h"
 #include "host/render/samples.h"
 

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "host/base/error.h"
 #include "host/base/text.h"
 
 namespace kilolux {
@@ -54,6 +55,10 @@ void add_option(CLI::App& command, const Setting& setting) {
                   ->default_str(text.default_text.empty() && setting.show ? setting.show()
                                                                           : text.default_text);
     option->group(setting.heading)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+void refuse(bool is_wrong, const std::string& why) {
+    if (is_wrong) throw UsageError(why);
 }
 
 void add_question(CLI::App& command, const std::string& heading, const std::string& name,

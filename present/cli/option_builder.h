@@ -131,6 +131,9 @@ void add_options(CLI::App& command, Options& options) {
     visit_settings(options, [&command](const Setting& setting) { add_option(command, setting); });
 }
 
+/// Throws UsageError for `why` where options are wrong together.
+void refuse(bool is_wrong, const std::string& why);
+
 /// A flag that Program itself handles.
 void add_question(CLI::App& command, const std::string& heading, const std::string& name,
                   const std::string& meaning);

@@ -11,13 +11,10 @@ namespace kilolux {
 namespace {
 
 void check_reflections(const SharedOptions& options) {
-    if (!options.shows_environment) throw UsageError("--reflections: only render and view show it");
-    if (options.environment.empty()) {
-        throw UsageError("--reflections: needs --environment FILE|studio|sky");
-    }
-    if (is_forward(options.settings.renderer)) {
-        throw UsageError("--reflections: needs --renderer deferred or deferred-all");
-    }
+    refuse(!options.shows_environment, "--reflections: only render and view show it");
+    refuse(options.environment.empty(), "--reflections: needs --environment FILE|studio|sky");
+    refuse(is_forward(options.settings.renderer),
+           "--reflections: needs --renderer deferred or deferred-all");
 }
 
 }  // namespace
@@ -28,17 +25,13 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
 }
 
 void begin_command(const SharedOptions& options, bool compares) {
-    if (options.quiet && options.verbose) {
-        throw UsageError("--quiet and --verbose exclude each other");
-    }
-    if (options.show_error && !compares) {
-        throw UsageError("--show error: needs --reference FILE, which render takes");
-    }
+    refuse(options.quiet && options.verbose, "--quiet and --verbose exclude each other");
+    refuse(options.show_error && !compares,
+           "--show error: needs --reference FILE, which render takes");
     check_settings(options.settings);
     if (options.reflections) check_reflections(options);
-    if (options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0) {
-        throw UsageError("--rig swarm: needs lights, and --lights is 0");
-    }
+    refuse(options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0,
+           "--rig swarm: needs lights, and --lights is 0");
     set_verbosity(options.quiet     ? Verbosity::quiet
                   : options.verbose ? Verbosity::verbose
                                     : Verbosity::normal);

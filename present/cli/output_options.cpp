@@ -39,11 +39,8 @@ std::string output_file(const std::string&, const std::string& text) {
                                  joined(known), did_you_mean(extension, known)));
 }
 
-std::vector<std::string> exr_compressions() {
-    return {std::begin(kExrCompressions), std::end(kExrCompressions)};
-}
-
 void visit_encoding(const SettingVisitor& f, OutputOptions& o) {
+    using Words = std::vector<std::string>;
     Encoding& e = o.encoding;
     OptionBuilder(f, "Output")
         .value({"--output,-o", "FILE", "",
@@ -56,14 +53,14 @@ void visit_encoding(const SettingVisitor& f, OutputOptions& o) {
         .flag("--exr-half", e.half_colour, "EXR colour in half precision", kPicture)
         .choice({"--exr-compression", "", "",
                  "How EXR is compressed, without loss; none is fastest", kTime},
-                e.exr_compression, {exr_compressions(), {}})
+                e.exr_compression, Words(std::begin(kExrCompressions), std::end(kExrCompressions)))
         .choice({"--aov-ids", "", "",
                  "How EXR holds layers of whole numbers; uint in any case above 16777216, where "
                  "floats are not exact",
                  kPicture},
-                e.uint_ids, {{"float", "uint"}, {}})
+                e.uint_ids, Words{"float", "uint"})
         .choice(
-            {"--bits", "", "", "Bits a channel of PNG and TIFF", kPicture}, {{"8", "16"}, {}},
+            {"--bits", "", "", "Bits a channel of PNG and TIFF", kPicture}, Words{"8", "16"},
             [&e](std::size_t place) { e.bits = place == 0 ? 8 : 16; },
             [&e] { return text_of(e.bits); })
         .count(
@@ -123,10 +120,6 @@ void visit_comparison(const SettingVisitor& f, OutputOptions& o) {
         .flag("--mixed-devices", o.mixed_devices,
               "With several devices: they may differ, and so may the bits of their frames; each "
               "picture notes which one made it");
-}
-
-void refuse(bool is_wrong, const std::string& why) {
-    if (is_wrong) throw UsageError(why);
 }
 
 void check_sequence(const OutputOptions& options) {

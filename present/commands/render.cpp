@@ -7,6 +7,7 @@
 
 #include "host/base/error.h"
 #include "host/base/log.h"
+#include "host/base/system/atomic_write.h"
 #include "host/base/system/interrupt.h"
 #include "host/base/system/memory.h"
 #include "present/cli/frame_summary.h"
@@ -125,11 +126,8 @@ std::vector<std::string> take_devices(RenderOptions& options) {
     std::vector<std::string> devices = devices_of(device, options.output.mixed_devices);
     device = devices.front();
     devices.erase(devices.begin());
-    if (!devices.empty() && !options.output.frames) {
-        throw UsageError(
-            "--device: several devices make the frames of a sequence; --frames is "
-            "not given");
-    }
+    refuse(!devices.empty() && !options.output.frames,
+           "--device: several devices make the frames of a sequence; --frames is not given");
     return devices;
 }
 
