@@ -57,7 +57,7 @@ void add_option(CLI::App& command, const Setting& setting) {
     option->group(setting.heading)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
-void refuse(bool is_wrong, const std::string& why) {
+void refuse_if(bool is_wrong, const std::string& why) {
     if (is_wrong) throw UsageError(why);
 }
 

@@ -132,7 +132,7 @@ void add_options(CLI::App& command, Options& options) {
 }
 
 /// Throws UsageError for `why` where options are wrong together.
-void refuse(bool is_wrong, const std::string& why);
+void refuse_if(bool is_wrong, const std::string& why);
 
 /// A flag that Program itself handles.
 void add_question(CLI::App& command, const std::string& heading, const std::string& name,

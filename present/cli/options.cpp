@@ -11,10 +11,10 @@ namespace kilolux {
 namespace {
 
 void check_reflections(const SharedOptions& options) {
-    refuse(!options.shows_environment, "--reflections: only render and view show it");
-    refuse(options.environment.empty(), "--reflections: needs --environment FILE|studio|sky");
-    refuse(is_forward(options.settings.renderer),
-           "--reflections: needs --renderer deferred or deferred-all");
+    refuse_if(!options.shows_environment, "--reflections: only render and view show it");
+    refuse_if(options.environment.empty(), "--reflections: needs --environment FILE|studio|sky");
+    refuse_if(is_forward(options.settings.renderer),
+              "--reflections: needs --renderer deferred or deferred-all");
 }
 
 }  // namespace
@@ -25,13 +25,14 @@ void add_shared_options(CLI::App& command, SharedOptions& options) {
 }
 
 void begin_command(const SharedOptions& options, bool compares) {
-    refuse(options.quiet && options.verbose, "--quiet and --verbose exclude each other");
-    refuse(options.show_error && !compares,
-           "--show error: needs --reference FILE, which render takes");
+    refuse_if(options.quiet && options.verbose, "--quiet and --verbose exclude each other");
+    refuse_if(options.show_error && !compares,
+              "--show error: needs --reference FILE, which render takes");
     check_settings(options.settings);
     if (options.reflections) check_reflections(options);
-    refuse(options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0,
-           "--rig swarm: needs lights, and --lights is 0");
+    refuse_if(
+        options.rig == Rig::swarm && options.lights_given && options.settings.lights.count == 0,
+        "--rig swarm: needs lights, and --lights is 0");
     set_verbosity(options.quiet     ? Verbosity::quiet
                   : options.verbose ? Verbosity::verbose
                                     : Verbosity::normal);

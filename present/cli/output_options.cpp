@@ -125,25 +125,25 @@ void visit_comparison(const SettingVisitor& f, OutputOptions& o) {
 void check_sequence(const OutputOptions& options) {
     const auto check = [&options](const char* name, const std::filesystem::path& file) {
         const bool pattern = has_frame_pattern(file);
-        refuse(options.frames && !pattern,
-               fmt::format("{}: '{}' has no #### for the frame numbers of --frames", name,
-                           file.string()));
-        refuse(!options.frames && pattern,
-               fmt::format("{}: '{}' has # for a frame number, but there is no --frames A:B", name,
-                           file.string()));
+        refuse_if(options.frames && !pattern,
+                  fmt::format("{}: '{}' has no #### for the frame numbers of --frames", name,
+                              file.string()));
+        refuse_if(!options.frames && pattern,
+                  fmt::format("{}: '{}' has # for a frame number, but there is no --frames A:B",
+                              name, file.string()));
     };
     if (!is_video(options.output)) check("--output", options.output);
     if (!options.difference.empty()) check("--difference", options.difference);
-    refuse(!options.frames && options.shard.count > 1, "--shard: needs --frames A:B");
+    refuse_if(!options.frames && options.shard.count > 1, "--shard: needs --frames A:B");
 }
 
 void check_motion(const CameraChoice& camera, const OutputOptions& options) {
-    refuse(options.turntable && !options.frames, "--turntable: needs --frames A:B");
+    refuse_if(options.turntable && !options.frames, "--turntable: needs --frames A:B");
     if (options.camera_keys.empty()) return;
-    refuse(options.turntable.has_value(), "--turntable and --camera-keys exclude each other");
-    refuse(camera.position || camera.focal_point || camera.index || camera.framed,
-           "--camera-keys: says where the camera is; leave out --camera-position, "
-           "--camera-focal-point and --camera-index");
+    refuse_if(options.turntable.has_value(), "--turntable and --camera-keys exclude each other");
+    refuse_if(camera.position || camera.focal_point || camera.index || camera.framed,
+              "--camera-keys: says where the camera is; leave out --camera-position, "
+              "--camera-focal-point and --camera-index");
 }
 
 // An option of what a picture's file holds.
@@ -170,15 +170,15 @@ std::vector<FormatOption> format_options(const SharedOptions& shared, const Enco
 void check_video(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
     const auto refuse_video = [&file](bool is_asked, const char* what) {
-        refuse(is_asked, fmt::format("{}: '{}' is a video", what, file));
+        refuse_if(is_asked, fmt::format("{}: '{}' is a video", what, file));
     };
     refuse_video(has_frame_pattern(file), "--output: #### for frame numbers");
     refuse_video(options.shard.count > 1, "--shard");
     for (const FormatOption& option : format_options(shared, options.encoding)) {
         refuse_video(option.is_given, option.name);
     }
-    refuse(file == "-" && options.stats == "-",
-           "--stats: standard output is the video's; name a file");
+    refuse_if(file == "-" && options.stats == "-",
+              "--stats: standard output is the video's; name a file");
     check_video_size(file, shared.settings.width, shared.settings.height);
     uses_ocio(options.ocio);
 }
@@ -187,14 +187,14 @@ void check_format(const SharedOptions& shared, const OutputOptions& options) {
     const std::string file = options.output.string();
     if (is_video(file)) return check_video(shared, options);
     for (const FormatOption& option : format_options(shared, options.encoding)) {
-        refuse(option.is_given && !option.fits(file),
-               fmt::format("{}: '{}' {}", option.name, file, option.misfit));
+        refuse_if(option.is_given && !option.fits(file),
+                  fmt::format("{}: '{}' {}", option.name, file, option.misfit));
     }
     const bool for_the_eye = image_meaning(file) == ImageMeaning::display;
     if (for_the_eye) uses_ocio(options.ocio);
-    refuse(!for_the_eye && shared.show_error,
-           fmt::format("--show error: '{}' holds light; use .png, .jpg or .tif, or --difference",
-                       file));
+    refuse_if(!for_the_eye && shared.show_error,
+              fmt::format("--show error: '{}' holds light; use .png, .jpg or .tif, or --difference",
+                          file));
 }
 
 }  // namespace
@@ -207,15 +207,15 @@ void visit_settings(OutputOptions& options, const SettingVisitor& f) {
 }
 
 void check_output_options(const SharedOptions& shared, const OutputOptions& options) {
-    refuse(options.output.empty(), "--output: needs a file, e.g. -o picture.png");
+    refuse_if(options.output.empty(), "--output: needs a file, e.g. -o picture.png");
     check_sequence(options);
     check_motion(shared.camera, options);
     check_format(shared, options);
     const bool compares = !options.reference.empty();
-    refuse(!compares && options.threshold, "--threshold: needs --reference FILE");
-    refuse(compares && options.skip_existing,
-           "--skip-existing: leaves frames out that --reference would compare");
-    refuse(!compares && !options.difference.empty(), "--difference: needs --reference FILE");
+    refuse_if(!compares && options.threshold, "--threshold: needs --reference FILE");
+    refuse_if(compares && options.skip_existing,
+              "--skip-existing: leaves frames out that --reference would compare");
+    refuse_if(!compares && !options.difference.empty(), "--difference: needs --reference FILE");
 }
 
 }  // namespace kilolux

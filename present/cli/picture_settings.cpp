@@ -21,7 +21,8 @@ Choices show_choices() {
 
 void take_samples(SharedOptions& o, const std::string& name, const std::string& text) {
     RenderSettings& s = o.settings;
-    refuse(text == "auto" && !o.takes_automatic_samples, name + ": only render makes it automatic");
+    refuse_if(text == "auto" && !o.takes_automatic_samples,
+              name + ": only render makes it automatic");
     const auto parse = o.takes_automatic_samples ? parse_count_or_auto : parse_count;
     const std::uint64_t count = parse(name, text, kSamplesRange);
     s.auto_samples.on = count == 0;
@@ -122,8 +123,8 @@ Choices tone_curve_choices() {
 
 void take_exposure(SharedOptions& o, const std::string& name, const std::string& text) {
     o.automatic_exposure = text == "auto";
-    refuse(o.automatic_exposure && !o.takes_automatic_exposure,
-           name + ": only render makes it automatic");
+    refuse_if(o.automatic_exposure && !o.takes_automatic_exposure,
+              name + ": only render makes it automatic");
     const auto parse = o.takes_automatic_exposure ? parse_number_or_auto : parse_number;
     o.settings.exposure = static_cast<float>(parse(name, text, kExposureRange));
 }
@@ -136,7 +137,7 @@ void visit_display(const SettingVisitor& f, SharedOptions& o) {
         s.tone_curve = whole_name ? ToneCurve::neutral : static_cast<ToneCurve>(place);
     };
     const auto take_background = [&o](const std::string& name, const std::string& text) {
-        refuse(!o.shows_environment && text != "auto", name + ": only render and view show it");
+        refuse_if(!o.shows_environment && text != "auto", name + ": only render and view show it");
         return parse_background(name, text);
     };
     const bool automatic = o.takes_automatic_exposure;

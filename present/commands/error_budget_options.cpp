@@ -140,9 +140,9 @@ RenderSettings settings_within_budget(const SharedOptions& shared, const BudgetO
 
 ErrorBudget budget_of(const SharedOptions& shared, const BudgetOptions& options) {
     const bool sampled = shared.settings.shadows == Shadows::sampled;
-    refuse(options.metric == kBoundMetric,
-           "error metric bound: render and bench keep within it; report has rows of measured "
-           "errors");
+    refuse_if(options.metric == kBoundMetric,
+              "error metric bound: render and bench keep within it; report has rows of measured "
+              "errors");
     return {options.max_error.value_or(0.0), options.metric,
             options.max_error && sampled && !shared.shadow_rays_given};
 }

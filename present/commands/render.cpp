@@ -126,8 +126,8 @@ std::vector<std::string> take_devices(RenderOptions& options) {
     std::vector<std::string> devices = devices_of(device, options.output.mixed_devices);
     device = devices.front();
     devices.erase(devices.begin());
-    refuse(!devices.empty() && !options.output.frames,
-           "--device: several devices make the frames of a sequence; --frames is not given");
+    refuse_if(!devices.empty() && !options.output.frames,
+              "--device: several devices make the frames of a sequence; --frames is not given");
     return devices;
 }
 

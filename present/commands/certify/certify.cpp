@@ -45,8 +45,8 @@ void check(const CertifyOptions& o) {
             "--table: prints what was certified; it goes with no --case, --with, --isolate, "
             "--jobs, --resume or -o");
     }
-    refuse(o.resume && (o.output.empty() || o.output == "-"),
-           "--resume: goes on with the file of -o, which is not given");
+    refuse_if(o.resume && (o.output.empty() || o.output == "-"),
+              "--resume: goes on with the file of -o, which is not given");
 }
 
 std::vector<HardCase> chosen_cases(const CertifyOptions& options) {
