@@ -11,6 +11,7 @@
 #include "host/base/system/interrupt.h"
 #include "host/base/text.h"
 #include "host/measure/reference/decoded_samples.h"
+#include "present/cli/option_builder.h"
 #include "present/program.h"
 
 namespace py = pybind11;
